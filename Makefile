@@ -1,0 +1,62 @@
+# Everything a newcomer, a developer and the build machine do. `make` alone lists it.
+
+VENV := .venv
+BIN := $(VENV)/bin
+PYTEST := $(BIN)/python -m pytest
+PARALLEL := -n 2 --dist loadfile
+
+# The first interpreter that is new enough and can make environments.
+PYTHON = $(shell for name in python3 python3.14 python3.13 python3.12 python3.11; do \
+	$$name -c 'import sys, ensurepip, venv; sys.exit(sys.version_info < (3, 11))' 2>/dev/null && echo $$name && break; done)
+
+.DEFAULT_GOAL := help
+.PHONY: help edit test fast check nightly bench gen clean chromium
+
+help:  ## list these commands
+	@awk -F ':.*## ' '/^[a-z]+:.*## / {printf "make %-8s  %s\n", $$1, $$2}' Makefile
+
+edit: $(VENV)/.ready  ## open the editor on designs/
+	@$(BIN)/vicode edit designs
+
+test: $(VENV)/.ready-test chromium  ## pass every test, a real browser included (under 10 minutes)
+	@$(PYTEST) $(PARALLEL)
+
+fast: $(VENV)/.ready-test  ## pass the tests that need no browser
+	@$(PYTEST) $(PARALLEL) -m "not browser and not nightly"
+
+check: $(VENV)/.ready-dev  ## format, lint, types, architecture, fast tests (under a minute)
+	$(BIN)/ruff format --check
+	$(BIN)/ruff check
+	$(BIN)/mypy
+	$(BIN)/lint-imports
+	@$(PYTEST) $(PARALLEL) -m "not browser and not nightly"
+
+nightly: $(VENV)/.ready-test chromium  ## the long runs: kills, fuzzing, and every law on many more examples
+	@VICODE_HYPOTHESIS=nightly $(PYTEST) $(PARALLEL) -m "nightly or hypothesis"
+
+bench: $(VENV)/.ready-bench  ## measure against a hand-written machine and other libraries
+	@$(BIN)/python -m benchmarks
+
+gen: $(VENV)/.ready  ## write generated/ anew from designs/
+	@$(BIN)/vicode gen designs
+
+clean:  ## remove the environment and all caches
+	rm -rf $(VENV) build dist .hypothesis .import_linter_cache .mypy_cache .nicegui .pytest_cache .ruff_cache test-results
+	find . -name __pycache__ -type d -prune -exec rm -rf {} +
+
+chromium: $(VENV)/.ready-test
+	@.ci/chromium
+
+$(BIN)/python:
+	@test -n "$(PYTHON)" || { echo "vicode needs Python 3.11 or newer with venv: sudo apt install python3-venv" >&2; exit 1; }
+	@$(PYTHON) -m venv $(VENV)
+
+$(VENV)/.ready: pyproject.toml | $(BIN)/python
+	@echo "Installing vicode into $(VENV) (once, about a minute)."
+	@$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable .
+	@touch $@
+
+$(VENV)/.ready-%: pyproject.toml | $(BIN)/python
+	@echo "Installing vicode[$*] into $(VENV) (once, about a minute)."
+	@$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[$*]'
+	@touch $@

@@ -1,0 +1,104 @@
+"""What all tests share: hypothesis profiles, `--accept` for golden files, and a real Chromium that must stay quiet."""
+
+import os
+import shutil
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from hypothesis import HealthCheck, settings
+from playwright.sync_api import Browser, ConsoleMessage, Error, Page, Playwright, sync_playwright
+
+CHROMIUM_NAMES = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable")
+CHROMIUM_ARGUMENTS = (
+    "--no-sandbox",
+    "--disable-dev-shm-usage",
+    "--disable-quic",
+    "--no-first-run",
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--disable-sync",
+)
+
+# Written out in full, since on a build machine hypothesis starts from a profile of its own.
+_BOUNDED = settings(
+    parent=settings.get_profile("default"),
+    deadline=None,
+    derandomize=False,
+    max_examples=40,
+    print_blob=True,
+    suppress_health_check=[HealthCheck.too_slow],
+)
+settings.register_profile("bounded", _BOUNDED)
+settings.register_profile("nightly", _BOUNDED, max_examples=2000)
+settings.load_profile(os.environ.get("VICODE_HYPOTHESIS", "bounded"))
+
+
+def pytest_addoption(parser: pytest.Parser) -> None:
+    """Add the option that rewrites golden files."""
+    parser.addoption("--accept", action="store_true", help="rewrite the expected files of golden tests")
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Mark what needs Chromium, before `-m` selects, so that nobody can forget the mark."""
+    for item in items:
+        if "chromium" in getattr(item, "fixturenames", ()):
+            item.add_marker(pytest.mark.browser)
+
+
+@pytest.fixture(scope="session")
+def accept(request: pytest.FixtureRequest) -> bool:
+    """Whether golden tests shall rewrite their expected files instead of comparing with them."""
+    return bool(request.config.getoption("--accept"))
+
+
+# A module at a time: while Playwright's synchronous API is open, no other test of the process may call asyncio.run.
+@pytest.fixture(scope="module")
+def chromium() -> Iterator[Browser]:
+    """A headless Chromium; one that is missing fails the test, since a test left out proves nothing."""
+    with sync_playwright() as playwright:
+        browser = playwright.chromium.launch(
+            executable_path=_find_chromium(playwright), args=list(CHROMIUM_ARGUMENTS), timeout=60_000
+        )
+        yield browser
+        browser.close()
+
+
+@pytest.fixture
+def console_errors() -> list[str]:
+    """What the browser complained about so far; a test that provokes a complaint clears it."""
+    return []
+
+
+@pytest.fixture
+def page(chromium: Browser, console_errors: list[str]) -> Iterator[Page]:
+    """A fresh page with storage of its own; errors in its console fail the test at the end."""
+    context = chromium.new_context(viewport={"width": 1440, "height": 900})
+    context.set_default_timeout(15_000)
+    page = context.new_page()
+    _collect_errors(page, console_errors)
+    yield page
+    context.close()
+    assert not console_errors, "the browser reported errors:\n" + "\n".join(console_errors)
+
+
+def _find_chromium(playwright: Playwright) -> str:
+    for name in CHROMIUM_NAMES:
+        if path := shutil.which(name):
+            return path
+    if Path(playwright.chromium.executable_path).exists():
+        return playwright.chromium.executable_path
+    pytest.fail("no Chromium found: run .ci/chromium, or 'sudo apt install chromium'", pytrace=False)
+
+
+def _collect_errors(page: Page, errors: list[str]) -> None:
+    def on_console(message: ConsoleMessage) -> None:
+        if message.type == "error":
+            errors.append(message.text)
+
+    def on_page_error(error: Error) -> None:
+        errors.append(f"{error.message}\n{error.stack or ''}")
+
+    page.on("console", on_console)
+    page.on("pageerror", on_page_error)

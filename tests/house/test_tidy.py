@@ -1,0 +1,251 @@
+"""The rules of the house that no linter knows; every failure lists all offenders and says what to mend."""
+
+import ast
+import re
+import subprocess
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[2]
+
+VAGUE_NAMES = {"base", "common", "core", "helper", "helpers", "manager", "misc", "util", "utils"}
+MODULE_LINES = 400
+FUNCTION_LINES = 50
+NESTING = 4
+POSITIONAL_PARAMETERS = 5
+LARGEST_TEXT_BYTES = 2_000_000
+
+# library -> the only room that may import it
+ROOM_OF_LIBRARY = {
+    "fastapi": "editor",
+    "graphviz": "diagram",
+    "jinja2": "templating",
+    "networkx": "check",
+    "nicegui": "editor",
+    "pygraphviz": "diagram",
+    "starlette": "editor",
+    "yaml": "store",
+}
+
+# (pattern, what to do instead, files it holds for); one letter in brackets keeps a pattern from finding itself.
+FORBIDDEN_TEXT = (
+    (r"\b(TO[D]O|FIX[M]E|XX[X])\b", "do it now, or write an issue", "code"),
+    (r"\bNotImplemented[E]rror\b", "leave out what does not exist yet", "code"),
+    (r"\bpytest\.(mark\.)?(skip|skipif|xfail|importorski[p])\b", "a test that does not run proves nothing", "code"),
+    (r"\bnew Functio[n]\(", "hand over data, not code", "code"),
+    (r"(?<![\w.])/(wor[k]|hom[e]|roo[t]|User[s])/", "no paths of one machine: use a relative path", "text"),
+    (r"\b(pypi\.or[g]|pythonhosted\.or[g]|registry\.npmjs\.or[g]|jfrog\.i[o])", "the installer knows its host", "text"),
+)
+
+# Calls that run text as code, and where they are needed nonetheless.
+RUNNING_CALLS = {"eval", "exec"}
+RUNNING_ALLOWED: frozenset[str] = frozenset()
+
+FunctionNode = ast.FunctionDef | ast.AsyncFunctionDef
+DEEPER = (ast.If, ast.For, ast.AsyncFor, ast.While, ast.With, ast.AsyncWith, ast.Try, ast.TryStar, ast.Match)
+
+
+def _list_files() -> tuple[str, ...]:
+    """Return every file that is committed or could be, as posix paths from the top."""
+    command = ["git", "-c", "safe.directory=*", "ls-files", "-z", "--cached", "--others", "--exclude-standard"]
+    listed = subprocess.run(command, cwd=ROOT, check=True, capture_output=True, text=True).stdout
+    return tuple(sorted(path for path in set(listed.split("\0")) if path and (ROOT / path).is_file()))
+
+
+FILES = _list_files()
+PYTHON = tuple(path for path in FILES if path.endswith(".py") and path.startswith(("vicode/", "tests/", "benchmarks/")))
+PYTHON = tuple(path for path in PYTHON if not path.startswith("tests/cases/"))
+JAVASCRIPT = tuple(path for path in FILES if path.endswith((".js", ".mjs")) and path.startswith(("vicode/", "tests/")))
+PACKAGE = tuple(path for path in PYTHON if path.startswith("vicode/"))
+
+
+def test_there_is_something_to_check() -> None:
+    assert "vicode/__init__.py" in PACKAGE
+    assert "tests/house/test_tidy.py" in PYTHON
+
+
+def test_modules_are_short() -> None:
+    sizes = {path: _read(path).count("\n") for path in (*PYTHON, *JAVASCRIPT)}
+    offenders = [f"{path}: {size} lines" for path, size in sizes.items() if size > MODULE_LINES]
+    _assert_none(offenders, f"split by what the parts are for (at most {MODULE_LINES} lines)")
+
+
+def test_module_names_say_what_is_inside() -> None:
+    parts = {path: {part.lower() for part in Path(path).with_suffix("").parts} for path in (*PYTHON, *JAVASCRIPT)}
+    offenders = [path for path, names in parts.items() if names & VAGUE_NAMES]
+    _assert_none(offenders, "name the module after the thing it holds")
+
+
+def test_modules_begin_with_what_they_are_for() -> None:
+    offenders = [path for path in PYTHON if not _has_short_docstring(path)]
+    offenders += [path for path in JAVASCRIPT if not _read(path).lstrip().startswith(("//", "/*"))]
+    _assert_none(
+        offenders, "begin with a docstring (JavaScript: a comment) whose first paragraph has one to three lines"
+    )
+
+
+def test_functions_are_short() -> None:
+    sizes = {_place(path, node): _count_lines(node) for path in PYTHON for node in _functions(path)}
+    offenders = [f"{place}: {size} lines" for place, size in sizes.items() if size > FUNCTION_LINES]
+    _assert_none(offenders, f"name the steps as functions (at most {FUNCTION_LINES} lines)")
+
+
+def test_functions_are_flat() -> None:
+    depths = {_place(path, node): _measure_nesting(node.body) for path in PYTHON for node in _functions(path)}
+    offenders = [f"{place}: {depth} levels" for place, depth in depths.items() if depth > NESTING]
+    _assert_none(offenders, f"return early, or make the inner part a function (at most {NESTING} levels)")
+
+
+def test_functions_take_few_positional_parameters() -> None:
+    counts = {_place(path, node): _count_positional(node) for path in PACKAGE for node in _functions(path)}
+    offenders = [f"{place}: {count} parameters" for place, count in counts.items() if count > POSITIONAL_PARAMETERS]
+    _assert_none(offenders, f"put `*` before the rest (at most {POSITIONAL_PARAMETERS} positional)")
+
+
+@pytest.mark.parametrize(("pattern", "mend", "kind"), FORBIDDEN_TEXT, ids=[row[1] for row in FORBIDDEN_TEXT])
+def test_no_forbidden_text(pattern: str, mend: str, kind: str) -> None:
+    paths = (*PYTHON, *JAVASCRIPT) if kind == "code" else _text_files()
+    expression = re.compile(pattern)
+    offenders = [
+        f"{path}:{number}: {line.strip()[:100]}"
+        for path in paths
+        for number, line in enumerate(_read(path).splitlines(), start=1)
+        if expression.search(line)
+    ]
+    _assert_none(offenders, mend)
+
+
+def test_no_text_is_run_as_code() -> None:
+    calls = [(path, node) for path in PACKAGE for node in ast.walk(_parse(path)) if isinstance(node, ast.Call)]
+    offenders = [
+        f"{path}:{node.lineno}: {ast.unparse(node.func)}()"
+        for path, node in calls
+        if isinstance(node.func, ast.Name) and node.func.id in RUNNING_CALLS and path not in RUNNING_ALLOWED
+    ]
+    offenders += [f"{path}: eval()" for path in JAVASCRIPT if re.search(r"(?<![\w.])eva[l]\(", _read(path))]
+    _assert_none(offenders, "nothing a user wrote is run inside the designer")
+
+
+def test_yaml_is_never_loaded_with_tags() -> None:
+    unsafe = re.compile(r"yaml\.(unsafe_|full_)?loa[d](_all)?\(")
+    _assert_none([path for path in PYTHON if unsafe.search(_read(path))], "walk events or nodes, or use yaml.safe_load")
+
+
+@pytest.mark.parametrize("library", sorted(ROOM_OF_LIBRARY))
+def test_one_room_a_library(library: str) -> None:
+    home = ROOM_OF_LIBRARY[library]
+    offenders = [
+        f"{path} imports {library}"
+        for path in PACKAGE
+        if library in _imported_libraries(path) and not path.startswith((f"vicode/{home}/", f"vicode/{home}.py"))
+    ]
+    _assert_none(offenders, f"only vicode/{home} may import {library}: ask it instead")
+
+
+def test_the_runtime_stands_alone() -> None:
+    runtime = [path for path in PACKAGE if path.startswith("vicode/bica/")]
+    foreign = {path: _imported_libraries(path) - set(sys.stdlib_module_names) for path in runtime}
+    offenders = [f"{path} imports {', '.join(sorted(names))}" for path, names in foreign.items() if names]
+    _assert_none(offenders, "vicode/bica is copied to robots alone: standard library and relative imports only")
+
+
+def test_languages_do_not_know_each_other() -> None:
+    offenders = []
+    for path in PACKAGE:
+        match = re.match(r"vicode/generators/(\w+)/", path)
+        others = _generator_packages() - {match.group(1)} if match else set()
+        offenders += [f"{path} imports {name}" for name in _imported_generators(path) & others]
+    _assert_none(offenders, "what two languages share belongs into the plan")
+
+
+def _assert_none(offenders: list[str], mend: str) -> None:
+    assert not offenders, f"{mend}:\n  " + "\n  ".join(offenders)
+
+
+def _read(path: str) -> str:
+    return (ROOT / path).read_text(encoding="utf-8")
+
+
+def _parse(path: str) -> ast.Module:
+    return ast.parse(_read(path), filename=path)
+
+
+def _text_files() -> tuple[str, ...]:
+    return tuple(path for path in FILES if _is_text(ROOT / path))
+
+
+def _is_text(path: Path) -> bool:
+    return path.stat().st_size < LARGEST_TEXT_BYTES and _is_utf8(path.read_bytes())
+
+
+def _is_utf8(content: bytes) -> bool:
+    try:
+        content.decode("utf-8")
+    except UnicodeDecodeError:
+        return False
+    return b"\0" not in content
+
+
+def _has_short_docstring(path: str) -> bool:
+    docstring = ast.get_docstring(_parse(path)) or ""
+    return 1 <= len(docstring.split("\n\n")[0].splitlines()) <= 3
+
+
+def _functions(path: str) -> Iterator[FunctionNode]:
+    return (node for node in ast.walk(_parse(path)) if isinstance(node, FunctionNode))
+
+
+def _place(path: str, node: FunctionNode) -> str:
+    return f"{path}:{node.lineno}: {node.name}"
+
+
+def _count_lines(node: FunctionNode) -> int:
+    return (node.end_lineno or node.lineno) - node.lineno + 1
+
+
+def _count_positional(node: FunctionNode) -> int:
+    names = [argument.arg for argument in (*node.args.posonlyargs, *node.args.args)]
+    return len([name for name in names if name not in {"self", "cls"}])
+
+
+def _measure_nesting(body: list[ast.stmt]) -> int:
+    """Return how deep the compound statements of a body stand in each other; `elif` adds no level."""
+    return max((_measure_statement(statement) for statement in body), default=0)
+
+
+def _measure_statement(statement: ast.stmt) -> int:
+    if not isinstance(statement, DEEPER):
+        return 0
+    depths = [1 + _measure_nesting(block) for block in _blocks(statement)]
+    if isinstance(statement, ast.If):
+        is_elif = len(statement.orelse) == 1 and isinstance(statement.orelse[0], ast.If)
+        depths.append(_measure_nesting(statement.orelse) + (0 if is_elif else 1))
+    return max(depths)
+
+
+def _blocks(statement: ast.stmt) -> Iterator[list[ast.stmt]]:
+    yield getattr(statement, "body", [])
+    if not isinstance(statement, ast.If):
+        yield getattr(statement, "orelse", [])
+    yield getattr(statement, "finalbody", [])
+    for part in (*getattr(statement, "handlers", []), *getattr(statement, "cases", [])):
+        yield part.body
+
+
+def _imported_libraries(path: str) -> set[str]:
+    nodes = list(ast.walk(_parse(path)))
+    names = {alias.name for node in nodes if isinstance(node, ast.Import) for alias in node.names}
+    names |= {node.module or "" for node in nodes if isinstance(node, ast.ImportFrom) and node.level == 0}
+    return {name.split(".")[0] for name in names}
+
+
+def _generator_packages() -> set[str]:
+    return {match.group(1) for path in PACKAGE if (match := re.match(r"vicode/generators/(\w+)/", path))}
+
+
+def _imported_generators(path: str) -> set[str]:
+    found = re.findall(r"vicode\.generators(?:\.| import )(\w+)", _read(path))
+    return set(found) | set(re.findall(r"from \.\.(\w+)", _read(path)))
