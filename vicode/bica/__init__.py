@@ -1,0 +1,28 @@
+"""BICA runtime: iterative components that step each other, in plain standard Python.
+
+The folder stands alone: copied beside a robot program it runs without vicode.
+"""
+
+from .clock import Clock, RealClock, SimulatedClock
+from .component import RESERVED_NAMES, Component, State
+from .errors import ComponentError, CyclicUseError, ErrorRecord
+from .observer import IterationRecord, Observer, StepRecord
+from .root import Root
+from .timing import CycleTimes
+
+__all__ = [
+    "RESERVED_NAMES",
+    "Clock",
+    "Component",
+    "ComponentError",
+    "CycleTimes",
+    "CyclicUseError",
+    "ErrorRecord",
+    "IterationRecord",
+    "Observer",
+    "RealClock",
+    "Root",
+    "SimulatedClock",
+    "State",
+    "StepRecord",
+]

@@ -1,0 +1,186 @@
+"""Component, the unit of the BICA architecture, and the one algorithm that steps it (docs/semantics.md)."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, ClassVar
+
+from .errors import ComponentError, make_error_record
+
+if TYPE_CHECKING:
+    from .root import Root
+
+# All other names without a leading underscore belong to the design: aliases, parameters, outputs and variables.
+RESERVED_NAMES = frozenset(
+    {
+        "component_time",
+        "design_file",
+        "frequency_hz",
+        "is_done",
+        "modulate",
+        "restart",
+        "resume",
+        "root",
+        "state",
+        "state_time",
+        "step",
+        "work",
+        "world",
+    }
+)
+
+
+@dataclass(frozen=True, slots=True)
+class State:
+    """One state of a component.
+
+    Args:
+        run: decides and then acts; called with `False` it only acts.
+        requires: stepped before the component works in this state.
+        final: the component is done in this state.
+    """
+
+    name: str
+    run: Callable[..., None]
+    requires: tuple[Component, ...] = ()
+    enter: Callable[[], None] | None = None
+    leave: Callable[[], None] | None = None
+    final: bool = False
+
+
+class Component:
+    """A unit of functionality that works iteratively while others step it (BICA paper, section IV).
+
+    A hand-written component overrides `work`, may override `restart` and `modulate`, and offers its outputs as plain
+    attributes, or as methods when they take arguments. A component with states calls `_set_states` in its constructor.
+    """
+
+    design_file: ClassVar[str] = ""
+    frequency_hz: ClassVar[float | None] = None
+    resume: ClassVar[bool] = False
+
+    def __init__(self, root: Root) -> None:
+        self.root = root
+        self.world: Any = root.world
+        self.state = ""
+        self._period_ns = round(1e9 / self.frequency_hz) if self.frequency_hz else 0
+        self._states: dict[str, State] = {}
+        self._initial = self._current = State("", self.work)
+        self._called: list[tuple[Component, dict[str, Any]]] = []
+        self._changed_from: str | None = None
+        self._transition: str | None = None
+        self._stepped_in = -1
+        self._started_ns = self._entered_ns = self._worked_ns = 0
+
+    def step(self) -> None:
+        """Be active in this iteration: restart if it was not in the last one, then work if it is time to."""
+        root = self.root
+        try:
+            iteration = root.iteration
+            missed = iteration - self._stepped_in
+            self._stepped_in = iteration
+            if missed > 1:
+                self._start(is_first=missed > iteration)
+            current = self._current
+            for component in current.requires:
+                component.step()
+            now_ns = root.now_ns
+            if now_ns - self._worked_ns >= self._period_ns:
+                self._worked_ns = now_ns
+                if self._called:
+                    self._called = []
+                current.run()
+            else:
+                self._step_called_again()
+        except ComponentError:
+            raise
+        except Exception as error:
+            root.report(make_error_record(self, error))
+
+    def work(self) -> None:
+        """Do what the component is for; overridden by hand-written components."""
+
+    def restart(self) -> None:
+        """Get ready for a new activation; called before the initial state is entered."""
+
+    def modulate(self) -> None:
+        """Take the parameters of an activation: keyword-only, with defaults; overridden by components that have any."""
+
+    @property
+    def is_done(self) -> bool:
+        """Whether it ended in a final state when last stepped, which was in this or the previous iteration."""
+        return self._current.final and self.root.iteration - self._stepped_in <= 1
+
+    @property
+    def state_time(self) -> float:
+        """Seconds since the active state was entered."""
+        return (self.root.now_ns - self._entered_ns) / 1e9
+
+    @property
+    def component_time(self) -> float:
+        """Seconds since the component was last restarted."""
+        return (self.root.now_ns - self._started_ns) / 1e9
+
+    def _set_states(self, *states: State) -> None:
+        """Declare the states; the first is the initial one."""
+        self._states = {state.name: state for state in states}
+        self._initial = self._current = states[0]
+        self.state = states[0].name
+
+    def _change_to(self, name: str, transition: str | None = None) -> None:
+        """Leave the active state for another, enter that and act in it; a change to the active state only acts."""
+        old = self._current
+        new = self._states[name]
+        if new is not old:
+            if old.leave is not None:
+                old.leave()
+            self._changed_from = old.name
+            self._transition = transition
+            self._enter(new)
+            if new.requires:
+                for component in new.requires:
+                    if component not in old.requires:
+                        component.step()
+        new.run(False)
+
+    def _stay(self) -> None:
+        """End the decision without a change: act in the active state."""
+        self._current.run(False)
+
+    def _call(self, component: Component, /, **parameters: Any) -> None:
+        """Modulate `component` and step it; remembered until the next work, to step it when it is not time to work."""
+        if self._period_ns:
+            self._called.append((component, parameters))
+        _modulate(component, parameters)
+        component.step()
+
+    def _step_called_again(self) -> None:
+        for component, parameters in self._called:
+            # Another component may have modulated it since, so the parameters are set again.
+            _modulate(component, parameters)
+            component.step()
+
+    def _enter(self, state: State) -> None:
+        self._current = state
+        self.state = state.name
+        self._entered_ns = self.root.now_ns
+        if state.enter is not None:
+            state.enter()
+
+    def _start(self, *, is_first: bool) -> None:
+        if self.resume and not is_first:
+            return
+        now_ns = self.root.now_ns
+        self._started_ns = self._entered_ns = now_ns
+        self._worked_ns = now_ns - self._period_ns
+        self._called = []
+        self._current = self._initial
+        self.restart()
+        if self._states:
+            self._enter(self._initial)
+
+
+def _modulate(component: Component, parameters: dict[str, Any]) -> None:
+    modulate: Callable[..., None] = component.modulate
+    modulate(**parameters)

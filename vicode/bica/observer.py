@@ -1,0 +1,137 @@
+"""Observer: the activation tree of each iteration as plain, JSON-ready records."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from enum import Enum
+from typing import TYPE_CHECKING, Any, Literal, NotRequired, TypedDict
+
+from .component import RESERVED_NAMES, Component
+from .timing import replace_step, will_work
+
+if TYPE_CHECKING:
+    from .root import Root
+
+Plain = bool | int | float | str | None
+Link = Literal["root", "requires", "modulates"]
+
+
+class StepRecord(TypedDict):
+    """One step of one component: `by` whom it was activated, and what became of it."""
+
+    component: str
+    by: str | None
+    link: Link
+    worked: bool
+    state: str
+    state_time_ns: int
+    changed_from: str | None
+    transition: str | None
+    parameters: dict[str, Plain]
+    done: bool
+    values: NotRequired[dict[str, Plain]]
+
+
+class IterationRecord(TypedDict):
+    """One iteration; `tree` lists the steps in the order they began."""
+
+    iteration: int
+    time_ns: int
+    tree: list[StepRecord]
+
+
+class Observer:
+    """Watches all components of one root.
+
+    Args:
+        sink: handed the record of each iteration; without one they are kept in `records`.
+        values: also record outputs, variables and parameters: the public plain attributes.
+    """
+
+    def __init__(self, sink: Callable[[IterationRecord], None] | None = None, *, values: bool = False) -> None:
+        self.records: list[IterationRecord] = []
+        self._sink = sink if sink is not None else self.records.append
+        self._values = values
+        self._tree: list[StepRecord] = []
+        self._active: list[str] = []
+        self._modulated: tuple[Component, dict[str, Plain]] | None = None
+
+    def attach(self, component: Component) -> None:
+        """Watch `component` by shadowing its `step` and `modulate` in the instance."""
+        plain_step = component.step
+        plain_modulate: Callable[..., None] = component.modulate
+        defaults = getattr(type(component).modulate, "__kwdefaults__", None) or {}
+
+        def observed_modulate(**parameters: Any) -> None:
+            plain_modulate(**parameters)
+            self._modulated = (component, to_plain_values({**defaults, **parameters}))
+
+        component.__dict__["modulate"] = observed_modulate
+        replace_step(component, lambda: self._observe_step(component, plain_step))
+
+    def observe_iteration(self, root: Root) -> None:
+        """Step the root component and pass on the record of the iteration."""
+        self._tree = []
+        self._active.clear()
+        self._modulated = None
+        root.main.step()
+        self._sink({"iteration": root.iteration, "time_ns": root.now_ns, "tree": self._tree})
+
+    def _observe_step(self, component: Component, plain_step: Callable[[], None]) -> None:
+        record = self._begin_record(component)
+        self._tree.append(record)
+        self._active.append(record["component"])
+        component._changed_from = component._transition = None
+        try:
+            plain_step()
+        finally:
+            self._active.pop()
+            self._finish_record(record, component)
+
+    def _begin_record(self, component: Component) -> StepRecord:
+        modulated, self._modulated = self._modulated, None
+        is_modulated = modulated is not None and modulated[0] is component
+        by = self._active[-1] if self._active else None
+        return {
+            "component": type(component).__name__,
+            "by": by,
+            "link": "root" if by is None else "modulates" if is_modulated else "requires",
+            "worked": will_work(component),
+            "state": component.state,
+            "state_time_ns": 0,
+            "changed_from": None,
+            "transition": None,
+            "parameters": modulated[1] if modulated is not None and is_modulated else {},
+            "done": False,
+        }
+
+    def _finish_record(self, record: StepRecord, component: Component) -> None:
+        record["state"] = component.state
+        record["changed_from"] = component._changed_from
+        record["transition"] = component._transition
+        record["state_time_ns"] = component.root.now_ns - component._entered_ns
+        record["done"] = component.is_done
+        if self._values:
+            public = {name: value for name, value in vars(component).items() if _is_value(name, value)}
+            record["values"] = to_plain_values(public)
+
+
+def to_plain_values(values: dict[str, Any]) -> dict[str, Plain]:
+    """Make values that JSON can say and that are the same in every run."""
+    return {name: _to_plain(value) for name, value in values.items()}
+
+
+def _is_value(name: str, value: object) -> bool:
+    is_public = not name.startswith("_") and name not in RESERVED_NAMES
+    return is_public and (value is None or isinstance(value, bool | int | float | str | Enum))
+
+
+def _to_plain(value: object) -> Plain:
+    if isinstance(value, Enum):
+        return f"{type(value).__name__}.{value.name}"
+    if isinstance(value, float) and not math.isfinite(value):
+        return str(value)
+    if value is None or isinstance(value, bool | int | float | str):
+        return value
+    return type(value).__name__

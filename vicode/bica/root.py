@@ -1,0 +1,125 @@
+"""Root: makes every component once and steps the one at the top, an iteration at a time."""
+
+from __future__ import annotations
+
+import sys
+from collections import Counter
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any, Literal, TypeVar, cast
+
+from .clock import Clock, RealClock
+from .component import Component
+from .errors import ComponentError, CyclicUseError, ErrorRecord
+from .timing import CycleTimes, measure_steps
+
+if TYPE_CHECKING:
+    from .observer import Observer
+
+C = TypeVar("C", bound=Component)
+OnError = Literal["continue", "stop"] | Callable[[ErrorRecord], None]
+
+
+class Root:
+    """The top of an activation tree.
+
+    Args:
+        clock: read once at the start of each iteration; real time if left out.
+        world: what hand-written components sense and act on, as their `world`.
+        on_error: `continue` prints each failing place once and goes on, `stop` raises `ComponentError`,
+            a function is handed the record.
+        observer: told who stepped whom in each iteration.
+        parameters: set once in the root component by its `modulate`.
+    """
+
+    def __init__(
+        self,
+        component_class: type[Component],
+        *,
+        clock: Clock | None = None,
+        world: Any = None,
+        on_error: OnError = "continue",
+        observer: Observer | None = None,
+        **parameters: Any,
+    ) -> None:
+        self.clock: Clock = clock if clock is not None else RealClock()
+        self.world = world
+        self.iteration = 0
+        self.now_ns = 0
+        self.errors: Counter[tuple[str, str, int]] = Counter()
+        self._read_clock = self.clock.now_ns
+        self._on_error = on_error
+        self._observer = observer
+        self._components: dict[type[Component], Component] = {}
+        self._being_made: list[type[Component]] = []
+        self._cycle_times: dict[str, CycleTimes] | None = None
+        self.main = self.component(component_class)
+        if parameters:
+            cast("Callable[..., None]", self.main.modulate)(**parameters)
+
+    @property
+    def components(self) -> tuple[Component, ...]:
+        """All components made for this root, in the order they were completed."""
+        return tuple(self._components.values())
+
+    @property
+    def measure(self) -> bool:
+        """Whether cycle times are measured; once begun it goes on."""
+        return self._cycle_times is not None
+
+    @measure.setter
+    def measure(self, is_wanted: bool) -> None:
+        if is_wanted and self._cycle_times is None:
+            self._cycle_times = {}
+            for component in self.components:
+                measure_steps(component, self._cycle_times)
+
+    @property
+    def cycle_times(self) -> dict[str, CycleTimes]:
+        """Measured work times by component name; empty unless `measure` is set."""
+        return self._cycle_times or {}
+
+    def component(self, component_class: type[C]) -> C:
+        """Return this root's only instance of `component_class`, making it at the first call.
+
+        Raises:
+            CyclicUseError: making it needs itself.
+        """
+        known = self._components.get(component_class)
+        if known is not None:
+            return cast("C", known)
+        if component_class in self._being_made:
+            circle = [*self._being_made[self._being_made.index(component_class) :], component_class]
+            raise CyclicUseError(tuple(cls.__name__ for cls in circle))
+        self._being_made.append(component_class)
+        try:
+            made = component_class(self)
+        finally:
+            self._being_made.pop()
+        self._components[component_class] = made
+        self._watch(made)
+        return made
+
+    def step(self) -> None:
+        """Run one iteration: everything in it sees the time read at its start."""
+        self.now_ns = self._read_clock()
+        self.iteration += 1
+        if self._observer is None:
+            self.main.step()
+        else:
+            self._observer.observe_iteration(self)
+
+    def report(self, record: ErrorRecord) -> None:
+        """Count an error of a component and deal with it as `on_error` says."""
+        self.errors[record.place] += 1
+        if callable(self._on_error):
+            self._on_error(record)
+        elif self._on_error == "stop":
+            raise ComponentError(record)
+        elif self.errors[record.place] == 1:
+            sys.stderr.write(f"error: {record} (reported once, then counted)\n")
+
+    def _watch(self, component: Component) -> None:
+        if self._observer is not None:
+            self._observer.attach(component)
+        if self._cycle_times is not None:
+            measure_steps(component, self._cycle_times)

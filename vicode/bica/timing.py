@@ -1,0 +1,75 @@
+"""Cycle times: how long each component really works and how often."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from .component import Component
+
+
+@dataclass(slots=True)
+class CycleTimes:
+    """Times of the steps in which one component worked, with all that it stepped in them."""
+
+    count: int = 0
+    total_ns: int = 0
+    min_ns: int = 0
+    max_ns: int = 0
+    first_work_ns: int = 0
+    last_work_ns: int = 0
+
+    def add(self, duration_ns: int, now_ns: int) -> None:
+        """Count a step that took `duration_ns`, in the iteration at `now_ns`."""
+        if self.count == 0:
+            self.min_ns = duration_ns
+            self.first_work_ns = now_ns
+        self.count += 1
+        self.total_ns += duration_ns
+        self.min_ns = min(self.min_ns, duration_ns)
+        self.max_ns = max(self.max_ns, duration_ns)
+        self.last_work_ns = now_ns
+
+    @property
+    def mean_ns(self) -> float:
+        """Mean duration of a step with work."""
+        return self.total_ns / self.count if self.count else 0.0
+
+    @property
+    def real_frequency_hz(self) -> float:
+        """How often it worked a second, on the root's clock."""
+        spent_ns = self.last_work_ns - self.first_work_ns
+        return (self.count - 1) * 1e9 / spent_ns if spent_ns > 0 else 0.0
+
+
+def measure_steps(component: Component, cycle_times: dict[str, CycleTimes]) -> None:
+    """Replace `component.step` by one that fills the component's entry in `cycle_times`."""
+    plain_step = component.step
+    times = cycle_times.setdefault(type(component).__name__, CycleTimes())
+
+    def measured_step() -> None:
+        works = will_work(component)
+        begin_ns = time.perf_counter_ns()
+        try:
+            plain_step()
+        finally:
+            if works:
+                times.add(time.perf_counter_ns() - begin_ns, component.root.now_ns)
+
+    replace_step(component, measured_step)
+
+
+def will_work(component: Component) -> bool:
+    """Tell before a step whether the component restarts or its period has elapsed, so that it works in it."""
+    root = component.root
+    missed = root.iteration - component._stepped_in
+    is_restart = missed > 1 and (missed > root.iteration or not component.resume)
+    return is_restart or root.now_ns - component._worked_ns >= component._period_ns
+
+
+def replace_step(component: Component, step: Callable[[], None]) -> None:
+    """Shadow the method `step` in this one instance, so that components that nobody watches pay nothing."""
+    component.__dict__["step"] = step
