@@ -1,0 +1,102 @@
+"""The catalogue of rules: one line each, the code never used again for another meaning."""
+
+from dataclasses import dataclass
+from enum import StrEnum
+
+
+class Severity(StrEnum):
+    """How bad a finding is, the worst first."""
+
+    ERROR = "error"
+    WARNING = "warning"
+    NOTE = "note"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Rule:
+    """A promise that designs keep; `code` and `name` are its address in docs/rules.md."""
+
+    code: str
+    name: str
+    severity: Severity
+    summary: str
+
+
+def rule(code: str) -> Rule:
+    """The rule with this code; KeyError is a bug of ours."""
+    return RULES[code]
+
+
+_ERRORS = {
+    # Reading the text of files
+    "Y101": ("not-yaml", "the text is not YAML"),
+    "Y102": ("unknown-key", "a key that means nothing here"),
+    "Y103": ("wrong-shape", "a value of another shape than expected here"),
+    "Y104": ("missing-key", "a key that must be given"),
+    "Y105": ("duplicate-key", "the same key twice in one mapping"),
+    "Y106": ("refused-tag", "a YAML tag; only plain values are read"),
+    "Y107": ("refused-alias", "YAML anchors and aliases are not read"),
+    "Y108": ("too-large", "the file is larger or deeper than any design"),
+    "Y109": ("wrong-version", "a version of the format that is not known"),
+    "Y110": ("not-text", "the file cannot be read as UTF-8 text"),
+    "Y111": ("conflicting-keys", "keys that exclude each other"),
+    "Y112": ("several-documents", "more than one YAML document in a file"),
+    # A project of designs
+    "P201": ("duplicate-component", "two components with one name"),
+    "P202": ("unknown-component", "a component that nothing in the project declares"),
+    "P203": ("bad-implementation", "an implementation that is not written module:Class"),
+    "P204": ("unknown-language", "a language vicode does not generate"),
+    "P205": ("unknown-type", "a type that is neither bool, int, float nor an enumeration"),
+    # Expressions
+    "E301": ("not-an-expression", "text that is not an expression"),
+    "E302": ("outside-grammar", "Python that expressions do not allow"),
+    "E303": ("unknown-name", "a name that is not declared"),
+    "E304": ("wrong-type", "a value of the wrong type"),
+    "E305": ("wrong-arguments", "a function called with the wrong arguments"),
+    "E306": ("unknown-element", "a literal that the enumeration does not have"),
+    "E307": ("not-settable", "setting what cannot be set here"),
+    # The structure of a design
+    "D401": ("no-initial-state", "a design without a valid initial state"),
+    "D402": ("unknown-state", "a transition to a state that does not exist"),
+    "D403": ("unknown-use", "a component used under a name that is not declared in uses"),
+    "D404": ("bad-name", "a name that is not letters, digits and underscores"),
+    "D405": ("reserved-name", "a name that the runtime keeps for itself"),
+    "D406": ("keyword-name", "a name that is a keyword in a language of the project"),
+    "D407": ("duplicate-name", "one name for two things"),
+    "D408": ("uses-cycle", "components that use each other in a circle"),
+    "D409": ("unknown-parameter", "a call with a parameter that the component does not have"),
+    "D410": ("misplaced-call", "a call of a component outside actions"),
+    "D411": ("no-states", "a design without states"),
+    "D412": ("code-does-not-parse", "code that the language's parser refuses"),
+    "D413": ("duplicate-id", "two things with one id"),
+    "D414": ("missing-language", "code that is missing in a language of the project"),
+    # Generated files
+    "G501": ("edited-outside", "a generated file whose code was edited by hand"),
+    "G502": ("stale-output", "a generated file that is not what the design gives"),
+    "G503": ("broken-marks", "region marks that do not match"),
+}
+
+_WARNINGS = {
+    "D421": ("unreachable-state", "a state that no way leads to"),
+    "D422": ("trap-state", "a state without exit that is not final"),
+    "D423": ("dead-transition", "a transition after one that always holds"),
+    "D424": ("unused-declaration", "something declared that nothing uses"),
+    "D425": ("stepped-twice", "a component that may be stepped twice in an iteration"),
+    "D426": ("never-stepped", "a component that is read, but that nobody steps here"),
+    "D427": ("outside-range", "a literal outside the declared range"),
+    "D428": ("unused-use", "a used component that no state requires, modulates or reads"),
+    "D429": ("modulated-not-stepped", "a component whose parameters are set where nobody steps it"),
+    "D430": ("no-effect", "a transition that changes nothing"),
+}
+
+
+def _catalogue() -> dict[str, Rule]:
+    tables = ((Severity.ERROR, _ERRORS), (Severity.WARNING, _WARNINGS))
+    return {
+        code: Rule(code=code, name=name, severity=severity, summary=summary)
+        for severity, table in tables
+        for code, (name, summary) in table.items()
+    }
+
+
+RULES = _catalogue()

@@ -1,0 +1,122 @@
+"""Binds calls in expressions: done(x), listed functions, outputs that take arguments."""
+
+import ast
+from typing import TYPE_CHECKING
+
+from vicode.findings import did_you_mean
+from vicode.model.design import Declaration
+from vicode.model.expressions.functions import FUNCTIONS, NUMBER, Function
+from vicode.model.expressions.tree import FLOAT, INT, UNKNOWN, Apply, Done, Node, Reading
+
+if TYPE_CHECKING:
+    from vicode.model.expressions.typing import Binder
+
+
+class CallBinder:
+    """The part of a `Binder` that knows calls."""
+
+    def __init__(self, binder: "Binder") -> None:
+        """Work for a binder: its scope is read, its mistakes are added to."""
+        self.binder = binder
+
+    def bind(self, syntax: ast.Call) -> Node | None:
+        """The node of a call, None after a mistake."""
+        match syntax.func:
+            case ast.Name(id="done"):
+                return self._done(syntax)
+            case ast.Name(id=name) if name in FUNCTIONS:
+                return self._apply(FUNCTIONS[name], syntax)
+            case ast.Name(id=name):
+                mend = did_you_mean(name, [*FUNCTIONS, "done"], "use a listed function or a 'code' predicate")
+                self.binder.report("E303", f"there is no function '{name}'", mend, syntax.func)
+            case ast.Attribute(value=ast.Name(id=alias), attr=name) if alias in self.binder.scope.uses:
+                return self._reading(alias, name, syntax)
+            case ast.Attribute(value=ast.Name(id=alias)):
+                mend = did_you_mean(alias, self.binder.scope.uses, "declare it in 'uses'")
+                self.binder.report("E303", f"'{alias}' is not a used component", mend, syntax.func)
+            case _:
+                self.binder.report("E302", "only functions and outputs can be called", "", syntax)
+        return None
+
+    def _done(self, syntax: ast.Call) -> Node | None:
+        match syntax.args:
+            case [ast.Name(id=alias)] if alias in self.binder.scope.uses and not syntax.keywords:
+                return Done(alias=alias, span=self.binder.span_of(syntax))
+            case [ast.Name(id=alias) as name]:
+                mend = did_you_mean(alias, self.binder.scope.uses, "declare it in 'uses'")
+                self.binder.report("E303", f"'{alias}' is not a used component", mend, name)
+            case _:
+                self.binder.report("E305", "done takes the name of one used component", "write done(alias)", syntax)
+        return None
+
+    def _apply(self, function: Function, syntax: ast.Call) -> Node | None:
+        arguments = [self.binder.bind(argument) for argument in syntax.args]
+        bound = tuple(argument for argument in arguments if argument is not None)
+        count = len(function.takes)
+        if syntax.keywords or len(arguments) < count or (len(arguments) > count and not function.more):
+            wanted = f"{count} or more" if function.more else str(count)
+            message = f"{function.name} takes {wanted} argument{'s' * (count != 1)}, in order"
+            self.binder.report("E305", message, f"{function.name}: {function.doc}", syntax)
+            return None
+        if len(bound) < len(arguments):
+            return None
+        for argument in bound:
+            self.binder.demand_number(argument)
+        type_ = function.gives
+        if type_ == NUMBER:
+            type_ = INT if all(argument.type == INT for argument in bound) else FLOAT
+        return Apply(function=function.name, arguments=bound, type=type_, span=self.binder.span_of(syntax))
+
+    def _reading(self, alias: str, name: str, syntax: ast.Call) -> Node | None:
+        interface = self.binder.scope.uses[alias]
+        span = self.binder.span_of(syntax)
+        if interface is None:
+            return Reading(alias=alias, output=name, arguments=(), type=UNKNOWN, span=span)
+        output = interface.output(name)
+        if output is None:
+            mend = did_you_mean(name, (each.name for each in interface.outputs), f"declare it in {interface.component}")
+            self.binder.report("E303", f"'{interface.component}' has no output '{name}'", mend, syntax.func)
+            return None
+        if output.arguments is None:
+            self.binder.report("E305", f"'{alias}.{name}' takes no arguments", f"write {alias}.{name}", syntax)
+            return None
+        pairs = self._arguments(output, output.arguments, syntax)
+        if pairs is None:
+            return None
+        type_ = self.binder.scope.type_of(output)
+        return Reading(alias=alias, output=name, arguments=pairs, type=type_, span=span)
+
+    def _arguments(
+        self, output: Declaration, declared: tuple[Declaration, ...], syntax: ast.Call
+    ) -> tuple[tuple[str, Node], ...] | None:
+        """Arguments by name in the order written; positional ones take the declared names in order."""
+        by_name = {argument.name: argument for argument in declared}
+        names = [argument.name for argument in declared]
+        if len(syntax.args) > len(names):
+            self.binder.report("E305", f"'{output.name}' takes {len(names)} arguments", "leave the others out", syntax)
+            return None
+        given = [*zip(names, syntax.args, strict=False), *((each.arg or "", each.value) for each in syntax.keywords)]
+        pairs: list[tuple[str, Node]] = []
+        for name, value in given:
+            if name not in by_name or name in dict(pairs):
+                problem = "is given twice" if name in by_name else f"is not an argument of '{output.name}'"
+                self.binder.report("E305", f"'{name}' {problem}", did_you_mean(name, names), value)
+                return None
+            node = self.binder.bind_expected(value, self.binder.scope.type_of(by_name[name]))
+            if node is None:
+                return None
+            pairs.append((name, node))
+        return self._complete(output, declared, pairs, syntax)
+
+    def _complete(
+        self,
+        output: Declaration,
+        declared: tuple[Declaration, ...],
+        pairs: list[tuple[str, Node]],
+        syntax: ast.Call,
+    ) -> tuple[tuple[str, Node], ...] | None:
+        missing = [each.name for each in declared if not each.initial and each.name not in dict(pairs)]
+        if missing:
+            self.binder.report("E305", f"'{output.name}' needs {', '.join(missing)}", f"add {missing[0]}=…", syntax)
+            return None
+        return tuple(pairs)

@@ -1,0 +1,102 @@
+"""From an expression's text to its typed tree, with every mistake at its characters.
+
+Python's own parser reads the syntax; only a closed part of it is then let through. Nothing is evaluated.
+"""
+
+import ast
+import warnings
+from dataclasses import dataclass
+from functools import lru_cache
+
+from vicode.findings import Rule, Span, rule
+from vicode.model.expressions.scope import Scope
+from vicode.model.expressions.tree import Node
+from vicode.model.expressions.typing import Binder
+
+MAXIMUM_LENGTH = 10_000
+MAXIMUM_DEPTH = 60
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Mistake:
+    """What is wrong with an expression, at `span` of its text."""
+
+    rule: Rule
+    message: str
+    mend: str
+    span: Span
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Parsed:
+    """The tree, None if there is none, and all mistakes; without mistakes there is a tree and its types are right."""
+
+    tree: Node | None
+    mistakes: tuple[Mistake, ...] = ()
+
+
+def parse_expression(text: str, scope: Scope, expected: str | None = None) -> Parsed:
+    """Parse a text against a scope.
+
+    Args:
+        text: An expression in Python's syntax; it may span lines.
+        scope: The names it may use.
+        expected: The type its place asks for (an int also serves as float), None for any.
+    """
+    syntax, mistake = _syntax_of(text)
+    if syntax is None:
+        return Parsed(tree=None, mistakes=(mistake,) if mistake else ())
+    binder = Binder(scope=scope, text=text)
+    tree = binder.bind_expected(syntax, expected)
+    mistakes = tuple(
+        Mistake(rule=rule(code), message=message, mend=mend, span=span) for code, message, mend, span in binder.mistakes
+    )
+    return Parsed(tree=tree, mistakes=mistakes)
+
+
+@lru_cache(maxsize=4096)
+def _syntax_of(text: str) -> tuple[ast.expr | None, Mistake | None]:
+    if len(text) > MAXIMUM_LENGTH:
+        return None, _not_an_expression(f"longer than {MAXIMUM_LENGTH} characters", (0, len(text)))
+    if not text.strip():
+        return None, _not_an_expression("empty", (0, max(1, len(text))))
+    comment = text.find("#")
+    if comment >= 0:
+        return None, _not_an_expression("'#' has no meaning here", (comment, len(text)), "put the remark into 'doc'")
+    if "\0" in text:
+        return None, _not_an_expression("a null character", (0, len(text)))
+    # A line break is a blank here; the copy keeps every offset. Leading blanks would be an indentation.
+    copy = "".join(" " if char.isspace() else char for char in text)
+    lead = len(copy) - len(copy.lstrip())
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            parsed = ast.parse(" " * 0 + copy.strip(), mode="eval").body
+    except SyntaxError as error:
+        start = lead + max(0, min((error.offset or 1) - 1, len(text) - lead - 1))
+        return None, _not_an_expression(_reworded(error.msg), (start, min(start + 1, len(text))))
+    except (ValueError, RecursionError, MemoryError):
+        return None, _not_an_expression("too deeply nested", (0, len(text)))
+    if _is_too_deep(parsed):
+        return None, _not_an_expression("too deeply nested", (0, len(text)))
+    return parsed, None
+
+
+def _reworded(message: str) -> str:
+    first, rest = message[:1].lower(), message[1:]
+    return (first + rest).replace("invalid syntax. Perhaps you forgot a comma?", "invalid syntax")
+
+
+def _not_an_expression(
+    message: str, span: Span, mend: str = "write one expression, such as ball_seen and x < 40"
+) -> Mistake:
+    return Mistake(rule=rule("E301"), message=message, mend=mend, span=span)
+
+
+def _is_too_deep(root: ast.expr) -> bool:
+    level: list[ast.AST] = [root]
+    for _depth in range(MAXIMUM_DEPTH):
+        level = [child for node in level for child in ast.iter_child_nodes(node)]
+        if not level:
+            return False
+    return True

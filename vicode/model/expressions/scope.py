@@ -1,0 +1,86 @@
+"""The names an expression may use in a design, with their types."""
+
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from enum import StrEnum
+
+from vicode.model.design import Declaration, Design
+from vicode.model.expressions.tree import BOOL, FLOAT, INT, UNKNOWN
+from vicode.model.project import Interface, Project
+
+
+class Kind(StrEnum):
+    """What a bare name stands for."""
+
+    PARAMETER = "parameter"
+    OUTPUT = "output"
+    VARIABLE = "variable"
+    CONSTANT = "constant"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Symbol:
+    """A bare name: its kind, resolved type and declaration."""
+
+    kind: Kind
+    type: str
+    declaration: Declaration
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Scope:
+    """Names that may be read: own and constant `symbols`, used components by alias (None: not declared anywhere)."""
+
+    symbols: Mapping[str, Symbol] = field(default_factory=dict)
+    uses: Mapping[str, Interface | None] = field(default_factory=dict)
+    enumerations: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+
+    def type_of(self, declaration: Declaration) -> str:
+        """The type of any declaration, seen with this scope's enumerations."""
+        return type_of_declaration(declaration, self.enumerations)
+
+
+def scope_of(project: Project, design: Design | None) -> Scope:
+    """What expressions of a design may read; without a design only constants and enumerations."""
+    enumerations = {enumeration.name: enumeration.element_names for enumeration in project.enumerations}
+    symbols: dict[str, Symbol] = {}
+
+    def add(kind: Kind, declarations: tuple[Declaration, ...]) -> None:
+        for declaration in declarations:
+            type_ = type_of_declaration(declaration, enumerations)
+            symbols[declaration.name] = Symbol(kind=kind, type=type_, declaration=declaration)
+
+    add(Kind.CONSTANT, project.constants)
+    if design is None:
+        return Scope(symbols=symbols, enumerations=enumerations)
+    add(Kind.VARIABLE, design.variables)
+    add(Kind.OUTPUT, design.outputs)
+    add(Kind.PARAMETER, design.parameters)
+    uses = {use.alias: project.interface(use.component) for use in design.uses}
+    return Scope(symbols=symbols, uses=uses, enumerations=enumerations)
+
+
+_LITERAL_TYPES = (
+    (re.compile(r"\s*[+-]?\d+\s*\Z"), INT),
+    (re.compile(r"\s*(True|False|true|false)\s*\Z"), BOOL),
+    (re.compile(r"\s*[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?\s*\Z"), FLOAT),
+)
+_ELEMENT = re.compile(r"\s*([A-Za-z]\w*)\s*\.\s*[A-Za-z_]\w*\s*\Z", re.ASCII)
+
+
+def type_of_declaration(declaration: Declaration, enumerations: Mapping[str, tuple[str, ...]]) -> str:
+    """Its type, read from `initial` where it is not written, without either float.
+
+    UNKNOWN for a type that nobody declares.
+    """
+    if declaration.type:
+        known = declaration.type in (BOOL, INT, FLOAT) or declaration.type in enumerations
+        return declaration.type if known else UNKNOWN
+    for pattern, type_ in _LITERAL_TYPES:
+        if pattern.match(declaration.initial):
+            return type_
+    element = _ELEMENT.match(declaration.initial)
+    if element and element.group(1) in enumerations:
+        return element.group(1)
+    return FLOAT

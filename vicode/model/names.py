@@ -1,0 +1,22 @@
+"""What may be a name, and names in other spellings."""
+
+import re
+
+_NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*\Z", re.ASCII)
+_STATE_NAME = re.compile(r"[A-Za-z0-9_]+\Z", re.ASCII)
+_WORD_BORDER = re.compile(r"(?<=[a-z0-9])(?=[A-Z])|(?<=[A-Z])(?=[A-Z][a-z])")
+
+
+def is_name(text: str) -> bool:
+    """A name of a component, alias, parameter, output, variable, constant, enumeration or element."""
+    return bool(_NAME.match(text)) and len(text) <= 80
+
+
+def is_state_name(text: str) -> bool:
+    """A state's name may also begin with a digit: `1e3`, `on`, `2_steps`."""
+    return bool(_STATE_NAME.match(text)) and len(text) <= 80
+
+
+def snake_case(name: str) -> str:
+    """`LookForBall` as `look_for_ball`."""
+    return _WORD_BORDER.sub("_", name).lower()

@@ -1,0 +1,106 @@
+"""A project: the designs of a folder and all that is declared for them in project.yaml."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from vicode.model.design import Declaration, Design
+
+LANGUAGES = ("python", "cpp", "xabsl")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Enumeration:
+    """A named type; its literals are written `Side.left`. `elements` are pairs of name and doc."""
+
+    name: str
+    elements: tuple[tuple[str, str], ...]
+    doc: str = ""
+
+    @property
+    def element_names(self) -> tuple[str, ...]:
+        """Names of the elements in order."""
+        return tuple(name for name, _doc in self.elements)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Interface:
+    """What others see of a component: hand-written ones are declared so, a design has one by itself.
+
+    `implementation` is "module:Class", empty for a component that comes from a design.
+    """
+
+    component: str
+    doc: str = ""
+    implementation: str = ""
+    frequency_hz: float | None = None
+    parameters: tuple[Declaration, ...] = ()
+    outputs: tuple[Declaration, ...] = ()
+
+    def output(self, name: str) -> Declaration | None:
+        """The output of this name."""
+        return next((output for output in self.outputs if output.name == name), None)
+
+    def parameter(self, name: str) -> Declaration | None:
+        """The parameter of this name."""
+        return next((parameter for parameter in self.parameters if parameter.name == name), None)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Agent:
+    """A name for running the project from one root component."""
+
+    name: str
+    root: str
+    doc: str = ""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Project:
+    """All that one folder of designs declares.
+
+    `world` is "module:Class", `generated` the output folder, relative to the project's folder.
+    """
+
+    name: str
+    doc: str = ""
+    languages: tuple[str, ...] = ("python",)
+    world: str = ""
+    generated: str = "generated"
+    enumerations: tuple[Enumeration, ...] = ()
+    constants: tuple[Declaration, ...] = ()
+    components: tuple[Interface, ...] = ()
+    agents: tuple[Agent, ...] = ()
+    designs: tuple[Design, ...] = ()
+    _index: dict[str, "Interface"] = field(default_factory=dict, init=False, repr=False, compare=False)
+
+    def __post_init__(self) -> None:
+        """Index the interfaces once; the first of two with one name wins, and a check reports the second."""
+        for interface in (*self.components, *(interface_of(design) for design in self.designs)):
+            self._index.setdefault(interface.component, interface)
+
+    def design(self, component: str) -> Design | None:
+        """The design of a component, None when it is hand-written or unknown."""
+        return next((design for design in self.designs if design.component == component), None)
+
+    def interface(self, component: str) -> Interface | None:
+        """What a component shows to others, None when nothing declares it."""
+        return self._index.get(component)
+
+    def interfaces(self) -> Mapping[str, Interface]:
+        """Every known component by name."""
+        return self._index
+
+    def enumeration(self, name: str) -> Enumeration | None:
+        """The enumeration of this name."""
+        return next((enumeration for enumeration in self.enumerations if enumeration.name == name), None)
+
+
+def interface_of(design: Design) -> Interface:
+    """What a design shows to the components that use it."""
+    return Interface(
+        component=design.component,
+        doc=design.doc,
+        frequency_hz=design.frequency_hz,
+        parameters=design.parameters,
+        outputs=design.outputs,
+    )
