@@ -1,0 +1,197 @@
+"""IEEE arithmetic for guards and actions: nothing here raises, and every language gives the same results.
+
+Numbers are ints exact to ±2**53, and doubles. Where Python raises, C's libm decides: nan or an infinity.
+The table of rules is in docs/semantics.md.
+"""
+
+import math
+from collections.abc import Callable
+
+INT_MIN = -(2**63)
+INT_MAX = 2**63 - 1
+
+
+def divide(a: float, b: float) -> float:
+    """Return a / b; division by zero gives an infinity with the sign of both, and nan for 0 / 0."""
+    try:
+        return a / b
+    except ZeroDivisionError:
+        return _divide_by_zero(float(a), float(b))
+
+
+def floor_divide(a: float, b: float) -> float:
+    """Return a // b, rounded towards minus infinity, as a float; by zero as `divide`."""
+    try:
+        return float(a) // float(b)
+    except ZeroDivisionError:
+        return _divide_by_zero(float(a), float(b))
+
+
+def modulo(a: float, b: float) -> float:
+    """Return a % b with the sign of b, as a float; nan by zero."""
+    try:
+        return float(a) % float(b)
+    except ZeroDivisionError:
+        return math.nan
+
+
+def power(a: float, b: float) -> float:
+    """Return a to the power of b as C's pow."""
+    x, y = float(a), float(b)
+    try:
+        return math.pow(x, y)
+    except OverflowError:
+        return -math.inf if x < 0 and _is_odd(y) else math.inf
+    except ValueError:
+        if x != 0:
+            return math.nan
+        return math.copysign(math.inf, x) if _is_odd(y) else math.inf
+
+
+def sqrt(x: float) -> float:
+    """Return the square root; nan below zero."""
+    return math.sqrt(x) if x >= 0 else math.nan
+
+
+def log(x: float) -> float:
+    """Return the natural logarithm; -inf at zero, nan below."""
+    return _log_with(math.log, x)
+
+
+def log10(x: float) -> float:
+    """Return the decimal logarithm; -inf at zero, nan below."""
+    return _log_with(math.log10, x)
+
+
+def exp(x: float) -> float:
+    """Return e to the power of x; inf when that is too large."""
+    try:
+        return math.exp(x)
+    except OverflowError:
+        return math.inf
+
+
+def sin(x: float) -> float:
+    """Return the sine of x radians; nan at infinity."""
+    return math.sin(x) if math.isfinite(x) else math.nan
+
+
+def cos(x: float) -> float:
+    """Return the cosine of x radians; nan at infinity."""
+    return math.cos(x) if math.isfinite(x) else math.nan
+
+
+def tan(x: float) -> float:
+    """Return the tangent of x radians; nan at infinity."""
+    return math.tan(x) if math.isfinite(x) else math.nan
+
+
+def asin(x: float) -> float:
+    """Return the arc sine in radians; nan outside -1 to 1."""
+    return math.asin(x) if -1 <= x <= 1 else math.nan
+
+
+def acos(x: float) -> float:
+    """Return the arc cosine in radians; nan outside -1 to 1."""
+    return math.acos(x) if -1 <= x <= 1 else math.nan
+
+
+def atan(x: float) -> float:
+    """Return the arc tangent in radians."""
+    return math.atan(x)
+
+
+def atan2(y: float, x: float) -> float:
+    """Return the angle of the point (x, y) in radians."""
+    return math.atan2(y, x)
+
+
+def hypot(x: float, y: float) -> float:
+    """Return sqrt(x * x + y * y): the libraries' hypot functions differ in their last bit, this is the same everywhere."""
+    x, y = float(x), float(y)
+    return math.sqrt(x * x + y * y)
+
+
+def degrees(x: float) -> float:
+    """Return x radians in degrees: x * (180 / pi)."""
+    return x * _DEGREES_PER_RADIAN
+
+
+def radians(x: float) -> float:
+    """Return x degrees in radians: x * (pi / 180)."""
+    return x * _RADIANS_PER_DEGREE
+
+
+def to_int(x: float) -> int:
+    """Return x truncated towards zero; 0 for nan, the nearest 64-bit integer beyond their range."""
+    return _saturate(x, int)
+
+
+def floor(x: float) -> int:
+    """Return the greatest integer that is not above x, within the rules of `to_int`."""
+    return _saturate(x, math.floor)
+
+
+def ceil(x: float) -> int:
+    """Return the least integer that is not below x, within the rules of `to_int`."""
+    return _saturate(x, math.ceil)
+
+
+def round_half_even(x: float) -> int:
+    """Return the nearest integer, of two equally near the even one, within the rules of `to_int`."""
+    return _saturate(x, round)
+
+
+def minimum(a: float, *others: float) -> float:
+    """Return the least: from left to right, `b if b < a else a`; so a nan in front stays and later ones are skipped."""
+    return min(a, *others) if others else a
+
+
+def maximum(a: float, *others: float) -> float:
+    """Return the greatest: from left to right, `b if b > a else a`."""
+    return max(a, *others) if others else a
+
+
+def clamp(x: float, low: float, high: float) -> float:
+    """Return x, not below `low` nor above `high`; `low` is tested first, and nan stays nan."""
+    if x < low:
+        return low
+    return min(x, high)
+
+
+def sign(x: float) -> int:
+    """Return -1, 0 or 1; 0 for both zeros and nan."""
+    return (x > 0) - (x < 0)
+
+
+def is_nan(x: float) -> bool:
+    """Tell whether x is not a number."""
+    return x != x  # noqa: PLR0124 - true of nan alone, and quicker than a call
+
+
+_DEGREES_PER_RADIAN = 180.0 / math.pi
+_RADIANS_PER_DEGREE = math.pi / 180.0
+
+
+def _divide_by_zero(a: float, zero: float) -> float:
+    if a == 0 or is_nan(a):
+        return math.nan
+    return math.copysign(math.inf, a) * math.copysign(1.0, zero)
+
+
+def _is_odd(y: float) -> bool:
+    return math.fmod(y, 2.0) in {1.0, -1.0}
+
+
+def _log_with(function: Callable[[float], float], x: float) -> float:
+    if x > 0:
+        return function(x)
+    return -math.inf if x == 0 else math.nan
+
+
+def _saturate(x: float, rounding: Callable[[float], int]) -> int:
+    if is_nan(x):
+        return 0
+    if x >= INT_MAX:
+        return INT_MAX
+    return rounding(x) if x > INT_MIN else INT_MIN
