@@ -1,0 +1,141 @@
+"""The scene of a design: what the canvas draws, as plain dicts with finished texts."""
+
+from collections import Counter, defaultdict
+from collections.abc import Iterable
+from typing import Any
+
+from vicode.diagram import place
+from vicode.editor.view.selection import Selected, thing_of_path, transition_key
+from vicode.findings import Finding, Severity, worst_severity
+from vicode.model.design import COMMON, Call, Design, Group, Guard, State, Transition
+from vicode.model.project import Project
+from vicode.model.walks import Located, walk_transitions
+
+Scene = dict[str, Any]
+_Findings = dict[Selected, list[Finding]]
+
+
+def scene_of(project: Project, design: Design, findings: Iterable[Finding], rev: int) -> Scene:
+    """Draw a design: {"rev", "component", "doc", "states", "transitions", "components", "links", "common"}."""
+    by_thing: _Findings = defaultdict(list)
+    for finding in findings:
+        if finding.thing is not None and finding.thing.component == design.component:
+            by_thing[thing_of_path(finding.thing.path)].append(finding)
+    placement = place(design)
+    transitions = list(walk_transitions(design))
+    return {
+        "rev": rev,
+        "component": design.component,
+        "doc": design.doc,
+        "states": [{**_state(design, state, by_thing), **_at(placement.states[state.name])} for state in design.states],
+        "transitions": list(_transitions(transitions, by_thing)),
+        "components": [
+            {
+                "id": use.alias,
+                "name": use.component,
+                "design": project.design(use.component) is not None,
+                **_marks(by_thing, Selected(of="components", id=use.alias)),
+                **_at(placement.uses[use.alias]),
+            }
+            for use in design.uses
+        ],
+        "links": list(_links(design)),
+        "common": _common(design, by_thing, placement.common),
+    }
+
+
+def _at(point: tuple[float, float]) -> dict[str, float]:
+    return {"x": point[0], "y": point[1]}
+
+
+def _marks(by_thing: _Findings, thing: Selected) -> dict[str, Any]:
+    found = by_thing.get(thing, ())
+    severity: Severity | None = worst_severity(found)
+    return {"severity": str(severity) if severity else None, "messages": [finding.message for finding in found]}
+
+
+def _state(design: Design, state: State, by_thing: _Findings) -> dict[str, Any]:
+    called = {action.alias for action in state.all_actions if isinstance(action, Call)}
+    return {
+        "id": state.name,
+        "name": state.name,
+        "initial": state.name == design.initial,
+        "final": state.final,
+        "disabled": False,
+        "enter": bool(state.enter),
+        "actions": any(not isinstance(action, Call) for action in state.actions),
+        "leave": bool(state.leave),
+        "requires": len(state.requires),
+        "modulates": len(called),
+        "doc": state.doc,
+        **_marks(by_thing, Selected(of="states", id=state.name)),
+    }
+
+
+def _transitions(transitions: list[Located], by_thing: _Findings) -> Iterable[dict[str, Any]]:
+    counts = Counter(located.source for located in transitions)
+    orders: Counter[str] = Counter()
+    for located in transitions:
+        transition = located.decision
+        assert isinstance(transition, Transition)
+        orders[located.source] += 1
+        key = transition_key(located.path)
+        yield {
+            "id": key,
+            "source": "@common" if located.source == COMMON else located.source,
+            "target": transition.to,
+            "label": label_of(located),
+            "order": orders[located.source],
+            "of": counts[located.source],
+            "kind": "tree" if located.groups else _kind(transition.guard),
+            "doc": transition.doc,
+            **_marks(by_thing, Selected(of="transitions", id=key)),
+        }
+
+
+def label_of(located: Located) -> str:
+    """The guard as it stands on the arrow, with the guards of the groups around it in front."""
+    parts = [_group_label(group, is_then=is_then) for group, is_then in located.groups]
+    parts.append(guard_label(located.decision.guard))
+    return " › ".join(part for part in parts if part)
+
+
+def guard_label(guard: Guard) -> str:
+    """A guard in a line: the expression, the timer as "5 s", the first line of code."""
+    parts = [" ".join(guard.when.split())] if guard.when else []
+    if guard.after:
+        parts.append(f"{guard.after} s")
+    if guard.code is not None:
+        parts.append("{ code }")
+    return " and ".join(parts)
+
+
+def _group_label(group: Group, *, is_then: bool) -> str:
+    return guard_label(group.guard) if is_then else "else"
+
+
+def _kind(guard: Guard) -> str:
+    if guard.is_empty:
+        return "always"
+    if guard.code is not None:
+        return "code"
+    return "guard" if guard.when else "timer"
+
+
+def _links(design: Design) -> Iterable[dict[str, str]]:
+    aliases = {use.alias for use in design.uses}
+    for state in design.states:
+        calls = [action.alias for action in state.all_actions if isinstance(action, Call)]
+        for kind, used in (("requires", state.requires), ("modulates", tuple(dict.fromkeys(calls)))):
+            for alias in dict.fromkeys(used):
+                if alias in aliases:
+                    yield {"id": f"{kind}/{state.name}/{alias}", "kind": kind, "state": state.name, "component": alias}
+
+
+def _common(design: Design, by_thing: _Findings, at: tuple[float, float]) -> dict[str, Any] | None:
+    common = design.common
+    if not common.transitions and not common.actions:
+        return None
+    count = sum(1 for located in walk_transitions(design) if located.source == COMMON)
+    marks = _marks(by_thing, Selected(of="common", id="@common"))
+    return {**_at(at), "transitions": count, "actions": bool(common.actions), **marks}

@@ -1,0 +1,47 @@
+"""Which drawn thing a path inside a design belongs to."""
+
+from dataclasses import dataclass
+
+from vicode.findings import Path
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Selected:
+    """A thing that can be selected: `of` is states, transitions, components, common or design; `id` as on the canvas."""
+
+    of: str
+    id: str = ""
+
+
+def thing_of_path(path: Path) -> Selected:
+    """The smallest drawn thing that holds what a path leads to."""
+    match path:
+        case ("states", _, "transitions", int(), *_) | ("common", "transitions", int(), *_):
+            return Selected(of="transitions", id=transition_key(decision_path(path)))
+        case ("states", str(name), *_):
+            return Selected(of="states", id=name)
+        case ("common", *_):
+            return Selected(of="common", id="@common")
+        case ("uses", str(alias), *_):
+            return Selected(of="components", id=alias)
+        case _:
+            return Selected(of="design")
+
+
+def decision_path(path: Path) -> Path:
+    """The path cut behind the innermost decision in it."""
+    last = max(index for index, part in enumerate(path) if isinstance(part, int))
+    return path[: last + 1]
+
+
+def transition_key(path: Path) -> str:
+    """The canvas id of a decision: "Kick/0", "Kick/2/then/1", "@common/0"."""
+    source, rest = ("@common", path[2:]) if path[0] == "common" else (path[1], path[3:])
+    return "/".join(str(part) for part in (source, *rest))
+
+
+def path_of_key(key: str) -> Path:
+    """The path of a decision from its canvas id."""
+    source, *rest = key.split("/")
+    start: Path = ("common", "transitions") if source == "@common" else ("states", source, "transitions")
+    return (*start, *(int(part) if part.isdecimal() else part for part in rest))

@@ -1,0 +1,229 @@
+"""Pure edits: a design and what to change in, a new design out.
+
+A thing that is not there leaves the design as it was.
+"""
+
+from collections.abc import Callable, Collection, Mapping
+from dataclasses import replace
+
+from vicode.findings import Path
+from vicode.model.decisions import drop_targets, retarget
+from vicode.model.design import (
+    Action,
+    Call,
+    Decision,
+    Design,
+    Group,
+    Guard,
+    Point,
+    State,
+    Transition,
+    Use,
+)
+from vicode.model.names import snake_case
+from vicode.model.walks import walk_decisions
+
+
+def free_name(wanted: str, taken: Collection[str]) -> str:
+    """`wanted`, or the first of `wanted2`, `wanted3`, … that is not taken."""
+    number = 2
+    name = wanted
+    while name in taken:
+        name, number = f"{wanted}{number}", number + 1
+    return name
+
+
+def add_state(design: Design, state: State) -> Design:
+    """Add a state at the end; the first one of a design becomes the initial one."""
+    initial = design.initial or state.name
+    return replace(design, states=(*design.states, state), initial=initial)
+
+
+def update_state(design: Design, name: str, change: Callable[[State], State]) -> Design:
+    """Replace one state by what `change` makes of it; its name must stay."""
+    states = tuple(change(state) if state.name == name else state for state in design.states)
+    return replace(design, states=states)
+
+
+def rename_state(design: Design, old: str, new: str) -> Design:
+    """Rename a state and all that leads to it; its id keeps the code written outside in place."""
+    if old == new or design.state(old) is None or design.state(new) is not None:
+        return design
+    states = tuple(
+        replace(
+            state,
+            name=new if state.name == old else state.name,
+            id=(state.id or old) if state.name == old else state.id,
+            transitions=retarget(state.transitions, old, new),
+        )
+        for state in design.states
+    )
+    common = replace(design.common, transitions=retarget(design.common.transitions, old, new))
+    return replace(design, states=states, common=common, initial=new if design.initial == old else design.initial)
+
+
+def remove_states(design: Design, names: Collection[str]) -> Design:
+    """Remove states with the transitions that lead to them."""
+    states = tuple(
+        replace(state, transitions=drop_targets(state.transitions, names))
+        for state in design.states
+        if state.name not in names
+    )
+    common = replace(design.common, transitions=drop_targets(design.common.transitions, names))
+    initial = design.initial
+    if initial in names:
+        initial = states[0].name if states else ""
+    return replace(design, states=states, common=common, initial=initial)
+
+
+def move(
+    design: Design, states: Mapping[str, Point], uses: Mapping[str, Point] | None = None, common: Point | None = None
+) -> Design:
+    """Give states, used components and the badge of common transitions new centres."""
+    placed = tuple(replace(state, at=states.get(state.name, state.at)) for state in design.states)
+    used = tuple(replace(use, at=(uses or {}).get(use.alias, use.at)) for use in design.uses)
+    badge = replace(design.common, at=common) if common else design.common
+    return replace(design, states=placed, uses=used, common=badge)
+
+
+def add_transition(design: Design, source: str, to: str, guard: Guard | None = None) -> Design:
+    """Add a transition at the end of a state's (or with COMMON the common) ones, with an id of its own."""
+    id_ = free_name(snake_case(f"{source.lstrip('@')}_to_{to}"), _ids(design))
+    transition = Transition(to=to, guard=guard or Guard(), id=id_)
+    return update_items(design, items_path(design, source), lambda items: (*items, transition))
+
+
+def items_path(design: Design, source: str) -> Path:
+    """The path of the list that holds the decisions of a source."""
+    return ("states", source, "transitions") if design.state(source) else ("common", "transitions")
+
+
+def replace_decision(design: Design, path: Path, decision: Decision) -> Design:
+    """Put another decision in the place of one."""
+    index = path[-1]
+    return update_items(
+        design, path[:-1], lambda items: tuple(decision if at == index else item for at, item in enumerate(items))
+    )
+
+
+def remove_decisions(design: Design, paths: Collection[Path]) -> Design:
+    """Remove decisions; a group goes with all it holds."""
+    # From the back, so that the paths still to come keep their meaning.
+    for path in sorted(set(paths), key=_position, reverse=True):
+        design = _remove_decision(design, path)
+    return design
+
+
+def _position(path: Path) -> tuple[tuple[int, str], ...]:
+    return tuple((part, "") if isinstance(part, int) else (-1, part) for part in path)
+
+
+def _remove_decision(design: Design, path: Path) -> Design:
+    index = path[-1]
+    return update_items(design, path[:-1], lambda items: tuple(item for at, item in enumerate(items) if at != index))
+
+
+def reorder_decision(design: Design, path: Path, to_index: int) -> Design:
+    """Move a decision within its list, so that it is tested earlier or later."""
+    index = path[-1]
+
+    def moved(items: tuple[Decision, ...]) -> tuple[Decision, ...]:
+        if not isinstance(index, int) or not 0 <= index < len(items):
+            return items
+        rest = [item for at, item in enumerate(items) if at != index]
+        rest.insert(max(0, min(to_index, len(rest))), items[index])
+        return tuple(rest)
+
+    return update_items(design, path[:-1], moved)
+
+
+def update_items(design: Design, path: Path, change: Callable[[tuple[Decision, ...]], tuple[Decision, ...]]) -> Design:
+    """Replace the list of decisions a path leads to by what `change` makes of it."""
+    if path[:2] == ("common", "transitions"):
+        items = _update_nested(design.common.transitions, path[2:], change)
+        return replace(design, common=replace(design.common, transitions=items))
+    name = str(path[1])
+    return update_state(
+        design,
+        name,
+        lambda state: replace(state, transitions=_update_nested(state.transitions, path[3:], change)),
+    )
+
+
+def _update_nested(
+    items: tuple[Decision, ...], path: Path, change: Callable[[tuple[Decision, ...]], tuple[Decision, ...]]
+) -> tuple[Decision, ...]:
+    if not path:
+        return change(items)
+    index, side, rest = path[0], path[1], path[2:]
+
+    def inside(item: Decision) -> Decision:
+        if not isinstance(item, Group):
+            return item
+        if side == "then":
+            return replace(item, then=_update_nested(item.then, rest, change))
+        return replace(item, otherwise=_update_nested(item.otherwise, rest, change))
+
+    return tuple(inside(item) if at == index else item for at, item in enumerate(items))
+
+
+def add_use(design: Design, component: str, at: Point | None = None) -> Design:
+    """Use a component under a free alias made of its name."""
+    alias = free_name(snake_case(component), {use.alias for use in design.uses})
+    return replace(design, uses=(*design.uses, Use(alias=alias, component=component, at=at)))
+
+
+def remove_uses(design: Design, aliases: Collection[str]) -> Design:
+    """Stop using components: requirements, modulations and calls go; expressions that read them stay as they are."""
+
+    def without_calls(actions: tuple[Action, ...]) -> tuple[Action, ...]:
+        return tuple(action for action in actions if not (isinstance(action, Call) and action.alias in aliases))
+
+    states = tuple(
+        replace(
+            state,
+            requires=tuple(alias for alias in state.requires if alias not in aliases),
+            modulates=tuple(call for call in state.modulates if call.alias not in aliases),
+            actions=without_calls(state.actions),
+        )
+        for state in design.states
+    )
+    common = replace(design.common, actions=without_calls(design.common.actions))
+    return replace(
+        design, uses=tuple(use for use in design.uses if use.alias not in aliases), states=states, common=common
+    )
+
+
+def require(design: Design, state: str, alias: str) -> Design:
+    """Let a state require a used component."""
+    return update_state(
+        design,
+        state,
+        lambda old: old if alias in old.requires else replace(old, requires=(*old.requires, alias)),
+    )
+
+
+def modulate(design: Design, state: str, alias: str) -> Design:
+    """Let a state modulate a used component, with its default parameters."""
+
+    def with_call(old: State) -> State:
+        known = {call.alias for call in old.modulates}
+        return old if alias in known else replace(old, modulates=(*old.modulates, Call(alias=alias)))
+
+    return update_state(design, state, with_call)
+
+
+def unlink(design: Design, state: str, alias: str, *, modulates: bool) -> Design:
+    """Take a requirement, or the modulations and calls, of a component out of a state."""
+
+    def without(old: State) -> State:
+        if not modulates:
+            return replace(old, requires=tuple(name for name in old.requires if name != alias))
+        actions = tuple(each for each in old.actions if not (isinstance(each, Call) and each.alias == alias))
+        return replace(old, actions=actions, modulates=tuple(call for call in old.modulates if call.alias != alias))
+
+    return update_state(design, state, without)
+
+
+def _ids(design: Design) -> set[str]:
+    return {located.decision.id for located in walk_decisions(design)} | {state.id for state in design.states}
