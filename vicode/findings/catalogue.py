@@ -47,6 +47,8 @@ _ERRORS = {
     "P203": ("bad-implementation", "an implementation that is not written module:Class"),
     "P204": ("unknown-language", "a language vicode does not generate"),
     "P205": ("unknown-type", "a type that is neither bool, int, float nor an enumeration"),
+    "P206": ("bad-range", "a range whose ends are swapped, or on something that is not a number"),
+    "P207": ("empty-enumeration", "an enumeration without elements"),
     # Expressions
     "E301": ("not-an-expression", "text that is not an expression"),
     "E302": ("outside-grammar", "Python that expressions do not allow"),
@@ -55,6 +57,8 @@ _ERRORS = {
     "E305": ("wrong-arguments", "a function called with the wrong arguments"),
     "E306": ("unknown-element", "a literal that the enumeration does not have"),
     "E307": ("not-settable", "setting what cannot be set here"),
+    "E308": ("not-constant", "a first value that is not known before the component runs"),
+    "E309": ("bad-time", "a time that is neither a number of seconds from 0 up nor a constant"),
     # The structure of a design
     "D401": ("no-initial-state", "a design without a valid initial state"),
     "D402": ("unknown-state", "a transition to a state that does not exist"),
@@ -70,6 +74,8 @@ _ERRORS = {
     "D412": ("code-does-not-parse", "code that the language's parser refuses"),
     "D413": ("duplicate-id", "two things with one id"),
     "D414": ("missing-language", "code that is missing in a language of the project"),
+    "D415": ("empty-code", "a predicate without code"),
+    "D416": ("bad-frequency", "a frequency that is not above 0"),
     # Generated files
     "G501": ("edited-outside", "a generated file whose code was edited by hand"),
     "G502": ("stale-output", "a generated file that is not what the design gives"),
@@ -85,13 +91,15 @@ _WARNINGS = {
     "D426": ("never-stepped", "a component that is read, but that nobody steps here"),
     "D427": ("outside-range", "a literal outside the declared range"),
     "D428": ("unused-use", "a used component that no state requires, modulates or reads"),
-    "D429": ("modulated-not-stepped", "a component whose parameters are set where nobody steps it"),
+}
+
+_NOTES = {
     "D430": ("no-effect", "a transition that changes nothing"),
 }
 
 
 def _catalogue() -> dict[str, Rule]:
-    tables = ((Severity.ERROR, _ERRORS), (Severity.WARNING, _WARNINGS))
+    tables = ((Severity.ERROR, _ERRORS), (Severity.WARNING, _WARNINGS), (Severity.NOTE, _NOTES))
     return {
         code: Rule(code=code, name=name, severity=severity, summary=summary)
         for severity, table in tables
