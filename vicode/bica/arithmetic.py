@@ -107,7 +107,7 @@ def atan2(y: float, x: float) -> float:
 
 
 def hypot(x: float, y: float) -> float:
-    """Return sqrt(x * x + y * y): the libraries' hypot functions differ in their last bit, this is the same everywhere."""
+    """Return sqrt(x * x + y * y): the same everywhere, while the libraries' hypot differ in their last bit."""
     x, y = float(x), float(y)
     return math.sqrt(x * x + y * y)
 

@@ -60,6 +60,25 @@ class Component:
     frequency_hz: ClassVar[float | None] = None
     resume: ClassVar[bool] = False
 
+    # Slots keep the runtime's own attributes out of the instance's dictionary, which is the design's, and quick.
+    __slots__ = (
+        "__dict__",
+        "_called",
+        "_changed_from",
+        "_current",
+        "_entered_ns",
+        "_initial",
+        "_period_ns",
+        "_started_ns",
+        "_states",
+        "_stepped_in",
+        "_transition",
+        "_worked_ns",
+        "root",
+        "state",
+        "world",
+    )
+
     def __init__(self, root: Root) -> None:
         self.root = root
         self.world: Any = root.world
@@ -83,15 +102,18 @@ class Component:
             if missed > 1:
                 self._start(is_first=missed > iteration)
             current = self._current
-            for component in current.requires:
-                component.step()
+            if current.requires:
+                for component in current.requires:
+                    component.step()
             now_ns = root.now_ns
             if now_ns - self._worked_ns >= self._period_ns:
                 self._worked_ns = now_ns
                 if self._called:
                     self._called = []
-                current.run()
-            else:
+                # CPython calls a local quicker than an attribute that holds a function.
+                run = current.run
+                run()
+            elif self._called:
                 self._step_called_again()
         except ComponentError:
             raise
@@ -130,19 +152,24 @@ class Component:
 
     def _change_to(self, name: str, transition: str | None = None) -> None:
         """Leave the active state for another, enter that and act in it; a change to the active state only acts."""
-        old = self._current
-        new = self._states[name]
+        old, new = self._current, self._states[name]
+        run = new.run
         if new is not old:
-            if old.leave is not None:
-                old.leave()
+            leave, enter = old.leave, new.enter
+            if leave is not None:
+                leave()
             self._changed_from = old.name
             self._transition = transition
-            self._enter(new)
-            if new.requires:
+            self._current = new
+            self.state = name
+            self._entered_ns = self.root.now_ns
+            if enter is not None:
+                enter()
+            if new.requires != old.requires:
                 for component in new.requires:
                     if component not in old.requires:
                         component.step()
-        new.run(False)
+        run(False)
 
     def _stay(self) -> None:
         """End the decision without a change: act in the active state."""
@@ -161,13 +188,6 @@ class Component:
             _modulate(component, parameters)
             component.step()
 
-    def _enter(self, state: State) -> None:
-        self._current = state
-        self.state = state.name
-        self._entered_ns = self.root.now_ns
-        if state.enter is not None:
-            state.enter()
-
     def _start(self, *, is_first: bool) -> None:
         if self.resume and not is_first:
             return
@@ -175,10 +195,12 @@ class Component:
         self._started_ns = self._entered_ns = now_ns
         self._worked_ns = now_ns - self._period_ns
         self._called = []
-        self._current = self._initial
-        self.restart()
+        self._current = initial = self._initial
         if self._states:
-            self._enter(self._initial)
+            self.state = initial.name
+        self.restart()
+        if initial.enter is not None:
+            initial.enter()
 
 
 def _modulate(component: Component, parameters: dict[str, Any]) -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import sys
 from collections import Counter
 from collections.abc import Callable
+from functools import partial
 from typing import TYPE_CHECKING, Any, Literal, TypeVar, cast
 
 from .clock import Clock, RealClock
@@ -53,6 +54,7 @@ class Root:
         self._being_made: list[type[Component]] = []
         self._cycle_times: dict[str, CycleTimes] | None = None
         self.main = self.component(component_class)
+        self._step_main = self._find_step()
         if parameters:
             cast("Callable[..., None]", self.main.modulate)(**parameters)
 
@@ -72,6 +74,7 @@ class Root:
             self._cycle_times = {}
             for component in self.components:
                 measure_steps(component, self._cycle_times)
+            self._step_main = self._find_step()
 
     @property
     def cycle_times(self) -> dict[str, CycleTimes]:
@@ -101,12 +104,10 @@ class Root:
 
     def step(self) -> None:
         """Run one iteration: everything in it sees the time read at its start."""
-        self.now_ns = self._read_clock()
+        read_clock, step_main = self._read_clock, self._step_main
+        self.now_ns = read_clock()
         self.iteration += 1
-        if self._observer is None:
-            self.main.step()
-        else:
-            self._observer.observe_iteration(self)
+        step_main()
 
     def report(self, record: ErrorRecord) -> None:
         """Count an error of a component and deal with it as `on_error` says."""
@@ -117,6 +118,9 @@ class Root:
             raise ComponentError(record)
         elif self.errors[record.place] == 1:
             sys.stderr.write(f"error: {record} (reported once, then counted)\n")
+
+    def _find_step(self) -> Callable[[], None]:
+        return self.main.step if self._observer is None else partial(self._observer.observe_iteration, self)
 
     def _watch(self, component: Component) -> None:
         if self._observer is not None:
