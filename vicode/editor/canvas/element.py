@@ -1,0 +1,133 @@
+"""The Python side of the canvas: keeps what is shown, so that a page that mounts late or again gets it all."""
+
+from collections.abc import Iterable, Sequence
+from inspect import isawaitable
+from pathlib import Path
+from typing import Any, cast
+
+from nicegui import ui
+from nicegui.dependencies import register_esm
+from nicegui.events import GenericEventArguments
+
+from vicode.editor.canvas.gesture import Changes, Gesture, Item, Kind, OnGesture, Scene
+
+_SCRIPTS = Path(__file__).parent / "js"
+_KINDS = ("states", "transitions", "components", "links")
+
+# NiceGUI lets browsers keep these files for a year under a key made of this time; a folder's own time would
+# not change when one of its files is edited.
+register_esm("vicode-canvas", _SCRIPTS, max_time=max(path.stat().st_mtime for path in _SCRIPTS.iterdir()))
+
+
+class Canvas(ui.element, component="js/vicode_canvas.js"):
+    """A state machine to look at and to work on.
+
+    Args:
+        on_gesture: called with every gesture (see `vicode.editor.canvas.gesture`); it may be a coroutine function.
+    """
+
+    def __init__(self, on_gesture: OnGesture) -> None:
+        super().__init__()
+        self._on_gesture = on_gesture
+        self._scene: dict[str, Any] | None = None
+        self._selected: list[Item] = []
+        self._links_shown = True
+        self._is_mounted = False
+        self._active: tuple[list[str], int] = ([], -1)
+        self._acknowledged = -1
+        self._sent = -1
+        # Handlers added after the first rendering would make NiceGUI mount the element anew.
+        self.on("gesture", self._hear_gesture)
+        self.on("ready", self._hear_ready)
+        self.on("ack", self._hear_ack)
+
+    def load(self, view: Scene) -> None:
+        """Show a whole scene; the view is kept when it is the same component as before, else all is fitted in."""
+        self._scene = {**view, **{kind: {thing["id"]: thing for thing in view.get(kind, ())} for kind in _KINDS}}
+        self._call("load", self._whole())
+
+    def apply(self, changes: Changes) -> None:
+        """Bring the shown scene up to date by a difference."""
+        if self._scene is None:
+            raise RuntimeError("apply() needs a scene: call load() first")
+        self._scene["rev"] = changes["rev"]
+        for kind, ids in changes.get("remove", {}).items():
+            for identity in ids:
+                self._scene[kind].pop(identity, None)
+        for kind, things in changes.get("upsert", {}).items():
+            self._scene[kind].update({thing["id"]: thing for thing in things})
+        if "common" in changes:
+            self._scene["common"] = changes["common"]
+        self._call("apply", dict(changes))
+
+    def select(self, items: Iterable[Item]) -> None:
+        """Select exactly these things; no gesture is reported for it."""
+        self._selected = list(items)
+        self._call("select", self._selected)
+
+    def centre(self, of: Kind, identity: str) -> None:
+        """Bring one thing to the middle, large enough to be read."""
+        self._call("centre", of, identity)
+
+    def fit(self) -> None:
+        """Show everything."""
+        self._call("fit")
+
+    def rename_in_place(self, state: str) -> None:
+        """Open the name of a state for typing, as after creating it."""
+        self._call("renameInPlace", state)
+
+    def set_active(self, ids: Sequence[str], seq: int) -> None:
+        """Highlight the states that are active in a running component.
+
+        Only the newest is shown: while a browser has not painted one, later ones wait and replace each other.
+
+        Args:
+            ids: the active states.
+            seq: a number that grows with every call; an older one is ignored.
+        """
+        if seq <= self._active[1]:
+            return
+        self._active = (list(ids), seq)
+        if self._sent == self._acknowledged:
+            self._send_active()
+
+    def show_links(self, flag: bool) -> None:
+        """Show or hide what states require and modulate."""
+        self._links_shown = flag
+        self._call("showLinks", flag)
+
+    def _call(self, method: str, *arguments: object) -> None:
+        # Before the element is mounted a call would be lost; `_hear_ready` sends everything then.
+        if self._is_mounted:
+            self.run_method(method, *arguments)
+
+    def _whole(self) -> dict[str, Any]:
+        assert self._scene is not None
+        return {**self._scene, **{kind: list(self._scene[kind].values()) for kind in _KINDS}}
+
+    def _send_active(self) -> None:
+        ids, self._sent = self._active
+        self._call("setActive", ids, self._sent)
+
+    async def _hear_gesture(self, event: GenericEventArguments) -> None:
+        gesture = cast("Gesture", event.args)
+        if gesture["kind"] == "select":
+            self._selected = gesture["items"]
+        answer = self._on_gesture(gesture)
+        if isawaitable(answer):
+            await answer
+
+    def _hear_ready(self) -> None:
+        self._is_mounted = True
+        if self._scene is not None:
+            self._call("load", self._whole())
+        self._call("showLinks", self._links_shown)
+        self._call("select", self._selected)
+        if self._active[1] >= 0:
+            self._send_active()
+
+    def _hear_ack(self, event: GenericEventArguments) -> None:
+        self._acknowledged = self._sent = event.args["seq"]
+        if self._active[1] > self._acknowledged:
+            self._send_active()

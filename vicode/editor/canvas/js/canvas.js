@@ -1,0 +1,307 @@
+// The canvas itself: puts the parts together, and is what Python's methods reach.
+import { rectOf } from "./geometry.js";
+import { Frame } from "./frame.js";
+import { Gestures } from "./gestures.js";
+import { Handles } from "./handles.js";
+import { Keyboard } from "./keyboard.js";
+import { Minimap } from "./minimap.js";
+import { Overview } from "./overview.js";
+import { Painter } from "./painter.js";
+import { Rename } from "./rename.js";
+import { Router } from "./routing.js";
+import { keyOf, Scene } from "./scene.js";
+import { Selection } from "./selection.js";
+import { html } from "./svg.js";
+import { forgetWidths } from "./text.js";
+import { Theme } from "./theme.js";
+import { Toolbar } from "./toolbar.js";
+import { Viewport } from "./viewport.js";
+
+const FAR = 0.3;
+const NEAR_AGAIN = 0.34;
+const FAR_STATES = 150;
+const DOT_GAP = 20;
+
+const sheet = new CSSStyleSheet();
+sheet.replaceSync(await (await fetch(new URL("./canvas.css", import.meta.url))).text());
+
+/** Draws into `host` (in a shadow root) and reports gestures by `emit(event, payload)`. */
+export const mountCanvas = (host, emit) => new Canvas(host, emit);
+
+class Canvas {
+  constructor(host, emit) {
+    this.host = host;
+    this.emit = emit;
+    this.far = false;
+    this.activeSeq = -1;
+    this.fitPending = true;
+    this.frame = new Frame();
+    this.scene = new Scene();
+    this.router = new Router(this.scene);
+    this.painter = new Painter(this.scene, this.router);
+    this.#build();
+    this.#wire();
+    host.vicode = this.#testing();
+  }
+
+  load(view) {
+    const same = view.component === this.scene.component;
+    const kept = same ? [...this.selection.keys] : [];
+    this.gestures.cancel();
+    this.painter.clear();
+    this.router.clear();
+    this.scene.load(view);
+    this.theme.set(view.theme);
+    this.fitPending = this.fitPending || !same;
+    this.selection.keys = new Set();
+    this.selection.set(kept, { quiet: true });
+    if (this.fitPending && this.viewport.measure()) this.fit();
+    this.#sceneChanged();
+    this.host.dataset.ready = "true";
+  }
+
+  apply(changes) {
+    const change = this.scene.apply(changes);
+    this.painter.refresh(change);
+    if (this.selection.prune()) this.painter.mark("selected", this.selection.keys);
+    this.gestures.sceneChanged();
+    this.#sceneChanged();
+  }
+
+  select(items) {
+    this.selection.set(items.map(({ of, id }) => keyOf(of, id)), { quiet: true });
+  }
+
+  centre(of, id) {
+    const thing = this.scene.find(keyOf(of, id));
+    if (!thing) return;
+    const { x, y } = this.scene.nodes.has(thing.key) ? thing : this.scene.isDrawable(thing) ? this.router.route(thing).at : this.viewport.middle();
+    this.viewport.centreOn(x, y, Math.max(this.viewport.k, 0.6));
+  }
+
+  fit() {
+    const extent = this.scene.extent();
+    if (!this.viewport.measure()) return;
+    this.fitPending = false;
+    if (extent) this.viewport.fit(extent);
+    else this.viewport.centreOn(0, 0, 1);
+  }
+
+  /** Highlights the states a running component is in; an older picture never replaces a newer one. */
+  setActive(ids, seq) {
+    if (seq <= this.activeSeq) return;
+    this.activeSeq = seq;
+    this.frame.ask("active", () => {
+      this.painter.mark("active", ids.map((id) => keyOf("states", id)));
+      if (this.far) this.cull();
+      this.emit("ack", { seq: this.activeSeq });
+    });
+  }
+
+  showLinks(flag) {
+    if (this.scene.linksShown === flag) return;
+    this.scene.linksShown = flag;
+    this.router.clear();
+    this.painter.refresh({ touched: [...this.scene.edges.keys()], gone: [], near: [...this.scene.nodes.keys()] });
+    this.#sceneChanged();
+  }
+
+  renameInPlace(id) {
+    this.rename.start(keyOf("states", id));
+  }
+
+  dispose() {
+    this.frame.stop();
+    this.sizes.disconnect();
+    this.theme.dispose();
+  }
+
+  /** Sends one gesture to Python. */
+  report(kind, payload) {
+    this.emit("gesture", { kind, ...payload, rev: this.scene.rev });
+  }
+
+  /** Boxes were moved by hand: everything that depends on their place follows, and Python is told. */
+  reportMove(keys, oldRects) {
+    const nodes = keys.map((key) => this.scene.nodes.get(key));
+    this.scene.reindex(keys);
+    this.painter.settle([...oldRects, ...nodes.map(rectOf)]);
+    this.painter.covered = null;
+    this.report("move", { items: nodes.map(({ of, id, x, y }) => ({ of, id, x, y })) });
+    this.#sceneChanged();
+  }
+
+  afterGesture() {
+    this.handles.refresh();
+    this.frame.ask("cull", () => this.cull());
+  }
+
+  hoverChanged() {
+    this.handles.refresh();
+    if (this.far) this.frame.ask("cull", () => this.cull());
+  }
+
+  cull() {
+    this.painter.cull(this.viewport.rect(), this.far);
+  }
+
+  /** Brings a thing into sight, and near enough to be read. */
+  reveal(key) {
+    const thing = this.scene.find(key);
+    if (!thing) return;
+    if (this.far) this.centre(thing.of, thing.id);
+    else if (this.scene.nodes.has(key)) this.viewport.reveal(rectOf(thing));
+    else if (this.scene.isDrawable(thing)) this.viewport.reveal({ ...this.router.route(thing).at, w: 0, h: 0 });
+    this.frame.flush();
+    this.cull();
+  }
+
+  say(text) {
+    this.message.textContent = text;
+    this.message.hidden = !text;
+  }
+
+  drawableEdges() {
+    return [...this.scene.edges.values()].filter((edge) => this.scene.isDrawable(edge)).map((edge) => edge.key);
+  }
+
+  #build() {
+    this.root = this.host.attachShadow({ mode: "open" });
+    this.root.adoptedStyleSheets = [sheet];
+    this.stage = html("div", { class: "stage", tabindex: "0", role: "application", "aria-roledescription": "state machine canvas" });
+    this.root.append(this.stage);
+    const colours = (name) => this.theme.colour(name);
+    this.viewport = new Viewport(this.stage, this.frame);
+    this.overview = new Overview(this.scene, this.viewport, colours);
+    this.minimap = new Minimap(this.scene, this.viewport, colours);
+    this.theme = new Theme(this.stage, () => this.#coloursChanged());
+    this.toolbar = new Toolbar(this);
+    this.selection = new Selection(this.scene, this.painter, (quiet) => this.#selectionChanged(quiet));
+    this.gestures = new Gestures(this);
+    this.handles = new Handles(this);
+    this.keyboard = new Keyboard(this);
+    this.rename = new Rename(this);
+    this.dots = html("div", { class: "dots" });
+    this.plane = html("div", { class: "plane" }, [this.painter.svg]);
+    this.message = html("div", { class: "message", role: "status", hidden: true });
+    this.empty = html("div", { class: "empty", hidden: true, text: "No states yet.\nDouble click, or press S, to add the first." });
+    const corner = html("div", { class: "corner" }, [this.minimap.element, this.toolbar.element]);
+    this.stage.append(this.dots, ...this.overview.elements, this.plane, this.empty, this.message, this.rename.input, corner);
+  }
+
+  #wire() {
+    this.viewport.onChange = () => this.#viewChanged();
+    this.viewport.onRest = () => this.#viewRests();
+    this.sizes = new ResizeObserver(() => this.#resized());
+    this.sizes.observe(this.stage);
+    document.fonts.ready.then(() => {
+      forgetWidths();
+      this.scene.remeasure();
+      this.router.clear();
+      this.painter.refresh({ touched: [...this.painter.items.keys()], gone: [], near: [] });
+      this.#sceneChanged();
+    });
+  }
+
+  #resized() {
+    if (!this.viewport.measure()) return;
+    if (this.fitPending && this.scene.nodes.size) this.fit();
+    this.viewport.set({});
+  }
+
+  #viewChanged() {
+    const { x, y, k } = this.viewport;
+    this.plane.style.transform = `translate(${x}px, ${y}px) scale(${k})`;
+    this.plane.classList.add("busy");
+    this.#placeDots(x, y, k);
+    this.toolbar.show(k);
+    this.minimap.follow();
+    this.rename.follow();
+    if (!this.far && this.#tooMuch(FAR)) this.#setFar(true);
+    if (this.far) this.overview.place();
+    if (!this.painter.covers(this.viewport.rect())) this.cull();
+  }
+
+  #viewRests() {
+    this.plane.classList.remove("busy");
+    if (this.far && !this.#tooMuch(NEAR_AGAIN)) this.#setFar(false);
+    this.cull();
+    if (this.far) this.overview.sharpen(this.selection.keys);
+    this.handles.refresh();
+  }
+
+  #tooMuch(border) {
+    return this.viewport.k < border && this.scene.nodes.size > FAR_STATES;
+  }
+
+  #setFar(far) {
+    this.far = far;
+    if (far) this.overview.prepare(this.selection.keys);
+    this.stage.classList.toggle("far", far);
+    this.cull();
+  }
+
+  #placeDots(x, y, k) {
+    let gap = DOT_GAP * k;
+    while (gap < 14) gap *= 2;
+    this.dots.style.backgroundSize = `${gap}px ${gap}px`;
+    this.dots.style.transform = `translate(${(x % gap) + (80 % gap) - gap / 2}px, ${(y % gap) + (80 % gap) - gap / 2}px)`;
+  }
+
+  #selectionChanged(quiet) {
+    this.handles.refresh();
+    if (!quiet) this.report("select", { items: this.selection.items() });
+    if (this.far) {
+      this.overview.spoil();
+      this.#redrawSoon();
+    }
+  }
+
+  #coloursChanged() {
+    this.overview.spoil();
+    this.frame?.ask("colours", () => {
+      this.minimap.draw();
+      this.#redrawSoon();
+    });
+  }
+
+  #sceneChanged() {
+    this.host.dataset.rev = String(this.scene.rev);
+    this.empty.hidden = [...this.scene.nodes.values()].some((node) => node.of === "states");
+    this.stage.setAttribute("aria-label", `State machine ${this.scene.component}`);
+    this.overview.spoil();
+    if (this.far && !this.#tooMuch(NEAR_AGAIN)) this.#setFar(false);
+    this.frame.ask("minimap", () => this.minimap.draw());
+    this.frame.ask("scene", () => {
+      this.cull();
+      this.handles.refresh();
+      this.rename.follow();
+    });
+    this.#redrawSoon();
+  }
+
+  #redrawSoon() {
+    this.frame.afterRest("overview", 60, () => {
+      if (!this.far || this.gestures.isDragging()) return;
+      this.overview.prepare(this.selection.keys);
+      this.overview.sharpen(this.selection.keys);
+    });
+  }
+
+  #testing() {
+    const place = ({ x, y, w, h }) => ({ x, y, w, h });
+    return {
+      positions: () => Object.fromEntries([...this.scene.nodes.values()].map((node) => [`${node.of}/${node.id}`, place(node)])),
+      selection: () => this.selection.items(),
+      view: () => ({ x: this.viewport.x, y: this.viewport.y, k: this.viewport.k, far: this.far, resting: this.viewport.resting }),
+      setView: (view) => this.viewport.set(view),
+      screen: (of, id) => {
+        const thing = this.scene.find(keyOf(of, id));
+        const at = this.viewport.toScreen(this.scene.nodes.has(thing.key) ? thing : this.router.route(thing).at);
+        const box = this.stage.getBoundingClientRect();
+        return { x: at.x + box.left, y: at.y + box.top };
+      },
+      mounted: () => this.painter.items.size,
+    };
+  }
+}

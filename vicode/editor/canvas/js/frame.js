@@ -1,0 +1,34 @@
+// Work is done once per frame, and slow work once the hand rests.
+
+/** Runs each named job at most once in the next animation frame. */
+export class Frame {
+  #jobs = new Map();
+  #request = 0;
+  #timers = new Map();
+
+  ask(name, job) {
+    this.#jobs.set(name, job);
+    if (!this.#request) this.#request = requestAnimationFrame(() => this.flush());
+  }
+
+  /** Runs what is waiting now, so that a release never loses the last movement. */
+  flush() {
+    cancelAnimationFrame(this.#request);
+    this.#request = 0;
+    const jobs = [...this.#jobs.values()];
+    this.#jobs.clear();
+    for (const job of jobs) job();
+  }
+
+  /** Runs a named job when it was not asked for again during `delay` milliseconds. */
+  afterRest(name, delay, job) {
+    clearTimeout(this.#timers.get(name));
+    this.#timers.set(name, setTimeout(job, delay));
+  }
+
+  stop() {
+    cancelAnimationFrame(this.#request);
+    this.#jobs.clear();
+    for (const timer of this.#timers.values()) clearTimeout(timer);
+  }
+}

@@ -1,0 +1,100 @@
+// Rectangles, cubic curves and the places where a ray leaves a shape. Pure functions, world units.
+
+export const SNAP = 10;
+export const HEX_SLANT = 16;
+
+export const snap = (value) => Math.round(value / SNAP) * SNAP;
+
+export const rectOf = (node) => ({ x: node.x - node.w / 2, y: node.y - node.h / 2, w: node.w, h: node.h });
+
+export const rectAround = (x, y, w, h) => ({ x: x - w / 2, y: y - h / 2, w, h });
+
+export const rectBetween = (a, b) => ({
+  x: Math.min(a.x, b.x),
+  y: Math.min(a.y, b.y),
+  w: Math.abs(a.x - b.x),
+  h: Math.abs(a.y - b.y),
+});
+
+export const grow = (rect, by) => ({ x: rect.x - by, y: rect.y - by, w: rect.w + 2 * by, h: rect.h + 2 * by });
+
+export const overlaps = (a, b) => a.x < b.x + b.w && b.x < a.x + a.w && a.y < b.y + b.h && b.y < a.y + a.h;
+
+export const holds = (rect, x, y) => x >= rect.x && x <= rect.x + rect.w && y >= rect.y && y <= rect.y + rect.h;
+
+export const covers = (outer, inner) =>
+  holds(outer, inner.x, inner.y) && holds(outer, inner.x + inner.w, inner.y + inner.h);
+
+/** The smallest rectangle around all given ones, or null for none. */
+export function bounds(rects) {
+  let x0 = Infinity;
+  let y0 = Infinity;
+  let x1 = -Infinity;
+  let y1 = -Infinity;
+  for (const rect of rects) {
+    x0 = Math.min(x0, rect.x);
+    y0 = Math.min(y0, rect.y);
+    x1 = Math.max(x1, rect.x + rect.w);
+    y1 = Math.max(y1, rect.y + rect.h);
+  }
+  return x0 === Infinity ? null : { x: x0, y: y0, w: x1 - x0, h: y1 - y0 };
+}
+
+/** Where the ray from a node's centre towards (x, y) leaves its shape. */
+export function exitPoint(node, x, y) {
+  const dx = x - node.x;
+  const dy = y - node.y;
+  if (dx === 0 && dy === 0) return { x: node.x, y: node.y - node.h / 2 };
+  const halfWidth = node.w / 2;
+  const halfHeight = node.h / 2;
+  let reach = Math.min(halfWidth / Math.abs(dx), halfHeight / Math.abs(dy));
+  if (node.of === "components") {
+    // The slanted side of the hexagon: |x| = w/2 - slant * |y| / (h/2).
+    const slanted = halfWidth / (Math.abs(dx) + (HEX_SLANT / halfHeight) * Math.abs(dy));
+    reach = Math.min(reach, slanted);
+  }
+  return { x: node.x + dx * reach, y: node.y + dy * reach };
+}
+
+/** A cubic curve is eight numbers: start, two controls, end. A quadratic one is raised to it. */
+export const raise = (p, c, q) => [
+  p.x,
+  p.y,
+  p.x + (2 / 3) * (c.x - p.x),
+  p.y + (2 / 3) * (c.y - p.y),
+  q.x + (2 / 3) * (c.x - q.x),
+  q.y + (2 / 3) * (c.y - q.y),
+  q.x,
+  q.y,
+];
+
+export function pointAt(curve, t) {
+  const u = 1 - t;
+  const a = u * u * u;
+  const b = 3 * u * u * t;
+  const c = 3 * u * t * t;
+  const d = t * t * t;
+  return {
+    x: a * curve[0] + b * curve[2] + c * curve[4] + d * curve[6],
+    y: a * curve[1] + b * curve[3] + c * curve[5] + d * curve[7],
+  };
+}
+
+/** The rectangle around the control points, which always holds the curve. */
+export function curveBounds(curve) {
+  const xs = [curve[0], curve[2], curve[4], curve[6]];
+  const ys = [curve[1], curve[3], curve[5], curve[7]];
+  const x = Math.min(...xs);
+  const y = Math.min(...ys);
+  return { x, y, w: Math.max(...xs) - x, h: Math.max(...ys) - y };
+}
+
+/** The squared distance from a point to a curve, good enough for picking with a pointer. */
+export function distanceToCurve(curve, x, y) {
+  let best = Infinity;
+  for (let step = 0; step <= 24; step += 1) {
+    const point = pointAt(curve, step / 24);
+    best = Math.min(best, (point.x - x) ** 2 + (point.y - y) ** 2);
+  }
+  return best;
+}

@@ -1,0 +1,68 @@
+// A uniform grid over the plane: which keys may touch a rectangle, in constant time per cell.
+
+const CELL = 320;
+
+export class Grid {
+  constructor() {
+    this.cells = new Map();
+    this.places = new Map();
+  }
+
+  clear() {
+    this.cells.clear();
+    this.places.clear();
+  }
+
+  /** Files a key under every cell its rectangle touches. */
+  putRect(key, rect) {
+    this.remove(key);
+    this.#file(key, cellsOf(rect));
+  }
+
+  /** Files a key under the cells along a straight line, so that long diagonals stay cheap. */
+  putLine(key, a, b) {
+    this.remove(key);
+    const steps = Math.max(1, Math.ceil(Math.hypot(b.x - a.x, b.y - a.y) / (CELL / 2)));
+    const cells = new Set();
+    for (let step = 0; step <= steps; step += 1) {
+      const t = step / steps;
+      cells.add(cellName(Math.floor((a.x + (b.x - a.x) * t) / CELL), Math.floor((a.y + (b.y - a.y) * t) / CELL)));
+    }
+    this.#file(key, [...cells]);
+  }
+
+  remove(key) {
+    for (const cell of this.places.get(key) ?? []) this.cells.get(cell)?.delete(key);
+    this.places.delete(key);
+  }
+
+  /** The keys of all cells that a rectangle touches; a superset of what really overlaps it. */
+  query(rect) {
+    const found = new Set();
+    for (const cell of cellsOf(rect)) {
+      for (const key of this.cells.get(cell) ?? []) found.add(key);
+    }
+    return found;
+  }
+
+  #file(key, cells) {
+    this.places.set(key, cells);
+    for (const cell of cells) {
+      if (!this.cells.has(cell)) this.cells.set(cell, new Set());
+      this.cells.get(cell).add(key);
+    }
+  }
+}
+
+// One number names a cell: 2^21 cells each way are far more than any design needs.
+const cellName = (column, row) => (column + 1048576) * 2097152 + (row + 1048576);
+
+function cellsOf(rect) {
+  const names = [];
+  const right = Math.floor((rect.x + rect.w) / CELL);
+  const bottom = Math.floor((rect.y + rect.h) / CELL);
+  for (let column = Math.floor(rect.x / CELL); column <= right; column += 1) {
+    for (let row = Math.floor(rect.y / CELL); row <= bottom; row += 1) names.push(cellName(column, row));
+  }
+  return names;
+}

@@ -1,0 +1,57 @@
+// The small discs one drags from: round a hovered or selected node, and at both ends of a selected transition.
+import { svg } from "./svg.js";
+
+const OUT = 9;
+const RADIUS = 5;
+const REACH = 11;
+
+export class Handles {
+  constructor(canvas) {
+    this.canvas = canvas;
+    this.group = svg("g", { class: "handles" });
+    canvas.painter.layers.above.append(this.group);
+  }
+
+  /** Draws the discs for what is hovered or alone selected; none while something is dragged. */
+  refresh() {
+    const { selection, scene, gestures } = this.canvas;
+    this.group.replaceChildren();
+    if (gestures.isDragging()) return;
+    const node = scene.nodes.get(selection.hovered) ?? scene.nodes.get(selection.single());
+    if (node) this.#aroundNode(node);
+    const edge = scene.edges.get(selection.single());
+    if (edge?.of === "transitions" && scene.isDrawable(edge)) this.#atEnds(edge);
+  }
+
+  #aroundNode(node) {
+    const size = this.#size();
+    if (size > 2.5) return;
+    const out = OUT * size;
+    const places = [
+      [node.x, node.y - node.h / 2 - out],
+      [node.x + node.w / 2 + out, node.y],
+      [node.x, node.y + node.h / 2 + out],
+      [node.x - node.w / 2 - out, node.y],
+    ];
+    for (const [x, y] of places) this.#disc(x, y, size, { "data-handle": node.key });
+  }
+
+  #atEnds(edge) {
+    const { curve } = this.canvas.router.route(edge);
+    const size = this.#size();
+    this.#disc(curve[0], curve[1], size, { "data-end": "source", "data-edge": edge.key });
+    this.#disc(curve[6], curve[7], size, { "data-end": "target", "data-edge": edge.key });
+  }
+
+  #disc(cx, cy, size, names) {
+    this.group.append(
+      svg("circle", { class: "handle-hit", cx, cy, r: REACH * size, ...names }),
+      svg("circle", { class: "handle", cx, cy, r: RADIUS * size }),
+    );
+  }
+
+  /** Discs keep their size on the screen when the scene is small. */
+  #size() {
+    return 1 / Math.min(1, this.canvas.viewport.k);
+  }
+}

@@ -1,0 +1,48 @@
+// The chip on a transition: what it says, how large it is, and where along the curve it fits.
+import { pointAt, rectAround } from "./geometry.js";
+import { shorten, textWidth } from "./text.js";
+
+const HEIGHT = 22;
+const PADDING = 8;
+const ICON = 15;
+const ROOM = 170;
+const PLACES = [0.5, 0.42, 0.58, 0.34, 0.66, 0.27, 0.73, 0.2, 0.8];
+const SHIFTS = [0, -14, 14, -26, 26];
+
+/** What the chip of an edge shows and its size, or null when there is nothing to say. */
+export function chipOf(edge) {
+  if (edge.of !== "transitions") return null;
+  const { data } = edge;
+  const order = data.of > 1 ? String(data.order) : "";
+  const text = shorten(data.label ?? "", "label", ROOM);
+  const icon = ["timer", "code", "tree"].includes(data.kind);
+  if (!order && !text && !icon) return null;
+  const orderWidth = order ? textWidth(text || icon ? `${order} · ` : order, "label") + 1 : 0;
+  const iconWidth = icon ? ICON : 0;
+  const w = Math.ceil(2 * PADDING + orderWidth + iconWidth + (text ? textWidth(text, "label") : 0));
+  return { order, text, icon: icon ? data.kind : "", orderWidth, iconWidth, padding: PADDING, w, h: HEIGHT };
+}
+
+/** The first free place along the curve, beside it when there is none on it, else the least crowded. */
+export function placeLabel(curve, chip, crowd) {
+  const middle = pointAt(curve, 0.5);
+  if (!chip) return middle;
+  let best = { at: middle, cost: Infinity };
+  for (const shift of SHIFTS) {
+    for (const t of PLACES) {
+      const at = beside(curve, t, shift);
+      const cost = crowd(rectAround(at.x, at.y, chip.w, chip.h));
+      if (cost < best.cost) best = { at, cost };
+      if (cost === 0) return at;
+    }
+  }
+  return best.at;
+}
+
+function beside(curve, t, shift) {
+  const point = pointAt(curve, t);
+  if (!shift) return point;
+  const ahead = pointAt(curve, Math.min(1, t + 0.02));
+  const length = Math.hypot(ahead.x - point.x, ahead.y - point.y) || 1;
+  return { x: point.x - ((ahead.y - point.y) / length) * shift, y: point.y + ((ahead.x - point.x) / length) * shift };
+}

@@ -1,0 +1,69 @@
+// The whole scene in a corner; a press or drag there brings that place to the middle.
+import { bounds, grow, rectOf } from "./geometry.js";
+import { html } from "./svg.js";
+
+const WIDTH = 180;
+const HEIGHT = 116;
+
+export class Minimap {
+  constructor(scene, viewport, colours) {
+    this.scene = scene;
+    this.viewport = viewport;
+    this.colours = colours;
+    this.canvas = html("canvas", { width: WIDTH * 2, height: HEIGHT * 2 });
+    this.frame = html("div", { class: "frame" });
+    this.element = html("div", { class: "minimap", "aria-hidden": "true" }, [this.canvas, this.frame]);
+    this.map = null;
+    this.#listen();
+  }
+
+  /** Draws the boxes anew; the scene changed. */
+  draw() {
+    const pen = this.canvas.getContext("2d");
+    pen.setTransform(1, 0, 0, 1, 0, 0);
+    pen.clearRect(0, 0, this.canvas.width, this.canvas.height);
+    const extent = this.scene.extent();
+    this.element.hidden = !extent;
+    if (!extent) return;
+    const area = grow(extent, Math.max(extent.w, extent.h) * 0.06);
+    const scale = Math.min(WIDTH / area.w, HEIGHT / area.h);
+    this.map = { scale, x: (WIDTH - area.w * scale) / 2 - area.x * scale, y: (HEIGHT - area.h * scale) / 2 - area.y * scale };
+    pen.setTransform(2 * scale, 0, 0, 2 * scale, 2 * this.map.x, 2 * this.map.y);
+    const colourOf = (node) => node.data.severity ?? { states: "box-line", components: "component-line", common: "common" }[node.of];
+    for (const [colour, nodes] of Map.groupBy([...this.scene.nodes.values()], colourOf)) {
+      pen.fillStyle = this.colours(colour);
+      pen.beginPath();
+      for (const { x, y, w, h } of nodes.map(rectOf)) pen.rect(x, y, Math.max(w, 2 / scale), Math.max(h, 1.5 / scale));
+      pen.fill();
+    }
+    this.follow();
+  }
+
+  /** Shows which part of the map is seen. */
+  follow() {
+    if (!this.map) return;
+    const seen = this.viewport.rect();
+    const corner = (x, y) => ({ x: clamp(x * this.map.scale + this.map.x, WIDTH), y: clamp(y * this.map.scale + this.map.y, HEIGHT), w: 0, h: 0 });
+    const box = bounds([corner(seen.x, seen.y), corner(seen.x + seen.w, seen.y + seen.h)]);
+    Object.assign(this.frame.style, { left: `${box.x}px`, top: `${box.y}px`, width: `${box.w}px`, height: `${box.h}px` });
+  }
+
+  #listen() {
+    const go = (event) => {
+      const box = this.element.getBoundingClientRect();
+      if (!this.map) return;
+      this.viewport.centreOn((event.clientX - box.left - this.map.x) / this.map.scale, (event.clientY - box.top - this.map.y) / this.map.scale);
+    };
+    this.element.addEventListener("pointerdown", (event) => {
+      event.stopPropagation();
+      event.preventDefault();
+      this.element.setPointerCapture(event.pointerId);
+      go(event);
+    });
+    this.element.addEventListener("pointermove", (event) => {
+      if (this.element.hasPointerCapture(event.pointerId)) go(event);
+    });
+  }
+}
+
+const clamp = (value, most) => Math.min(most - 1, Math.max(1, value));

@@ -1,0 +1,134 @@
+// From far the scene is two bitmaps: a coarse one of everything and a sharp one of what is seen.
+import { bounds, grow, overlaps, rectOf } from "./geometry.js";
+import { html } from "./svg.js";
+import { FONTS } from "./text.js";
+
+const COARSE_PIXELS = 1536;
+const SHARP_PIXELS = 4096;
+const NAMES_FROM = 0.19;
+
+export class Overview {
+  constructor(scene, viewport, colours) {
+    this.scene = scene;
+    this.viewport = viewport;
+    this.colours = colours;
+    this.coarse = { canvas: html("canvas", { class: "bitmap" }), region: null, scale: 1 };
+    this.sharp = { canvas: html("canvas", { class: "bitmap" }), region: null, scale: 1 };
+    this.elements = [this.coarse.canvas, this.sharp.canvas];
+    this.stale = true;
+  }
+
+  /** The scene or its colours changed. The old bitmaps stay until new ones are drawn, so that nothing flickers. */
+  spoil() {
+    this.stale = true;
+  }
+
+  /** Draws the coarse bitmap when it is out of date, so that there is always something to show. */
+  prepare(selected) {
+    const extent = this.scene.extent();
+    if (!this.stale || !extent) return;
+    this.stale = false;
+    this.sharp.region = null;
+    const region = grow(extent, 60);
+    this.#draw(this.coarse, region, Math.min(1, COARSE_PIXELS / Math.max(region.w, region.h)), selected);
+  }
+
+  /** Draws what is seen, and some more, at the present zoom. */
+  sharpen(selected) {
+    const extent = this.scene.extent();
+    if (!extent) return;
+    const seen = this.viewport.rect();
+    const region = intersection(grow(extent, 60), grow(seen, Math.max(seen.w, seen.h) / 3));
+    if (!region) return;
+    const scale = Math.min(this.viewport.k * devicePixelRatio, SHARP_PIXELS / Math.max(region.w, region.h));
+    this.#draw(this.sharp, region, scale, selected);
+    this.place();
+  }
+
+  /** Moves both bitmaps to where the viewport wants them. */
+  place() {
+    const { x, y, k } = this.viewport;
+    for (const { canvas, region, scale } of [this.coarse, this.sharp]) {
+      canvas.style.visibility = region ? "visible" : "hidden";
+      if (region) canvas.style.transform = `translate(${x + region.x * k}px, ${y + region.y * k}px) scale(${k / scale})`;
+    }
+  }
+
+  #draw(bitmap, region, scale, selected) {
+    const { canvas } = bitmap;
+    Object.assign(bitmap, { region, scale });
+    canvas.width = Math.max(1, Math.round(region.w * scale));
+    canvas.height = Math.max(1, Math.round(region.h * scale));
+    const pen = canvas.getContext("2d", { alpha: false });
+    pen.fillStyle = this.colours("paper");
+    pen.fillRect(0, 0, canvas.width, canvas.height);
+    pen.setTransform(scale, 0, 0, scale, -region.x * scale, -region.y * scale);
+    this.#drawEdges(pen, scale);
+    const nodes = [...this.scene.nodes.values()].filter((node) => overlaps(rectOf(node), region));
+    this.#drawNodes(pen, nodes, scale, selected);
+    if (scale >= NAMES_FROM * Math.min(1, devicePixelRatio)) this.#drawNames(pen, nodes);
+  }
+
+  #drawEdges(pen, scale) {
+    const edges = [...this.scene.edges.values()].filter((edge) => this.scene.isDrawable(edge));
+    const colourOf = (edge) => (edge.of === "links" ? edge.data.kind : edge.source === "common" ? "common" : "edge");
+    pen.lineWidth = Math.max(1.4, 0.5 / scale);
+    for (const [colour, group] of Map.groupBy(edges, colourOf)) {
+      pen.strokeStyle = this.colours(colour);
+      pen.globalAlpha = 0.55;
+      pen.beginPath();
+      for (const edge of group) {
+        const source = this.scene.nodes.get(edge.source);
+        const target = this.scene.nodes.get(edge.target);
+        pen.moveTo(source.x, source.y);
+        pen.lineTo(target.x, target.y);
+      }
+      pen.stroke();
+    }
+    pen.globalAlpha = 1;
+  }
+
+  #drawNodes(pen, nodes, scale, selected) {
+    pen.lineWidth = Math.max(1.5, 0.7 / scale);
+    const lookOf = (node) => {
+      if (selected.has(node.key)) return "selected";
+      if (node.data.severity) return node.data.severity;
+      return node.of === "states" && node.data.initial ? "initial" : node.of;
+    };
+    for (const [look, group] of Map.groupBy(nodes, lookOf)) {
+      const [fill, stroke] = LOOKS[look].map((name) => this.colours(name));
+      pen.fillStyle = fill;
+      pen.strokeStyle = stroke;
+      pen.beginPath();
+      for (const node of group) pen.rect(node.x - node.w / 2, node.y - node.h / 2, node.w, node.h);
+      pen.fill();
+      pen.stroke();
+    }
+  }
+
+  #drawNames(pen, nodes) {
+    pen.font = FONTS.name;
+    pen.textAlign = "center";
+    pen.textBaseline = "middle";
+    pen.fillStyle = this.colours("text");
+    for (const node of nodes) pen.fillText(node.label, node.x, node.y);
+  }
+}
+
+const LOOKS = {
+  states: ["box", "box-line"],
+  initial: ["box-line", "text"],
+  components: ["component", "component-line"],
+  common: ["common-fill", "common"],
+  selected: ["accent-soft", "accent"],
+  error: ["error", "error"],
+  warning: ["warning", "warning"],
+  note: ["note", "note"],
+};
+
+function intersection(a, b) {
+  if (!overlaps(a, b)) return null;
+  const x = Math.max(a.x, b.x);
+  const y = Math.max(a.y, b.y);
+  return bounds([{ x, y, w: Math.min(a.x + a.w, b.x + b.w) - x, h: Math.min(a.y + a.h, b.y + b.h) - y }]);
+}

@@ -1,0 +1,164 @@
+// Keeps in the DOM what is near enough to be seen, and nothing else; knows the marks on every thing.
+import { drawEdge, placeEdge } from "./edge_art.js";
+import { covers, grow, overlaps, rectOf } from "./geometry.js";
+import { drawNode, placeNode } from "./node_art.js";
+import { svg } from "./svg.js";
+
+// Marked things stay mounted also where the overview bitmap stands for the rest, up to this many of each mark.
+const PINNED = { selected: 150, active: 150, drop: 1, lit: 200, held: 1500 };
+
+export class Painter {
+  constructor(scene, router) {
+    this.scene = scene;
+    this.router = router;
+    this.items = new Map();
+    this.marks = new Map(["selected", "active", "drop", "held", "lit", "hover"].map((name) => [name, new Set()]));
+    this.layers = { links: svg("g"), edges: svg("g"), nodes: svg("g"), chips: svg("g"), above: svg("g") };
+    this.svg = svg("svg", { "aria-hidden": "false" }, Object.values(this.layers));
+    this.covered = null;
+    this.far = false;
+  }
+
+  clear() {
+    for (const key of [...this.items.keys()]) this.#unmount(key);
+    for (const keys of this.marks.values()) keys.clear();
+    this.covered = null;
+  }
+
+  /** Whether the mounted part still holds everything that is seen. */
+  covers(seen) {
+    return this.far || (this.covered !== null && covers(this.covered, seen));
+  }
+
+  /** Mounts what a rectangle (with a margin) shows; from far only what is marked. */
+  cull(seen, far) {
+    this.far = far;
+    this.covered = grow(seen, Math.max(seen.w, seen.h) / 3);
+    const wanted = far ? new Set() : this.#near(this.covered);
+    for (const key of this.#pinned()) wanted.add(key);
+    for (const key of [...this.items.keys()]) if (!wanted.has(key)) this.#unmount(key);
+    for (const key of wanted) if (!this.items.has(key)) this.#mount(key);
+  }
+
+  /** Gives a mark to exactly these keys. */
+  mark(name, keys) {
+    const old = this.marks.get(name);
+    const now = new Set(keys);
+    this.marks.set(name, now);
+    for (const key of old) if (!now.has(key)) this.#toggle(key, name, false);
+    for (const key of now) if (!old.has(key)) this.#toggle(key, name, true);
+    for (const layer of Object.values(this.layers)) layer.classList.toggle("dim", this.marks.get("lit").size > 0);
+  }
+
+  /** Redraws what changed; `near` are the nodes whose edges may want another way. */
+  refresh({ touched, gone, near }) {
+    for (const key of gone) this.#unmount(key);
+    for (const keys of this.marks.values()) for (const key of gone) keys.delete(key);
+    for (const key of near) this.router.forgetAround(key);
+    const focused = this.svg.getRootNode().activeElement?.dataset?.key;
+    for (const key of touched) {
+      if (!this.items.has(key)) continue;
+      this.#unmount(key);
+      this.#mount(key);
+    }
+    if (focused && touched.includes(focused)) this.focus(focused);
+    this.#placeEdges(near);
+  }
+
+  /** Follows nodes that are being moved, with the edges at them. */
+  follow(nodeKeys) {
+    for (const key of nodeKeys) {
+      const item = this.items.get(key);
+      if (item) placeNode(item.node, this.scene.nodes.get(key));
+      this.router.forgetAround(key);
+    }
+    this.#placeEdges(nodeKeys);
+  }
+
+  /** Boxes came to rest or left: edges that pass there are routed again. */
+  settle(rects) {
+    const passing = new Set(rects.flatMap((rect) => this.router.passing(rect)));
+    for (const edge of passing) this.router.forget(edge);
+    for (const edge of passing) this.#placeEdge(edge);
+  }
+
+  focus(key) {
+    const item = this.items.get(key);
+    (item?.node ?? item?.line)?.focus({ preventScroll: true });
+  }
+
+  #near(rect) {
+    const wanted = new Set();
+    for (const key of this.scene.nodeGrid.query(rect)) if (overlaps(rectOf(this.scene.nodes.get(key)), rect)) wanted.add(key);
+    for (const key of this.scene.edgeGrid.query(rect)) wanted.add(key);
+    return wanted;
+  }
+
+  #pinned() {
+    const pinned = new Set();
+    for (const [name, most] of Object.entries(PINNED)) {
+      const keys = this.marks.get(name);
+      if (keys.size <= most) for (const key of keys) pinned.add(key);
+    }
+    return pinned;
+  }
+
+  #mount(key) {
+    const thing = this.scene.find(key);
+    if (!thing) return;
+    const item = this.scene.nodes.has(key) ? this.#mountNode(thing) : this.#mountEdge(thing);
+    if (!item) return;
+    this.items.set(key, item);
+    for (const [name, keys] of this.marks) if (keys.has(key)) this.#toggle(key, name, true);
+  }
+
+  #mountNode(node) {
+    const group = drawNode(node);
+    this.layers.nodes.append(group);
+    return { node: group };
+  }
+
+  #mountEdge(edge) {
+    if (!this.scene.isDrawable(edge)) return null;
+    const title = (key) => (key === "common" ? "every state" : String(this.scene.nodes.get(key).data.name));
+    const item = drawEdge(edge, this.router.route(edge), { source: title(edge.source), target: title(edge.target) });
+    this.layers[edge.of === "links" ? "links" : "edges"].append(item.line);
+    if (item.chip) this.layers.chips.append(item.chip);
+    return item;
+  }
+
+  #unmount(key) {
+    const item = this.items.get(key);
+    if (!item) return;
+    for (const part of Object.values(item)) part?.remove();
+    this.items.delete(key);
+  }
+
+  #placeEdges(nodeKeys) {
+    const edges = new Set();
+    for (const key of nodeKeys) for (const edge of this.scene.edgesOf(key)) edges.add(edge);
+    for (const edge of edges) this.#placeEdge(edge);
+  }
+
+  #placeEdge(edge) {
+    const item = this.items.get(edge.key);
+    if (!item) return;
+    if (this.scene.isDrawable(edge)) placeEdge(item, this.router.route(edge));
+    else this.#unmount(edge.key);
+  }
+
+  #toggle(key, name, on) {
+    for (const part of Object.values(this.items.get(key) ?? {})) {
+      if (!part) continue;
+      part.classList.toggle(name, on);
+      if (on && name === "lit" && part.nextSibling) bringForward(part);
+    }
+  }
+}
+
+/** Moving an element takes the focus away from it; it is given back. */
+function bringForward(part) {
+  const focused = part.getRootNode().activeElement === part;
+  part.parentNode.append(part);
+  if (focused) part.focus({ preventScroll: true });
+}

@@ -1,0 +1,63 @@
+// Renaming in place: an input laid over a box. The name is only proposed; Python decides.
+import { html } from "./svg.js";
+
+export class Rename {
+  constructor(canvas) {
+    this.canvas = canvas;
+    this.key = null;
+    this.input = html("input", { class: "rename", type: "text", spellcheck: "false", hidden: true, "aria-label": "Name" });
+    this.input.addEventListener("keydown", (event) => this.#down(event));
+    this.input.addEventListener("blur", () => this.#close(true));
+    for (const name of ["pointerdown", "keyup", "wheel"]) this.input.addEventListener(name, (event) => event.stopPropagation());
+  }
+
+  start(key) {
+    const node = this.canvas.scene.nodes.get(key);
+    if (!node) return;
+    this.canvas.reveal(key);
+    this.key = key;
+    this.input.value = nameOf(node);
+    this.input.hidden = false;
+    this.follow();
+    this.input.focus({ preventScroll: true });
+    this.input.select();
+  }
+
+  /** Stays on its box while the view moves; closes when the box is gone. */
+  follow() {
+    if (!this.key) return;
+    const node = this.canvas.scene.nodes.get(this.key);
+    if (!node) return this.#close(false);
+    const { viewport } = this.canvas;
+    const at = viewport.toScreen({ x: node.x - node.w / 2, y: node.y - node.h / 2 });
+    const scale = Math.max(0.6, viewport.k);
+    Object.assign(this.input.style, {
+      left: `${at.x}px`,
+      top: `${at.y + (node.h * viewport.k - 36 * scale) / 2}px`,
+      width: `${Math.max(120, node.w * viewport.k)}px`,
+      height: `${36 * scale}px`,
+      fontSize: `${14 * scale}px`,
+    });
+  }
+
+  #down(event) {
+    event.stopPropagation();
+    if (event.key === "Enter") this.#close(true);
+    if (event.key === "Escape") this.#close(false);
+    if (["Enter", "Escape", "Tab"].includes(event.key)) {
+      event.preventDefault();
+      this.canvas.stage.focus({ preventScroll: true });
+    }
+  }
+
+  #close(keep) {
+    if (!this.key) return;
+    const node = this.canvas.scene.nodes.get(this.key);
+    const name = this.input.value.trim();
+    this.key = null;
+    this.input.hidden = true;
+    if (keep && node && name && name !== nameOf(node)) this.canvas.report("rename", { of: node.of, id: node.id, name });
+  }
+}
+
+const nameOf = (node) => (node.of === "states" ? node.data.name : node.data.id);

@@ -1,0 +1,191 @@
+// What Python told us to draw: nodes and edges by key, indexed by place and by pair. No design, no DOM.
+import { Grid } from "./grid.js";
+import { bounds, rectOf } from "./geometry.js";
+import { shorten, textWidth } from "./text.js";
+
+const KINDS = { states: "s:", components: "c:", transitions: "t:", links: "l:", common: "common" };
+const NODE_HEIGHT = 60;
+const COMMON_ID = "@common";
+
+export const keyOf = (of, id) => (of === "common" ? "common" : KINDS[of] + id);
+export const pairOf = (edge) => (edge.source < edge.target ? `${edge.source}\n${edge.target}` : `${edge.target}\n${edge.source}`);
+
+export class Scene {
+  constructor() {
+    this.rev = 0;
+    this.component = "";
+    this.nodes = new Map();
+    this.edges = new Map();
+    this.pairs = new Map();
+    this.edgesAt = new Map();
+    this.nodeGrid = new Grid();
+    this.edgeGrid = new Grid();
+    this.near = new Set();
+    this.linksShown = true;
+  }
+
+  load(view) {
+    for (const store of [this.nodes, this.edges, this.pairs, this.edgesAt, this.nodeGrid, this.edgeGrid]) store.clear();
+    this.rev = view.rev;
+    this.component = view.component;
+    this.doc = view.doc ?? "";
+    this.#upsert(view);
+    if (view.common) this.#putNode("common", COMMON_ID, view.common);
+    this.reindex(this.nodes.keys());
+  }
+
+  /** Takes a difference; answers which keys were touched, which are gone, and the nodes whose edges may run differently. */
+  apply(changes) {
+    this.rev = changes.rev;
+    this.near = new Set();
+    const gone = this.#remove(changes.remove ?? {});
+    const touched = this.#upsert(changes.upsert ?? {});
+    if ("common" in changes) {
+      if (changes.common) touched.push(this.#putNode("common", COMMON_ID, changes.common));
+      else if (this.nodes.has("common")) gone.push(this.#dropNode("common"));
+    }
+    this.reindex(touched.filter((key) => this.nodes.has(key)));
+    return { touched, gone, near: this.near };
+  }
+
+  /** Moves a node without filing it anew; `reindex` does that once the hand lets go. */
+  move(key, x, y) {
+    const node = this.nodes.get(key);
+    if (node) Object.assign(node, { x, y });
+  }
+
+  reindex(keys) {
+    const edges = new Set();
+    for (const key of keys) {
+      this.nodeGrid.putRect(key, rectOf(this.nodes.get(key)));
+      for (const edge of this.edgesAt.get(key) ?? []) edges.add(edge);
+    }
+    for (const key of edges) this.#fileEdge(this.edges.get(key));
+  }
+
+  /** An edge is drawn only when both its ends are there and its kind is shown. */
+  isDrawable(edge) {
+    return this.nodes.has(edge.source) && this.nodes.has(edge.target) && (this.linksShown || edge.of !== "links");
+  }
+
+  edgesOf(nodeKey) {
+    return [...(this.edgesAt.get(nodeKey) ?? [])].map((key) => this.edges.get(key));
+  }
+
+  find(key) {
+    return this.nodes.get(key) ?? this.edges.get(key);
+  }
+
+  /** All nodes under a point, the one drawn last first. */
+  nodeAt(x, y, slack = 0) {
+    const near = [...this.nodeGrid.query({ x, y, w: 0, h: 0 })].map((key) => this.nodes.get(key));
+    return near.reverse().find((node) => Math.abs(x - node.x) <= node.w / 2 + slack && Math.abs(y - node.y) <= node.h / 2 + slack);
+  }
+
+  extent() {
+    return bounds([...this.nodes.values()].map(rectOf));
+  }
+
+  /** A web font changed what texts measure: sizes are taken again. */
+  remeasure() {
+    for (const node of this.nodes.values()) Object.assign(node, sizeOf(node.of, node.data));
+    this.reindex(this.nodes.keys());
+  }
+
+  #upsert(lists) {
+    const touched = [];
+    for (const of of ["states", "components"]) {
+      for (const data of lists[of] ?? []) touched.push(this.#putNode(of, data.id, data));
+    }
+    for (const data of lists.transitions ?? []) touched.push(this.#putEdge(transitionOf(data)));
+    for (const data of lists.links ?? []) touched.push(this.#putEdge(linkOf(data)));
+    return touched;
+  }
+
+  #remove(lists) {
+    const gone = [];
+    for (const of of ["transitions", "links"]) {
+      for (const id of lists[of] ?? []) gone.push(this.#dropEdge(keyOf(of, id)));
+    }
+    for (const of of ["states", "components"]) {
+      for (const id of lists[of] ?? []) gone.push(this.#dropNode(keyOf(of, id)));
+    }
+    return gone;
+  }
+
+  #putNode(of, id, data) {
+    const key = keyOf(of, id);
+    this.near.add(key);
+    this.nodes.set(key, { key, of, id, data, x: data.x, y: data.y, ...sizeOf(of, data) });
+    return key;
+  }
+
+  #dropNode(key) {
+    this.near.add(key);
+    for (const edge of this.edgesOf(key)) this.near.add(edge.source).add(edge.target);
+    this.nodes.delete(key);
+    this.nodeGrid.remove(key);
+    for (const edge of this.edgesAt.get(key) ?? []) this.edgeGrid.remove(edge);
+    return key;
+  }
+
+  #putEdge(edge) {
+    const old = this.edges.get(edge.key);
+    if (old && (old.source !== edge.source || old.target !== edge.target)) this.#unlink(old);
+    this.near.add(edge.source).add(edge.target);
+    this.edges.set(edge.key, edge);
+    member(this.edgesAt, edge.source).add(edge.key);
+    member(this.edgesAt, edge.target).add(edge.key);
+    member(this.pairs, pairOf(edge)).add(edge.key);
+    this.#fileEdge(edge);
+    return edge.key;
+  }
+
+  #dropEdge(key) {
+    const edge = this.edges.get(key);
+    if (edge) this.#unlink(edge);
+    this.edges.delete(key);
+    this.edgeGrid.remove(key);
+    return key;
+  }
+
+  #unlink(edge) {
+    this.near.add(edge.source).add(edge.target);
+    this.edgesAt.get(edge.source)?.delete(edge.key);
+    this.edgesAt.get(edge.target)?.delete(edge.key);
+    this.pairs.get(pairOf(edge))?.delete(edge.key);
+  }
+
+  #fileEdge(edge) {
+    const source = this.nodes.get(edge.source);
+    const target = this.nodes.get(edge.target);
+    if (source && target) this.edgeGrid.putLine(edge.key, source, target);
+  }
+}
+
+/** The texts a node shows and the room they need; widths are multiples of 20 so that both sides meet the grid. */
+export function sizeOf(of, data) {
+  if (of === "common") return { w: 140, h: 40, label: "every state", second: "" };
+  const name = String(of === "states" ? data.name : data.id);
+  const label = shorten(name, "name", 230);
+  const second = of === "components" && data.name !== data.id ? shorten(String(data.name), "small", 200) : "";
+  const room = Math.max(textWidth(label, "name"), textWidth(second, "small")) + (of === "components" ? 64 : 44);
+  return { w: Math.max(120, Math.ceil(room / 20) * 20), h: NODE_HEIGHT, label, second };
+}
+
+function transitionOf(data) {
+  const source = data.source === COMMON_ID ? "common" : keyOf("states", data.source);
+  return { key: keyOf("transitions", data.id), of: "transitions", id: data.id, data, source, target: keyOf("states", data.target) };
+}
+
+function linkOf(data) {
+  const state = keyOf("states", data.state);
+  const component = keyOf("components", data.component);
+  const [source, target] = data.kind === "requires" ? [component, state] : [state, component];
+  return { key: keyOf("links", data.id), of: "links", id: data.id, data, source, target };
+}
+
+function member(map, key) {
+  if (!map.has(key)) map.set(key, new Set());
+  return map.get(key);
+}

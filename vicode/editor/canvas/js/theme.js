@@ -1,0 +1,45 @@
+// Light or dark: what the view says, else NiceGUI's body class, else what the person's system prefers.
+
+export class Theme {
+  constructor(stage, onChange) {
+    this.stage = stage;
+    this.onChange = onChange;
+    this.wish = "auto";
+    this.system = matchMedia("(prefers-color-scheme: dark)");
+    this.refresh = () => this.#refresh();
+    this.system.addEventListener("change", this.refresh);
+    this.observer = new MutationObserver(this.refresh);
+    this.observer.observe(document.body, { attributes: true, attributeFilter: ["class"] });
+    this.#refresh();
+  }
+
+  set(wish) {
+    this.wish = wish ?? "auto";
+    this.#refresh();
+  }
+
+  /** The value of a colour of the style sheet, for bitmaps. */
+  colour(name) {
+    return this.style.getPropertyValue(`--${name}`).trim();
+  }
+
+  dispose() {
+    this.system.removeEventListener("change", this.refresh);
+    this.observer.disconnect();
+  }
+
+  #refresh() {
+    const theme = this.#resolve();
+    this.style = getComputedStyle(this.stage);
+    if (theme === this.stage.dataset.theme) return;
+    this.stage.dataset.theme = theme;
+    this.onChange();
+  }
+
+  #resolve() {
+    if (this.wish !== "auto") return this.wish;
+    if (document.body.classList.contains("body--dark")) return "dark";
+    if (document.body.classList.contains("body--light")) return "light";
+    return this.system.matches ? "dark" : "light";
+  }
+}

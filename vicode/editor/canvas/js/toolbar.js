@@ -1,0 +1,30 @@
+// The zoom and fit buttons in the corner.
+import { html, svg } from "./svg.js";
+
+const ICONS = { plus: "M3 8H13M8 3V13", minus: "M3 8H13", fit: "M2.5 6V2.5H6M10 2.5H13.5V6M13.5 10V13.5H10M6 13.5H2.5V10" };
+
+export class Toolbar {
+  constructor(canvas) {
+    this.zoom = html("button", { class: "zoom", type: "button", title: "Life size (0)" });
+    this.element = html("div", { class: "tools", role: "toolbar", "aria-label": "View" }, [
+      button("plus", "Zoom in (+)", () => canvas.viewport.zoomBy(1.25)),
+      this.zoom,
+      button("minus", "Zoom out (-)", () => canvas.viewport.zoomBy(0.8)),
+      button("fit", "Show everything (1)", () => canvas.fit()),
+    ]);
+    const { viewport } = canvas;
+    this.zoom.addEventListener("click", () => viewport.centreOn(viewport.middle().x, viewport.middle().y, 1));
+    for (const name of ["pointerdown", "pointermove", "dblclick"]) this.element.addEventListener(name, (event) => event.stopPropagation());
+  }
+
+  show(zoom) {
+    this.zoom.textContent = `${Math.round(zoom * 100)}%`;
+  }
+}
+
+function button(icon, title, job) {
+  const picture = svg("svg", { viewBox: "0 0 16 16", "aria-hidden": "true" }, [svg("path", { d: ICONS[icon] })]);
+  const element = html("button", { type: "button", title, "aria-label": title }, [picture]);
+  element.addEventListener("click", job);
+  return element;
+}

@@ -1,0 +1,39 @@
+// The Vue shell NiceGUI loads; the canvas itself lives in the ES modules beside it.
+import { mountCanvas } from "vicode-canvas";
+
+export default {
+  template: `<div class="vicode-canvas"></div>`,
+  mounted() {
+    this.canvas = mountCanvas(this.$el, (event, payload) => this.$emit(event, payload));
+    this.$emit("ready", {});
+  },
+  unmounted() {
+    this.canvas.dispose();
+  },
+  methods: {
+    load(view) {
+      this.canvas.load(view);
+    },
+    apply(changes) {
+      this.canvas.apply(changes);
+    },
+    select(items) {
+      this.canvas.select(items);
+    },
+    centre(of, id) {
+      this.canvas.centre(of, id);
+    },
+    fit() {
+      this.canvas.fit();
+    },
+    setActive(ids, seq) {
+      this.canvas.setActive(ids, seq);
+    },
+    showLinks(flag) {
+      this.canvas.showLinks(flag);
+    },
+    renameInPlace(id) {
+      this.canvas.renameInPlace(id);
+    },
+  },
+};

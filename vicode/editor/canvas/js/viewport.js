@@ -1,0 +1,96 @@
+// Which part of the plane is seen: screen = world * k + (x, y). Moving it never touches the scene.
+const MIN_ZOOM = 0.02;
+const MAX_ZOOM = 4;
+const REST_MS = 140;
+
+export class Viewport {
+  constructor(stage, frame) {
+    this.stage = stage;
+    this.frame = frame;
+    this.k = 1;
+    this.x = 0;
+    this.y = 0;
+    this.width = 0;
+    this.height = 0;
+    this.resting = true;
+    this.onChange = () => {};
+    this.onRest = () => {};
+  }
+
+  /** Takes the room there is; false while the element is hidden. */
+  measure() {
+    this.width = this.stage.clientWidth;
+    this.height = this.stage.clientHeight;
+    return this.width > 0 && this.height > 0;
+  }
+
+  local(event) {
+    const box = this.stage.getBoundingClientRect();
+    return { x: event.clientX - box.left, y: event.clientY - box.top };
+  }
+
+  toWorld(point) {
+    return { x: (point.x - this.x) / this.k, y: (point.y - this.y) / this.k };
+  }
+
+  toScreen(point) {
+    return { x: point.x * this.k + this.x, y: point.y * this.k + this.y };
+  }
+
+  /** What is seen, in world units. */
+  rect() {
+    return { x: -this.x / this.k, y: -this.y / this.k, w: this.width / this.k, h: this.height / this.k };
+  }
+
+  middle() {
+    return this.toWorld({ x: this.width / 2, y: this.height / 2 });
+  }
+
+  set({ x = this.x, y = this.y, k = this.k }) {
+    this.k = Math.min(MAX_ZOOM, Math.max(MIN_ZOOM, k));
+    this.x = x;
+    this.y = y;
+    this.resting = false;
+    this.frame.ask("view", () => this.onChange());
+    this.frame.afterRest("view", REST_MS, () => {
+      this.resting = true;
+      this.onRest();
+    });
+  }
+
+  panBy(dx, dy) {
+    this.set({ x: this.x + dx, y: this.y + dy });
+  }
+
+  /** Zooms so that the world point under a screen point stays there. */
+  zoomAt(point, factor) {
+    const k = Math.min(MAX_ZOOM, Math.max(MIN_ZOOM, this.k * factor));
+    const ratio = k / this.k;
+    this.set({ k, x: point.x - (point.x - this.x) * ratio, y: point.y - (point.y - this.y) * ratio });
+  }
+
+  zoomBy(factor) {
+    this.zoomAt({ x: this.width / 2, y: this.height / 2 }, factor);
+  }
+
+  centreOn(x, y, k = this.k) {
+    this.set({ k, x: this.width / 2 - x * k, y: this.height / 2 - y * k });
+  }
+
+  /** Shows a whole rectangle, never larger than life. */
+  fit(rect) {
+    const margin = Math.min(70, this.width / 10, this.height / 10);
+    const k = Math.min(1, (this.width - 2 * margin) / rect.w, (this.height - 2 * margin) / rect.h);
+    this.centreOn(rect.x + rect.w / 2, rect.y + rect.h / 2, Math.max(MIN_ZOOM, k));
+  }
+
+  /** Pans as little as needed to bring a rectangle into sight. */
+  reveal(rect, margin = 40) {
+    const seen = this.rect();
+    const by = margin / this.k;
+    const push = (low, high, from, to) => (low - by < from ? low - by - from : high + by > to ? high + by - to : 0);
+    const dx = push(rect.x, rect.x + rect.w, seen.x, seen.x + seen.w);
+    const dy = push(rect.y, rect.y + rect.h, seen.y, seen.y + seen.h);
+    if (dx || dy) this.panBy(-dx * this.k, -dy * this.k);
+  }
+}
