@@ -1,0 +1,94 @@
+"""Files against a folder: new, changed, unchanged, stale; written whole or not at all."""
+
+from pathlib import Path
+
+import pytest
+
+from vicode import output
+from vicode.output import OutputFile, Status
+
+HEADER = f"# {output.SIGNATURE} from a.yaml\n"
+
+
+def statuses(files: list[OutputFile], folder: Path, **arguments: list[str]) -> dict[str, Status]:
+    return {each.path: each.status for each in output.compare(files, folder, **arguments)}
+
+
+def write(folder: Path, path: str, text: str) -> Path:
+    file = folder / path
+    file.parent.mkdir(parents=True, exist_ok=True)
+    file.write_text(text, encoding="utf-8")
+    return file
+
+
+def test_every_status_is_told(tmp_path: Path) -> None:
+    write(tmp_path, "p/same.py", HEADER)
+    write(tmp_path, "p/other.py", HEADER + "old\n")
+    write(tmp_path, "p/gone.py", HEADER)
+    files = [OutputFile(path=f"p/{name}.py", text=HEADER) for name in ("same", "other", "fresh")]
+    assert statuses(files, tmp_path) == {
+        "p/fresh.py": Status.NEW,
+        "p/gone.py": Status.STALE,
+        "p/other.py": Status.CHANGED,
+        "p/same.py": Status.UNCHANGED,
+    }
+
+
+def test_only_generated_sources_beside_ours_are_stale(tmp_path: Path) -> None:
+    write(tmp_path, "p/mine.py", "# written by hand\n")
+    write(tmp_path, "p/notes.txt", HEADER)
+    write(tmp_path, "q/other.py", HEADER)
+    write(tmp_path, "p/kept.py", HEADER)
+    files = [OutputFile(path="p/new.py", text=HEADER)]
+    assert statuses(files, tmp_path, keep=["p/kept.py"]) == {"p/new.py": Status.NEW}
+
+
+def test_applying_makes_the_folder_agree(tmp_path: Path) -> None:
+    write(tmp_path, "p/gone.py", HEADER)
+    write(tmp_path, "p/a.py", HEADER + "old\n")
+    files = [OutputFile(path="p/a.py", text=HEADER), OutputFile(path="p/sub/b.py", text=HEADER + "é\n")]
+    touched = output.apply(output.compare(files, tmp_path), tmp_path)
+    assert [path.name for path in touched] == ["a.py", "gone.py", "b.py"]
+    assert set(statuses(files, tmp_path).values()) == {Status.UNCHANGED}
+    assert sorted(path.name for path in tmp_path.rglob("*.*")) == ["a.py", "b.py"]
+
+
+def test_carriage_returns_of_a_checkout_are_no_change(tmp_path: Path) -> None:
+    (tmp_path / "a.py").write_bytes(HEADER.replace("\n", "\r\n").encode())
+    assert statuses([OutputFile(path="a.py", text=HEADER)], tmp_path) == {"a.py": Status.UNCHANGED}
+
+
+def test_the_difference_reads_as_a_diff(tmp_path: Path) -> None:
+    write(tmp_path, "a.py", "one\ntwo\n")
+    (changed,) = output.compare([OutputFile(path="a.py", text="one\nthree\n")], tmp_path)
+    assert output.diff(changed).splitlines() == [
+        "--- a/a.py",
+        "+++ b/a.py",
+        "@@ -1,2 +1,2 @@",
+        " one",
+        "-two",
+        "+three",
+    ]
+
+
+def test_a_failed_write_leaves_the_old_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    file = write(tmp_path, "a.py", "old")
+
+    def fail(_self: Path, _target: Path) -> None:
+        raise OSError("disk full")
+
+    monkeypatch.setattr(Path, "replace", fail)
+    with pytest.raises(OSError, match="disk full"):
+        output.write_atomically(file, "new")
+    assert file.read_text() == "old"
+    assert list(tmp_path.iterdir()) == [file]
+
+
+def test_a_write_keeps_permissions_and_follows_links(tmp_path: Path) -> None:
+    file = write(tmp_path, "a.py", "old")
+    file.chmod(0o640)
+    link = tmp_path / "link.py"
+    link.symlink_to(file)
+    output.write_atomically(link, "new")
+    assert link.is_symlink()
+    assert (file.read_text(), file.stat().st_mode & 0o777) == ("new", 0o640)

@@ -1,0 +1,107 @@
+"""Marks around code: what is wrapped is found again, whatever the code; broken marks are named with their line."""
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from vicode import regions
+
+BODIES = [
+    "x = 1",
+    "if x:\n    y = 2\n\nz = 3",
+    'text = """one\n  two\nthree"""\nprint(text)',
+    "def inner():\n    return 1",
+    "# </vicode>\nx = 1",
+    "# <vicode a 12345678>\nx = 1\n# </vicode>\ny = 2",
+    "x = '",
+    "",
+    "\tif x:\n\t\ty = 1",
+    "    x = 1\n    y = 2",
+]
+
+
+def find_one(text: str) -> regions.Region:
+    found = regions.find(text)
+    assert not found.findings
+    (region,) = found.regions
+    return region
+
+
+@pytest.mark.parametrize("body", BODIES)
+def test_what_is_wrapped_is_found_unedited(body: str) -> None:
+    text = "before\n" + regions.wrap("Kick.enter", body, indent="        ") + "after\n"
+    region = find_one(text)
+    assert (region.id, region.line, region.indent) == ("Kick.enter", 2, "        ")
+    assert not regions.is_edited(region)
+
+
+@given(st.text(st.sampled_from(" \t\r\n#</>vicode\"'\\ab:=()f{}1"), max_size=60))
+def test_any_text_is_found_again_unedited(body: str) -> None:
+    found = regions.find(regions.wrap("a", body, indent="    "))
+    assert found.regions
+    assert not regions.is_edited(found.regions[0])
+
+
+@given(st.text(st.sampled_from(" \n#</>vicode ab12345678"), max_size=80) | st.text())
+def test_any_text_can_be_searched(text: str) -> None:
+    found = regions.find(text)
+    assert regions.find(regions.without_bodies(text)).regions == () or found.regions
+
+
+def test_indentation_does_not_change_strings() -> None:
+    wrapped = regions.wrap("a", 'text = """one\n  two\nthree"""', indent="    ")
+    assert wrapped.splitlines()[1:4] == ['    text = """one', "  two", 'three"""']
+    assert find_one(wrapped).body == 'text = """one\n  two\nthree"""'
+
+
+def test_indented_code_loses_its_margin() -> None:
+    assert find_one(regions.wrap("a", "    x = 1\n      y\n")).body == "x = 1\n  y"
+
+
+def test_an_edit_is_seen() -> None:
+    text = regions.wrap("a", "x = 1", indent="    ")
+    assert regions.is_edited(find_one(text.replace("x = 1", "x = 2")))
+
+
+def test_line_ends_and_blanks_at_them_are_no_edit() -> None:
+    text = regions.wrap("a", "x = 1\ny = 2", indent="    ")
+    assert not regions.is_edited(find_one(text.replace("\n", "  \r\n")))
+
+
+def test_a_definition_keeps_the_distance_formatters_want() -> None:
+    assert regions.wrap("a", "def f():\n    pass").endswith("pass\n\n\n# </vicode>\n")
+    assert regions.wrap("a", "def f():\n    pass", indent="    ").endswith("pass\n\n    # </vicode>\n")
+
+
+@pytest.mark.parametrize(
+    ("text", "line", "message"),
+    [
+        ("# <vicode a 12345678>\nx = 1\n", 1, "no end mark"),
+        ("# <vicode a 12345678>\n# <vicode b 12345678>\n# </vicode>\n", 1, "no end mark"),
+        ("x = 1\n# </vicode>\n", 2, "without its begin"),
+        ("# <vicode a>\n", 1, "cannot be read"),
+        (regions.wrap("a", "x") + regions.wrap("a", "x"), 4, "two regions with the id 'a'"),
+    ],
+)
+def test_broken_marks_are_named(text: str, line: int, message: str) -> None:
+    (finding, *_others) = regions.find(text, file="player.py").findings
+    assert finding.rule.code == "G503"
+    assert message in finding.message
+    assert finding.place is not None
+    assert (finding.place.file, finding.place.line) == ("player.py", line)
+
+
+def test_other_languages_have_other_comments() -> None:
+    text = regions.wrap("a", "int x = 1;", comment="//", indent="  ")
+    assert text == f"  // <vicode a {regions.checksum_of('int x = 1;')}>\n  int x = 1;\n  // </vicode>\n"
+    assert regions.find(text, "//").regions[0].body == "int x = 1;"
+
+
+def test_a_text_without_bodies_keeps_what_stands_around() -> None:
+    one, other = (f"a\n{regions.wrap('r', body)}b\n" for body in ("x = 1", "y = 2\nz = 3"))
+    assert regions.without_bodies(one) == regions.without_bodies(other) != regions.without_bodies(one + "c")
+
+
+def test_defused_text_is_no_mark() -> None:
+    text = "# <vicode a 12345678>\n# </vicode>"
+    assert regions.find(regions.defuse(text)) == regions.Found()
