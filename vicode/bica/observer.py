@@ -7,13 +7,12 @@ from collections.abc import Callable
 from enum import Enum
 from typing import TYPE_CHECKING, Any, Literal, NotRequired, TypedDict
 
-from .component import RESERVED_NAMES, Component
+from .component import Component
 from .timing import replace_step, will_work
 
 if TYPE_CHECKING:
     from .root import Root
 
-Plain = bool | int | float | str | None
 Link = Literal["root", "requires", "modulates"]
 
 
@@ -28,9 +27,9 @@ class StepRecord(TypedDict):
     state_time_ns: int
     changed_from: str | None
     transition: str | None
-    parameters: dict[str, Plain]
+    parameters: dict[str, Any]
     done: bool
-    values: NotRequired[dict[str, Plain]]
+    values: NotRequired[dict[str, Any]]
 
 
 class IterationRecord(TypedDict):
@@ -55,7 +54,7 @@ class Observer:
         self._values = values
         self._tree: list[StepRecord] = []
         self._active: list[str] = []
-        self._modulated: tuple[Component, dict[str, Plain]] | None = None
+        self._modulated: tuple[Component, dict[str, Any]] | None = None
 
     def attach(self, component: Component) -> None:
         """Watch `component` by shadowing its `step` and `modulate` in the instance."""
@@ -65,7 +64,7 @@ class Observer:
 
         def observed_modulate(**parameters: Any) -> None:
             plain_modulate(**parameters)
-            self._modulated = (component, to_plain_values({**defaults, **parameters}))
+            self._modulated = (component, to_plain({**defaults, **parameters}))
 
         component.__dict__["modulate"] = observed_modulate
         replace_step(component, lambda: self._observe_step(component, plain_step))
@@ -113,21 +112,15 @@ class Observer:
         record["state_time_ns"] = component.root.now_ns - component._entered_ns
         record["done"] = component.is_done
         if self._values:
-            public = {name: value for name, value in vars(component).items() if _is_value(name, value)}
-            record["values"] = to_plain_values(public)
+            record["values"] = to_plain(_find_values(component))
 
 
-def to_plain_values(values: dict[str, Any]) -> dict[str, Plain]:
-    """Make values that JSON can say and that are the same in every run."""
-    return {name: _to_plain(value) for name, value in values.items()}
-
-
-def _is_value(name: str, value: object) -> bool:
-    is_public = not name.startswith("_") and name not in RESERVED_NAMES
-    return is_public and (value is None or isinstance(value, bool | int | float | str | Enum))
-
-
-def _to_plain(value: object) -> Plain:
+def to_plain(value: object) -> Any:
+    """Turn a value into what JSON can say and what is the same in every run."""
+    if isinstance(value, dict):
+        return {str(key): to_plain(item) for key, item in value.items()}
+    if isinstance(value, list | tuple):
+        return [to_plain(item) for item in value]
     if isinstance(value, Enum):
         return f"{type(value).__name__}.{value.name}"
     if isinstance(value, float) and not math.isfinite(value):
@@ -135,3 +128,12 @@ def _to_plain(value: object) -> Plain:
     if value is None or isinstance(value, bool | int | float | str):
         return value
     return type(value).__name__
+
+
+def _find_values(component: Component) -> dict[str, object]:
+    """Return the attributes of the design that are plain values; references to other components are none."""
+    return {
+        name: value
+        for name, value in vars(component).items()
+        if not name.startswith("_") and isinstance(value, bool | int | float | str | Enum)
+    }

@@ -44,6 +44,16 @@ class CycleTimes:
         spent_ns = self.last_work_ns - self.first_work_ns
         return (self.count - 1) * 1e9 / spent_ns if spent_ns > 0 else 0.0
 
+    def as_plain(self) -> dict[str, float]:
+        """Return the figures as a record, times in milliseconds."""
+        return {
+            "count": self.count,
+            "mean_ms": self.mean_ns / 1e6,
+            "min_ms": self.min_ns / 1e6,
+            "max_ms": self.max_ns / 1e6,
+            "real_frequency_hz": self.real_frequency_hz,
+        }
+
 
 def measure_steps(component: Component, cycle_times: dict[str, CycleTimes]) -> None:
     """Replace `component.step` by one that fills the component's entry in `cycle_times`."""

@@ -1,0 +1,8 @@
+"""Run a component with `python -m vicode.bica`, or `python -m bica` where the folder was copied."""
+
+import sys
+
+from .run import main
+
+if __name__ == "__main__":
+    sys.exit(main())
