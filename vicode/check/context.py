@@ -1,0 +1,73 @@
+"""What every rule is handed: the design, its project, and the walks that several rules need, done once."""
+
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+
+from vicode.check.graphs import Graphs, graphs_of
+from vicode.check.readings import Expression, read_expressions, reader_of
+from vicode.check.words import words_of
+from vicode.findings import Finding, Note, Path, Span, Thing, rule
+from vicode.model.design import Design
+from vicode.model.expressions import Scope
+from vicode.model.project import Project
+from vicode.model.walks import Located, PlacedAction, PlacedCode, walk_actions, walk_code, walk_decisions
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Context:
+    """A design within its project, read once for all rules."""
+
+    project: Project
+    design: Design
+    scope: Scope
+    graphs: Graphs
+    decisions: tuple[Located, ...]
+    actions: tuple[PlacedAction, ...]
+    codes: tuple[PlacedCode, ...]
+    expressions: tuple[Expression, ...]
+    words: frozenset[str]
+    """All names in hand-written code."""
+
+    def thing(self, path: Path, span: Span | None = None, *, of_key: bool = False) -> Thing:
+        """A thing of this design."""
+        return Thing(component=self.design.component, path=path, span=span, of_key=of_key)
+
+    def find(
+        self,
+        code: str,
+        path: Path,
+        message: str,
+        mend: str = "",
+        *,
+        span: Span | None = None,
+        of_key: bool = False,
+        notes: Iterable[Note] = (),
+    ) -> Finding:
+        """A finding about a thing of this design."""
+        thing = self.thing(path, span, of_key=of_key)
+        return Finding(rule=rule(code), message=message, mend=mend, thing=thing, notes=tuple(notes))
+
+
+def context_of(project: Project, design: Design, graphs: Graphs | None = None) -> Context:
+    """Read a design; it takes the place of the one of the same name in the project."""
+    if not any(each is design for each in project.designs):
+        project = _put_in(project, design)
+        graphs = None
+    reader = reader_of(project, design)
+    decisions, actions, codes = tuple(walk_decisions(design)), tuple(walk_actions(design)), tuple(walk_code(design))
+    return Context(
+        project=project,
+        design=design,
+        scope=reader.scope,
+        graphs=graphs or graphs_of(project),
+        decisions=decisions,
+        actions=actions,
+        codes=codes,
+        expressions=tuple(read_expressions(design, reader, decisions, actions)),
+        words=words_of("\n".join(text for placed in codes for _language, text in placed.code.texts)),
+    )
+
+
+def _put_in(project: Project, design: Design) -> Project:
+    others = tuple(each for each in project.designs if each.component != design.component)
+    return replace(project, designs=(*others, design))

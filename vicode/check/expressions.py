@@ -1,0 +1,95 @@
+"""Rules about expressions: names, types, what may be set, what must be known before the component runs."""
+
+import math
+from collections.abc import Collection, Iterator
+
+from vicode.check.context import Context
+from vicode.check.named import with_article
+from vicode.check.readings import Expression, Place, literal_value
+from vicode.findings import Finding, did_you_mean
+from vicode.model.design import Assign
+from vicode.model.expressions import Done, Kind, Minus, Node, Number, Reading, Time, Variable, walk
+
+
+def find_mistakes(context: Context) -> Iterator[Finding]:
+    """E301 to E306: what the parser finds wrong with an expression."""
+    for expression in context.expressions:
+        for mistake in expression.parsed.mistakes:
+            yield context.find(mistake.rule.code, expression.path, mistake.message, mistake.mend, span=mistake.span)
+
+
+def find_changing_first_values(context: Context) -> Iterator[Finding]:
+    """E308: a first value that is not made of literals, constants and elements."""
+    for expression in context.expressions:
+        if expression.place == Place.FIRST and expression.tree is not None:
+            for message, node in changing_parts(expression.tree):
+                mend = "a first value is made of numbers, constants and enumeration elements"
+                yield context.find("E308", expression.path, message, mend, span=node.span)
+
+
+def changing_parts(tree: Node) -> Iterator[tuple[str, Node]]:
+    """What in an expression is not known before the component runs, each with a message."""
+    for node in walk(tree):
+        match node:
+            case Variable(name=name, kind=kind) if kind != Kind.CONSTANT:
+                yield f"'{name}' is {with_article(kind)}: it has no value yet", node
+            case Time() | Done() | Reading():
+                yield "this is known only while the component runs", node
+            case _:
+                pass
+
+
+def find_bad_times(context: Context) -> Iterator[Finding]:
+    """E309: `after` with something else than seconds from 0 up."""
+    mend = "write seconds, such as after: 2.5; anything else is a guard: state_time >= …"
+    for expression in context.expressions:
+        if expression.place == Place.TIME and expression.is_sound:
+            problem = _time_problem(expression, context)
+            if problem:
+                span = (0, len(expression.text))
+                yield context.find("E309", expression.path, problem, mend, span=span)
+
+
+def _time_problem(expression: Expression, context: Context) -> str:
+    match expression.tree:
+        case Number() | Minus(operand=Number()):
+            pass
+        case Variable(kind=Kind.CONSTANT):
+            pass
+        case _:
+            return "'after' takes a number or a constant"
+    value = literal_value(expression.tree, context.scope)
+    if value is not None and not (value >= 0 and math.isfinite(value)):
+        return f"{value:g} is not a time"
+    return ""
+
+
+def find_wrong_assignments(context: Context) -> Iterator[Finding]:
+    """E303, E307: `set` of something that is not an own variable or output."""
+    settable = {each.name: each for each in (*context.design.variables, *context.design.outputs)}
+    for placed in context.actions:
+        if not isinstance(placed.action, Assign):
+            continue
+        for name, _text in placed.action.values:
+            path = (*placed.path, "set", name)
+            declaration = settable.get(name)
+            if declaration is None:
+                code, message, mend = _explain_not_settable(name, settable, context)
+                yield context.find(code, path, message, mend, of_key=True)
+            elif declaration.arguments is not None:
+                mend = "write its code in 'members'"
+                yield context.find("E307", path, f"'{name}' takes arguments, so it cannot be set", mend, of_key=True)
+
+
+def _explain_not_settable(name: str, settable: Collection[str], context: Context) -> tuple[str, str, str]:
+    symbol = context.scope.symbols.get(name)
+    if symbol is not None:
+        mend = did_you_mean(name, settable, "only own variables and outputs are set; declare one")
+        return "E307", f"'{name}' is {with_article(symbol.kind)}, it cannot be set", mend
+    if name in context.scope.uses:
+        return "E307", f"'{name}' is a used component, it cannot be set", f"call it: call: {name}"
+    mend = did_you_mean(name, settable, f"declare it: variables: {{{name}: 0}}")
+    return "E303", f"'{name}' is not declared", mend
+
+
+RULES = (find_mistakes, find_changing_first_values, find_bad_times, find_wrong_assignments)

@@ -1,0 +1,71 @@
+"""Who uses whom, and who steps whom, among the components of a project."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import networkx as nx
+
+from vicode.findings import Path
+from vicode.model.design import COMMON, Call, Design, State
+from vicode.model.project import Project
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Graphs:
+    """Components as nodes; `uses` and `steps` lead from a design's component to those it names."""
+
+    uses: "nx.DiGraph[str]"
+    steps: "nx.DiGraph[str]"
+
+    def stepped_below(self, component: str) -> set[str]:
+        """All components that may work when this one is stepped, itself left out."""
+        return set(nx.descendants(self.steps, component)) if component in self.steps else set()
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Step:
+    """A place where a design steps a component; `state` is a name or COMMON."""
+
+    state: str
+    alias: str
+    component: str
+    path: Path
+    is_call: bool
+
+
+def graphs_of(project: Project) -> Graphs:
+    """Both graphs; of two designs with one name the first counts."""
+    uses: nx.DiGraph[str] = nx.DiGraph()
+    steps: nx.DiGraph[str] = nx.DiGraph()
+    for design in reversed(project.designs):
+        for graph in (uses, steps):
+            if design.component in graph:
+                graph.remove_edges_from(list(graph.out_edges(design.component)))
+            graph.add_node(design.component)
+        uses.add_edges_from((design.component, use.component) for use in design.uses)
+        steps.add_edges_from({(design.component, step.component) for step in steps_of(design)})
+    return Graphs(uses=uses, steps=steps)
+
+
+def steps_of(design: Design) -> Iterator[Step]:
+    """Every place where a used component is stepped: the common ones, then state by state."""
+    components = {use.alias: use.component for use in reversed(design.uses)}
+    for index, action in enumerate(design.common.actions):
+        if isinstance(action, Call) and action.alias in components:
+            path: Path = ("common", "actions", index, "call")
+            yield Step(state=COMMON, alias=action.alias, component=components[action.alias], path=path, is_call=True)
+    for state in design.states:
+        for alias, place, is_call in _places(state):
+            if alias in components:
+                yield Step(state=state.name, alias=alias, component=components[alias], path=place, is_call=is_call)
+
+
+def _places(state: State) -> Iterator[tuple[str, Path, bool]]:
+    """Aliases in the order they are stepped."""
+    for index, alias in enumerate(state.requires):
+        yield alias, ("states", state.name, "requires", index), False
+    for index, action in enumerate(state.actions):
+        if isinstance(action, Call):
+            yield action.alias, ("states", state.name, "actions", index, "call"), True
+    for call in state.modulates:
+        yield call.alias, ("states", state.name, "modulates", call.alias), True

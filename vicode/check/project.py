@@ -1,0 +1,177 @@
+"""Rules about what a project file declares."""
+
+import re
+from collections import Counter
+from collections.abc import Iterator
+from dataclasses import replace
+
+from vicode.check.declarations import declaration_problems, range_problem
+from vicode.check.expressions import changing_parts
+from vicode.check.named import Named, name_problem, names_of_project, with_article
+from vicode.check.readings import Expression, Reader, literal_value, plain_reader, read_first_values, reader_of
+from vicode.findings import Finding, Note, Path, Span, Thing, did_you_mean, rule
+from vicode.model.design import Declaration
+from vicode.model.expressions import Scope, scope_of
+from vicode.model.names import snake_case
+from vicode.model.project import LANGUAGES, Project
+
+_CLASS_IN_MODULE = re.compile(r"[A-Za-z_]\w*(\.[A-Za-z_]\w*)*:[A-Za-z_]\w*\Z", re.ASCII)
+
+
+def find_bad_names(project: Project) -> Iterator[Finding]:
+    """D404 to D407: names in the project file."""
+    for named in names_of_project(project):
+        problem = name_problem(named, project.languages)
+        if problem:
+            code, message, mend = problem
+            yield _find(code, named.path, message, mend, of_key=True)
+
+
+def find_duplicate_names(project: Project) -> Iterator[Finding]:
+    """D407: one name for two constants, enumerations or elements, or for a type and a component."""
+    known: dict[tuple[Path, str], Named] = {}
+    for named in names_of_project(project):
+        if named.what == "enumeration" and project.interface(named.name):
+            message = f"'{named.name}' is already the name of a component"
+            yield _find("D407", named.path, message, "rename one of them", of_key=True)
+        # Constants and enumerations share one space of names, all others only meet their like.
+        place = () if named.is_shared else named.path[:-1]
+        first = known.setdefault((place, named.name), named)
+        if first is not named and named.what != "hand-written component":
+            note = Note(message="first declared here", thing=Thing(path=first.path, of_key=True))
+            message = f"'{named.name}' is already the name of {with_article(first.what)}"
+            yield _find("D407", named.path, message, "rename one of them", of_key=True, notes=(note,))
+
+
+def find_duplicate_components(project: Project) -> Iterator[Finding]:
+    """P201: two components with one name, or with names that give one file."""
+    written = [interface.component for interface in project.components]
+    for name, count in Counter(written).items():
+        if count > 1:
+            yield _find("P201", ("components", name), f"'{name}' is declared twice", "rename one", of_key=True)
+    designs = Counter(design.component for design in project.designs)
+    files: dict[str, str] = {}
+    for name, count in designs.items():
+        file = files.setdefault(snake_case(name), name)
+        thing = Thing(component=name, path=("component",))
+        notes: tuple[Note, ...] = ()
+        if name in written:
+            message = f"'{name}' is also declared as hand-written"
+            notes = (Note(message="declared here", thing=Thing(path=("components", name), of_key=True)),)
+        elif count > 1:
+            message = f"{count} designs are called '{name}'"
+        elif file != name:
+            message = f"'{name}' and '{file}' would be written to one file"
+        else:
+            continue
+        yield Finding(rule=rule("P201"), message=message, mend="rename one of them", thing=thing, notes=notes)
+
+
+def find_bad_implementations(project: Project) -> Iterator[Finding]:
+    """P203: an implementation or world that does not name a class in a module."""
+    mend = "write module:Class, such as field.perception:Perception"
+    for interface in project.components:
+        path: Path = ("components", interface.component)
+        if not interface.implementation:
+            yield _find("P203", path, f"'{interface.component}' has no implementation", f"add implementation: {mend}")
+        elif not _CLASS_IN_MODULE.match(interface.implementation):
+            message = f"'{interface.implementation}' does not name a class in a module"
+            yield _find("P203", (*path, "implementation"), message, mend)
+    if project.world and not _CLASS_IN_MODULE.match(project.world):
+        yield _find("P203", ("world",), f"'{project.world}' does not name a class in a module", mend)
+
+
+def find_unknown_languages(project: Project) -> Iterator[Finding]:
+    """P204: a language that vicode does not generate."""
+    for index, language in enumerate(project.languages):
+        if language not in LANGUAGES:
+            mend = did_you_mean(language, LANGUAGES, f"known are {', '.join(LANGUAGES)}")
+            yield _find("P204", ("languages", index), f"there is no language '{language}'", mend)
+
+
+def find_unknown_roots(project: Project) -> Iterator[Finding]:
+    """P202: an agent whose root is not a component of the project."""
+    for agent in project.agents:
+        if project.interface(agent.root) is None:
+            mend = did_you_mean(agent.root, project.interfaces(), "add its design")
+            yield _find("P202", ("agents", agent.name, "root"), f"there is no component '{agent.root}'", mend)
+
+
+def find_empty_enumerations(project: Project) -> Iterator[Finding]:
+    """P207: an enumeration without elements."""
+    for enumeration in project.enumerations:
+        if not enumeration.elements:
+            path = ("enumerations", enumeration.name)
+            yield _find("P207", path, f"'{enumeration.name}' has no elements", "add one: [first, second]", of_key=True)
+
+
+def find_bad_frequencies(project: Project) -> Iterator[Finding]:
+    """D416: a hand-written component with a frequency that is not above 0."""
+    for interface in project.components:
+        hertz = interface.frequency_hz
+        if hertz is not None and not 0 < hertz < float("inf"):
+            path = ("components", interface.component, "frequency")
+            yield _find("D416", path, f"{hertz:g} Hz is no frequency", "write a number above 0, or leave it out")
+
+
+def find_bad_declarations(project: Project) -> Iterator[Finding]:
+    """P205, P206, D427, E3: types, ranges and first values of everything declared in the project file."""
+    for declaration, path, reader in _declarations(project):
+        for code, here, message, mend in declaration_problems(declaration, path, reader.scope):
+            yield _find(code, here, message, mend)
+        for expression in read_first_values(declaration, path, reader):
+            yield from _find_bad_first_value(expression, reader.scope)
+
+
+def _find_bad_first_value(expression: Expression, scope: Scope) -> Iterator[Finding]:
+    for mistake in expression.parsed.mistakes:
+        yield _find(mistake.rule.code, expression.path, mistake.message, mistake.mend, span=mistake.span)
+    if expression.tree is None or not expression.is_sound:
+        return
+    mend = "a first value is made of numbers, constants and enumeration elements"
+    for message, node in changing_parts(expression.tree):
+        yield _find("E308", expression.path, message, mend, span=node.span)
+    receiver = expression.receiver
+    message = range_problem(receiver, literal_value(expression.tree, scope)) if receiver else ""
+    if message:
+        yield _find("D427", expression.path, message, "change the value, or the range", span=expression.tree.span)
+
+
+def _declarations(project: Project) -> Iterator[tuple[Declaration, Path, Reader]]:
+    """Every declaration with what it may be made from: a constant from those before it, all others from all of them."""
+    for index, constant in enumerate(project.constants):
+        before = replace(project, constants=project.constants[:index])
+        yield constant, ("constants", constant.name), plain_reader(scope_of(before, None))
+    reader = reader_of(project, None)
+    for interface in project.components:
+        for section in ("parameters", "outputs"):
+            for declaration in getattr(interface, section):
+                yield declaration, ("components", interface.component, section, declaration.name), reader
+
+
+def _find(
+    code: str,
+    path: Path,
+    message: str,
+    mend: str = "",
+    *,
+    span: Span | None = None,
+    of_key: bool = False,
+    notes: tuple[Note, ...] = (),
+) -> Finding:
+    """A finding about a thing of the project file."""
+    thing = Thing(path=path, span=span, of_key=of_key)
+    return Finding(rule=rule(code), message=message, mend=mend, thing=thing, notes=notes)
+
+
+RULES = (
+    find_bad_names,
+    find_duplicate_names,
+    find_duplicate_components,
+    find_bad_implementations,
+    find_unknown_languages,
+    find_unknown_roots,
+    find_empty_enumerations,
+    find_bad_frequencies,
+    find_bad_declarations,
+)

@@ -1,0 +1,100 @@
+"""Rules about who steps what in an iteration: twice, or never although it is read."""
+
+from collections.abc import Callable, Iterable, Iterator
+from functools import cache, partial
+from itertools import combinations
+
+import networkx as nx
+
+from vicode.check.context import Context
+from vicode.check.graphs import Step, steps_of
+from vicode.findings import Finding, Note
+from vicode.model.design import COMMON
+from vicode.model.expressions import Done, Reading, walk
+
+Reach = Callable[[str, str], frozenset[str]]
+
+
+def find_stepped_twice(context: Context) -> Iterator[Finding]:
+    """D425: a component that one state steps twice, itself or through two of those it steps.
+
+    Below the state only components without a frequency count: one that has a frequency works once an iteration,
+    however often it is stepped.
+    """
+    reach = cache(partial(_shared_below, context))
+    by_state: dict[str, list[Step]] = {COMMON: []}
+    for step in steps_of(context.design):
+        by_state.setdefault(step.state, list(by_state[COMMON])).append(step)
+    for state, steps in by_state.items():
+        ordered = sorted(steps, key=lambda step: step.is_call)
+        for component, first, second in _find_twice(ordered, reach):
+            # What the common actions do alone is said once, not for every state again.
+            if state in (first.state, second.state):
+                yield _report_twice(context, component, first, second)
+
+
+def _find_twice(steps: Iterable[Step], reach: Reach) -> Iterator[tuple[str, Step, Step]]:
+    said: set[str] = set()
+    for first, second in combinations(steps, 2):
+        is_direct = first.component == second.component
+        twice = frozenset({first.component}) if is_direct else reach(first.component, second.component)
+        for component in sorted(twice - said):
+            said.add(component)
+            yield component, first, second
+
+
+def _report_twice(context: Context, component: str, first: Step, second: Step) -> Finding:
+    # A common step after a required one is second in time, but the state's own place is where it can be mended.
+    first, second = (second, first) if second.state == COMMON else (first, second)
+    ways = [
+        f"by '{step.alias}'" if step.component == component else f"below '{step.alias}'" for step in (first, second)
+    ]
+    message = f"{component} is stepped twice in an iteration: {ways[0]} and {ways[1]}"
+    if first.component == second.component == component:
+        mend = "step it once"
+    else:
+        mend = "step it in one place, or give it a frequency: it then works once an iteration"
+    note = Note(message="stepped here as well", thing=context.thing(first.path, of_key=_is_key(first)))
+    return context.find("D425", second.path, message, mend, of_key=_is_key(second), notes=[note])
+
+
+def _is_key(step: Step) -> bool:
+    return step.path[-2] == "modulates"
+
+
+def _shared_below(context: Context, first: str, second: str) -> frozenset[str]:
+    """Topmost components without a frequency that stepping either of two components reaches."""
+    graph = context.graphs.steps
+    shared = ({first} | context.graphs.stepped_below(first)) & ({second} | context.graphs.stepped_below(second))
+    working = {component for component in shared if not _has_frequency(context, component)}
+    return frozenset(
+        each for each in working if not any(other != each and _leads(graph, other, each) for other in working)
+    )
+
+
+def _leads(graph: "nx.DiGraph[str]", first: str, second: str) -> bool:
+    return first in graph and second in graph and nx.has_path(graph, first, second)
+
+
+def _has_frequency(context: Context, component: str) -> bool:
+    interface = context.project.interface(component)
+    return interface is None or bool(interface.frequency_hz)
+
+
+def find_never_stepped(context: Context) -> Iterator[Finding]:
+    """D426: reading an output of a component that neither this design steps nor anyone below it."""
+    stepped = {step.component for step in steps_of(context.design)}
+    for component in tuple(stepped):
+        stepped |= context.graphs.stepped_below(component)
+    idle = {use.alias: use.component for use in context.design.uses if use.component not in stepped}
+    if not idle:
+        return
+    for expression in context.expressions:
+        for node in walk(expression.tree) if expression.tree is not None else ():
+            if isinstance(node, Reading | Done) and node.alias in idle:
+                message = f"'{node.alias}' is read, but nothing here steps {idle[node.alias]}"
+                mend = f"add requires: [{node.alias}] to the states that read it"
+                yield context.find("D426", expression.path, message, mend, span=node.span)
+
+
+RULES = (find_stepped_twice, find_never_stepped)
