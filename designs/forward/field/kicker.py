@@ -1,0 +1,37 @@
+"""Kicker: one kick an activation."""
+
+from forward.declarations import Kick, Side
+
+from field.kicks import KICKS
+from field.world import World
+from vicode.bica import Component, Root
+
+
+class Kicker(Component):
+    """Kicks once when it becomes active; `busy` until the leg is down again."""
+
+    frequency_hz = 20.0
+    world: World
+
+    def __init__(self, root: Root) -> None:
+        super().__init__(root)
+        self.busy = False
+        self._kick = Kick.front
+        self._side = Side.left
+        self._is_begun = False
+
+    def restart(self) -> None:
+        """A new activation is a new kick."""
+        self._is_begun = False
+        self.busy = True
+
+    def modulate(self, *, kick: Kick = Kick.front, side: Side = Side.left) -> None:
+        """Which of the six kicks; it counts when the kick begins."""
+        self._kick, self._side = kick, side
+
+    def work(self) -> None:
+        """Begin the kick, then wait for its end."""
+        robot = self.world.robot
+        if not self._is_begun:
+            self._is_begun = robot.kick(KICKS[self._kick.name], is_left=self._side is Side.left)
+        self.busy = robot.swing is not None

@@ -1,0 +1,46 @@
+"""The kick motions: what a leg does to a ball that lies well, less well, or out of its reach."""
+
+from dataclasses import dataclass
+from random import Random
+
+from field.geometry import Point
+
+CONTACT_S = 0.6
+DURATION_S = 1.6
+
+_DIRECTION_NOISE = 3.0
+_SPEED_NOISE = 0.08
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class KickMotion:
+    """A kick with the left leg; the right leg mirrors it.
+
+    `spot` is where the ball lies best, `reach` how far off it may lie, `direction` where it goes (degrees to the left).
+    """
+
+    direction: float
+    speed: float
+    spot: Point
+    reach: float = 75.0
+
+
+KICKS = {
+    "front": KickMotion(direction=0.0, speed=2100.0, spot=Point(165.0, 50.0)),
+    "diagonal": KickMotion(direction=45.0, speed=1900.0, spot=Point(165.0, 60.0)),
+    "lateral": KickMotion(direction=90.0, speed=1600.0, spot=Point(155.0, 80.0)),
+}
+
+
+def kicked_velocity(motion: KickMotion, ball: Point, *, is_left: bool, noise: Random) -> Point | None:
+    """Velocity that a kick gives to a ball at `ball`, both in the robot's directions; None when the leg misses it."""
+    mirror = 1.0 if is_left else -1.0
+    off = Point(ball.x, ball.y * mirror).minus(motion.spot)
+    if off.length > motion.reach:
+        return None
+    # A ball that is not met with the middle of the foot goes slower and glances off to the side it lies on.
+    quality = 1.0 - 0.4 * (off.length / motion.reach) ** 2
+    glance = 12.0 * off.turned(-motion.direction).y / motion.reach
+    direction = motion.direction + glance + noise.gauss(0.0, _DIRECTION_NOISE)
+    speed = motion.speed * quality * (1.0 + noise.gauss(0.0, _SPEED_NOISE))
+    return Point(speed, 0.0).turned(direction * mirror)
