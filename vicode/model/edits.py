@@ -7,6 +7,7 @@ from collections.abc import Callable, Collection, Mapping
 from dataclasses import replace
 
 from vicode.findings import Path
+from vicode.model.aliases import renamed_alias
 from vicode.model.decisions import drop_targets, retarget
 from vicode.model.design import (
     Action,
@@ -167,6 +168,24 @@ def _update_nested(
     return tuple(inside(item) if at == index else item for at, item in enumerate(items))
 
 
+def update_actions(design: Design, path: Path, change: Callable[[tuple[Action, ...]], tuple[Action, ...]]) -> Design:
+    """Replace the actions a path leads to: ("common", "actions") or ("states", name, enter | actions | leave)."""
+    if path[0] == "common":
+        return replace(design, common=replace(design.common, actions=change(design.common.actions)))
+    phase = str(path[2])
+
+    def changed(state: State) -> State:
+        match phase:
+            case "enter":
+                return replace(state, enter=change(state.enter))
+            case "leave":
+                return replace(state, leave=change(state.leave))
+            case _:
+                return replace(state, actions=change(state.actions))
+
+    return update_state(design, str(path[1]), changed)
+
+
 def add_use(design: Design, component: str, at: Point | None = None) -> Design:
     """Use a component under a free alias made of its name."""
     alias = free_name(snake_case(component), {use.alias for use in design.uses})
@@ -192,6 +211,14 @@ def remove_uses(design: Design, aliases: Collection[str]) -> Design:
     return replace(
         design, uses=tuple(use for use in design.uses if use.alias not in aliases), states=states, common=common
     )
+
+
+def rename_use(design: Design, old: str, new: str) -> Design:
+    """Give a used component another alias, in links, calls, expressions and Python code (`self.alias`)."""
+    if old == new or design.use(old) is None or design.use(new) is not None:
+        return design
+    uses = tuple(replace(use, alias=new) if use.alias == old else use for use in design.uses)
+    return renamed_alias(replace(design, uses=uses), old, new)
 
 
 def require(design: Design, state: str, alias: str) -> Design:

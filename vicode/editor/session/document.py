@@ -27,6 +27,7 @@ class Document:
     findings: tuple[Finding, ...] = field(init=False, default=())
     rev: int = field(init=False, default=0)
     _watchers: list[Watcher] = field(init=False, default_factory=list)
+    _typing_in: str = field(init=False, default="")
 
     def __post_init__(self) -> None:
         """Begin with what is on disk."""
@@ -43,16 +44,24 @@ class Document:
         """Whether the file holds the design as it is now."""
         return self.design == self.saved
 
-    def edit(self, label: str, change: Callable[[Design], Design]) -> None:
-        """Change the design; `label` names the edit in the history."""
-        self._become(self.history.then(label, change(self.design)))
+    def edit(self, label: str, change: Callable[[Design], Design], *, typing_in: str = "") -> None:
+        """Change the design; `label` names the edit in the history.
+
+        Edits that follow each other with the same `typing_in` (a field being typed in) are one step of it.
+        """
+        design = change(self.design)
+        goes_on = bool(typing_in) and typing_in == self._typing_in and design != self.design
+        self._become(self.history.replaced(design) if goes_on else self.history.then(label, design))
+        self._typing_in = typing_in
 
     def undo(self) -> None:
         """Take the last edit back."""
+        self._typing_in = ""
         self._become(self.history.undone())
 
     def redo(self) -> None:
         """Do again what undo took back."""
+        self._typing_in = ""
         self._become(self.history.redone())
 
     def mark_saved(self, text: str) -> None:

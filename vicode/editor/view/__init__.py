@@ -1,7 +1,17 @@
 """From a design and its findings to the plain dicts that the canvas draws, and their difference."""
 
 from vicode.editor.view.difference import difference
-from vicode.editor.view.scene import scene_of, transition_key
-from vicode.editor.view.selection import Selected, thing_of_path
+from vicode.editor.view.scene import Scene, guard_label, label_of, scene_of
+from vicode.editor.view.selection import Selected, path_of_key, thing_of_path, transition_key
 
-__all__ = ["Selected", "difference", "scene_of", "thing_of_path", "transition_key"]
+__all__ = [
+    "Scene",
+    "Selected",
+    "difference",
+    "guard_label",
+    "label_of",
+    "path_of_key",
+    "scene_of",
+    "thing_of_path",
+    "transition_key",
+]

@@ -7,7 +7,7 @@ from vicode.findings import Path
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Selected:
-    """A thing that can be selected: `of` is states, transitions, components, common or design; `id` as on the canvas."""
+    """A thing that can be selected: `of` is states, transitions, components, links, common or design."""
 
     of: str
     id: str = ""

@@ -1,0 +1,126 @@
+"""Pure edits: what they change, and that they touch nothing else."""
+
+from vicode.model.design import (
+    COMMON,
+    Call,
+    Common,
+    Design,
+    Group,
+    Guard,
+    State,
+    Stay,
+    Transition,
+    Use,
+)
+from vicode.model.edits import (
+    add_state,
+    add_transition,
+    add_use,
+    free_name,
+    modulate,
+    move,
+    remove_decisions,
+    remove_states,
+    remove_uses,
+    rename_state,
+    rename_use,
+    reorder_decision,
+    replace_decision,
+    require,
+    unlink,
+)
+from vicode.model.walks import decision_at, walk_transitions
+
+TREE = Group(guard=Guard(when="seen"), then=(Transition(to="B"), Stay()), otherwise=(Transition(to="A"),))
+DESIGN = Design(
+    component="Player",
+    initial="A",
+    uses=(Use(alias="head", component="Head"),),
+    common=Common(transitions=(Transition(to="B", guard=Guard(when="head.tired or done(head)")),)),
+    states=(
+        State(name="A", transitions=(Transition(to="B"), TREE), requires=("head",)),
+        State(
+            name="B", transitions=(Transition(to="A"),), actions=(Call(alias="head", arguments=(("pan", "head.pan"),)),)
+        ),
+    ),
+)
+
+
+def targets(design: Design) -> list[tuple[str, str]]:
+    return [(at.source, at.decision.to) for at in walk_transitions(design) if isinstance(at.decision, Transition)]
+
+
+def test_rename_follows_every_way_and_keeps_an_id() -> None:
+    renamed = rename_state(DESIGN, "B", "Back")
+    assert [(state.name, state.id) for state in renamed.states] == [("A", ""), ("Back", "B")]
+    assert targets(renamed) == [(COMMON, "Back"), ("A", "Back"), ("A", "Back"), ("A", "A"), ("Back", "A")]
+    assert rename_state(DESIGN, "A", "First").initial == "First"
+    assert rename_state(DESIGN, "B", "A") == DESIGN
+
+
+def test_renaming_there_and_back_keeps_the_first_id() -> None:
+    there = rename_state(rename_state(DESIGN, "B", "C"), "C", "D")
+    assert there.states[1].id == "B"
+
+
+def test_remove_states_takes_their_transitions_and_finds_another_start() -> None:
+    smaller = remove_states(DESIGN, ["A"])
+    assert smaller.initial == "B"
+    assert targets(smaller) == [(COMMON, "B")]
+    assert targets(remove_states(DESIGN, ["B"])) == [("A", "A")]
+    assert remove_states(DESIGN, ["A", "B"]).initial == ""
+
+
+def test_transitions_get_ids_of_their_own() -> None:
+    twice = add_transition(add_transition(DESIGN, "B", "A"), "B", "A")
+    ids = [at.decision.id for at in walk_transitions(twice) if at.source == "B"]
+    assert ids == ["", "b_to_a", "b_to_a2"]
+    assert targets(add_transition(DESIGN, COMMON, "A"))[1] == (COMMON, "A")
+
+
+def test_decisions_are_replaced_moved_and_removed_inside_groups() -> None:
+    path = ("states", "A", "transitions", 1, "then", 0)
+    changed = replace_decision(DESIGN, path, Stay(doc="wait"))
+    found = decision_at(changed, path)
+    assert found is not None
+    assert found.decision == Stay(doc="wait")
+    moved = reorder_decision(DESIGN, path, 1)
+    assert isinstance(decision_at(moved, path).decision, Stay)  # type: ignore[union-attr]
+    both = remove_decisions(DESIGN, [path, ("states", "A", "transitions", 0)])
+    assert targets(both)[1:] == [("A", "A"), ("B", "A")]
+
+
+def test_many_removals_at_once_do_not_shift_each_other() -> None:
+    state = State(name="A", transitions=tuple(Transition(to="A", doc=str(number)) for number in range(12)))
+    design = Design(component="C", states=(state,))
+    smaller = remove_decisions(design, [("states", "A", "transitions", index) for index in (2, 9, 10, 11)])
+    assert [item.doc for item in smaller.states[0].transitions] == ["0", "1", "3", "4", "5", "6", "7", "8"]
+
+
+def test_uses_and_links() -> None:
+    used = add_use(DESIGN, "Head")
+    assert [use.alias for use in used.uses] == ["head", "head2"]
+    linked = modulate(require(used, "B", "head2"), "A", "head2")
+    assert linked.states[1].requires == ("head2",)
+    assert linked.states[0].modulates == (Call(alias="head2"),)
+    assert modulate(require(linked, "B", "head2"), "A", "head2") == linked
+    assert unlink(linked, "A", "head2", modulates=True).states[0].modulates == ()
+    assert unlink(DESIGN, "B", "head", modulates=True).states[1].actions == ()
+    gone = remove_uses(DESIGN, ["head"])
+    assert (gone.uses, gone.states[0].requires, gone.states[1].actions) == ((), (), ())
+
+
+def test_rename_use_follows_expressions_calls_and_links() -> None:
+    renamed = rename_use(DESIGN, "head", "neck")
+    assert renamed.uses == (Use(alias="neck", component="Head"),)
+    assert renamed.states[0].requires == ("neck",)
+    assert renamed.states[1].actions == (Call(alias="neck", arguments=(("pan", "neck.pan"),)),)
+    assert renamed.common.transitions[0].guard.when == "neck.tired or done(neck)"
+
+
+def test_move_and_names() -> None:
+    moved = move(DESIGN, {"A": (1, 2)}, {"head": (3, 4)}, (5, 6))
+    assert (moved.states[0].at, moved.uses[0].at, moved.common.at) == ((1, 2), (3, 4), (5, 6))
+    assert move(DESIGN, {"Nowhere": (1, 2)}) == DESIGN
+    assert add_state(Design(component="C"), State(name="S")).initial == "S"
+    assert free_name("State", {"State", "State2"}) == "State3"

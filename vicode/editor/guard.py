@@ -1,0 +1,123 @@
+"""The door of the editor's server: who may speak to it, and how much at once.
+
+NiceGUI checks neither Host nor Origin, so that any web page could steer a local editor by DNS rebinding.
+"""
+
+import hmac
+from collections.abc import Collection
+from dataclasses import dataclass
+from http.cookies import CookieError, SimpleCookie
+from urllib.parse import parse_qs, quote, urlencode, urlsplit
+
+from starlette.types import ASGIApp, Message, Receive, Scope, Send
+
+COOKIE = "vicode_token"
+MAXIMUM_BODY = 8_000_000
+_HEADERS = (
+    (b"x-content-type-options", b"nosniff"),
+    (b"x-frame-options", b"DENY"),
+    (b"content-security-policy", b"frame-ancestors 'none'"),
+    (b"referrer-policy", b"no-referrer"),
+)
+
+
+class TooLargeError(Exception):
+    """A request's body grew beyond what any page of ours sends."""
+
+
+@dataclass(eq=False, kw_only=True)
+class Guard:
+    """ASGI middleware. `hosts` are the names the server answers to; None: any, but then a `token` is asked for."""
+
+    app: ASGIApp
+    hosts: Collection[str] | None
+    token: str = ""
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        """Let a request through, or answer 403 (413 for a body that is too large)."""
+        if scope["type"] not in ("http", "websocket"):
+            await self.app(scope, receive, send)
+            return
+        headers = {name.lower(): value.decode("latin-1") for name, value in scope["headers"]}
+        given = self._token_in_query(scope)
+        if not self._is_welcome(scope, headers) or not (self._has_token(headers) or given):
+            await _refuse(scope, send, 403)
+        elif given and scope["type"] == "http" and scope["method"] == "GET":
+            await self._remember_token(scope, send)
+        else:
+            await self._pass_on(scope, receive, send)
+
+    def _is_welcome(self, scope: Scope, headers: dict[bytes, str]) -> bool:
+        host = headers.get(b"host", "")
+        name = urlsplit(f"//{host}").hostname or ""
+        if self.hosts is not None and name not in self.hosts:
+            return False
+        origin = headers.get(b"origin")
+        changes = scope["type"] == "websocket" or scope.get("method") not in ("GET", "HEAD")
+        if origin is None:
+            return True
+        is_socket_path = str(scope["path"]).startswith("/_nicegui_ws")
+        return not (changes or is_socket_path) or urlsplit(origin).netloc == host
+
+    def _has_token(self, headers: dict[bytes, str]) -> bool:
+        if not self.token:
+            return True
+        try:
+            cookie = SimpleCookie(headers.get(b"cookie", "")).get(COOKIE)
+        except CookieError:
+            return False
+        return cookie is not None and hmac.compare_digest(cookie.value.encode(), self.token.encode())
+
+    def _token_in_query(self, scope: Scope) -> bool:
+        if not self.token:
+            return False
+        given = parse_qs(scope["query_string"].decode("latin-1")).get("token", [""])[0]
+        return hmac.compare_digest(given.encode(), self.token.encode())
+
+    async def _remember_token(self, scope: Scope, send: Send) -> None:
+        """Put the token into a cookie and take it out of the address, where others could read it."""
+        query = parse_qs(scope["query_string"].decode("latin-1"))
+        query.pop("token", None)
+        rest = urlencode(query, doseq=True)
+        # A path of two slashes would lead to another host.
+        location = "/" + quote(scope["path"].lstrip("/")) + (f"?{rest}" if rest else "")
+        cookie = f"{COOKIE}={self.token}; Path=/; HttpOnly; SameSite=Strict"
+        headers = [(b"location", location.encode("latin-1")), (b"set-cookie", cookie.encode()), *_HEADERS]
+        await send({"type": "http.response.start", "status": 303, "headers": headers})
+        await send({"type": "http.response.body", "body": b""})
+
+    async def _pass_on(self, scope: Scope, receive: Receive, send: Send) -> None:
+        counted = 0
+
+        async def receive_counted() -> Message:
+            nonlocal counted
+            message = await receive()
+            counted += len(message.get("body", b""))
+            if scope["type"] == "http" and counted > MAXIMUM_BODY:
+                raise TooLargeError
+            return message
+
+        started = False
+
+        async def send_with_headers(message: Message) -> None:
+            nonlocal started
+            if message["type"] == "http.response.start":
+                started = True
+                message = {**message, "headers": [*message.get("headers", []), *_HEADERS]}
+            await send(message)
+
+        try:
+            await self.app(scope, receive_counted, send_with_headers)
+        except TooLargeError:
+            if not started:
+                await _refuse(scope, send, 413)
+
+
+async def _refuse(scope: Scope, send: Send, status: int) -> None:
+    if scope["type"] == "websocket":
+        await send({"type": "websocket.close", "code": 1008})
+        return
+    text = b"vicode does not answer this address or origin; open the URL that 'vicode edit' printed.\n"
+    headers = [(b"content-type", b"text/plain; charset=utf-8"), *_HEADERS]
+    await send({"type": "http.response.start", "status": status, "headers": headers})
+    await send({"type": "http.response.body", "body": text})

@@ -1,0 +1,42 @@
+"""Registers the pages of the editor for one library of designs."""
+
+from urllib.parse import quote
+
+from nicegui import ui
+from starlette.responses import RedirectResponse, Response
+
+from vicode.editor.pages.design_page import DesignPage
+from vicode.editor.pages.look import add_look
+from vicode.editor.session import Library
+
+
+def add_pages(library: Library) -> None:
+    """Serve the designs of a library: `/` leads to the first, `/design/PROJECT/COMPONENT` edits one."""
+
+    @ui.page("/")
+    def home() -> Response | None:
+        first = library.first
+        if first is not None:
+            workspace, component = first
+            return RedirectResponse(f"/design/{quote(workspace.key, safe='')}/{quote(component, safe='')}")
+        _nothing("No designs here yet", f"Write one into {library.path.name}/, for example with: vicode new")
+        return None
+
+    @ui.page("/design/{key}/{component}", title="vicode")
+    def design(key: str, component: str) -> None:
+        workspace = library.workspace(key)
+        document = workspace.document(component) if workspace else None
+        if workspace is None or document is None:
+            _nothing(f"There is no design {component[:80]} here", "It may have been renamed or removed.")
+            return
+        ui.page_title(f"{component} – vicode")
+        DesignPage(library, workspace, document)
+
+
+def _nothing(title: str, hint: str) -> None:
+    ui.dark_mode(None)
+    add_look()
+    with ui.column().classes("nothing"):
+        ui.label(title).classes("dialog-title")
+        ui.label(hint).classes("empty")
+        ui.link("Show the designs", "/")

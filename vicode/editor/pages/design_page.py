@@ -1,0 +1,162 @@
+"""The page that edits a design: canvas in the middle, designs to the left, inspector to the right, findings below."""
+
+from collections.abc import Mapping
+from typing import Any, cast
+from urllib.parse import quote
+
+from nicegui import background_tasks, run, ui
+
+from vicode.editor.canvas import Canvas
+from vicode.editor.canvas.gesture import Gesture, Item
+from vicode.editor.pages.look import add_look
+from vicode.editor.panels.code_panel import CodePanel
+from vicode.editor.panels.designs_list import designs_list
+from vicode.editor.panels.desk import Desk
+from vicode.editor.panels.findings_panel import FindingsPanel
+from vicode.editor.panels.header import Commands, Header
+from vicode.editor.panels.inspector import Inspector
+from vicode.editor.panels.save_dialog import ask_about_disk
+from vicode.editor.session import Document, Library, Workspace, apply_gesture
+from vicode.editor.session.workspace import ChangedOnDiskError
+from vicode.editor.view import Scene, Selected, difference, scene_of
+
+_THEMES = {None: True, True: False, False: None}
+
+
+class DesignPage:
+    """One window on one design; everything in it can be rebuilt from the document."""
+
+    def __init__(self, library: Library, workspace: Workspace, document: Document) -> None:
+        """Build the page for the browser that asks for it."""
+        self.desk = Desk(workspace=workspace, document=document, say=_say, reveal=self._reveal)
+        self.links_shown = True
+        self.dark = ui.dark_mode(None)
+        add_look()
+        with ui.element("div").classes("shell") as shell:
+            commands = Commands(
+                save=self._save, generate=self._generate, toggle_links=self._links, toggle_theme=self._theme
+            )
+            self.header = Header(self.desk, commands)
+            designs_list(library, (workspace.key, document.design.component), _say)
+            with ui.element("main").classes("stage"):
+                self.canvas = Canvas(self._gesture)
+                self.canvas.classes("canvas")
+            self.findings = FindingsPanel(self.desk)
+            with ui.element("aside").classes("side").props('aria-label="Inspector"'):
+                self._side()
+        shell.on("keydown.ctrl.s.prevent", self._save)
+        shell.on("keydown.meta.s.prevent", self._save)
+        self.scene: Scene = self._draw()
+        self.canvas.load(self.scene)
+        self.desk.listen(self._refresh)
+        self._refresh()
+        unwatch = document.watch(lambda _document: self._changed())
+        ui.context.client.on_delete(unwatch)
+
+    def _side(self) -> None:
+        with ui.tabs().props("dense no-caps align=left").classes("side-tabs") as tabs:
+            inspect = ui.tab("Inspect")
+            code = ui.tab("Generated code")
+        with ui.tab_panels(tabs, value=inspect, keep_alive=True).props("animated=false").classes("side-panels"):
+            with ui.tab_panel(inspect):
+                self.inspector = Inspector(self.desk)
+            with ui.tab_panel(code):
+                self.code = CodePanel(self.desk)
+        tabs.on_value_change(lambda event: self.code.show(flag=event.value == "Generated code"))
+
+    def _draw(self) -> Scene:
+        desk = self.desk
+        return scene_of(desk.workspace.project, desk.design, desk.document.findings, desk.document.rev)
+
+    def _changed(self) -> None:
+        scene = self._draw()
+        self.canvas.apply(difference(self.scene, scene))
+        self.scene = scene
+        alive = tuple(thing for thing in self.desk.selected if self._exists(thing))
+        if alive != self.desk.selected:
+            self.desk.selected = alive
+        self.desk.tell()
+
+    def _exists(self, thing: Selected) -> bool:
+        if thing.of in ("design", "common"):
+            return True
+        return any(item["id"] == thing.id for item in self.scene[thing.of]) or (
+            thing.of == "transitions" and self.desk.document.has_decision(thing.id)
+        )
+
+    def _refresh(self) -> None:
+        items = [{"of": thing.of, "id": thing.id} for thing in self.desk.selected if thing.of != "design"]
+        self.canvas.select(cast("list[Item]", items))
+        self.header.refresh()
+        self.findings.refresh()
+        self.inspector.refresh()
+        self.code.refresh()
+
+    def _gesture(self, gesture: Gesture) -> None:
+        payload = cast("Mapping[str, Any]", gesture)
+        match payload["kind"]:
+            case "select":
+                things = (Selected(of=str(item["of"]), id=str(item["id"])) for item in payload["items"])
+                self.desk.select(*things)
+            case "open":
+                self._open(str(payload["of"]), str(payload["id"]))
+            case _:
+                outcome = apply_gesture(self.desk.document, payload)
+                if outcome.refused:
+                    _say(outcome.refused, "warning")
+                    self.canvas.load(self.scene)
+                if outcome.select is not None:
+                    self.desk.select(*outcome.select)
+                if outcome.rename:
+                    self.canvas.rename_in_place(outcome.rename)
+
+    def _open(self, of: str, identity: str) -> None:
+        use = self.desk.design.use(identity) if of == "components" else None
+        if use is None:
+            return
+        if self.desk.workspace.project.design(use.component) is None:
+            _say(f"{use.component} is hand-written: it has no design to open", "info")
+        else:
+            ui.navigate.to(f"/design/{quote(self.desk.workspace.key, safe='')}/{quote(use.component, safe='')}")
+
+    def _reveal(self, thing: Selected) -> None:
+        if any(item["id"] == thing.id for item in self.scene.get(thing.of, ()) or () if isinstance(item, dict)):
+            self.canvas.centre(cast("Any", thing.of), thing.id)
+
+    def _links(self) -> None:
+        self.links_shown = not self.links_shown
+        self.canvas.show_links(self.links_shown)
+
+    def _theme(self) -> None:
+        self.dark.set_value(_THEMES[self.dark.value])
+        words = {None: "Colours follow the system", True: "Dark colours", False: "Light colours"}
+        _say(words[self.dark.value], "info")
+
+    def _save(self) -> bool:
+        try:
+            self.desk.workspace.save(self.desk.document)
+        except ChangedOnDiskError:
+            ask_about_disk(self.desk)
+            return False
+        except OSError as error:
+            _say(f"Not saved: {error.strerror or error}", "negative")
+            return False
+        _say("Saved", "positive")
+        return True
+
+    def _generate(self) -> None:
+        if self.desk.document.is_saved or self._save():
+            background_tasks.create(self._write_code(), name="generate")
+
+    async def _write_code(self) -> None:
+        try:
+            outcome = await run.io_bound(self.desk.workspace.generate, self.desk.document)
+        except OSError as error:
+            _say(f"Not generated: {error.strerror or error}", "negative")
+            return
+        with self.canvas.client:
+            _say(outcome.words, "positive" if outcome.is_sound else "negative")
+
+
+def _say(text: str, kind: str) -> None:
+    ui.notify(text, type=cast("Any", kind), position="bottom", timeout=3500 if kind != "negative" else 8000)

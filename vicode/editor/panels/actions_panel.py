@@ -1,0 +1,178 @@
+"""The ordered actions of a state: assignments, calls of used components, code."""
+
+from collections.abc import Callable
+from dataclasses import replace
+
+from nicegui import ui
+
+from vicode.editor.panels.desk import Desk
+from vicode.editor.panels.fields import Bound, Field, code_field, text_field
+from vicode.editor.panels.rows import row_of_buttons
+from vicode.findings import Path
+from vicode.model.design import Action, Assign, Call, Code, Design, RunCode
+from vicode.model.edits import update_actions
+
+
+def actions_panel(desk: Desk, path: Path, actions: tuple[Action, ...], *, calls: bool = True) -> list[Field]:
+    """Show the actions a path leads to, each editable, with buttons to add, move and remove."""
+    fields: list[Field] = []
+    for index, action in enumerate(actions):
+        with ui.column().classes("card"):
+            with ui.row().classes("card-head"):
+                ui.label(_title(action)).classes("card-title")
+                row_of_buttons(
+                    up=None if index == 0 else _mover(desk, path, index, -1),
+                    down=None if index == len(actions) - 1 else _mover(desk, path, index, 1),
+                    remove=_remover(desk, path, index),
+                )
+            fields += _action_fields(desk, path, index, action)
+    with ui.row().classes("adders"):
+        _adder(desk, path, "Set", "edit_note", lambda: Assign(values=((_first_settable(desk.design), "0"),)))
+        if calls and desk.design.uses:
+            _adder(desk, path, "Call", "call_made", lambda: Call(alias=desk.design.uses[0].alias))
+        _adder(desk, path, "Code", "code", lambda: RunCode(code=python("pass\n")))
+    return fields
+
+
+def python(text: str) -> Code:
+    """A piece of Python code."""
+    return Code(texts=(("python", text),) if text.strip() else ())
+
+
+def with_python(code: Code | None, text: str) -> Code:
+    """The same code with another text in Python; what is written in other languages stays."""
+    others = tuple(pair for pair in (code.texts if code else ()) if pair[0] != "python")
+    return Code(texts=((("python", text), *others) if text.strip() else others))
+
+
+def assignments(text: str) -> tuple[tuple[str, str], ...]:
+    """Lines `name = expression` (or `name: expression`) as pairs."""
+    halves = (line.partition("=" if "=" in line else ":") for line in text.splitlines())
+    return tuple((name.strip(), value.strip()) for name, _sign, value in halves if name.strip())
+
+
+def lines_of(pairs: tuple[tuple[str, str], ...]) -> str:
+    """Pairs as lines `name = expression`."""
+    return "\n".join(f"{name} = {value}" for name, value in pairs)
+
+
+def _title(action: Action) -> str:
+    match action:
+        case Assign():
+            return "Set"
+        case Call(alias=alias):
+            return f"Call {alias}"
+        case RunCode():
+            return "Code"
+
+
+def _action_fields(desk: Desk, path: Path, index: int, action: Action) -> list[Field]:
+    here = (*path, index)
+
+    def read(design: Design) -> Action | None:
+        found = _actions_at(design, path)
+        return found[index] if index < len(found) else None
+
+    def write(make: Callable[[Action, str], Action]) -> Callable[[Design, str], Design]:
+        def change(design: Design, value: str) -> Design:
+            return update_actions(
+                design,
+                path,
+                lambda actions: tuple(make(each, value) if at == index else each for at, each in enumerate(actions)),
+            )
+
+        return change
+
+    match action:
+        case RunCode():
+            bound = Bound(
+                label="Python", path=(*here, "code"), read=lambda design: _code_of(read(design)), write=write(_set_code)
+            )
+            return [code_field(desk, bound)]
+        case Assign():
+            bound = Bound(
+                label="name = expression, a line each",
+                path=(*here, "set"),
+                read=lambda design: _values_of(read(design)),
+                write=write(_set_values),
+            )
+            return [text_field(desk, bound, monospace=True, lines=True)]
+        case Call():
+            bound = Bound(
+                label="parameter = expression, a line each",
+                path=(*here, "with"),
+                read=lambda design: _values_of(read(design)),
+                write=write(_set_values),
+                hint=", ".join(_parameters(desk, action.alias)),
+            )
+            return [text_field(desk, bound, monospace=True, lines=True)]
+
+
+def _parameters(desk: Desk, alias: str) -> list[str]:
+    use = desk.design.use(alias)
+    interface = desk.workspace.project.interface(use.component) if use else None
+    return [parameter.name for parameter in interface.parameters] if interface else []
+
+
+def _actions_at(design: Design, path: Path) -> tuple[Action, ...]:
+    if path[0] == "common":
+        return design.common.actions
+    state = design.state(str(path[1]))
+    actions: tuple[Action, ...] = getattr(state, str(path[2])) if state else ()
+    return actions
+
+
+def _code_of(action: Action | None) -> str:
+    return (action.code.in_language("python") or "") if isinstance(action, RunCode) else ""
+
+
+def _values_of(action: Action | None) -> str:
+    match action:
+        case Assign(values=pairs) | Call(arguments=pairs):
+            return lines_of(pairs)
+        case _:
+            return ""
+
+
+def _set_code(action: Action, text: str) -> Action:
+    return replace(action, code=with_python(action.code, text)) if isinstance(action, RunCode) else action
+
+
+def _set_values(action: Action, text: str) -> Action:
+    pairs = assignments(text)
+    match action:
+        case Assign():
+            return replace(action, values=pairs) if pairs else action
+        case Call():
+            return replace(action, arguments=pairs)
+        case _:
+            return action
+
+
+def _first_settable(design: Design) -> str:
+    settable = [*design.variables, *design.outputs]
+    return settable[0].name if settable else "name"
+
+
+def _adder(desk: Desk, path: Path, label: str, icon: str, make: Callable[[], Action]) -> None:
+    def add() -> None:
+        action = make()
+        desk.edit(f"add {label.lower()}", lambda design: update_actions(design, path, lambda old: (*old, action)))
+
+    ui.button(label, icon=icon, on_click=add).props("flat dense no-caps size=sm")
+
+
+def _mover(desk: Desk, path: Path, index: int, by: int) -> Callable[[], None]:
+    def change(actions: tuple[Action, ...]) -> tuple[Action, ...]:
+        moved = list(actions)
+        moved.insert(index + by, moved.pop(index))
+        return tuple(moved)
+
+    return lambda: desk.edit("move action", lambda design: update_actions(design, path, change))
+
+
+def _remover(desk: Desk, path: Path, index: int) -> Callable[[], None]:
+    def change(actions: tuple[Action, ...]) -> tuple[Action, ...]:
+        return actions[:index] + actions[index + 1 :]
+
+    return lambda: desk.edit("remove action", lambda design: update_actions(design, path, change))

@@ -1,0 +1,45 @@
+"""The code generated from the open design, as it is typed; nothing is written to disk here."""
+
+from nicegui import background_tasks, run, ui
+
+from vicode.editor.panels.desk import Desk
+from vicode.editor.session import preview
+
+
+class CodePanel:
+    """A read-only view of the generated Python."""
+
+    def __init__(self, desk: Desk) -> None:
+        """Build it; it works only while it is shown."""
+        self.desk = desk
+        self.is_shown = False
+        self.shown_rev = -1
+        self.is_busy = False
+        with ui.column().classes("code-panel"):
+            self.note = ui.label().classes("code-note mono")
+            self.editor = ui.codemirror(language="Python", theme="basicLight").classes("preview")
+            self.editor.disable()
+
+    def show(self, *, flag: bool) -> None:
+        """Begin or stop following the design."""
+        self.is_shown = flag
+        self.refresh()
+
+    def refresh(self) -> None:
+        """Generate anew if the design has changed since."""
+        if self.is_shown and not self.is_busy and self.shown_rev != self.desk.document.rev:
+            self.is_busy = True
+            background_tasks.create(self._follow(), name="preview")
+
+    async def _follow(self) -> None:
+        """Generate beside the event loop until the newest design is shown."""
+        try:
+            while self.shown_rev != self.desk.document.rev:
+                self.shown_rev = self.desk.document.rev
+                shown = await run.io_bound(preview.preview_of, self.desk.workspace.project, self.desk.design)
+                if self.editor.is_deleted:
+                    return
+                self.note.set_text(shown.note)
+                self.editor.set_value(shown.text)
+        finally:
+            self.is_busy = False

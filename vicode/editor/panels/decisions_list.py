@@ -1,0 +1,99 @@
+"""The decisions of a state as an ordered, indented list; a click selects one."""
+
+from collections.abc import Callable
+
+from nicegui import ui
+
+from vicode.editor.panels.desk import Desk
+from vicode.editor.panels.rows import row_of_buttons
+from vicode.editor.view import Selected, guard_label, transition_key
+from vicode.findings import Path
+from vicode.model.design import Decision, Group, Guard, Stay, Transition
+from vicode.model.edits import add_transition, items_path, remove_decisions, reorder_decision, update_items
+
+
+def decisions_list(desk: Desk, source: str, path: Path, items: tuple[Decision, ...]) -> None:
+    """Show the decisions a path leads to, with buttons to add, move and remove."""
+    if not items:
+        ui.label("None yet: it stays here.").classes("empty")
+    _rows(desk, path, items)
+    with ui.row().classes("adders"):
+        targets = [state.name for state in desk.design.states]
+        with ui.button("Transition", icon="add").props("flat dense no-caps size=sm"), ui.menu().props("auto-close"):
+            for target in targets:
+                ui.menu_item(f"to {target}", on_click=_connector(desk, source, target)).classes("mono")
+        _adder(desk, path, "Stay", Stay)
+        _adder(desk, path, "Group", lambda: Group(guard=Guard(when="True"), then=(Stay(),)))
+
+
+def _rows(desk: Desk, path: Path, items: tuple[Decision, ...]) -> None:
+    for index, item in enumerate(items):
+        here = (*path, index)
+        thing = Selected(of="transitions", id=transition_key(here))
+        with ui.row().classes("decision-row" + (" is-selected" if desk.only == thing else "")):
+            with ui.element("button").classes("decision").props('type="button"').on("click", _opener(desk, thing)):
+                ui.label(f"{index + 1}").classes("order")
+                ui.label(_target(item)).classes("decision-target")
+                ui.label(guard_label(item.guard) or "always").classes("decision-guard mono")
+            row_of_buttons(
+                up=None if index == 0 else _mover(desk, here, index - 1),
+                down=None if index == len(items) - 1 else _mover(desk, here, index + 1),
+                remove=_remover(desk, here),
+            )
+        if isinstance(item, Group):
+            with ui.column().classes("nested"):
+                _rows(desk, (*here, "then"), item.then)
+                if item.otherwise:
+                    ui.label("else").classes("mono else")
+                    _rows(desk, (*here, "else"), item.otherwise)
+
+
+def _target(item: Decision) -> str:
+    match item:
+        case Transition(to=to):
+            return f"→ {to}"
+        case Stay():
+            return "stay"
+        case Group():
+            return "if"
+
+
+def _opener(desk: Desk, thing: Selected) -> Callable[[], None]:
+    def select() -> None:
+        desk.select(thing)
+        desk.reveal(thing)
+
+    return select
+
+
+def _connector(desk: Desk, source: str, target: str) -> Callable[[], None]:
+    def add() -> None:
+        desk.edit(f"connect {source.lstrip('@')} to {target}", lambda design: add_transition(design, source, target))
+        last = len(getattr(desk.design.state(source) or desk.design.common, "transitions", ())) - 1
+        desk.select(Selected(of="transitions", id=transition_key((*items_path(desk.design, source), last))))
+
+    return add
+
+
+def _adder(desk: Desk, path: Path, label: str, make: Callable[[], Decision]) -> None:
+    def add() -> None:
+        decision = make()
+        desk.edit(f"add {label.lower()}", lambda design: update_items(design, path, lambda items: (*items, decision)))
+
+    ui.button(label, icon="add", on_click=add).props("flat dense no-caps size=sm")
+
+
+def _mover(desk: Desk, path: Path, to_index: int) -> Callable[[], None]:
+    def move() -> None:
+        desk.edit("change the order", lambda design: reorder_decision(design, path, to_index))
+        if desk.only == Selected(of="transitions", id=transition_key(path)):
+            desk.select(Selected(of="transitions", id=transition_key((*path[:-1], to_index))))
+
+    return move
+
+
+def _remover(desk: Desk, path: Path) -> Callable[[], None]:
+    def remove() -> None:
+        desk.edit("remove transition", lambda design: remove_decisions(design, [path]))
+
+    return remove

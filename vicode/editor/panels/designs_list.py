@@ -1,0 +1,64 @@
+"""The list of designs: every project of the folder with its components."""
+
+from collections.abc import Callable
+from urllib.parse import quote
+
+from nicegui import ui
+
+from vicode.editor.panels.rows import icon_button
+from vicode.editor.session import Library, Workspace
+from vicode.model.names import is_name
+
+Say = Callable[[str, str], None]
+
+
+def design_url(workspace: Workspace, component: str) -> str:
+    """Where a design is edited."""
+    return f"/design/{quote(workspace.key, safe='')}/{quote(component, safe='')}"
+
+
+def designs_list(library: Library, here: tuple[str, str], say: Say) -> None:
+    """Show the designs; `here` is the project's key and the component that is open."""
+    with ui.element("nav").classes("designs").props('aria-label="Designs"'):
+        for workspace in library.workspaces:
+            with ui.row().classes("project-head"):
+                ui.label(workspace.project.name).classes("project-name")
+                icon_button("add", f"New design in {workspace.project.name}", _creator(workspace, say))
+            for design in sorted(workspace.project.designs, key=lambda each: each.component.casefold()):
+                is_here = here == (workspace.key, design.component)
+                link = ui.link(target=design_url(workspace, design.component))
+                link.classes("design-link" + (" is-open" if is_here else ""))
+                if is_here:
+                    link.props('aria-current="page"')
+                with link:
+                    ui.label(design.component)
+            for file in workspace.broken:
+                with ui.row().classes("design-link is-broken"):
+                    ui.icon("error")
+                    ui.label(file)
+                    ui.tooltip(f"{file} cannot be read: run 'vicode check' for the places and mends")
+
+
+def _creator(workspace: Workspace, say: Say) -> Callable[[], None]:
+    def ask() -> None:
+        with ui.dialog() as dialog, ui.card().classes("dialog"):
+            ui.label("New design").classes("dialog-title")
+            name = ui.input("Component", placeholder="FollowBall").props("outlined dense stack-label autofocus")
+
+            def create() -> None:
+                wanted = name.value.strip()
+                if not is_name(wanted):
+                    say("A component is named in letters, digits and underscores, such as FollowBall", "warning")
+                elif workspace.project.interface(wanted) is not None:
+                    say(f"There is already a component {wanted}", "warning")
+                else:
+                    workspace.create(wanted)
+                    ui.navigate.to(design_url(workspace, wanted))
+
+            name.on("keydown.enter", create)
+            with ui.row().classes("dialog-buttons"):
+                ui.button("Cancel", on_click=dialog.close).props("flat no-caps")
+                ui.button("Create", on_click=create).props("unelevated no-caps")
+        dialog.open()
+
+    return ask

@@ -1,0 +1,53 @@
+"""A desk: one browser window at work on one design. Panels read it, edit through it, and are told of changes."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+from vicode.editor.session import Document, Workspace
+from vicode.editor.view import Selected
+from vicode.model.design import Design
+
+Listener = Callable[[], None]
+
+
+@dataclass(eq=False, kw_only=True)
+class Desk:
+    """What the panels of one window share: the open design, and what this window has selected."""
+
+    workspace: Workspace
+    document: Document
+    say: Callable[[str, str], None]
+    """Show a short message: text, and one of positive, negative, info, warning."""
+    reveal: Callable[[Selected], None] = field(default=lambda _thing: None)
+    """Bring a thing into the middle of the canvas."""
+    selected: tuple[Selected, ...] = ()
+    _listeners: list[Listener] = field(default_factory=list)
+
+    @property
+    def design(self) -> Design:
+        """The design as it is now."""
+        return self.document.design
+
+    @property
+    def only(self) -> Selected | None:
+        """The one selected thing, None for none or several."""
+        return self.selected[0] if len(self.selected) == 1 else None
+
+    def edit(self, label: str, change: Callable[[Design], Design], *, typing_in: str = "") -> None:
+        """Change the design (all windows follow)."""
+        self.document.edit(label, change, typing_in=typing_in)
+
+    def select(self, *things: Selected) -> None:
+        """Select exactly these."""
+        if self.selected != things:
+            self.selected = things
+            self.tell()
+
+    def listen(self, listener: Listener) -> None:
+        """Call `listener` after every change of the design or the selection."""
+        self._listeners.append(listener)
+
+    def tell(self) -> None:
+        """Bring every panel up to date."""
+        for listener in tuple(self._listeners):
+            listener()

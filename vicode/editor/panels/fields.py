@@ -1,0 +1,141 @@
+"""Form fields that show one value of the design and change it, without disturbing who types in them."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from nicegui import ui
+from nicegui.elements.mixins.disableable_element import DisableableElement
+from nicegui.elements.mixins.value_element import ValueElement
+from nicegui.events import CodeMirrorFocusChangeEventArguments
+
+from vicode.editor.panels.desk import Desk
+from vicode.findings import Path
+from vicode.model.design import Design
+
+Read = Callable[[Design], Any]
+Write = Callable[[Design, Any], Design]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Bound:
+    """What a field shows and changes. `path` leads to the value in the design, for findings and undo labels."""
+
+    label: str
+    read: Read
+    write: Write
+    path: Path = ()
+    hint: str = ""
+
+
+@dataclass(eq=False)
+class Field:
+    """A field on the screen; `refresh` shows the design's value unless somebody is typing in it."""
+
+    desk: Desk
+    bound: Bound
+    element: ValueElement[Any]
+    message: ui.label | None = None
+    has_focus: bool = False
+
+    def __post_init__(self) -> None:
+        """Watch for typing."""
+        self.element.on("focus", lambda: self.focus(has_focus=True))
+        self.element.on("blur", lambda: self.focus(has_focus=False))
+        self.element.on_value_change(lambda event: self._typed(event.value))
+        self.refresh()
+
+    def refresh(self) -> None:
+        """Show what the design holds, and what is wrong with it."""
+        value = self.bound.read(self.desk.design)
+        if not self.has_focus and self.element.value != value:
+            self.element.set_value(value)
+        if self.message is not None:
+            self._show_findings(self.message)
+
+    def focus(self, *, has_focus: bool) -> None:
+        """Note whether somebody is typing here."""
+        self.has_focus = has_focus
+        if not has_focus:
+            self.refresh()
+
+    def _typed(self, value: Any) -> None:
+        if value == self.bound.read(self.desk.design):
+            return
+        write, key = self.bound.write, "/".join(map(str, self.bound.path)) + self.bound.label
+        self.desk.edit(f"edit {self.bound.label}", lambda design: write(design, value), typing_in=key)
+
+    def _show_findings(self, message: ui.label) -> None:
+        path = self.bound.path
+        found = [
+            finding
+            for finding in self.desk.document.findings
+            if path and finding.thing is not None and finding.thing.path[: len(path)] == path
+        ]
+        text = " · ".join(f"{each.message}{f' ({each.mend})' if each.mend else ''}" for each in found)
+        if message.text != text:
+            message.set_text(text)
+            message.set_visibility(bool(text))
+        self.element.classes(add="has-finding" if found else None, remove=None if found else "has-finding")
+
+
+def text_field(desk: Desk, bound: Bound, *, monospace: bool = False, lines: bool = False) -> Field:
+    """A text in a line, or in as many as it needs; its findings stand below."""
+    make = ui.textarea if lines else ui.input
+    with ui.column().classes("field"):
+        element = make(bound.label, placeholder=bound.hint).props("outlined dense stack-label debounce=250")
+        if lines:
+            element.props("autogrow")
+        if monospace:
+            element.classes("mono").props("autocapitalize=off spellcheck=false autocomplete=off")
+        message = ui.label().classes("field-finding")
+        message.set_visibility(False)
+    return Field(desk, bound, element, message)
+
+
+def choice_field(desk: Desk, bound: Bound, options: Sequence[str], *, several: bool = False) -> Field:
+    """One, or several, of the options."""
+    with ui.column().classes("field"):
+        element = ui.select(list(options), label=bound.label, multiple=several, value=[] if several else None)
+        element.props("outlined dense options-dense stack-label" + (" use-chips" if several else ""))
+        message = ui.label().classes("field-finding")
+        message.set_visibility(False)
+    return Field(desk, bound, element, message)
+
+
+def flag_field(desk: Desk, bound: Bound) -> Field:
+    """Yes or no."""
+    return Field(desk, bound, ui.checkbox(bound.label).props("dense"))
+
+
+def code_field(desk: Desk, bound: Bound) -> Field:
+    """Python code, highlighted."""
+    made: list[CodeField] = []
+
+    def focus(event: CodeMirrorFocusChangeEventArguments) -> None:
+        for code in made:
+            code.focus(has_focus=event.focused)
+
+    with ui.column().classes("field"):
+        ui.label(bound.label).classes("field-label")
+        editor = ui.codemirror(language="Python", theme="basicLight", on_focus_change=focus)
+        editor.classes("code-field")
+        message = ui.label().classes("field-finding")
+        message.set_visibility(False)
+    made.append(CodeField(desk, bound, editor, message))
+    return made[0]
+
+
+class CodeField(Field):
+    """A code editor; it tells its focus in a way of its own."""
+
+    def __post_init__(self) -> None:
+        """Watch for typing."""
+        self.element.on_value_change(lambda event: self._typed(event.value))
+        self.refresh()
+
+
+def enable(element: DisableableElement, *, flag: bool) -> None:
+    """Enable or disable a button, only sending what changed."""
+    if element.enabled != flag:
+        element.set_enabled(flag)

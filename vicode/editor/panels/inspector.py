@@ -1,0 +1,55 @@
+"""The panel on the right: a form for what is selected, the design itself if nothing is."""
+
+from nicegui import ui
+
+from vicode.editor.panels.decision_panel import decision_panel
+from vicode.editor.panels.design_panel import common_panel, design_panel
+from vicode.editor.panels.desk import Desk
+from vicode.editor.panels.fields import Field
+from vicode.editor.panels.state_panel import state_panel
+from vicode.editor.panels.use_panel import link_panel, use_panel
+from vicode.editor.session import outline
+from vicode.editor.view import Selected
+
+
+class Inspector:
+    """Builds a form when another thing is selected or its outline changed, else only refreshes the fields."""
+
+    def __init__(self, desk: Desk) -> None:
+        """Build the empty panel; `refresh` fills it."""
+        self.desk = desk
+        self.shape: object = None
+        self.fields: list[Field] = []
+        self.body = ui.column().classes("inspector")
+
+    def refresh(self) -> None:
+        """Show the selected thing as it is now."""
+        shape = (self.desk.selected, outline.outline_of(self.desk.design, self.desk.only))
+        if shape == self.shape:
+            for field in self.fields:
+                field.refresh()
+            return
+        self.shape = shape
+        self.body.clear()
+        with self.body:
+            self.fields = self._build()
+
+    def _build(self) -> list[Field]:
+        desk = self.desk
+        if len(desk.selected) > 1:
+            ui.label(f"{len(desk.selected)} things selected").classes("panel-title")
+            ui.label("Drag them together, or press Delete to remove them.").classes("empty")
+            return []
+        match desk.only:
+            case Selected(of="states", id=name):
+                return state_panel(desk, name)
+            case Selected(of="transitions", id=key):
+                return decision_panel(desk, key)
+            case Selected(of="components", id=alias):
+                return use_panel(desk, alias)
+            case Selected(of="links", id=key):
+                return link_panel(desk, key)
+            case Selected(of="common"):
+                return common_panel(desk)
+            case _:
+                return design_panel(desk)

@@ -1,0 +1,33 @@
+"""Small buttons that stand in rows."""
+
+from collections.abc import Callable
+
+from nicegui import ui
+
+Act = Callable[[], object]
+
+
+def icon_button(icon: str, label: str, act: Act) -> ui.button:
+    """A button with only an icon; `label` is its tip and its name for screen readers."""
+    button = ui.button(icon=icon, on_click=act).props(f'flat dense round size=sm aria-label="{label}"')
+    with button:
+        ui.tooltip(label)
+    return button
+
+
+def row_of_buttons(*, up: Act | None, down: Act | None, remove: Act) -> None:
+    """Buttons to move a row and to remove it; None: at that end already."""
+    with ui.row().classes("row-buttons"):
+        for icon, label, act in (("arrow_upward", "Earlier", up), ("arrow_downward", "Later", down)):
+            button = icon_button(icon, label, act or (lambda: None))
+            if act is None:
+                button.disable()
+        icon_button("close", "Remove", remove)
+
+
+def heading(text: str, *, hint: str = "") -> None:
+    """A heading inside a panel."""
+    with ui.row().classes("heading"):
+        ui.label(text)
+        if hint:
+            ui.label(hint).classes("heading-hint")

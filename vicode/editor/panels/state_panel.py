@@ -1,0 +1,153 @@
+"""The selected state: name, marks, what it requires and modulates, code, and its transitions in order."""
+
+from dataclasses import replace
+from typing import Any
+
+from nicegui import ui
+
+from vicode.editor.panels.actions_panel import actions_panel, assignments, lines_of
+from vicode.editor.panels.decisions_list import decisions_list
+from vicode.editor.panels.desk import Desk
+from vicode.editor.panels.fields import Bound, Field, choice_field, flag_field, text_field
+from vicode.editor.panels.rows import heading
+from vicode.editor.session import apply_gesture
+from vicode.model.design import Call, Design, State
+from vicode.model.edits import update_state
+
+
+def state_panel(desk: Desk, name: str) -> list[Field]:
+    """Build the form of a state; empty if it is gone."""
+    state = desk.design.state(name)
+    if state is None:
+        return []
+    path = ("states", name)
+    _title(desk, name)
+    fields = [
+        text_field(desk, _bound(name, "Doc", "doc"), lines=True),
+        flag_field(desk, _initial(name)),
+        flag_field(desk, _bound(name, "Final: the component is done here", "final")),
+    ]
+    heading("Requires", hint="stepped before, to be read")
+    fields.append(_requires(desk, name))
+    heading("Modulates", hint="steered after the actions")
+    fields += _modulates(desk, state)
+    heading("Transitions", hint="the first that holds is taken")
+    decisions_list(desk, name, (*path, "transitions"), state.transitions)
+    heading("Actions", hint="at each iteration, in order")
+    fields += actions_panel(desk, (*path, "actions"), state.actions)
+    heading("Enter", hint="once, when it is entered")
+    fields += actions_panel(desk, (*path, "enter"), state.enter, calls=False)
+    heading("Leave", hint="once, when it is left")
+    fields += actions_panel(desk, (*path, "leave"), state.leave, calls=False)
+    return fields
+
+
+def _title(desk: Desk, name: str) -> None:
+    """The name changes when Enter is pressed or the field is left, as the whole design follows it."""
+    box = ui.input("State", value=name).props("outlined dense stack-label").classes("mono")
+
+    def rename() -> None:
+        if box.value == name:
+            return
+        outcome = apply_gesture(desk.document, {"kind": "rename", "of": "states", "id": name, "name": box.value})
+        if outcome.refused:
+            desk.say(outcome.refused, "warning")
+            box.set_value(name)
+        elif outcome.select:
+            desk.select(*outcome.select)
+
+    box.on("keydown.enter", rename)
+    box.on("blur", rename)
+
+
+def _bound(name: str, label: str, attribute: str) -> Bound:
+    def read(design: Design) -> Any:
+        state = design.state(name)
+        return getattr(state, attribute) if state else ("" if attribute == "doc" else False)
+
+    return Bound(
+        label=label,
+        path=("states", name, attribute),
+        read=read,
+        write=lambda design, value: update_state(design, name, lambda state: replace(state, **{attribute: value})),
+    )
+
+
+def _initial(name: str) -> Bound:
+    return Bound(
+        label="Initial",
+        path=("initial",),
+        read=lambda design: design.initial == name,
+        write=lambda design, value: replace(design, initial=name) if value else design,
+    )
+
+
+def _requires(desk: Desk, name: str) -> Field:
+    def read(design: Design) -> list[str]:
+        state = design.state(name)
+        return list(state.requires) if state else []
+
+    bound = Bound(
+        label="Components",
+        path=("states", name, "requires"),
+        read=read,
+        write=lambda design, value: update_state(design, name, lambda state: replace(state, requires=tuple(value))),
+    )
+    return choice_field(desk, bound, [use.alias for use in desk.design.uses], several=True)
+
+
+def _modulates(desk: Desk, state: State) -> list[Field]:
+    """One field a call with its parameters, and a choice that adds or removes calls."""
+    name = state.name
+
+    def write(design: Design, value: list[str]) -> Design:
+        def changed(old: State) -> State:
+            known = {call.alias: call for call in old.modulates}
+            return replace(old, modulates=tuple(known.get(alias, Call(alias=alias)) for alias in value))
+
+        return update_state(design, name, changed)
+
+    def read(design: Design) -> list[str]:
+        now = design.state(name)
+        return [call.alias for call in now.modulates] if now else []
+
+    bound = Bound(label="Components", path=("states", name, "modulates"), read=read, write=write)
+    fields = [choice_field(desk, bound, [use.alias for use in desk.design.uses], several=True)]
+    fields += [_parameters(desk, name, call.alias) for call in state.modulates]
+    return fields
+
+
+def _parameters(desk: Desk, name: str, alias: str) -> Field:
+    def call_in(design: Design) -> Call | None:
+        state = design.state(name)
+        return next((call for call in state.modulates if call.alias == alias), None) if state else None
+
+    def write(design: Design, value: str) -> Design:
+        def changed(old: State) -> State:
+            pairs = assignments(value)
+            calls = (replace(call, arguments=pairs) if call.alias == alias else call for call in old.modulates)
+            return replace(old, modulates=tuple(calls))
+
+        return update_state(design, name, changed)
+
+    def read(design: Design) -> str:
+        call = call_in(design)
+        return lines_of(call.arguments) if call else ""
+
+    bound = Bound(
+        label=f"{alias}: parameter = expression",
+        path=("states", name, "modulates", alias),
+        read=read,
+        write=write,
+        hint=parameter_hint(desk, alias),
+    )
+    return text_field(desk, bound, monospace=True, lines=True)
+
+
+def parameter_hint(desk: Desk, alias: str) -> str:
+    """The parameters that a used component takes, with units, for an empty field."""
+    use = desk.design.use(alias)
+    interface = desk.workspace.project.interface(use.component) if use else None
+    if interface is None or not interface.parameters:
+        return "takes no parameters"
+    return ", ".join(f"{each.name}{f' [{each.unit}]' if each.unit else ''}" for each in interface.parameters)

@@ -1,0 +1,71 @@
+"""The selected component: what it shows to this design, and the states that use it."""
+
+from urllib.parse import quote
+
+from nicegui import ui
+
+from vicode.editor.panels.desk import Desk
+from vicode.editor.panels.fields import Field
+from vicode.editor.panels.rows import heading
+from vicode.editor.view import Selected
+from vicode.model.design import Declaration
+from vicode.model.edits import remove_uses, unlink
+
+
+def use_panel(desk: Desk, alias: str) -> list[Field]:
+    """Build the panel of a used component; it has nothing to type in."""
+    use = desk.design.use(alias)
+    if use is None:
+        return []
+    project = desk.workspace.project
+    interface = project.interface(use.component)
+    with ui.row().classes("panel-title"):
+        ui.label("Component")
+        ui.label(use.component).classes("mono")
+    if interface is None:
+        ui.label("Nothing in the project declares it.").classes("field-finding")
+        return []
+    ui.label(interface.doc).classes("doc")
+    if project.design(use.component) is not None:
+        ui.link("Open its design", f"/design/{quote(desk.workspace.key)}/{quote(use.component)}")
+    else:
+        ui.label(f"Hand-written: {interface.implementation}").classes("mono small")
+    heading(f"Outputs, read as {alias}.…")
+    _table(interface.outputs)
+    heading("Parameters")
+    _table(interface.parameters)
+
+    def remove() -> None:
+        desk.edit(f"stop using {alias}", lambda design: remove_uses(design, [alias]))
+        desk.select()
+
+    ui.button("Stop using it", icon="delete", on_click=remove).props("flat dense no-caps color=negative")
+    return []
+
+
+def _table(declarations: tuple[Declaration, ...]) -> None:
+    if not declarations:
+        ui.label("None.").classes("empty")
+    for declaration in declarations:
+        with ui.row().classes("interface-row"):
+            ui.label(declaration.name).classes("mono")
+            ui.label(" ".join(part for part in (declaration.type, declaration.unit) if part)).classes("interface-type")
+            ui.label(declaration.doc).classes("interface-doc")
+
+
+def link_panel(desk: Desk, key: str) -> list[Field]:
+    """Build the panel of a link between a state and a component."""
+    kind, state, alias = key.split("/")
+    with ui.row().classes("panel-title"):
+        ui.label(f"{state} {kind}")
+        ui.label(alias).classes("mono")
+    ui.button("Open the state", on_click=lambda: desk.select(Selected(of="states", id=state))).props(
+        "flat dense no-caps"
+    )
+
+    def remove() -> None:
+        desk.edit(f"{state}: no {alias}", lambda design: unlink(design, state, alias, modulates=kind == "modulates"))
+        desk.select()
+
+    ui.button("Remove", icon="delete", on_click=remove).props("flat dense no-caps color=negative")
+    return []

@@ -1,0 +1,82 @@
+"""Starts the editor's server: one process, this machine only unless told otherwise."""
+
+import os
+import secrets
+import socket
+import tempfile
+from dataclasses import dataclass
+from pathlib import Path
+
+STORAGE = "NICEGUI_STORAGE_PATH"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Address:
+    """Where the editor listens; `token` is asked for when others can reach it."""
+
+    host: str
+    port: int
+    token: str = ""
+
+    @property
+    def url(self) -> str:
+        """What to open in a browser."""
+        name = "127.0.0.1" if self.host in ("0.0.0.0", "::") else self.host  # noqa: S104 - compared, not bound
+        shown = f"[{name}]" if ":" in name else name
+        return f"http://{shown}:{self.port}/" + (f"?token={self.token}" if self.token else "")
+
+
+def choose_address(host: str, port: int | None) -> Address:
+    """Where to listen: `port`, or the first free one from 8321.
+
+    There is a token unless only this machine can connect.
+    """
+    is_local = host in ("127.0.0.1", "localhost", "::1")
+    token = "" if is_local else secrets.token_urlsafe(24)
+    return Address(host=host, port=port if port is not None else _free_port(host), token=token)
+
+
+def serve(path: Path, address: Address, *, open_browser: bool = True) -> None:
+    """Serve the editor on the projects at `path` until it is ended.
+
+    Raises:
+        OSError: The path cannot be read.
+    """
+    # NiceGUI would make its folder in the working directory, which is the user's project.
+    os.environ.setdefault(STORAGE, str(Path(tempfile.gettempdir()) / f"vicode-{os.getuid()}"))
+    from nicegui import app, ui  # noqa: PLC0415 - it reads the environment when imported
+
+    from vicode.editor.guard import Guard  # noqa: PLC0415
+    from vicode.editor.pages.add import add_pages  # noqa: PLC0415
+    from vicode.editor.session import Library  # noqa: PLC0415
+
+    add_pages(Library(path))
+    hosts = ("127.0.0.1", "localhost", "::1") if not address.token else None
+    app.add_middleware(Guard, hosts=hosts, token=address.token)
+    app.on_startup(lambda: print(f"vicode edits {path} at {address.url}  (Ctrl-C ends it)", flush=True))  # noqa: T201
+    ui.run(
+        host=address.host,
+        port=address.port,
+        title="vicode",
+        dark=None,
+        reload=False,
+        show=address.url if open_browser else False,
+        show_welcome_message=False,
+        tailwind=False,
+        reconnect_timeout=60,
+        storage_secret=secrets.token_urlsafe(32),
+        uvicorn_logging_level="warning",
+    )
+
+
+def _free_port(host: str) -> int:
+    family = socket.AF_INET6 if ":" in host else socket.AF_INET
+    for port in range(8321, 8421):
+        with socket.socket(family, socket.SOCK_STREAM) as probe:
+            probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+            try:
+                probe.bind((host, port))
+            except OSError:
+                continue
+            return port
+    return 0

@@ -1,0 +1,8 @@
+"""Open designs: history, edits by gesture, saving and generating. Knows no NiceGUI."""
+
+from vicode.editor.session.document import Document
+from vicode.editor.session.gestures import Outcome, apply_gesture
+from vicode.editor.session.history import History, Step
+from vicode.editor.session.workspace import Workspace
+
+__all__ = ["Document", "History", "Outcome", "Step", "Workspace", "apply_gesture"]

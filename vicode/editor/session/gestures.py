@@ -1,0 +1,208 @@
+"""What a gesture on the canvas does to the open design.
+
+The payloads come from a browser: nothing in them is trusted.
+"""
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from vicode.editor.session.document import Document
+from vicode.editor.view import Selected, path_of_key, transition_key
+from vicode.findings import Path
+from vicode.model.design import COMMON, Design, Point, State, Transition
+from vicode.model.edits import (
+    add_state,
+    add_transition,
+    free_name,
+    items_path,
+    modulate,
+    move,
+    remove_decisions,
+    remove_states,
+    remove_uses,
+    rename_state,
+    replace_decision,
+    require,
+    unlink,
+)
+from vicode.model.names import is_state_name
+from vicode.model.walks import decision_at, walk_decisions
+
+Payload = Mapping[str, Any]
+_FAR = 1_000_000.0
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Outcome:
+    """What follows a gesture: a new selection (None: as it was), words for the user if it was refused."""
+
+    select: tuple[Selected, ...] | None = None
+    refused: str = ""
+    rename: str = ""
+    """The new state whose name the user may type at once."""
+
+
+def apply_gesture(document: Document, payload: Payload) -> Outcome:
+    """Do what a gesture asks for. A payload of another shape than expected does nothing."""
+    handlers: dict[str, Callable[[Document, Payload], Outcome]] = {
+        "move": _move,
+        "connect": _connect,
+        "reconnect": _reconnect,
+        "create": _create,
+        "rename": _rename,
+        "delete": _delete,
+        "link": _link,
+        "undo": _undo,
+        "redo": _redo,
+    }
+    handler = handlers.get(str(payload.get("kind")))
+    if handler is None:
+        return Outcome()
+    try:
+        return handler(document, payload)
+    except (KeyError, TypeError, ValueError, AttributeError):
+        # Only the payload's own shape can raise these here: an old page, or somebody else's script.
+        return Outcome(refused="that gesture was not understood")
+
+
+def new_state(document: Document, at: Point, source: str = "") -> str:
+    """Add a state at a free name; `source` gets a transition to it. Returns its name."""
+    name = free_name("State", {state.name for state in document.design.states})
+
+    def change(design: Design) -> Design:
+        grown = add_state(design, State(name=name, at=at))
+        return add_transition(grown, source, name) if source else grown
+
+    document.edit(f"add state {name}", change)
+    return name
+
+
+def _move(document: Document, payload: Payload) -> Outcome:
+    moved: dict[str, dict[str, Point]] = {"states": {}, "components": {}, "common": {}}
+    for item in payload["items"]:
+        moved[item["of"]][str(item["id"])] = _point(item)
+    common = next(iter(moved["common"].values()), None)
+    count = sum(len(group) for group in moved.values())
+    label = f"move {next(iter(moved['states']), 'component')}" if count == 1 else f"move {count} things"
+    document.edit(label, lambda design: move(design, moved["states"], moved["components"], common))
+    return Outcome()
+
+
+def _connect(document: Document, payload: Payload) -> Outcome:
+    source = _source(document, str(payload["source"]))
+    target = payload.get("target")
+    if target is None:
+        name = new_state(document, _point(payload), source)
+        return Outcome(select=(Selected(of="states", id=name),), rename=name)
+    target = _known_state(document, str(target))
+    document.edit(f"connect {source.lstrip('@')} to {target}", lambda design: add_transition(design, source, target))
+    return Outcome(select=(Selected(of="transitions", id=_last_key(document.design, source)),))
+
+
+def _reconnect(document: Document, payload: Payload) -> Outcome:
+    key, state = str(payload["id"]), _known_state(document, str(payload["state"]))
+    located = decision_at(document.design, path_of_key(key))
+    if located is None or not isinstance(located.decision, Transition):
+        return Outcome(refused="that transition is gone")
+    transition, path = located.decision, located.path
+    if payload["end"] == "target":
+        document.edit(
+            f"lead to {state}",
+            lambda design: replace_decision(design, path, _with_target(transition, state)),
+        )
+        return Outcome()
+    if located.groups:
+        return Outcome(refused="a branch of a decision tree starts where its tree starts")
+    document.edit(f"start from {state}", lambda design: _with_source(design, path, transition, state))
+    return Outcome(select=(Selected(of="transitions", id=_last_key(document.design, state)),))
+
+
+def _create(document: Document, payload: Payload) -> Outcome:
+    name = new_state(document, _point(payload))
+    return Outcome(select=(Selected(of="states", id=name),), rename=name)
+
+
+def _rename(document: Document, payload: Payload) -> Outcome:
+    old, new = _known_state(document, str(payload["id"])), str(payload["name"]).strip()
+    if old == new:
+        return Outcome()
+    if not is_state_name(new):
+        return Outcome(refused=f"'{new[:40]}' is no name: use letters, digits and underscores")
+    if document.design.state(new) is not None:
+        return Outcome(refused=f"there is already a state '{new}'")
+    document.edit(f"rename {old} to {new}", lambda design: rename_state(design, old, new))
+    return Outcome(select=(Selected(of="states", id=new),))
+
+
+def _delete(document: Document, payload: Payload) -> Outcome:
+    named: dict[str, list[str]] = {"states": [], "transitions": [], "components": [], "links": [], "common": []}
+    for item in payload["items"]:
+        named[item["of"]].append(str(item["id"]))
+    paths = [path_of_key(key) for key in named["transitions"]]
+    count = sum(len(ids) for ids in named.values())
+
+    def change(design: Design) -> Design:
+        smaller = remove_decisions(design, paths)
+        for link in named["links"]:
+            kind, state, alias = link.split("/")
+            smaller = unlink(smaller, state, alias, modulates=kind == "modulates")
+        return remove_states(remove_uses(smaller, named["components"]), named["states"])
+
+    document.edit("delete" if count == 1 else f"delete {count} things", change)
+    return Outcome(select=())
+
+
+def _link(document: Document, payload: Payload) -> Outcome:
+    state, alias = _known_state(document, str(payload["state"])), str(payload["component"])
+    if document.design.use(alias) is None:
+        return Outcome(refused=f"'{alias}' is not used here any more")
+    if payload["kind_of_link"] == "requires":
+        document.edit(f"{state} requires {alias}", lambda design: require(design, state, alias))
+    else:
+        document.edit(f"{state} modulates {alias}", lambda design: modulate(design, state, alias))
+    return Outcome()
+
+
+def _undo(document: Document, _payload: Payload) -> Outcome:
+    document.undo()
+    return Outcome()
+
+
+def _redo(document: Document, _payload: Payload) -> Outcome:
+    document.redo()
+    return Outcome()
+
+
+def _with_target(transition: Transition, state: str) -> Transition:
+    return Transition(to=state, guard=transition.guard, doc=transition.doc, id=transition.id)
+
+
+def _with_source(design: Design, path: Path, transition: Transition, state: str) -> Design:
+    smaller = remove_decisions(design, [path])
+    moved = add_transition(smaller, state, transition.to, transition.guard)
+    key = path_of_key(_last_key(moved, state))
+    return replace_decision(moved, key, transition)
+
+
+def _last_key(design: Design, source: str) -> str:
+    where = items_path(design, source)
+    return transition_key(max((at.path for at in walk_decisions(design) if at.path[:-1] == where), default=(*where, 0)))
+
+
+def _point(item: Payload) -> Point:
+    x, y = float(item["x"]), float(item["y"])
+    if not (math.isfinite(x) and math.isfinite(y)) or max(abs(x), abs(y)) > _FAR:
+        raise ValueError("no point of the canvas")
+    return (round(x), round(y))
+
+
+def _source(document: Document, name: str) -> str:
+    return COMMON if name == COMMON else _known_state(document, name)
+
+
+def _known_state(document: Document, name: str) -> str:
+    if document.design.state(name) is None:
+        raise KeyError(name)
+    return name

@@ -1,0 +1,51 @@
+"""All projects below the folder that the editor was opened on."""
+
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from vicode.editor.session.workspace import Workspace
+from vicode.store import find_projects
+
+
+@dataclass(eq=False)
+class Library:
+    """The projects of a folder, or the one project of a design file; `first` is what to open first."""
+
+    path: Path
+    workspaces: list[Workspace] = field(init=False)
+
+    def __post_init__(self) -> None:
+        """Read them all."""
+        folder = self.path if self.path.is_dir() else self.path.parent
+        found = find_projects(self.path)
+        self.workspaces = [Workspace(each, key=_key(each, folder)) for each in found]
+
+    def workspace(self, key: str) -> Workspace | None:
+        """The project of a key."""
+        return next((each for each in self.workspaces if each.key == key), None)
+
+    @property
+    def first(self) -> tuple[Workspace, str] | None:
+        """The design to open first: the file given, else the first agent's root, else any design."""
+        for workspace in self.workspaces:
+            component = workspace.component_of_file(self.path) if self.path.is_file() else None
+            if component:
+                return workspace, component
+        for workspace in self.workspaces:
+            for agent in workspace.project.agents:
+                if workspace.project.design(agent.root) is not None:
+                    return workspace, agent.root
+        for workspace in self.workspaces:
+            for design in workspace.project.designs:
+                return workspace, design.component
+        return None
+
+
+def _key(project: Path, folder: Path) -> str:
+    """A short name of a project in addresses."""
+    inside = project if project.is_dir() else project.parent
+    try:
+        parts = inside.resolve().relative_to(folder.resolve()).parts
+    except ValueError:
+        parts = (inside.name,)
+    return "~".join(parts) or folder.resolve().name

@@ -1,0 +1,45 @@
+"""The outline of a thing: what of it decides which fields its form has, as opposed to what stands in them."""
+
+from collections.abc import Iterable
+
+from vicode.editor.view import Selected, path_of_key
+from vicode.model.design import Action, Call, Decision, Design, Group
+from vicode.model.walks import decision_at
+
+
+def outline_of(design: Design, thing: Selected | None) -> object:
+    """A value that changes exactly when the form of `thing` must be built anew (None: the form of the design)."""
+    uses = tuple((use.alias, use.component) for use in design.uses)
+    names = tuple(state.name for state in design.states)
+    match thing:
+        case Selected(of="states", id=name):
+            state = design.state(name)
+            if state is None:
+                return None
+            phases = (_actions(state.enter), _actions(state.actions), _actions(state.leave))
+            calls = tuple(call.alias for call in state.modulates)
+            return (uses, names, phases, calls, state.transitions)
+        case Selected(of="transitions", id=key):
+            located = decision_at(design, path_of_key(key))
+            return located and (names, located.source, _decision(located.decision))
+        case Selected(of="components" | "links", id=key):
+            return (uses, key)
+        case Selected(of="common"):
+            return (uses, names, _actions(design.common.actions), design.common.transitions)
+        case _:
+            return (uses, names, _declarations(design), _actions(design.common.actions), design.common.transitions)
+
+
+def _actions(actions: Iterable[Action]) -> tuple[tuple[type, str], ...]:
+    return tuple((type(action), action.alias if isinstance(action, Call) else "") for action in actions)
+
+
+def _decision(decision: Decision) -> object:
+    has_code = decision.guard.code is not None
+    if isinstance(decision, Group):
+        return (has_code, decision.then, decision.otherwise)
+    return (type(decision), has_code)
+
+
+def _declarations(design: Design) -> tuple[int, ...]:
+    return (len(design.parameters), len(design.outputs), len(design.variables))
