@@ -1,0 +1,20 @@
+"""The only room that knows YAML: reads designs and projects with all mistakes at once, and patches texts on save."""
+
+from vicode.store.documents import ReadDesign, ReadProject, read_design, read_project_file
+from vicode.store.locating import locate, place_of
+from vicode.store.projects import OpenProject, design_files, find_projects, open_project
+from vicode.store.sources import SourceMap
+
+__all__ = [
+    "OpenProject",
+    "ReadDesign",
+    "ReadProject",
+    "SourceMap",
+    "design_files",
+    "find_projects",
+    "locate",
+    "open_project",
+    "place_of",
+    "read_design",
+    "read_project_file",
+]

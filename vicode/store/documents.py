@@ -1,0 +1,113 @@
+"""Reads the text of a design file or of a project.yaml into the model."""
+
+import re
+from dataclasses import dataclass, replace
+from pathlib import PurePath
+
+from vicode.findings import Finding, Thing, sort_findings
+from vicode.model.design import Design
+from vicode.model.project import Project
+from vicode.store.building import build_design, build_project
+from vicode.store.format import DESIGN, PROJECT
+from vicode.store.lines import Lines, Report
+from vicode.store.nodes import MAXIMUM_BYTES, Tree, parse_tree
+from vicode.store.reading import Read, Reader
+from vicode.store.shapes import Record
+from vicode.store.sources import SourceMap
+
+PROJECT_FILES = ("project.yaml", "project.yml")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ReadDesign:
+    """A design as read; None when nothing could be made of the text. `source` tells where its things stand."""
+
+    design: Design | None
+    source: SourceMap
+    findings: tuple[Finding, ...]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ReadProject:
+    """What a project.yaml declares, without designs; None when nothing could be made of the text."""
+
+    project: Project | None
+    source: SourceMap
+    findings: tuple[Finding, ...]
+
+
+def read_design(text: str | bytes, file: str = "design.yaml") -> ReadDesign:
+    """Read a design with all mistakes at once; what can be kept of a broken one is kept.
+
+    Args:
+        text: The content of the file.
+        file: How findings name the file; a design that does not name its component is called like its stem.
+    """
+    report, root = read_record(text, file, DESIGN)
+    design = None
+    if root is not None and root.value is not None:
+        design = build_design(root.value, PurePath(file).stem)
+    source = SourceMap(file=file, lines=report.lines, root=root)
+    component = design.component if design else ""
+    return ReadDesign(design=design, source=source, findings=_of_component(report.findings, component))
+
+
+def read_project_file(text: str | bytes, file: str = "project.yaml") -> ReadProject:
+    """Read a project.yaml with all mistakes at once; what can be kept of a broken one is kept."""
+    report, root = read_record(text, file, PROJECT)
+    project = None
+    if root is not None and root.value is not None:
+        project = build_project(root.value, default_name(PurePath(file).parent.name))
+    source = SourceMap(file=file, lines=report.lines, root=root)
+    return ReadProject(project=project, source=source, findings=_of_component(report.findings, ""))
+
+
+def default_name(folder: str) -> str:
+    """The name of a project that does not say it: that of its folder, made fit for a name."""
+    name = re.sub(r"\W+", "_", folder, flags=re.ASCII).strip("_")
+    return name if name[:1].isalpha() else f"project_{name}".rstrip("_")
+
+
+def read_record(text: str | bytes, file: str, shape: Record) -> tuple[Report, Read | None]:
+    """Read a whole text as one record; no record when the text is broken as a whole."""
+    decoded = _decode(text)
+    report = Report(lines=Lines(decoded if decoded is not None else "", file))
+    if decoded is None:
+        mend = "save it as UTF-8"
+        report.add("Y110", "the file is not UTF-8 text", (0, 1), mend=mend)
+        return report, None
+    tree = parse_tree(decoded, report)
+    if tree.root is None:
+        if not report.findings:
+            report.add("Y103", "the file is empty", (0, 1), mend="begin with 'vicode: 1'")
+        return report, None
+    root = Reader(report).read(tree.root, shape)
+    return report, _whole(root, tree, report)
+
+
+def _whole(root: Read, tree: Tree, report: Report) -> Read | None:
+    if not tree.is_whole:
+        # What is missing in the part that was read may well stand in the rest.
+        report.findings[:] = [finding for finding in report.findings if finding.rule.code != "Y104"]
+        return None
+    is_known_version = all(finding.rule.code != "Y109" for finding in report.findings)
+    return root if root.value is not None and is_known_version else None
+
+
+def _decode(text: str | bytes) -> str | None:
+    if isinstance(text, str):
+        return text
+    # Only the beginning of a file that is too large is looked at: it is refused by its length.
+    content = text if len(text) <= MAXIMUM_BYTES else text[:MAXIMUM_BYTES] + b" "
+    try:
+        return content.decode("utf-8")
+    except UnicodeDecodeError:
+        return None
+
+
+def _of_component(findings: list[Finding], component: str) -> tuple[Finding, ...]:
+    named = (
+        replace(each, thing=Thing(component=component, path=each.thing.path)) if each.thing is not None else each
+        for each in findings
+    )
+    return sort_findings(named)

@@ -1,0 +1,187 @@
+"""From the model's values to the format's: the way back of `building`."""
+
+from collections.abc import Iterable
+
+from vicode.model.design import (
+    Action,
+    Assign,
+    Call,
+    Code,
+    Decision,
+    Declaration,
+    Design,
+    Guard,
+    RunCode,
+    State,
+    Stay,
+    Transition,
+    Use,
+)
+from vicode.model.project import Agent, Enumeration, Interface, Project
+from vicode.store.format import (
+    ACTION,
+    AGENT,
+    COMMON,
+    CONSTANT,
+    DECISION,
+    DESIGN,
+    ENUMERATION,
+    INTERFACE,
+    OUTPUT,
+    PARAMETER,
+    PROJECT,
+    STATE,
+    USE,
+    VARIABLE,
+    VERSION,
+)
+from vicode.store.shapes import Data, Record, gather
+
+
+def flatten_design(design: Design) -> Data:
+    """A design as the format's value."""
+    return gather(
+        DESIGN,
+        {
+            "vicode": VERSION,
+            "component": design.component,
+            "doc": design.doc,
+            "frequency": design.frequency_hz,
+            "resume": design.resume,
+            "arithmetic": design.arithmetic,
+            "time_unit": design.time_unit,
+            "uses": tuple((use.alias, _use(use)) for use in design.uses),
+            "parameters": _declarations(PARAMETER, "default", design.parameters),
+            "outputs": _declarations(OUTPUT, "initial", design.outputs),
+            "variables": _declarations(VARIABLE, "initial", design.variables),
+            "initial": design.initial,
+            "module": design.module.texts,
+            "members": design.members.texts,
+            "common": gather(
+                COMMON,
+                {
+                    "doc": design.common.doc,
+                    "at": design.common.at,
+                    "actions": _actions(design.common.actions),
+                    "transitions": _decisions(design.common.transitions),
+                },
+            ),
+            "states": tuple((state.name, _state(state)) for state in design.states),
+        },
+    )
+
+
+def flatten_project(project: Project) -> Data:
+    """What project.yaml says of a project, as the format's value."""
+    return gather(
+        PROJECT,
+        {
+            "vicode": VERSION,
+            "project": project.name,
+            "doc": project.doc,
+            "languages": project.languages,
+            "world": project.world,
+            "generated": project.generated,
+            "enumerations": tuple((each.name, _enumeration(each)) for each in project.enumerations),
+            "constants": _declarations(CONSTANT, "value", project.constants),
+            "components": tuple((each.component, _interface(each)) for each in project.components),
+            "agents": tuple((agent.name, _agent(agent)) for agent in project.agents),
+        },
+    )
+
+
+def _use(use: Use) -> Data:
+    return gather(USE, {"component": use.component, "at": use.at})
+
+
+def _agent(agent: Agent) -> Data:
+    return gather(AGENT, {"root": agent.root, "doc": agent.doc})
+
+
+def _enumeration(enumeration: Enumeration) -> Data:
+    return gather(ENUMERATION, {"doc": enumeration.doc, "elements": enumeration.elements})
+
+
+def _interface(interface: Interface) -> Data:
+    return gather(
+        INTERFACE,
+        {
+            "implementation": interface.implementation,
+            "frequency": interface.frequency_hz,
+            "doc": interface.doc,
+            "parameters": _declarations(PARAMETER, "default", interface.parameters),
+            "outputs": _declarations(OUTPUT, "initial", interface.outputs),
+        },
+    )
+
+
+def _declarations(record: Record, value_key: str, declarations: Iterable[Declaration]) -> Data:
+    return tuple((each.name, _declaration(record, value_key, each)) for each in declarations)
+
+
+def _declaration(record: Record, value_key: str, declaration: Declaration) -> Data:
+    arguments = declaration.arguments
+    values: dict[str, Data | None] = {
+        "type": declaration.type,
+        value_key: declaration.initial,
+        "unit": declaration.unit,
+        "range": declaration.range,
+        "doc": declaration.doc,
+        "xabsl_name": declaration.xabsl_name,
+        "arguments": None if arguments is None else _declarations(PARAMETER, "default", arguments),
+    }
+    return gather(record, values)
+
+
+def _state(state: State) -> Data:
+    return gather(
+        STATE,
+        {
+            "id": state.id,
+            "doc": state.doc,
+            "at": state.at,
+            "final": state.final,
+            "requires": state.requires,
+            "modulates": tuple((call.alias, call.arguments) for call in state.modulates),
+            "enter": _actions(state.enter),
+            "actions": _actions(state.actions),
+            "leave": _actions(state.leave),
+            "transitions": _decisions(state.transitions),
+        },
+    )
+
+
+def _actions(actions: Iterable[Action]) -> Data:
+    return tuple(_action(action) for action in actions)
+
+
+def _action(action: Action) -> Data:
+    match action:
+        case Assign(values=values):
+            return gather(ACTION, {"set": values})
+        case Call(alias=alias, arguments=arguments):
+            return gather(ACTION, {"call": alias, "with": arguments})
+        case RunCode(code=code, id=id_):
+            return gather(ACTION, {"code": code.texts, "id": id_})
+
+
+def _decisions(decisions: Iterable[Decision]) -> Data:
+    return tuple(_decision(decision) for decision in decisions)
+
+
+def _decision(decision: Decision) -> Data:
+    values = _guard(decision.guard) | {"doc": decision.doc, "id": decision.id}
+    match decision:
+        case Transition(to=to):
+            values["to"] = to
+        case Stay():
+            values["stay"] = True
+        case _:
+            values["then"] = _decisions(decision.then)
+            values["else"] = _decisions(decision.otherwise)
+    return gather(DECISION, values)
+
+
+def _guard(guard: Guard) -> dict[str, Data | None]:
+    code: Code | None = guard.code
+    return {"when": guard.when, "after": guard.after, "code": None if code is None else code.texts}
