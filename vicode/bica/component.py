@@ -64,10 +64,10 @@ class Component:
     __slots__ = (
         "__dict__",
         "_called",
-        "_changed_from",
         "_current",
         "_entered_ns",
         "_initial",
+        "_left",
         "_period_ns",
         "_started_ns",
         "_states",
@@ -87,7 +87,7 @@ class Component:
         self._states: dict[str, State] = {}
         self._initial = self._current = State("", self.work)
         self._called: list[tuple[Component, dict[str, Any]]] = []
-        self._changed_from: str | None = None
+        self._left: State | None = None
         self._transition: str | None = None
         self._stepped_in = -1
         self._started_ns = self._entered_ns = self._worked_ns = 0
@@ -158,14 +158,14 @@ class Component:
             leave, enter = old.leave, new.enter
             if leave is not None:
                 leave()
-            self._changed_from = old.name
+            self._left = old
             self._transition = transition
             self._current = new
             self.state = name
             self._entered_ns = self.root.now_ns
             if enter is not None:
                 enter()
-            if new.requires != old.requires:
+            if new.requires and new.requires != old.requires:
                 for component in new.requires:
                     if component not in old.requires:
                         component.step()

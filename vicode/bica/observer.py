@@ -81,7 +81,7 @@ class Observer:
         record = self._begin_record(component)
         self._tree.append(record)
         self._active.append(record["component"])
-        component._changed_from = component._transition = None
+        component._left = component._transition = None
         try:
             plain_step()
         finally:
@@ -107,7 +107,7 @@ class Observer:
 
     def _finish_record(self, record: StepRecord, component: Component) -> None:
         record["state"] = component.state
-        record["changed_from"] = component._changed_from
+        record["changed_from"] = component._left.name if component._left is not None else None
         record["transition"] = component._transition
         record["state_time_ns"] = component.root.now_ns - component._entered_ns
         record["done"] = component.is_done
