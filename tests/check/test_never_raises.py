@@ -55,7 +55,7 @@ guards = st.builds(Guard, when=expressions, after=expressions, code=st.none() | 
 floats = st.floats()
 
 
-def _tuples(strategy: "st.SearchStrategy[object]", size: int = 3) -> "st.SearchStrategy[tuple[object, ...]]":
+def _tuples(strategy: "st.SearchStrategy[object]", size: int = 2) -> "st.SearchStrategy[tuple[object, ...]]":
     return st.lists(strategy, max_size=size).map(tuple)
 
 

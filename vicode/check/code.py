@@ -5,19 +5,16 @@ import re
 import textwrap
 import warnings
 from collections.abc import Iterator
+from dataclasses import dataclass
 from functools import lru_cache
 
+from vicode import regions
 from vicode.check.context import Context
 from vicode.findings import Finding, Span, did_you_mean
 from vicode.model.project import LANGUAGES
 
-# What stands before each line of a code, by its role, so that it parses where it will stand.
-_AROUND = {
-    "module": "",
-    "members": "class _:\n pass\n",
-    "action": "def _(self):\n pass\n",
-    "predicate": "def _(self):\n pass\n",
-}
+# The line above a piece of code, by its role: what parses below it, indented if it opens a block, parses in its place.
+_ABOVE = {"module": "pass", "members": "class _:", "action": "def _(self):", "predicate": "def _(self):"}
 
 
 def find_unparsable_code(context: Context) -> Iterator[Finding]:
@@ -27,14 +24,16 @@ def find_unparsable_code(context: Context) -> Iterator[Finding]:
         problem = python_problem(text, placed.role) if text else None
         if problem is not None:
             message, span = problem
-            yield context.find("D412", _path_of(placed.path, len(placed.code.texts), "python"), message, span=span)
+            yield context.find("D412", (*placed.path, "python"), message, span=span)
 
 
 def find_missing_languages(context: Context) -> Iterator[Finding]:
     """D414: an action or predicate without its code in a language of the project."""
     for placed in context.codes:
         written = [language for language, _text in placed.code.texts]
-        missing = [language for language in context.project.languages if language not in written]
+        missing = [
+            language for language in context.project.languages if language in LANGUAGES and language not in written
+        ]
         if missing and placed.role in ("action", "predicate"):
             names = " and ".join(missing)
             yield context.find("D414", placed.path, f"this code is not written in {names}", f"add it in {names}")
@@ -46,7 +45,7 @@ def find_unknown_languages(context: Context) -> Iterator[Finding]:
         for language, _text in placed.code.texts:
             if language not in LANGUAGES:
                 mend = did_you_mean(language, LANGUAGES, f"known are {', '.join(LANGUAGES)}")
-                path = _path_of(placed.path, len(placed.code.texts), language)
+                path = (*placed.path, language)
                 yield context.find("P204", path, f"there is no language '{language}'", mend, of_key=True)
 
 
@@ -57,7 +56,7 @@ def find_empty_predicates(context: Context) -> Iterator[Finding]:
             continue
         for language, text in placed.code.texts:
             if not _without_remarks(text, language).strip():
-                path = _path_of(placed.path, len(placed.code.texts), language)
+                path = (*placed.path, language)
                 mend = "return a condition, or delete 'code' to leave the decision without one"
                 yield context.find("D415", path, "this predicate has no code, so it never holds", mend)
 
@@ -65,51 +64,69 @@ def find_empty_predicates(context: Context) -> Iterator[Finding]:
 @lru_cache(maxsize=20_000)
 def python_problem(text: str, role: str) -> tuple[str, Span] | None:
     """Why a piece of Python cannot stand where its role puts it, with the guilty characters; None when it can."""
-    before = _AROUND.get(role, "")
-    lines = _lines_of(text)
-    straight = textwrap.dedent("\n".join(lines)).split("\n")
-    source = before + "\n".join((" " if before and line else "") + line for line in straight) + "\n"
+    stray = re.search(r"\r(?!\n)", text)
+    if stray:
+        return "this contains a carriage return", stray.span()
+    marks = regions.find(text) if "vicode" in text else regions.Found()
+    if marks.regions or marks.findings:
+        return "this contains a mark of generated files", (0, len(text))
+    copy = _Copy.of(text, _ABOVE.get(role, "pass"))
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
-            tree = ast.parse(source)
+            tree = ast.parse(copy.source)
             compile(tree, "<code>", "exec", dont_inherit=True)
     except SyntaxError as error:
-        line, column = (error.lineno or 1) - 1 - before.count("\n"), (error.offset or 1) - 1 - bool(before)
-        return _reworded(error.msg), _span(lines, straight, line, column)
+        return _reworded(error.msg), copy.span(error.lineno or 1, (error.offset or 1) - 1)
     except (ValueError, RecursionError, MemoryError, OverflowError) as error:
         return f"this cannot be read as Python: {error}", (0, len(text))
-    if before and len(tree.body) > 1:
-        return "this ends the function it stands in", (0, len(text))
-    return _generator_problem(tree, lines, straight, before)
+    found = _find_yield(tree.body[0]) if role in ("action", "predicate") else None
+    return ("with 'yield' this would never run", copy.span(found.lineno, found.col_offset)) if found else None
 
 
-def _generator_problem(tree: ast.Module, lines: list[str], straight: list[str], before: str) -> tuple[str, Span] | None:
-    """A `yield` makes a generator of the function, which then never runs."""
-    waiting: list[ast.AST] = list(tree.body[:1]) if before.startswith("def") else []
-    body: list[ast.AST] = [child for node in waiting for child in ast.iter_child_nodes(node)]
-    while body:
-        node = body.pop()
+def _find_yield(function: ast.stmt) -> ast.Yield | ast.YieldFrom | None:
+    """A `yield` that would make a generator of a function."""
+    waiting: list[ast.AST] = [function]
+    while waiting:
+        node = waiting.pop()
         if isinstance(node, ast.Yield | ast.YieldFrom):
-            line, column = node.lineno - 1 - before.count("\n"), node.col_offset - 1
-            return "with 'yield' this would never run", _span(lines, straight, line, column)
-        if not isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef | ast.Lambda | ast.ClassDef):
-            body += ast.iter_child_nodes(node)
+            return node
+        is_inner = isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef | ast.Lambda) and node is not function
+        waiting += () if is_inner else ast.iter_child_nodes(node)
     return None
 
 
-def _lines_of(text: str) -> list[str]:
-    """Lines as Python counts them, every character kept at its place."""
-    return text.replace("\r\n", " \n").replace("\r", "\n").split("\n")
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Copy:
+    """A piece of code as it will stand in a file: below a line, without its margin, indented if that opens a block."""
 
+    lines: tuple[str, ...]
+    straight: tuple[str, ...]
+    above: str
 
-def _span(lines: list[str], straight: list[str], line: int, column: int) -> Span:
-    """One character of a text, from the line and column Python names in the copy without its margin."""
-    line = max(0, min(line, len(lines) - 1))
-    margin = max(0, len(lines[line]) - len(straight[line])) if line < len(straight) else 0
-    column = max(0, min(column + margin, len(lines[line]) - 1))
-    start = sum(len(each) + 1 for each in lines[:line]) + column
-    return (start, start + 1)
+    @staticmethod
+    def of(text: str, above: str) -> "_Copy":
+        # The blank keeps every character at its place.
+        lines = text.replace("\r\n", " \n").split("\n")
+        straight = textwrap.dedent("\n".join(lines)).split("\n")
+        return _Copy(lines=tuple(lines), straight=tuple(straight), above=above)
+
+    @property
+    def indent(self) -> str:
+        return " " if self.above.endswith(":") else ""
+
+    @property
+    def source(self) -> str:
+        # With `pass` on the second line a code of remarks only is a body, too.
+        return "\n".join((self.above, f"{self.indent}pass", *(self.indent + line for line in self.straight), ""))
+
+    def span(self, lineno: int, column: int) -> Span:
+        """One character of the text, from the line (counted from 1) and column that Python names in the source."""
+        line = max(0, min(lineno - 3, len(self.lines) - 1))
+        margin = max(0, len(self.lines[line]) - len(self.straight[line]))
+        column = max(0, min(column - len(self.indent) + margin, len(self.lines[line]) - 1))
+        start = sum(len(each) + 1 for each in self.lines[:line]) + column
+        return (start, start + 1)
 
 
 def _reworded(message: str) -> str:
@@ -119,11 +136,6 @@ def _reworded(message: str) -> str:
 def _without_remarks(text: str, language: str) -> str:
     pattern = r"#.*" if language == "python" else r"//.*|/\*(?s:.*?)\*/"
     return re.sub(pattern, "", text)
-
-
-def _path_of(path: tuple[str | int, ...], texts: int, language: str) -> tuple[str | int, ...]:
-    """A lone text stands at `code` itself, one of several under its language."""
-    return path if texts == 1 and language == "python" else (*path, language)
 
 
 RULES = (find_unparsable_code, find_missing_languages, find_unknown_languages, find_empty_predicates)

@@ -21,6 +21,12 @@ class Graphs:
         """All components that may work when this one is stepped, itself left out."""
         return set(nx.descendants(self.steps, component)) if component in self.steps else set()
 
+    def is_in_circle(self, component: str) -> bool:
+        """Whether stepping a component comes back to it, which is a mistake of its own."""
+        return component in self.steps and any(
+            nx.has_path(self.steps, following, component) for following in self.steps.successors(component)
+        )
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Step:

@@ -8,10 +8,11 @@ from vicode.check.keywords import KEYWORDS, SHOWN
 from vicode.findings import Path
 from vicode.model.design import Declaration, Design
 from vicode.model.expressions import FUNCTIONS
-from vicode.model.names import is_name, is_state_name, snake_case
+from vicode.model.names import is_name, is_state_name
 from vicode.model.project import Project
 
 _MEMBERS = {"alias", "parameter", "output", "variable"}
+_WITH_SELF = {*_MEMBERS, "argument"}
 _TIMES = frozenset({"state_time", "component_time"})
 _OWN_WORDS = {
     **dict.fromkeys(FUNCTIONS, "a function of expressions"),
@@ -57,7 +58,7 @@ def names_of_project(project: Project) -> Iterator[Named]:
         path: Path = ("enumerations", enumeration.name)
         yield Named(name=enumeration.name, what="enumeration", path=path, is_shared=True)
         for element in enumeration.element_names:
-            yield Named(name=element, what="element", path=(*path, element))
+            yield Named(name=element, what="element", path=(*path, "elements", element))
     for constant in project.constants:
         yield from _declared(constant, "constant", ("constants", constant.name), is_shared=True)
     for interface in project.components:
@@ -97,11 +98,9 @@ def _shape_problem(named: Named) -> Problem | None:
 def _reserved_problem(named: Named) -> Problem | None:
     name, what = named.name, named.what
     mend = f"choose another name, such as {name}_value"
-    is_member = what in _MEMBERS and name in RESERVED_NAMES
-    if is_member or name == "self" or (what == "constant" and name == "super") or (what, name) == ("element", "mro"):
+    is_taken = (what in _MEMBERS and name in RESERVED_NAMES) or (what in _WITH_SELF and name == "self")
+    if is_taken or (what, name) == ("element", "mro"):
         return "D405", f"'{name}' is a name of the runtime", mend
-    if what == "component" and snake_case(name) == "declarations":
-        return "D405", f"'{name}' would be written over the project's declarations.py", "choose another name"
     if named.is_shared and name in _OWN_WORDS:
         return "D407", f"'{name}' is already {_OWN_WORDS[name]}", mend
     return None

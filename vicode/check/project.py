@@ -12,7 +12,6 @@ from vicode.check.readings import Expression, Reader, literal_value, plain_reade
 from vicode.findings import Finding, Note, Path, Span, Thing, did_you_mean, rule
 from vicode.model.design import Declaration
 from vicode.model.expressions import Scope, scope_of
-from vicode.model.names import snake_case
 from vicode.model.project import LANGUAGES, Project
 
 _CLASS_IN_MODULE = re.compile(r"[A-Za-z_]\w*(\.[A-Za-z_]\w*)*:[A-Za-z_]\w*\Z", re.ASCII)
@@ -44,15 +43,13 @@ def find_duplicate_names(project: Project) -> Iterator[Finding]:
 
 
 def find_duplicate_components(project: Project) -> Iterator[Finding]:
-    """P201: two components with one name, or with names that give one file."""
+    """P201: two components with one name, or a design and a hand-written one."""
     written = [interface.component for interface in project.components]
     for name, count in Counter(written).items():
         if count > 1:
             yield _find("P201", ("components", name), f"'{name}' is declared twice", "rename one", of_key=True)
     designs = Counter(design.component for design in project.designs)
-    files: dict[str, str] = {}
     for name, count in designs.items():
-        file = files.setdefault(snake_case(name), name)
         thing = Thing(component=name, path=("component",))
         notes: tuple[Note, ...] = ()
         if name in written:
@@ -60,8 +57,6 @@ def find_duplicate_components(project: Project) -> Iterator[Finding]:
             notes = (Note(message="declared here", thing=Thing(path=("components", name), of_key=True)),)
         elif count > 1:
             message = f"{count} designs are called '{name}'"
-        elif file != name:
-            message = f"'{name}' and '{file}' would be written to one file"
         else:
             continue
         yield Finding(rule=rule("P201"), message=message, mend="rename one of them", thing=thing, notes=notes)
@@ -70,10 +65,11 @@ def find_duplicate_components(project: Project) -> Iterator[Finding]:
 def find_bad_implementations(project: Project) -> Iterator[Finding]:
     """P203: an implementation or world that does not name a class in a module."""
     mend = "write module:Class, such as field.perception:Perception"
+    add = "add implementation: module:Class"
     for interface in project.components:
         path: Path = ("components", interface.component)
         if not interface.implementation:
-            yield _find("P203", path, f"'{interface.component}' has no implementation", f"add implementation: {mend}")
+            yield _find("P203", path, f"'{interface.component}' has no implementation", add)
         elif not _CLASS_IN_MODULE.match(interface.implementation):
             message = f"'{interface.implementation}' does not name a class in a module"
             yield _find("P203", (*path, "implementation"), message, mend)

@@ -21,6 +21,8 @@ def find_stepped_twice(context: Context) -> Iterator[Finding]:
     Below the state only components without a frequency count: one that has a frequency works once an iteration,
     however often it is stepped.
     """
+    if context.graphs.is_in_circle(context.design.component):
+        return
     reach = cache(partial(_shared_below, context))
     by_state: dict[str, list[Step]] = {COMMON: []}
     for step in steps_of(context.design):

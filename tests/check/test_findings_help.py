@@ -1,0 +1,102 @@
+"""Findings say what is wrong in the user's words, how to mend it, and point at the very characters."""
+
+from pathlib import Path
+
+from vicode.check import check_design, check_project
+from vicode.check.code import python_problem
+from vicode.findings import Finding, Thing
+from vicode.model.design import Code, Declaration, Design, Guard, RunCode, State, Transition, Use
+from vicode.model.project import Interface, Project
+
+
+def _design(**changes: object) -> Design:
+    values: dict[str, object] = {"component": "Player", "initial": "Wait", "states": (State(name="Wait"),), **changes}
+    return Design(**values)  # type: ignore[arg-type]
+
+
+def _only(findings: tuple[Finding, ...]) -> Finding:
+    (finding,) = findings
+    return finding
+
+
+def test_the_nearest_state_is_named() -> None:
+    states = (State(name="Wait", transitions=(Transition(to="Kik"), Transition(to="Kick", guard=Guard(after="1")))),)
+    design = _design(states=(*states, State(name="Kick", final=True)))
+    finding = next(each for each in check_design(Project(name="p"), design) if each.rule.code == "D402")
+    assert (finding.message, finding.mend) == ("there is no state 'Kik'", "did you mean 'Kick'?")
+    assert finding.thing == Thing(component="Player", path=("states", "Wait", "transitions", 0, "to"))
+
+
+def test_a_circle_is_named_as_a_whole() -> None:
+    names = ("Hen", "Egg", "Chick")
+    designs = tuple(
+        _design(component=name, uses=(Use(alias="next", component=names[(index + 1) % 3]),))
+        for index, name in enumerate(names)
+    )
+    findings = check_project(Project(name="p", designs=designs), {"Egg"})
+    circle = next(finding for finding in findings if finding.rule.code == "D408")
+    assert circle.message == "components use each other in a circle: Egg → Chick → Hen → Egg"
+    assert {finding.thing.component for finding in findings if finding.thing} == {"Egg"}
+
+
+def test_a_mistake_in_an_expression_is_marked_exactly() -> None:
+    guard = Guard(when="tries > 2 and tires < 3")
+    transitions = (Transition(to="Rest", guard=guard),)
+    design = _design(
+        states=(State(name="Wait", transitions=transitions), State(name="Rest", final=True)),
+        variables=(Declaration(name="tries", initial="0"),),
+    )
+    finding = _only(check_design(Project(name="p"), design))
+    assert finding.mend == "did you mean 'tries'?"
+    assert finding.thing is not None
+    assert finding.thing.span is not None
+    assert guard.when[slice(*finding.thing.span)] == "tires"
+
+
+def test_code_is_marked_where_python_stumbles() -> None:
+    text = "    if True:\n        é = 1\n\n    x = = 2\n"
+    problem = python_problem(text, "action")
+    assert problem is not None
+    assert text[slice(*problem[1])] == "="
+    assert text[: problem[1][0]].count("\n") == 3
+
+
+def test_code_is_judged_where_it_will_stand() -> None:
+    assert python_problem("return 1", "action") is None
+    assert python_problem("return 1", "module") is not None
+    assert python_problem("def f(self):\n    return 1", "members") is None
+    assert python_problem("pass\rimport os", "action") is not None
+    assert python_problem("# <vicode Wait.enter 00000000>\n# </vicode>", "action") is not None
+    assert python_problem("from __future__ import division", "module") is not None
+    assert python_problem("# a remark", "action") is None
+    assert python_problem("break", "action") is not None
+    assert python_problem("'''\n", "predicate") is not None
+
+
+def test_no_code_is_run(tmp_path: Path) -> None:
+    mark = tmp_path / "mark"
+    run = f"open({str(mark)!r}, 'w').close()"
+    code = Code(texts=(("python", run),))
+    state = State(
+        name="Wait", actions=(RunCode(code=code),), transitions=(Transition(to="Wait", guard=Guard(code=code)),)
+    )
+    check_design(Project(name="p"), _design(module=code, members=code, states=(state,)))
+    assert not mark.exists()
+
+
+def test_the_design_handed_over_counts_and_not_the_one_in_the_project() -> None:
+    old = _design(outputs=(Declaration(name="kicks"),))
+    project = Project(name="p", designs=(old,))
+    assert [finding.rule.code for finding in check_project(project)] == ["D424"]
+    assert check_design(project, _design()) == ()
+
+
+def test_a_changed_interface_is_seen_at_once() -> None:
+    head = Interface(component="Head", implementation="field:Head", parameters=(Declaration(name="pan"),))
+    guard = Guard(when="head.seen")
+    states = (State(name="Wait", requires=("head",), transitions=(Transition(to="Rest", guard=guard),)),)
+    design = _design(uses=(Use(alias="head", component="Head"),), states=(*states, State(name="Rest", final=True)))
+    before = Project(name="p", components=(head,), designs=(design,))
+    assert _only(check_project(before)).rule.code == "E303"
+    seeing = Interface(component="Head", implementation="field:Head", outputs=(Declaration(name="seen", type="bool"),))
+    assert check_project(Project(name="p", components=(seeing,), designs=(design,))) == ()
