@@ -33,8 +33,11 @@ class Clumsy(Component):
             self._change_to("Busy")
 
     def _leave_calm(self) -> None:
+        """Leave in a body that is marked."""
+        # <vicode Calm.leave 00000000>
         if self.fails_in == "leave":
             fail()
+        # </vicode>
 
     def _in_busy(self, decide: bool = True) -> None:
         self.works += 1
@@ -96,7 +99,8 @@ def test_the_place_is_told(records: list[ErrorRecord], fails_in: str, method: st
     [record] = records
     assert (record.component, record.design_file, record.state) == ("Clumsy", "designs/clumsy.yaml", state)
     assert (record.body, record.method, record.line) == (fails_in, method, line)
-    assert record.file_line == inspect.getsourcelines(getattr(Clumsy, method))[1] + line
+    assert record.file_line == inspect.getsourcelines(getattr(Clumsy, method))[1] + line + (2 if record.region else 0)
+    assert record.region == ("Calm.leave" if fails_in == "leave" else "")
     assert record.file == __file__
     assert "no such thing" in record.message or "pop from empty list" in record.message
     assert (record.iteration, record.time_ns) == (1, 0)

@@ -7,14 +7,18 @@ Exception
 
 from __future__ import annotations
 
+import linecache
+import re
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from types import FrameType
+    from types import CodeType, FrameType
 
     from .component import Component
 
+# Hand-editable bodies stand between marks in generated files; the first mark names the body.
+_MARK = re.compile(r"\s*# <vicode (?P<id>\S+) ")
 _BODIES = {
     "_in": "state",
     "_enter": "enter",
@@ -32,7 +36,8 @@ class ErrorRecord:
 
     `body` says which piece of the design failed: `state` (guards and actions written in the state's method),
     `enter`, `leave`, `guard`, `action`, `common transitions`, `common actions`, or a method's name.
-    `line` counts within that method from the line after its `def`; `file_line` within the file.
+    `line` counts from 1 within the marked `region` that holds the body, if there is one, else within the method
+    from the line after its `def`; `file_line` within the file.
     """
 
     component: str
@@ -40,6 +45,7 @@ class ErrorRecord:
     state: str
     body: str
     method: str
+    region: str
     line: int
     file: str
     file_line: int
@@ -55,7 +61,7 @@ class ErrorRecord:
     def __str__(self) -> str:
         design = f" ({self.design_file})" if self.design_file else ""
         state = f", state {self.state}" if self.state else ""
-        body = self.body if self.body == self.method else f"{self.body} {self.method}"
+        body = self.body if self.body == self.method else f"{self.body} {self.region or self.method}"
         return (
             f"{self.component}{design}{state}, {body}, line {self.line}: {self.message} [{self.file}:{self.file_line}]"
         )
@@ -81,6 +87,7 @@ def make_error_record(component: Component, error: Exception) -> ErrorRecord:
     """Describe `error`, raised by code of `component`, with the innermost place in that component's own methods."""
     frame, file_line = _find_own_frame(component, error)
     code = frame.f_code
+    region, line_before = _find_region(code, file_line)
     prefix = "_" + code.co_name.split("_")[1] if code.co_name.startswith("_") else ""
     return ErrorRecord(
         component=type(component).__name__,
@@ -88,7 +95,8 @@ def make_error_record(component: Component, error: Exception) -> ErrorRecord:
         state=component.state,
         body=_BODIES.get(prefix, code.co_name),
         method=code.co_name,
-        line=file_line - code.co_firstlineno,
+        region=region,
+        line=file_line - line_before,
         file=code.co_filename,
         file_line=file_line,
         message=f"{type(error).__name__}: {error}" if str(error) else type(error).__name__,
@@ -110,3 +118,12 @@ def _find_own_frame(component: Component, error: Exception) -> tuple[FrameType, 
             own = found
         traceback = traceback.tb_next
     return own or found
+
+
+def _find_region(code: CodeType, file_line: int) -> tuple[str, int]:
+    """Return the id of the marked region around a line of a method and the line of its mark, else of the `def`."""
+    for number in range(file_line - 1, code.co_firstlineno, -1):
+        mark = _MARK.match(linecache.getline(code.co_filename, number))
+        if mark is not None:
+            return mark["id"], number
+    return "", code.co_firstlineno
