@@ -3,7 +3,7 @@
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
 
-from vicode.check.graphs import Graphs, graphs_of
+from vicode.check.graphs import Graphs, Step, graphs_of, steps_of
 from vicode.check.readings import Expression, read_expressions, reader_of
 from vicode.check.words import words_of
 from vicode.findings import Finding, Note, Path, Span, Thing, rule
@@ -25,6 +25,7 @@ class Context:
     actions: tuple[PlacedAction, ...]
     codes: tuple[PlacedCode, ...]
     expressions: tuple[Expression, ...]
+    steps: tuple[Step, ...]
     words: frozenset[str]
     """All names in hand-written code."""
 
@@ -64,6 +65,7 @@ def context_of(project: Project, design: Design, graphs: Graphs | None = None) -
         actions=actions,
         codes=codes,
         expressions=tuple(read_expressions(design, reader, decisions, actions)),
+        steps=tuple(steps_of(design)),
         words=words_of("\n".join(text for placed in codes for _language, text in placed.code.texts)),
     )
 

@@ -42,7 +42,7 @@ def find_unreachable_states(context: Context) -> Iterator[Finding]:
     design = context.design
     if not design.state(design.initial):
         return
-    reachable = _reachable(context)
+    reachable = _reachable(context, _targets(context))
     for state in design.states:
         if state.name not in reachable:
             message = f"no way leads from '{design.initial}' to '{state.name}'"
@@ -56,7 +56,7 @@ def find_traps(context: Context) -> Iterator[Finding]:
     if len(design.states) < 2:
         return
     targets = _targets(context)
-    watched = _reachable(context) if design.state(design.initial) else _names(context)
+    watched = _reachable(context, targets) if design.state(design.initial) else _names(context)
     for state in design.states:
         leaves = (targets[state.name] | targets[COMMON]) - {state.name}
         if not leaves and not state.final and state.name in watched:
@@ -78,9 +78,8 @@ def _targets(context: Context) -> dict[str, set[str]]:
     return targets
 
 
-def _reachable(context: Context) -> set[str]:
+def _reachable(context: Context, targets: dict[str, set[str]]) -> set[str]:
     """States that may become active, the initial one with all that common transitions lead to."""
-    targets = _targets(context)
     waiting = [context.design.initial, *targets[COMMON]]
     reachable: set[str] = set()
     while waiting:

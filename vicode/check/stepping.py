@@ -1,5 +1,6 @@
 """Rules about who steps what in an iteration: twice, or never although it is read."""
 
+import re
 from collections.abc import Callable, Iterable, Iterator
 from functools import cache, partial
 from itertools import combinations
@@ -7,7 +8,7 @@ from itertools import combinations
 import networkx as nx
 
 from vicode.check.context import Context
-from vicode.check.graphs import Step, steps_of
+from vicode.check.graphs import Step
 from vicode.findings import Finding, Note
 from vicode.model.design import COMMON
 from vicode.model.expressions import Done, Reading, walk
@@ -25,7 +26,7 @@ def find_stepped_twice(context: Context) -> Iterator[Finding]:
         return
     reach = cache(partial(_shared_below, context))
     by_state: dict[str, list[Step]] = {COMMON: []}
-    for step in steps_of(context.design):
+    for step in context.steps:
         by_state.setdefault(step.state, list(by_state[COMMON])).append(step)
     for state, steps in by_state.items():
         ordered = sorted(steps, key=lambda step: step.is_call)
@@ -84,8 +85,8 @@ def _has_frequency(context: Context, component: str) -> bool:
 
 
 def find_never_stepped(context: Context) -> Iterator[Finding]:
-    """D426: reading an output of a component that neither this design steps nor anyone below it."""
-    stepped = {step.component for step in steps_of(context.design)}
+    """D426: reading an output of a component that neither this design steps nor its code, nor anyone below it."""
+    stepped = {step.component for step in context.steps} | _stepped_by_code(context)
     for component in tuple(stepped):
         stepped |= context.graphs.stepped_below(component)
     idle = {use.alias: use.component for use in context.design.uses if use.component not in stepped}
@@ -97,6 +98,14 @@ def find_never_stepped(context: Context) -> Iterator[Finding]:
                 message = f"'{node.alias}' is read, but nothing here steps {idle[node.alias]}"
                 mend = f"add requires: [{node.alias}] to the states that read it"
                 yield context.find("D426", expression.path, message, mend, span=node.span)
+
+
+def _stepped_by_code(context: Context) -> set[str]:
+    texts = [text for placed in context.codes for _language, text in placed.code.texts]
+    calls = (
+        (use.component, re.compile(rf"\b{re.escape(use.alias)}\s*(\.|->)\s*step\s*\(")) for use in context.design.uses
+    )
+    return {component for component, call in calls if any(map(call.search, texts))}
 
 
 RULES = (find_stepped_twice, find_never_stepped)

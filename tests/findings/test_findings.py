@@ -1,0 +1,76 @@
+"""Findings as values and as text: order, caret, JSON, and the nearest known name."""
+
+import json
+
+from vicode.findings import (
+    Finding,
+    Note,
+    Place,
+    Severity,
+    Thing,
+    did_you_mean,
+    nearest,
+    render_json,
+    render_text,
+    rule,
+    sort_findings,
+    worst_severity,
+)
+
+
+def _finding(code: str, line: int = 1, column: int = 1, length: int = 1) -> Finding:
+    place = Place(file="goalie.yaml", line=line, column=column, length=length)
+    return Finding(rule=rule(code), message="wrong", mend="mend it", place=place)
+
+
+def test_findings_are_in_the_order_of_their_places_and_said_once() -> None:
+    late, early, other = _finding("D401", 10), _finding("D421", 9, 2), _finding("D402", 9, 2)
+    assert sort_findings([late, early, late, other]) == (other, early, late)
+
+
+def test_the_worst_severity_counts() -> None:
+    assert worst_severity([]) is None
+    assert worst_severity([_finding("D430"), _finding("D421")]) is Severity.WARNING
+
+
+def test_a_caret_stands_under_the_guilty_text() -> None:
+    text = render_text([_finding("D402", 3, 9, 4)], lambda _file, _line: "  - {to: Jmup}\n")
+    assert text == ("goalie.yaml:3:9: error D402 unknown-state: wrong; mend it\n      - {to: Jmup}\n            ^^^^\n")
+
+
+def test_notes_follow_their_finding() -> None:
+    finding = Finding(
+        rule=rule("D413"),
+        message="the id 'a' is given twice",
+        notes=(Note(message="first here", place=Place(file="goalie.yaml", line=2, column=3)),),
+    )
+    assert render_text([finding]) == (
+        "error D413 duplicate-id: the id 'a' is given twice\n  goalie.yaml:2:3: note: first here\n"
+    )
+
+
+def test_json_names_the_thing_and_the_place() -> None:
+    thing = Thing(component="Goalie", path=("states", "Wait"))
+    finding = Finding(
+        rule=rule("D422"), message="never left", thing=thing, place=Place(file="g.yaml", line=4, column=3)
+    )
+    (shown,) = json.loads(render_json([finding]))
+    assert shown == {
+        "code": "D422",
+        "name": "trap-state",
+        "severity": "warning",
+        "message": "never left",
+        "mend": "",
+        "file": "g.yaml",
+        "line": 4,
+        "column": 3,
+        "component": "Goalie",
+        "path": ["states", "Wait"],
+        "notes": [],
+    }
+
+
+def test_the_nearest_name_forgives_case_and_slips() -> None:
+    assert nearest("kik", ["Wait", "Kick"]) == "Kick"
+    assert nearest("", ["Wait"]) is None
+    assert did_you_mean("zzz", ["Wait"], "add it") == "add it"
