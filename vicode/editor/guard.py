@@ -25,7 +25,7 @@ class TooLargeError(Exception):
     """A request's body grew beyond what any page of ours sends."""
 
 
-@dataclass(eq=False, kw_only=True)
+@dataclass(eq=False)
 class Guard:
     """ASGI middleware. `hosts` are the names the server answers to; None: any, but then a `token` is asked for."""
 

@@ -27,13 +27,13 @@ class Address:
 
 
 def choose_address(host: str, port: int | None) -> Address:
-    """Where to listen: `port`, or the first free one from 8321.
+    """Where to listen: `port`, or a free one for None and 0.
 
     There is a token unless only this machine can connect.
     """
     is_local = host in ("127.0.0.1", "localhost", "::1")
     token = "" if is_local else secrets.token_urlsafe(24)
-    return Address(host=host, port=port if port is not None else _free_port(host), token=token)
+    return Address(host=host, port=port or _free_port(host, port), token=token)
 
 
 def serve(path: Path, address: Address, *, open_browser: bool = True) -> None:
@@ -69,14 +69,15 @@ def serve(path: Path, address: Address, *, open_browser: bool = True) -> None:
     )
 
 
-def _free_port(host: str) -> int:
+def _free_port(host: str, wanted: int | None) -> int:
+    """A free port: the first from 8321, so that the address stays the same from day to day; for 0 any."""
     family = socket.AF_INET6 if ":" in host else socket.AF_INET
-    for port in range(8321, 8421):
+    for port in (*(() if wanted == 0 else range(8321, 8421)), 0):
         with socket.socket(family, socket.SOCK_STREAM) as probe:
             probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
             try:
                 probe.bind((host, port))
             except OSError:
                 continue
-            return port
+            return int(probe.getsockname()[1])
     return 0

@@ -13,6 +13,7 @@ from vicode.model.design import (
     Action,
     Call,
     Decision,
+    Declaration,
     Design,
     Group,
     Guard,
@@ -211,6 +212,17 @@ def remove_uses(design: Design, aliases: Collection[str]) -> Design:
     return replace(
         design, uses=tuple(use for use in design.uses if use.alias not in aliases), states=states, common=common
     )
+
+
+def set_declarations(design: Design, section: str, declarations: tuple[Declaration, ...]) -> Design:
+    """Declare other parameters, outputs or variables."""
+    match section:
+        case "parameters":
+            return replace(design, parameters=declarations)
+        case "outputs":
+            return replace(design, outputs=declarations)
+        case _:
+            return replace(design, variables=declarations)
 
 
 def rename_use(design: Design, old: str, new: str) -> Design:

@@ -8,7 +8,7 @@ from nicegui import background_tasks, run, ui
 
 from vicode.editor.canvas import Canvas
 from vicode.editor.canvas.gesture import Gesture, Item
-from vicode.editor.pages.look import add_look
+from vicode.editor.pages.look import Theme, add_look
 from vicode.editor.panels.code_panel import CodePanel
 from vicode.editor.panels.designs_list import designs_list
 from vicode.editor.panels.desk import Desk
@@ -16,11 +16,8 @@ from vicode.editor.panels.findings_panel import FindingsPanel
 from vicode.editor.panels.header import Commands, Header
 from vicode.editor.panels.inspector import Inspector
 from vicode.editor.panels.save_dialog import ask_about_disk
-from vicode.editor.session import Document, Library, Workspace, apply_gesture
-from vicode.editor.session.workspace import ChangedOnDiskError
+from vicode.editor.session import ChangedOnDiskError, Document, Library, Workspace, apply_gesture
 from vicode.editor.view import Scene, Selected, difference, scene_of
-
-_THEMES = {None: True, True: False, False: None}
 
 
 class DesignPage:
@@ -30,7 +27,7 @@ class DesignPage:
         """Build the page for the browser that asks for it."""
         self.desk = Desk(workspace=workspace, document=document, say=_say, reveal=self._reveal)
         self.links_shown = True
-        self.dark = ui.dark_mode(None)
+        self.theme = Theme(self.desk.code_editors)
         add_look()
         with ui.element("div").classes("shell") as shell:
             commands = Commands(
@@ -128,9 +125,7 @@ class DesignPage:
         self.canvas.show_links(self.links_shown)
 
     def _theme(self) -> None:
-        self.dark.set_value(_THEMES[self.dark.value])
-        words = {None: "Colours follow the system", True: "Dark colours", False: "Light colours"}
-        _say(words[self.dark.value], "info")
+        _say(self.theme.toggle(), "info")
 
     def _save(self) -> bool:
         try:
@@ -153,6 +148,8 @@ class DesignPage:
             outcome = await run.io_bound(self.desk.workspace.generate, self.desk.document)
         except OSError as error:
             _say(f"Not generated: {error.strerror or error}", "negative")
+            return
+        if outcome is None or self.canvas.is_deleted:
             return
         with self.canvas.client:
             _say(outcome.words, "positive" if outcome.is_sound else "negative")

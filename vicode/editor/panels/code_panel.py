@@ -17,7 +17,7 @@ class CodePanel:
         self.is_busy = False
         with ui.column().classes("code-panel"):
             self.note = ui.label().classes("code-note mono")
-            self.editor = ui.codemirror(language="Python", theme="basicLight").classes("preview")
+            self.editor = desk.code_editors.make().classes("preview")
             self.editor.disable()
 
     def show(self, *, flag: bool) -> None:
@@ -37,7 +37,8 @@ class CodePanel:
             while self.shown_rev != self.desk.document.rev:
                 self.shown_rev = self.desk.document.rev
                 shown = await run.io_bound(preview.preview_of, self.desk.workspace.project, self.desk.design)
-                if self.editor.is_deleted:
+                # Nothing comes back while the server is shutting down.
+                if shown is None or self.editor.is_deleted:
                     return
                 self.note.set_text(shown.note)
                 self.editor.set_value(shown.text)

@@ -13,7 +13,7 @@ from vicode.editor.panels.fields import Bound, Field, choice_field, code_field, 
 from vicode.editor.panels.rows import heading, icon_button
 from vicode.editor.session import numbers
 from vicode.model.design import COMMON, Declaration, Design
-from vicode.model.edits import add_use, free_name, remove_uses
+from vicode.model.edits import add_use, free_name, remove_uses, set_declarations
 
 _SECTIONS = (
     ("parameters", "Parameters", "what others may modulate in it"),
@@ -41,7 +41,7 @@ def design_panel(desk: Desk) -> list[Field]:
         fields += _declarations(desk, section)
     fields += common_panel(desk)
     heading("Code", hint="for the top of the module, and for the class")
-    fields += [code_field(desk, _code_bound("Module", "module")), code_field(desk, _code_bound("Members", "members"))]
+    fields += [code_field(desk, _module_code()), code_field(desk, _member_code())]
     return fields
 
 
@@ -77,12 +77,21 @@ def _frequency() -> Bound:
     )
 
 
-def _code_bound(label: str, attribute: str) -> Bound:
+def _module_code() -> Bound:
     return Bound(
-        label=label,
-        path=(attribute,),
-        read=lambda design: getattr(design, attribute).in_language("python") or "",
-        write=lambda design, value: replace(design, **{attribute: with_python(getattr(design, attribute), value)}),
+        label="Module",
+        path=("module",),
+        read=lambda design: design.module.in_language("python") or "",
+        write=lambda design, value: replace(design, module=with_python(design.module, value)),
+    )
+
+
+def _member_code() -> Bound:
+    return Bound(
+        label="Members",
+        path=("members",),
+        read=lambda design: design.members.in_language("python") or "",
+        write=lambda design, value: replace(design, members=with_python(design.members, value)),
     )
 
 
@@ -146,13 +155,13 @@ def _updated(design: Design, section: str, index: int, changes: dict[str, Any]) 
     declarations = list(getattr(design, section))
     if index < len(declarations):
         declarations[index] = replace(declarations[index], **changes)
-    return replace(design, **{section: tuple(declarations)})
+    return set_declarations(design, section, tuple(declarations))
 
 
 def _declaration_adder(desk: Desk, section: str) -> Callable[[], None]:
     def change(design: Design) -> Design:
         name = free_name(section.removesuffix("s"), {each.name for _section, each in design.declarations()})
-        return replace(design, **{section: (*getattr(design, section), Declaration(name=name, initial="0"))})
+        return set_declarations(design, section, (*getattr(design, section), Declaration(name=name, initial="0")))
 
     return lambda: desk.edit("declare", change)
 
@@ -160,6 +169,6 @@ def _declaration_adder(desk: Desk, section: str) -> Callable[[], None]:
 def _declaration_remover(desk: Desk, section: str, index: int) -> Callable[[], None]:
     def change(design: Design) -> Design:
         rest = tuple(each for at, each in enumerate(getattr(design, section)) if at != index)
-        return replace(design, **{section: rest})
+        return set_declarations(design, section, rest)
 
     return lambda: desk.edit("remove declaration", change)

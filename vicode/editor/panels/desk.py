@@ -3,6 +3,7 @@
 from collections.abc import Callable
 from dataclasses import dataclass, field
 
+from vicode.editor.panels.code_editor import CodeEditors
 from vicode.editor.session import Document, Workspace
 from vicode.editor.view import Selected
 from vicode.model.design import Design
@@ -21,6 +22,7 @@ class Desk:
     reveal: Callable[[Selected], None] = field(default=lambda _thing: None)
     """Bring a thing into the middle of the canvas."""
     selected: tuple[Selected, ...] = ()
+    code_editors: CodeEditors = field(default_factory=CodeEditors)
     _listeners: list[Listener] = field(default_factory=list)
 
     @property

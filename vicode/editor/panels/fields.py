@@ -118,7 +118,7 @@ def code_field(desk: Desk, bound: Bound) -> Field:
 
     with ui.column().classes("field"):
         ui.label(bound.label).classes("field-label")
-        editor = ui.codemirror(language="Python", theme="basicLight", on_focus_change=focus)
+        editor = desk.code_editors.make(on_focus=focus)
         editor.classes("code-field")
         message = ui.label().classes("field-finding")
         message.set_visibility(False)

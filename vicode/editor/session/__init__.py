@@ -3,6 +3,16 @@
 from vicode.editor.session.document import Document
 from vicode.editor.session.gestures import Outcome, apply_gesture
 from vicode.editor.session.history import History, Step
-from vicode.editor.session.workspace import Workspace
+from vicode.editor.session.library import Library
+from vicode.editor.session.workspace import ChangedOnDiskError, Workspace
 
-__all__ = ["Document", "History", "Outcome", "Step", "Workspace", "apply_gesture"]
+__all__ = [
+    "ChangedOnDiskError",
+    "Document",
+    "History",
+    "Library",
+    "Outcome",
+    "Step",
+    "Workspace",
+    "apply_gesture",
+]

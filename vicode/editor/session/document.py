@@ -5,8 +5,10 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from vicode.editor.session.history import History, Step
+from vicode.editor.view import path_of_key
 from vicode.findings import Finding
 from vicode.model.design import Design
+from vicode.model.walks import decision_at
 
 Watcher = Callable[["Document"], None]
 Checker = Callable[[Design], tuple[Finding, ...]]
@@ -74,6 +76,10 @@ class Document:
         self.saved, self.disk_text = design, text
         self._become(self.history.then("reload from disk", design))
         self._tell()
+
+    def has_decision(self, key: str) -> bool:
+        """Whether there is a decision with this canvas id."""
+        return decision_at(self.design, path_of_key(key)) is not None
 
     def check_again(self) -> None:
         """Check once more, because another design of the project has changed."""

@@ -23,11 +23,12 @@ from vicode.model.edits import (
     remove_states,
     remove_uses,
     rename_state,
+    rename_use,
     replace_decision,
     require,
     unlink,
 )
-from vicode.model.names import is_state_name
+from vicode.model.names import is_name, is_state_name
 from vicode.model.walks import decision_at, walk_decisions
 
 Payload = Mapping[str, Any]
@@ -125,6 +126,8 @@ def _create(document: Document, payload: Payload) -> Outcome:
 
 
 def _rename(document: Document, payload: Payload) -> Outcome:
+    if payload.get("of") == "components":
+        return _rename_use(document, str(payload["id"]), str(payload["name"]).strip())
     old, new = _known_state(document, str(payload["id"])), str(payload["name"]).strip()
     if old == new:
         return Outcome()
@@ -134,6 +137,17 @@ def _rename(document: Document, payload: Payload) -> Outcome:
         return Outcome(refused=f"there is already a state '{new}'")
     document.edit(f"rename {old} to {new}", lambda design: rename_state(design, old, new))
     return Outcome(select=(Selected(of="states", id=new),))
+
+
+def _rename_use(document: Document, old: str, new: str) -> Outcome:
+    if old == new:
+        return Outcome()
+    if not is_name(new):
+        return Outcome(refused=f"'{new[:40]}' is no name: begin with a letter, then letters, digits and underscores")
+    if document.design.use(new) is not None:
+        return Outcome(refused=f"there is already a component used as '{new}'")
+    document.edit(f"rename {old} to {new}", lambda design: rename_use(design, old, new))
+    return Outcome(select=(Selected(of="components", id=new),))
 
 
 def _delete(document: Document, payload: Payload) -> Outcome:

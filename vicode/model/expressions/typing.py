@@ -227,7 +227,8 @@ class Binder:
             message = f"{left.type} cannot be compared with {right.type}"
             self.report_span("E304", message, "", (left.span[0], right.span[1]))
         elif operator not in ("==", "!=") and left.type not in (INT, FLOAT, UNKNOWN):
-            self.report_span("E304", f"{left.type} has no order", "compare with == or !=", (left.span[0], right.span[1]))
+            span = (left.span[0], right.span[1])
+            self.report_span("E304", f"{left.type} has no order", "compare with == or !=", span)
 
     def _choice(self, syntax: ast.IfExp) -> Node | None:
         test = self.bind_expected(syntax.test, BOOL)

@@ -1,0 +1,131 @@
+"""What a person does: open, drag, add, connect, guard, undo, generate, save, reload; and two windows on one design."""
+
+from pathlib import Path
+
+from playwright.sync_api import Locator, Page, expect
+
+PLAYER = "design/forward/Player"
+
+
+def state(page: Page, name: str) -> Locator:
+    return page.locator(f'g[data-kind="state"][data-id="{name}"]')
+
+
+def centre_of(page: Page, name: str) -> tuple[float, float]:
+    box = state(page, name).locator("rect.box").bounding_box()
+    assert box is not None
+    return (box["x"] + box["width"] / 2, box["y"] + box["height"] / 2)
+
+
+def drag(page: Page, start: tuple[float, float], end: tuple[float, float]) -> None:
+    page.mouse.move(*start)
+    page.mouse.down()
+    page.mouse.move((start[0] + end[0]) / 2, (start[1] + end[1]) / 2)
+    page.mouse.move(*end)
+    page.mouse.up()
+
+
+def open_player(page: Page, url: str) -> None:
+    page.set_viewport_size({"width": 1366, "height": 768})
+    page.goto(url + PLAYER)
+    expect(state(page, "LookForBall")).to_be_visible()
+
+
+def test_what_a_person_does(page: Page, editor: str, project: Path) -> None:
+    file = project / "forward" / "player.yaml"
+    before = file.read_text()
+    open_player(page, editor)
+
+    # Drag a state.
+    x, y = centre_of(page, "LookForBall")
+    drag(page, (x, y), (x - 40, y + 30))
+    expect(page.get_by_text("Unsaved changes")).to_be_visible()
+    assert centre_of(page, "LookForBall") != (x, y)
+
+    # Add a state where nothing is, and name it at once.
+    stage = page.locator("main.stage").bounding_box()
+    assert stage is not None
+    page.mouse.dblclick(stage["x"] + 30, stage["y"] + stage["height"] - 40)
+    page.keyboard.type("Celebrate")
+    page.keyboard.press("Enter")
+    expect(state(page, "Celebrate")).to_be_visible()
+    expect(page.get_by_label("Findings").get_by_text("Celebrate").first).to_be_visible()
+
+    # Connect it from Kick, by the list of the inspector, and guard the transition.
+    state(page, "Kick").click(position={"x": 10, "y": 10}, force=True)
+    page.get_by_label("Inspector").get_by_role("button", name="Transition").click()
+    page.get_by_role("menuitem", name="to Celebrate").or_(page.get_by_text("to Celebrate", exact=True)).first.click()
+    guard = page.get_by_label("When")
+    guard.fill("perception.ball_sen")
+    expect(page.get_by_label("Findings").get_by_text("did you mean 'ball_seen'?")).to_be_visible()
+    guard.fill("perception.ball_seen")
+    expect(page.get_by_label("Findings").get_by_text("did you mean 'ball_seen'?")).to_have_count(0)
+    page.get_by_label("After, seconds in this state").fill("7")
+    expect(page.locator('g[data-kind="transition"]', has_text="7 s").first).to_be_visible()
+
+    # Undo and redo.
+    page.get_by_role("button", name="Undo").click()
+    expect(page.locator('g[data-kind="transition"]', has_text="7 s")).to_have_count(0)
+    page.get_by_role("button", name="Redo").click()
+    expect(page.locator('g[data-kind="transition"]', has_text="7 s").first).to_be_visible()
+
+    # See the code, generate, reload: all is there.
+    page.get_by_role("tab", name="Generated code").click()
+    expect(page.locator(".preview").get_by_text("class Player").first).to_be_visible()
+    page.get_by_role("button", name="Generate").click()
+    expect(page.get_by_text("Saved", exact=True).first).to_be_visible()
+    written = page.get_by_text("player.py", exact=False).last
+    expect(written).to_be_visible()
+    page.reload()
+    expect(state(page, "Celebrate")).to_be_visible()
+    after = file.read_text()
+    assert "  Celebrate:" in after
+    assert "perception.ball_seen" in after
+    assert after.splitlines()[:5] == before.splitlines()[:5]
+
+
+def test_two_windows_stay_in_step(page: Page, editor: str) -> None:
+    other = page.context.new_page()
+    open_player(page, editor)
+    open_player(other, editor)
+    stage = page.locator("main.stage").bounding_box()
+    assert stage is not None
+    page.mouse.dblclick(stage["x"] + 30, stage["y"] + stage["height"] - 40)
+    page.keyboard.type("Pause")
+    page.keyboard.press("Enter")
+    expect(state(other, "Pause")).to_be_visible()
+    other.get_by_role("button", name="Undo").click()
+    other.get_by_role("button", name="Undo").click()
+    expect(state(page, "Pause")).to_have_count(0)
+    expect(page.get_by_text("Saved", exact=True)).to_be_visible()
+
+
+def test_a_file_changed_outside_is_not_overwritten(page: Page, editor: str, project: Path) -> None:
+    file = project / "forward" / "player.yaml"
+    open_player(page, editor)
+    state(page, "LookForBall").click(force=True)
+    page.get_by_label("Doc").fill("mine")
+    theirs = file.read_text().replace("component: Player", "component: Player  # the striker")
+    file.write_text(theirs)
+    page.get_by_role("button", name="Save").click()
+    expect(page.get_by_text("was changed by another program")).to_be_visible()
+    assert file.read_text() == theirs
+    page.get_by_role("button", name="Keep yours").click()
+    expect(page.get_by_text("Saved over the change on disk")).to_be_visible()
+    assert "# the striker" in file.read_text()
+    assert "mine" in file.read_text()
+
+
+def test_texts_from_strangers_stay_texts(page: Page, editor: str) -> None:
+    evil = "<img src=x onerror=\"document.title='owned'\">"
+    open_player(page, editor)
+    state(page, "LookForBall").click(force=True)
+    page.get_by_label("Doc").fill(evil)
+    page.locator(".decision").first.click()
+    page.get_by_label("When").fill(evil)
+    expect(page.get_by_label("Findings").locator(".finding").first).to_be_visible()
+    page.get_by_label("When").blur()
+    page.get_by_role("tab", name="Generated code").click()
+    page.wait_for_timeout(300)
+    assert page.locator("img[src=x]").count() == 0
+    assert "owned" not in page.title()

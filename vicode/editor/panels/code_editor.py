@@ -1,0 +1,29 @@
+"""Code editors whose colours follow the window, light or dark."""
+
+from weakref import WeakSet
+
+from nicegui import ui
+from nicegui.elements.codemirror.constants import SUPPORTED_THEMES
+from nicegui.events import CodeMirrorFocusChangeEventArguments, Handler
+
+
+class CodeEditors:
+    """Makes the code editors of one window and keeps their colours."""
+
+    def __init__(self) -> None:
+        """Begin with light colours; the window says when it knows better."""
+        self._theme: SUPPORTED_THEMES = "basicLight"
+        self._made: WeakSet[ui.codemirror] = WeakSet()
+
+    def make(self, on_focus: Handler[CodeMirrorFocusChangeEventArguments] | None = None) -> ui.codemirror:
+        """An empty editor of Python code."""
+        editor = ui.codemirror(language="Python", theme=self._theme, on_focus_change=on_focus)
+        self._made.add(editor)
+        return editor
+
+    def set_dark(self, *, is_dark: bool) -> None:
+        """Use dark or light colours in all of them from now on."""
+        self._theme = "basicDark" if is_dark else "basicLight"
+        for editor in tuple(self._made):
+            if not editor.is_deleted:
+                editor.set_theme(self._theme)
