@@ -7,11 +7,15 @@ import pytest
 from vicode import output
 from vicode.output import OutputFile, Status
 
-HEADER = f"# {output.SIGNATURE} from a.yaml\n"
+HEADER = "# Ours.\n"
+
+
+def compare(files: list[OutputFile], folder: Path, **arguments: list[str]) -> tuple[output.Difference, ...]:
+    return output.compare(files, folder, is_ours=lambda text: text.startswith(HEADER), **arguments)
 
 
 def statuses(files: list[OutputFile], folder: Path, **arguments: list[str]) -> dict[str, Status]:
-    return {each.path: each.status for each in output.compare(files, folder, **arguments)}
+    return {each.path: each.status for each in compare(files, folder, **arguments)}
 
 
 def write(folder: Path, path: str, text: str) -> Path:
@@ -47,7 +51,7 @@ def test_applying_makes_the_folder_agree(tmp_path: Path) -> None:
     write(tmp_path, "p/gone.py", HEADER)
     write(tmp_path, "p/a.py", HEADER + "old\n")
     files = [OutputFile(path="p/a.py", text=HEADER), OutputFile(path="p/sub/b.py", text=HEADER + "é\n")]
-    touched = output.apply(output.compare(files, tmp_path), tmp_path)
+    touched = output.apply(compare(files, tmp_path), tmp_path)
     assert [path.name for path in touched] == ["a.py", "gone.py", "b.py"]
     assert set(statuses(files, tmp_path).values()) == {Status.UNCHANGED}
     assert sorted(path.name for path in tmp_path.rglob("*.*")) == ["a.py", "b.py"]

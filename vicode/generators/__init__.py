@@ -1,0 +1,81 @@
+"""From a project of designs to files of code: a pure function, the same for every caller."""
+
+from collections.abc import Callable, Collection, Mapping
+from dataclasses import dataclass
+
+from vicode.generators.plan import UnsoundDesignError, collect_components, plan_package, plan_project
+from vicode.generators.python import RESERVED_MODULES, class_path, generate_python, list_paths
+from vicode.model.project import Project
+from vicode.output import OutputFile
+
+__all__ = ["GENERATORS", "UnsoundDesignError", "collect_components", "generate", "list_outputs", "python_class"]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Generator:
+    """A language: what it writes for a plan, and all paths it may write for a project."""
+
+    write: Callable[..., tuple[OutputFile, ...]]
+    list_paths: Callable[..., tuple[str, ...]]
+    reserved_modules: frozenset[str]
+
+
+GENERATORS: Mapping[str, Generator] = {
+    "python": Generator(write=generate_python, list_paths=list_paths, reserved_modules=RESERVED_MODULES),
+}
+
+
+def generate(
+    project: Project,
+    *,
+    components: Collection[str] | None = None,
+    languages: Collection[str] | None = None,
+    standalone: bool = False,
+    sources: Mapping[str, str] | None = None,
+) -> tuple[OutputFile, ...]:
+    """The files of a project, by path; nothing is read or written, and the same project gives the same bytes.
+
+    Args:
+        project: Without error findings in what is generated.
+        components: Only these and every design they use; None for all.
+        languages: None for those of the project.
+        standalone: Copy the runtime into the package, so that it runs without vicode.
+        sources: The design files by component, relative to the project's folder: how files and errors name them.
+
+    Raises:
+        UnsoundDesignError: A design has mistakes; `vicode.check` tells which.
+    """
+    files: list[OutputFile] = []
+    for generator in _choose(project, languages):
+        plan = plan_project(project, components, sources or {}, generator.reserved_modules)
+        files += generator.write(plan, standalone=standalone)
+    return tuple(sorted(files, key=lambda file: file.path))
+
+
+def list_outputs(
+    project: Project, *, languages: Collection[str] | None = None, standalone: bool = False
+) -> tuple[str, ...]:
+    """Every path that `generate` may write for a project, sound or not: what else carries our header there is stale."""
+    paths: list[str] = []
+    for generator in _choose(project, languages):
+        paths += generator.list_paths(plan_package(project, generator.reserved_modules), standalone=standalone)
+    return tuple(sorted(paths))
+
+
+def python_class(project: Project, component: str) -> str:
+    """Where the class of a component is found in Python: "package.module:Class".
+
+    Raises:
+        UnsoundDesignError: Nothing declares it.
+    """
+    interface = project.interface(component)
+    if interface is None:
+        raise UnsoundDesignError(f"nothing declares the component '{component}'")
+    if project.design(component) is None:
+        return interface.implementation
+    return class_path(plan_package(project, RESERVED_MODULES), component)
+
+
+def _choose(project: Project, languages: Collection[str] | None) -> list[Generator]:
+    wanted = project.languages if languages is None else languages
+    return [generator for language, generator in GENERATORS.items() if language in wanted]

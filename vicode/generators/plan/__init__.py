@@ -1,0 +1,52 @@
+"""The language-neutral plan: names, the order of things and typed trees, decided once for every language."""
+
+from vicode.generators.plan.expressions import UnsoundDesignError, literal_of
+from vicode.generators.plan.project import collect_components, plan_package, plan_project
+from vicode.generators.plan.values import (
+    After,
+    Alternative,
+    Body,
+    Branch,
+    CallComponent,
+    Change,
+    ComponentPlan,
+    Condition,
+    Holds,
+    Keep,
+    PackagePlan,
+    Predicate,
+    ProjectPlan,
+    Run,
+    Set,
+    StatePlan,
+    Step,
+    UsedComponent,
+    Value,
+)
+
+__all__ = [
+    "After",
+    "Alternative",
+    "Body",
+    "Branch",
+    "CallComponent",
+    "Change",
+    "ComponentPlan",
+    "Condition",
+    "Holds",
+    "Keep",
+    "PackagePlan",
+    "Predicate",
+    "ProjectPlan",
+    "Run",
+    "Set",
+    "StatePlan",
+    "Step",
+    "UnsoundDesignError",
+    "UsedComponent",
+    "Value",
+    "collect_components",
+    "literal_of",
+    "plan_package",
+    "plan_project",
+]

@@ -1,0 +1,212 @@
+"""From a design to the plan of its component."""
+
+from collections.abc import Mapping
+
+from vicode.generators.plan.bodies import Bodies
+from vicode.generators.plan.expressions import (
+    UnsoundDesignError,
+    initial_of,
+    nanoseconds_of,
+    tree_of,
+)
+from vicode.generators.plan.naming import Names, stem_of
+from vicode.generators.plan.values import (
+    After,
+    Alternative,
+    Branch,
+    CallComponent,
+    Change,
+    ComponentPlan,
+    Condition,
+    Holds,
+    Keep,
+    Predicate,
+    Run,
+    Set,
+    StatePlan,
+    Step,
+    UsedComponent,
+    Value,
+)
+from vicode.model.design import (
+    COMMON,
+    Action,
+    Assign,
+    Call,
+    Decision,
+    Declaration,
+    Design,
+    Group,
+    RunCode,
+    State,
+    Stay,
+    Transition,
+)
+from vicode.model.expressions import BOOL, FLOAT, Node, Scope, scope_of
+from vicode.model.project import Project
+from vicode.model.walks import always_holds
+
+
+def plan_component(project: Project, design: Design, modules: Mapping[str, str], source: str) -> ComponentPlan:
+    """Decide all about a component that does not depend on the language.
+
+    Args:
+        project: What the design stands in.
+        design: A design without mistakes.
+        modules: The stem of every design's module, by component.
+        source: The design's file, as it is named to people.
+
+    Raises:
+        UnsoundDesignError: The design has mistakes.
+    """
+    initial = design.state(design.initial)
+    if initial is None:
+        raise UnsoundDesignError(f"{design.component} has no initial state")
+    planner = _Planner(project, design)
+    stems = Names()
+    states = [initial, *(state for state in design.states if state is not initial)]
+    return ComponentPlan(
+        component=design.component,
+        module=modules[design.component],
+        source=source,
+        doc=design.doc,
+        frequency_hz=design.frequency_hz,
+        resume=design.resume,
+        time_unit=design.time_unit or "s",
+        uses=tuple(_plan_use(project, modules, use.alias, use.component) for use in design.uses),
+        parameters=plan_values(design.parameters, planner.scope),
+        outputs=plan_values(design.outputs, planner.scope),
+        variables=plan_values(design.variables, planner.scope),
+        module_code=planner.bodies.whole("module", design.module),
+        members=planner.bodies.whole("members", design.members),
+        decide_first=planner.plan_decisions(design.common.transitions, COMMON),
+        act_first=planner.plan_steps(design.common.actions, COMMON, "actions"),
+        states=tuple(planner.plan_state(state, stems.give(stem_of(state.name))) for state in states),
+    )
+
+
+def plan_values(declarations: tuple[Declaration, ...], scope: Scope) -> tuple[Value, ...]:
+    """Declarations with their types and first values; those that take arguments are functions, written by hand."""
+    return tuple(
+        Value(
+            name=declaration.name,
+            type=scope.type_of(declaration),
+            initial=initial_of(declaration, scope),
+            unit=declaration.unit,
+            range=declaration.range,
+            doc=declaration.doc,
+        )
+        for declaration in declarations
+        if declaration.arguments is None
+    )
+
+
+def _plan_use(project: Project, modules: Mapping[str, str], alias: str, component: str) -> UsedComponent:
+    interface = project.interface(component)
+    if interface is None:
+        raise UnsoundDesignError(f"nothing declares the component '{component}'")
+    if component in modules:
+        return UsedComponent(alias=alias, component=component, module=modules[component])
+    return UsedComponent(alias=alias, component=component, implementation=interface.implementation)
+
+
+class _Planner:
+    """Plans the parts of one design, which share a scope and names."""
+
+    def __init__(self, project: Project, design: Design) -> None:
+        self.project, self.design = project, design
+        self.scope = scope_of(project, design)
+        self.bodies = Bodies(design)
+
+    def plan_state(self, state: State, stem: str) -> StatePlan:
+        return StatePlan(
+            name=state.name,
+            stem=stem,
+            doc=state.doc,
+            final=state.final,
+            requires=state.requires,
+            enter=self.plan_steps(state.enter, state.name, "enter"),
+            decisions=self.plan_decisions(state.transitions, state.name),
+            act=self.plan_steps(state.all_actions, state.name, "actions"),
+            leave=self.plan_steps(state.leave, state.name, "leave"),
+        )
+
+    def plan_steps(self, actions: tuple[Action, ...], source: str, phase: str) -> tuple[Step, ...]:
+        return tuple(step for action in actions for step in self._plan_action(action, source, phase))
+
+    def _plan_action(self, action: Action, source: str, phase: str) -> tuple[Step, ...]:
+        match action:
+            case Assign(values=values):
+                return tuple(
+                    Set(name=name, value=tree_of(text, self.scope, self._type_of(name))) for name, text in values
+                )
+            case Call(alias=alias, arguments=arguments):
+                pairs = tuple((name, self._argument(alias, name, text)) for name, text in arguments)
+                return (CallComponent(alias=alias, arguments=pairs),)
+            case RunCode(code=code, id=given_id):
+                return (Run(body=self.bodies.action(source, phase, code, given_id)),)
+
+    def _type_of(self, name: str) -> str:
+        symbol = self.scope.symbols.get(name)
+        if symbol is None:
+            raise UnsoundDesignError(f"'{name}' is not declared")
+        return symbol.type
+
+    def _argument(self, alias: str, name: str, text: str) -> Node:
+        interface = self.scope.uses.get(alias)
+        parameter = interface.parameter(name) if interface else None
+        if parameter is None:
+            raise UnsoundDesignError(f"'{alias}' has no parameter '{name}'")
+        return tree_of(text, self.scope, self.scope.type_of(parameter))
+
+    def plan_decisions(self, decisions: tuple[Decision, ...], source: str) -> tuple[Alternative, ...]:
+        planned: list[Alternative] = []
+        for decision in decisions:
+            alternative = self._plan_decision(decision, source)
+            if isinstance(alternative.outcome, Branch) and not alternative.conditions:
+                planned += alternative.outcome.then
+            else:
+                planned.append(alternative)
+            # What follows a decision that always ends is never reached, and nobody would write it.
+            if always_holds(decision):
+                break
+        return tuple(planned)
+
+    def _plan_decision(self, decision: Decision, source: str) -> Alternative:
+        conditions = self._plan_conditions(decision, source)
+        match decision:
+            case Group(then=then, otherwise=otherwise):
+                outcome: Change | Keep | Branch = Branch(
+                    then=self.plan_decisions(then, source),
+                    otherwise=self.plan_decisions(otherwise, source),
+                    then_ends=any(always_holds(item) for item in then),
+                )
+            case Transition(to=to, id=given_id) if to != source:
+                outcome = Change(state=to, transition=given_id)
+            case _:
+                outcome = Keep()
+        return Alternative(conditions=conditions, outcome=outcome, doc=decision.doc)
+
+    def _plan_conditions(self, decision: Decision, source: str) -> tuple[Condition, ...]:
+        guard = decision.guard
+        conditions: list[Condition] = []
+        if guard.after:
+            seconds = tree_of(guard.after, self.scope, FLOAT)
+            conditions.append(After(time=seconds, ns=nanoseconds_of(seconds, self.design.time_unit)))
+        if guard.when:
+            conditions.append(Holds(expression=tree_of(guard.when, self.scope, BOOL)))
+        if guard.code is not None:
+            outcome = _outcome_name(decision)
+            body = self.bodies.predicate(source, outcome, guard.code, given_id=decision.id, doc=decision.doc)
+            conditions.append(Predicate(body=body))
+        return tuple(conditions)
+
+
+def _outcome_name(decision: Decision) -> str:
+    match decision:
+        case Transition(to=to):
+            return to
+        case Stay():
+            return "stay"
+        case Group():
+            return "group"

@@ -1,0 +1,89 @@
+"""From a project to its plan: which components, their modules, constants in an order that can be evaluated."""
+
+from collections.abc import Collection, Mapping
+
+from vicode.generators.plan.component import plan_component, plan_values
+from vicode.generators.plan.expressions import UnsoundDesignError, constants_in, literal_of
+from vicode.generators.plan.naming import Names, package_of, stem_of
+from vicode.generators.plan.values import PackagePlan, ProjectPlan, Value
+from vicode.model.expressions import scope_of
+from vicode.model.project import Project
+
+
+def plan_project(
+    project: Project, components: Collection[str] | None, sources: Mapping[str, str], reserved: frozenset[str]
+) -> ProjectPlan:
+    """Plan components with every design they use.
+
+    Args:
+        project: A project without mistakes in what is planned.
+        components: Names of components, None for all that have a design.
+        sources: Design files by component, as they are named to people.
+        reserved: Names no module may have in a language.
+    """
+    package = plan_package(project, reserved)
+    wanted = collect_components(project, components)
+    constants = plan_values(project.constants, scope_of(project, None))
+    return ProjectPlan(
+        name=project.name,
+        doc=project.doc,
+        package=package,
+        enumerations=project.enumerations,
+        constants=_in_order_of_use(constants),
+        never_zero=frozenset(constant.name for constant in constants if literal_of(constant.initial)),
+        components=tuple(
+            plan_component(project, design, package.modules, sources.get(design.component, ""))
+            for design in project.designs
+            if design.component in wanted
+        ),
+    )
+
+
+def plan_package(project: Project, reserved: frozenset[str]) -> PackagePlan:
+    """Names that depend on the names in the project alone: they are known of designs with mistakes too."""
+    names = Names(reserved)
+    components = sorted(design.component for design in project.designs)
+    return PackagePlan(
+        package=package_of(project.name),
+        modules={component: names.give(stem_of(component)) for component in components},
+        has_declarations=bool(project.enumerations or project.constants),
+    )
+
+
+def collect_components(project: Project, components: Collection[str] | None) -> frozenset[str]:
+    """The components with all that they use, directly or not, as far as they have designs.
+
+    Raises:
+        UnsoundDesignError: One of them has no design.
+    """
+    designs = {design.component: design for design in project.designs}
+    if components is None:
+        return frozenset(designs)
+    unknown = sorted(set(components) - set(designs))
+    if unknown:
+        raise UnsoundDesignError(f"there is no design of '{unknown[0]}'")
+    found: set[str] = set()
+    waiting = sorted(components)
+    while waiting:
+        component = waiting.pop()
+        if component in designs and component not in found:
+            found.add(component)
+            waiting += [use.component for use in designs[component].uses]
+    return frozenset(found)
+
+
+def _in_order_of_use(constants: tuple[Value, ...]) -> tuple[Value, ...]:
+    """Each constant after those its value is made of; the order of the file where there is a alternative."""
+    by_name = {constant.name: constant for constant in constants}
+    ordered: dict[str, Value] = {}
+
+    def place(constant: Value, above: tuple[str, ...]) -> None:
+        if constant.name in above:
+            raise UnsoundDesignError(f"the constant '{constant.name}' is made of itself")
+        for name in sorted(constants_in(constant.initial) & set(by_name) - set(ordered)):
+            place(by_name[name], (*above, constant.name))
+        ordered.setdefault(constant.name, constant)
+
+    for constant in constants:
+        place(constant, ())
+    return tuple(ordered.values())

@@ -1,0 +1,187 @@
+"""What all generators read: names, orders and typed trees of a project, decided once as frozen values."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from vicode.model.design import Code
+from vicode.model.expressions import Node
+from vicode.model.project import Enumeration
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Value:
+    """A declared name with its type and first value, which is already of that type."""
+
+    name: str
+    type: str
+    initial: Node
+    unit: str = ""
+    range: tuple[float, float] | None = None
+    doc: str = ""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class UsedComponent:
+    """A component by its alias; from a design it has a `module`, hand-written an `implementation` "module:Class"."""
+
+    alias: str
+    component: str
+    module: str = ""
+    implementation: str = ""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Body:
+    """Hand-written code: the id of its region, a stem for the name of its function, and what it is for."""
+
+    region: str
+    stem: str
+    code: Code
+    doc: str = ""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class After:
+    """The time in the state is `time` or more, in the component's unit; `ns` if that is known now."""
+
+    time: Node
+    ns: int | None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Holds:
+    """An expression of type bool."""
+
+    expression: Node
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Predicate:
+    """Code that returns a bool."""
+
+    body: Body
+
+
+Condition = Holds | After | Predicate
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Change:
+    """Ends the decision: to another state, by the transition of this id (empty: it has none)."""
+
+    state: str
+    transition: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Keep:
+    """Ends the decision without a change."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Branch:
+    """Decides further; a side that is exhausted falls through to what follows, one that `ends` never does."""
+
+    then: "tuple[Alternative, ...]"
+    otherwise: "tuple[Alternative, ...]"
+    then_ends: bool
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Alternative:
+    """If all conditions hold, tested in order (none: always), the outcome is taken."""
+
+    conditions: tuple[Condition, ...]
+    outcome: Change | Keep | Branch
+    doc: str = ""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Set:
+    """Give an own variable or output a value."""
+
+    name: str
+    value: Node
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class CallComponent:
+    """Set the parameters of a used component and step it."""
+
+    alias: str
+    arguments: tuple[tuple[str, Node], ...]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Run:
+    """Run hand-written code."""
+
+    body: Body
+
+
+Step = Set | CallComponent | Run
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class StatePlan:
+    """A state; `stem` is its name for functions. `modulates` are already at the end of `act`."""
+
+    name: str
+    stem: str
+    doc: str
+    final: bool
+    requires: tuple[str, ...]
+    enter: tuple[Step, ...]
+    act: tuple[Step, ...]
+    leave: tuple[Step, ...]
+    decisions: tuple[Alternative, ...]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ComponentPlan:
+    """One component: the initial state first. `source` is the design's file, `module` the stem of what is written.
+
+    `time_unit` is "s" or "ms": what times in expressions count.
+    """
+
+    component: str
+    module: str
+    source: str
+    doc: str
+    frequency_hz: float | None
+    resume: bool
+    time_unit: str
+    uses: tuple[UsedComponent, ...]
+    parameters: tuple[Value, ...]
+    outputs: tuple[Value, ...]
+    variables: tuple[Value, ...]
+    module_code: Body | None
+    members: Body | None
+    decide_first: tuple[Alternative, ...]
+    act_first: tuple[Step, ...]
+    states: tuple[StatePlan, ...]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PackagePlan:
+    """Names of what is written for a project: the package, and in it a module for every design, by component."""
+
+    package: str
+    modules: Mapping[str, str]
+    has_declarations: bool
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ProjectPlan:
+    """All that is to be written; `components` are those asked for.
+
+    A constant in `never_zero` may stand below a line without care.
+    """
+
+    name: str
+    doc: str
+    package: PackagePlan
+    enumerations: tuple[Enumeration, ...]
+    constants: tuple[Value, ...]
+    never_zero: frozenset[str]
+    components: tuple[ComponentPlan, ...]

@@ -1,0 +1,124 @@
+"""Breaks long code into lines as Python's formatters do: a document of texts, groups and possible line ends."""
+
+from dataclasses import dataclass
+
+WIDTH = 120
+STEP = 4
+
+
+@dataclass(frozen=True, slots=True)
+class Line:
+    """A place where a line may end; else `flat` stands there."""
+
+    flat: str = " "
+
+
+@dataclass(frozen=True, slots=True)
+class IfBroken:
+    """Text that stands only where the group around it is broken."""
+
+    text: str
+
+
+@dataclass(frozen=True, slots=True)
+class Joined:
+    """One part after the other."""
+
+    parts: "tuple[Doc, ...]"
+
+
+@dataclass(frozen=True, slots=True)
+class Group:
+    """Stands in one line if it fits, else all its own line ends are taken."""
+
+    inner: "Doc"
+    is_broken: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Indent:
+    """One step further in."""
+
+    inner: "Doc"
+
+
+Doc = str | Line | IfBroken | Joined | Group | Indent
+_Task = tuple[int, bool, Doc]
+
+
+def joined(*parts: Doc) -> Doc:
+    """The parts in a row."""
+    return Joined(parts)
+
+
+def separated(parts: list[Doc], separator: Doc) -> Doc:
+    """The parts with something between them."""
+    between: list[Doc] = []
+    for part in parts:
+        between += [separator, part] if between else [part]
+    return Joined(tuple(between))
+
+
+def bracketed(opening: str, inner: Doc, closing: str = ")") -> Doc:
+    """Brackets with lines of their own for what is inside, if that is too long."""
+    return Group(joined(opening, Indent(joined(Line(""), inner)), Line(""), closing))
+
+
+def call(function: str, arguments: list[Doc], *, is_broken: bool = False) -> Doc:
+    """A call; its arguments stand in one line, or each in its own with a comma behind."""
+    if not arguments:
+        return f"{function}()"
+    inner = Group(joined(separated(arguments, joined(",", Line())), IfBroken(",")), is_broken)
+    return Group(joined(f"{function}(", Indent(joined(Line(""), inner)), Line(""), ")"), is_broken)
+
+
+def render(doc: Doc, indent: int = 0) -> list[str]:
+    """The lines of a document, the first one indented too."""
+    out: list[str] = [" " * indent]
+    column = indent
+    tasks: list[_Task] = [(indent, False, doc)]
+    while tasks:
+        depth, is_flat, item = tasks.pop()
+        match item:
+            case str():
+                out.append(item)
+                column += len(item)
+            case Line(flat=flat):
+                column = column + len(flat) if is_flat else depth
+                out.append(flat if is_flat else "\n" + " " * depth)
+            case IfBroken(text=text):
+                tasks.append((depth, is_flat, "" if is_flat else text))
+            case Joined(parts=parts):
+                tasks += [(depth, is_flat, part) for part in reversed(parts)]
+            case Indent(inner=inner):
+                tasks.append((depth + STEP, is_flat, inner))
+            case Group(inner=inner, is_broken=is_broken):
+                flat_now = is_flat or (not is_broken and _fits([(depth, True, inner)], tasks, WIDTH - column))
+                tasks.append((depth, flat_now, inner))
+    return "".join(out).split("\n")
+
+
+def _fits(first: list[_Task], rest: list[_Task], room: int) -> bool:
+    """Whether all up to the next possible line end has room."""
+    tasks, waiting = first, len(rest)
+    while room >= 0:
+        if not tasks:
+            if not waiting:
+                return True
+            waiting -= 1
+            tasks.append(rest[waiting])
+        depth, is_flat, item = tasks.pop()
+        match item:
+            case str(text) | Line(flat=text) | IfBroken(text=text):
+                if isinstance(item, Line) and not is_flat:
+                    return True
+                room -= 0 if isinstance(item, IfBroken) and is_flat else len(text)
+            case Joined(parts=parts):
+                tasks += [(depth, is_flat, part) for part in reversed(parts)]
+            case Indent(inner=inner):
+                tasks.append((depth, is_flat, inner))
+            case Group(inner=inner, is_broken=is_broken):
+                if is_broken and is_flat:
+                    return False
+                tasks.append((depth, not is_broken, inner))
+    return False

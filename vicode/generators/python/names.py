@@ -1,0 +1,99 @@
+"""Names at the top of a generated module, and which of them hand-written code uses."""
+
+import ast
+import keyword
+import re
+import textwrap
+import warnings
+from collections.abc import Iterable
+
+from vicode.generators.plan import ProjectPlan
+
+RESERVED_MODULES = frozenset({*keyword.kwlist, *keyword.softkwlist, "__init__", "bica", "declarations"})
+"""What no module of a package may be called."""
+
+# What generated code itself says at the top, in a class body or in a function.
+_OUR_NAMES = frozenset(
+    [
+        "Component",
+        "Enum",
+        "Final",
+        "Root",
+        "State",
+        "TYPE_CHECKING",
+        "abs",
+        "annotations",
+        "arithmetic",
+        "bool",
+        "decide",
+        "design_file",
+        "float",
+        "frequency_hz",
+        "int",
+        "max",
+        "min",
+        "resume",
+        "root",
+        "round",
+        "self",
+        "super",
+    ]
+)
+_WORD = re.compile(r"[A-Za-z_]\w*", re.ASCII)
+
+
+def name_globals(plan: ProjectPlan) -> dict[str, str]:
+    """Names of enumerations, constants and classes in modules; one that is ours gets a `_`.
+
+    Classes are found under `class_key`, since a component and a constant may share a name: then the constant yields.
+    """
+    used = [use.component for component in plan.components for use in component.uses]
+    classes = {class_key(component): name_class(component) for component in [*plan.package.modules, *used]}
+    names = {"arithmetic": "arithmetic", **classes}
+    taken = _OUR_NAMES | set(classes.values())
+    for declared in (*(each.name for each in plan.enumerations), *(each.name for each in plan.constants)):
+        names[declared] = _free(declared, taken)
+    return names
+
+
+def class_key(component: str) -> str:
+    """How `name_globals` calls the class of a component."""
+    return f"class {component}"
+
+
+def name_class(component: str) -> str:
+    """The name of a component's class."""
+    return _free(component, _OUR_NAMES)
+
+
+def words_in_code(texts: Iterable[str]) -> frozenset[str]:
+    """Names that Python code reads; of code that does not parse, every word."""
+    return frozenset(word for text in texts for word in _words_in(text))
+
+
+def has_statement(text: str) -> bool:
+    """Whether there is more than blanks and comments in a piece of code."""
+    tree = _parse(text)
+    return bool(text.strip()) if tree is None else bool(tree.body)
+
+
+def _free(name: str, taken: frozenset[str]) -> str:
+    while name in taken:
+        name += "_"
+    return name
+
+
+def _words_in(text: str) -> set[str]:
+    tree = _parse(text)
+    if tree is None:
+        return set(_WORD.findall(text))
+    return {node.id for node in ast.walk(tree) if isinstance(node, ast.Name)}
+
+
+def _parse(text: str) -> ast.Module | None:
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            return ast.parse(textwrap.dedent(text.replace("\r\n", "\n").strip("\n")))
+    except (SyntaxError, ValueError, RecursionError, MemoryError):
+        return None

@@ -1,0 +1,171 @@
+"""Spells typed trees as Python, with no bracket too many."""
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from vicode.generators.plan import After, Condition, Holds, literal_of
+from vicode.generators.python.layout import Doc, joined
+from vicode.generators.python.pieces import (
+    ADDITION,
+    AND,
+    COMPARISON,
+    MULTIPLICATION,
+    NEGATIVE,
+    NOT,
+    OR,
+    Piece,
+    atom,
+    call_piece,
+    chain,
+    prefixed,
+    ternary,
+)
+from vicode.model.expressions import (
+    FLOAT,
+    Apply,
+    Binary,
+    Choice,
+    Comparison,
+    Done,
+    Element,
+    Kind,
+    Logic,
+    Minus,
+    Node,
+    Not,
+    Number,
+    Reading,
+    Time,
+    Truth,
+    Variable,
+)
+
+_BUILTIN = {"abs": "abs", "min": "min", "max": "max", "float": "float"}
+_RENAMED = {"int": "to_int", "round": "round_half_even"}
+_GUARDED = {"/": "divide", "//": "floor_divide", "%": "modulo"}
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Speller:
+    """Spells expressions of one component: `names` of constants and enumerations in the module, the unit of times."""
+
+    names: Mapping[str, str]
+    never_zero: frozenset[str] = frozenset()
+    time_unit: str = "s"
+
+    def spell(self, node: Node) -> Piece:
+        """The Python of a typed tree."""
+        match node:
+            case Number(value=value):
+                return atom(spell_number(value))
+            case Truth(value=value):
+                return atom(str(value))
+            case Element(element=element, type=enumeration):
+                return atom(f"{self.names[enumeration]}.{element}")
+            case Variable(name=name, kind=kind):
+                return atom(self.names[name] if kind == Kind.CONSTANT else f"self.{name}")
+            case Time(of=of):
+                return self._spell_time(of)
+            case Done(alias=alias):
+                return atom(f"self.{alias}.is_done")
+            case Reading(alias=alias, output=output, arguments=arguments):
+                return self._spell_reading(f"self.{alias}.{output}", arguments)
+            case _:
+                return self._spell_operation(node)
+
+    def spell_conditions(self, conditions: tuple[Condition, ...]) -> Piece:
+        """All conditions of a guard, joined by `and`."""
+        pieces = [self._spell_condition(condition) for condition in conditions]
+        if len(pieces) == 1:
+            return pieces[0]
+        return chain([(None, pieces[0]), *(("and", piece) for piece in pieces[1:])], AND)
+
+    def _spell_condition(self, condition: Condition) -> Piece:
+        match condition:
+            case Holds(expression=expression):
+                return self.spell(expression)
+            case After():
+                return self._spell_after(condition)
+            case _:
+                return atom(f"self._when_{condition.body.stem}()")
+
+    def _spell_after(self, after: After) -> Piece:
+        passed = chain([(None, atom("self.root.now_ns")), ("-", atom("self._entered_ns"))], ADDITION)
+        if after.ns is not None:
+            return chain([(None, passed), (">=", atom(f"{after.ns:_}"))], COMPARISON)
+        factor = atom("1e6" if self.time_unit == "ms" else "1e9")
+        product = chain([(None, self.spell(after.time)), ("*", factor)], MULTIPLICATION)
+        return chain([(None, passed), (">=", call_piece("round", [product.breakable]))], COMPARISON)
+
+    def _spell_time(self, of: str) -> Piece:
+        if self.time_unit != "ms":
+            return atom(f"self.{of}_time")
+        since = atom(f"self._{'entered' if of == 'state' else 'started'}_ns")
+        passed = chain([(None, atom("self.root.now_ns")), ("-", since)], ADDITION)
+        return chain([(None, passed), ("/", atom("1e6"))], MULTIPLICATION)
+
+    def _spell_reading(self, target: str, arguments: tuple[tuple[str, Node], ...] | None) -> Piece:
+        if arguments is None:
+            return atom(target)
+        return call_piece(target, [_keyword(name, self.spell(value)) for name, value in arguments])
+
+    def _spell_operation(self, node: Node) -> Piece:
+        match node:
+            case Not(operand=operand):
+                return prefixed("not ", self.spell(operand), NOT)
+            case Minus(operand=operand):
+                return prefixed("-", self.spell(operand), NEGATIVE)
+            case Binary():
+                return self._spell_binary(node)
+            case Comparison(operators=operators, operands=operands):
+                pieces = [self.spell(operand) for operand in operands]
+                return chain([(None, pieces[0]), *zip(operators, pieces[1:], strict=True)], COMPARISON)
+            case Logic(operator=operator, operands=operands):
+                pieces = [self.spell(operand) for operand in operands]
+                level = AND if operator == "and" else OR
+                return chain([(None, pieces[0]), *((operator, piece) for piece in pieces[1:])], level)
+            case Choice(test=test, then=then, otherwise=otherwise):
+                return ternary(self.spell(then), self.spell(test), self.spell(otherwise))
+            case Apply(function=function, arguments=arguments):
+                name = _BUILTIN.get(function) or f"{self.names['arithmetic']}.{_RENAMED.get(function, function)}"
+                return call_piece(name, [self.spell(argument).breakable for argument in arguments])
+            case _:
+                raise AssertionError(f"no spelling for {node}")
+
+    def _spell_binary(self, node: Binary) -> Piece:
+        operator, left, right = node.operator, node.left, node.right
+        if operator in _GUARDED and not self._is_never_zero(right, operator):
+            name = f"{self.names['arithmetic']}.{_GUARDED[operator]}"
+            return call_piece(name, [self.spell(left).breakable, self.spell(right).breakable])
+        right_piece = self.spell(_as_float(right)) if operator in ("//", "%") else self.spell(right)
+        level = ADDITION if operator in "+-" else MULTIPLICATION
+        return chain([(None, self.spell(left)), (operator, right_piece)], level)
+
+    def _is_never_zero(self, node: Node, operator: str) -> bool:
+        """Whether Python's own operator, which raises for zero alone, gives the same before it."""
+        if isinstance(node, Variable) and node.kind == Kind.CONSTANT:
+            return node.name in self.never_zero and (operator == "/" or node.type == FLOAT)
+        return bool(literal_of(node))
+
+
+def spell_number(value: float) -> str:
+    """A number, which is never negative, as a formatter leaves it."""
+    if math.isinf(value):
+        return 'float("inf")'
+    return repr(value).replace("e+", "e")
+
+
+def _as_float(node: Node) -> Node:
+    # `//` and `%` of two ints would be an int, and are defined to be floats.
+    match node:
+        case Number(value=value, span=span):
+            return Number(value=float(value), type=FLOAT, span=span)
+        case Minus(operand=operand, span=span):
+            return Minus(operand=_as_float(operand), type=FLOAT, span=span)
+        case _:
+            return node
+
+
+def _keyword(name: str, value: Piece) -> Doc:
+    return joined(f"{name}=", value.breakable)

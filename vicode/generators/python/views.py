@@ -1,0 +1,45 @@
+"""What the templates of Python see: finished strings and lists of them."""
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class MethodView:
+    """A method: its lines up to the colon, and what is inside, all indented."""
+
+    signature: str
+    body: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ComponentView:
+    """A module with one component; `imports` are the sections of imports, `settings` attributes of the class."""
+
+    docstring: str
+    imports: tuple[tuple[str, ...], ...]
+    imports_for_types: tuple[str, ...]
+    module_code: str
+    class_name: str
+    class_docstring: str
+    settings: tuple[str, ...]
+    methods: tuple[MethodView, ...]
+    members: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ClassView:
+    """An enumeration: its members as lines."""
+
+    name: str
+    docstring: str
+    members: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class DeclarationsView:
+    """A module with the project's enumerations and constants."""
+
+    docstring: str
+    imports: tuple[str, ...]
+    enumerations: tuple[ClassView, ...]
+    constants: tuple[str, ...]
