@@ -3,6 +3,7 @@
 from vicode.store.documents import ReadDesign, ReadProject, read_design, read_project_file
 from vicode.store.locating import locate, place_of
 from vicode.store.projects import OpenProject, design_files, find_projects, open_project
+from vicode.store.saving import save_design, save_project_file
 from vicode.store.sources import SourceMap
 
 __all__ = [
@@ -17,4 +18,6 @@ __all__ = [
     "place_of",
     "read_design",
     "read_project_file",
+    "save_design",
+    "save_project_file",
 ]

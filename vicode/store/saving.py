@@ -1,0 +1,77 @@
+"""Saves a design or a project into its old text: what did not change keeps every byte."""
+
+import itertools
+import sys
+
+from vicode.model.design import Design
+from vicode.model.project import Project
+from vicode.store.documents import read_record
+from vicode.store.emitting import Layout, document_text, layout_of
+from vicode.store.flattening import flatten_design, flatten_project
+from vicode.store.format import DESIGN, PROJECT
+from vicode.store.patching import CannotPatchError, Patcher
+from vicode.store.shapes import Data, Record
+from vicode.store.wishing import Wishing
+
+# Everything that differs is replaced by itself; if that fails, whole states and declarations, then whole sections.
+_DEPTHS = (sys.maxsize, 3, 2)
+
+
+def save_design(design: Design, old_text: str = "") -> str:
+    """The new text of a design file: the old one with what differs replaced; without an old one a fresh text.
+
+    Raises:
+        ValueError: Two states, uses or declarations of the design have one name, which no mapping can hold.
+    """
+    return _save(DESIGN, flatten_design(design), old_text)
+
+
+def save_project_file(project: Project, old_text: str = "") -> str:
+    """The new text of a project.yaml, like `save_design`; the designs of the project are not part of it."""
+    return _save(PROJECT, flatten_project(project), old_text)
+
+
+def _save(shape: Record, data: Data, old_text: str) -> str:
+    _report, old = read_record(old_text, "", shape)
+    if old is None:
+        return _fresh(shape, data, old_text)
+    if old.value == data:
+        return old_text
+    is_windows = "\r\n" in old_text and old_text.count("\r\n") == old_text.count("\n")
+    plain = old_text.replace("\r\n", "\n") if is_windows else old_text
+    for deepest in _DEPTHS:
+        new = _patched(shape, data, plain, deepest)
+        new = new.replace("\n", "\r\n") if new is not None and is_windows else new
+        if new is not None and _says(shape, new, data):
+            return new
+    return _fresh(shape, data, old_text)
+
+
+def _patched(shape: Record, data: Data, text: str, deepest: int) -> str | None:
+    is_ended = text.endswith("\n")
+    ended = text if is_ended else text + "\n"
+    _report, old = read_record(ended, "", shape)
+    if old is None:
+        return None
+    wish = Wishing(ended, deepest=deepest).wish(shape, data, old)
+    patcher = Patcher(text=ended, layout=layout_of(old.node, ended))
+    try:
+        patcher.document(old.node, wish)
+        new = patcher.result()
+    except CannotPatchError:
+        return None
+    return new if is_ended else new.removesuffix("\n")
+
+
+def _says(shape: Record, text: str, data: Data) -> bool:
+    _report, read = read_record(text, "", shape)
+    return read is not None and read.value == data
+
+
+def _fresh(shape: Record, data: Data, old_text: str) -> str:
+    """A text without a model; the comments that an old one began with are kept."""
+    lines = itertools.takewhile(lambda line: line.startswith("#") or not line.strip(), old_text.splitlines())
+    header = "".join(f"{line}\n" for line in lines if line.isprintable())
+    new = header.lstrip("\n") + document_text(Wishing("").wish(shape, data), Layout())
+    assert _says(shape, new, data), "a fresh text must say what it was written for"
+    return new
