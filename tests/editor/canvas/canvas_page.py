@@ -1,6 +1,7 @@
 """A page with nothing but the canvas, for browser tests and the benchmark: `python canvas_page.py PORT SCENE.json`.
 
-It behaves like a small editor: moves are echoed, deletions and renames applied. What it heard is readable at /heard.
+It behaves like a small editor: moves are echoed, deletions and renames applied. /heard tells the gestures, /call/METHOD
+calls the element.
 """
 
 import json
@@ -45,7 +46,7 @@ def main(port: int, scene_file: Path, theme: str) -> None:
         canvas = Canvas(on_gesture=hear)
         canvas.style("width: 100vw; height: 100vh")
         canvases.append(canvas)
-        canvas.load(json.loads(scene_file.read_text()))
+        canvas.load(json.loads(scene_file.read_text(encoding="utf-8")))
 
     ui.run(host="127.0.0.1", port=port, reload=False, show=False, title="canvas", reconnect_timeout=30)
 

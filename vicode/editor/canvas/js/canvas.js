@@ -6,7 +6,7 @@ import { Handles } from "./handles.js";
 import { Keyboard } from "./keyboard.js";
 import { Minimap } from "./minimap.js";
 import { Overview } from "./overview.js";
-import { Painter } from "./painter.js";
+import { MOST_PINNED, Painter } from "./painter.js";
 import { Rename } from "./rename.js";
 import { Router } from "./routing.js";
 import { keyOf, Scene } from "./scene.js";
@@ -18,8 +18,9 @@ import { Toolbar } from "./toolbar.js";
 import { Viewport } from "./viewport.js";
 
 const FAR = 0.3;
-const NEAR_AGAIN = 0.34;
 const FAR_STATES = 150;
+const CROWD = 700;
+const LEAVING = 0.88;
 const DOT_GAP = 20;
 
 const sheet = new CSSStyleSheet();
@@ -34,6 +35,8 @@ class Canvas {
     this.emit = emit;
     this.far = false;
     this.activeSeq = -1;
+    this.shownZoom = 1;
+    this.sharpZoom = 1;
     this.fitPending = true;
     this.frame = new Frame();
     this.scene = new Scene();
@@ -141,8 +144,10 @@ class Canvas {
     if (this.far) this.frame.ask("cull", () => this.cull());
   }
 
+  /** Brings the mounted part up to what is seen. */
   cull() {
-    this.painter.cull(this.viewport.rect(), this.far);
+    if (!this.far && this.#tooMuch(1)) this.#setFar(true);
+    else this.#mount();
   }
 
   /** Brings a thing into sight, and near enough to be read. */
@@ -182,7 +187,7 @@ class Canvas {
     this.keyboard = new Keyboard(this);
     this.rename = new Rename(this);
     this.dots = html("div", { class: "dots" });
-    this.plane = html("div", { class: "plane" }, [this.painter.svg]);
+    this.plane = html("div", { class: "plane layer" }, [this.painter.svg]);
     this.message = html("div", { class: "message", role: "status", hidden: true });
     this.empty = html("div", { class: "empty", hidden: true, text: "No states yet.\nDouble click, or press S, to add the first." });
     const corner = html("div", { class: "corner" }, [this.minimap.element, this.toolbar.element]);
@@ -211,50 +216,81 @@ class Canvas {
 
   #viewChanged() {
     const { x, y, k } = this.viewport;
+    const zooms = k !== this.shownZoom;
+    this.shownZoom = k;
     this.plane.style.transform = `translate(${x}px, ${y}px) scale(${k})`;
-    this.plane.classList.add("busy");
     this.#placeDots(x, y, k);
     this.toolbar.show(k);
     this.minimap.follow();
     this.rename.follow();
-    if (!this.far && this.#tooMuch(FAR)) this.#setFar(true);
-    if (this.far) this.overview.place();
-    if (!this.painter.covers(this.viewport.rect())) this.cull();
+    if (!this.far && this.#tooMuch(1)) this.#setFar(true);
+    else if (!this.painter.covers(this.viewport.rect())) this.#uncovered(zooms);
+    this.overview.place();
+  }
+
+  /** The view moved past what is mounted. While it zooms the coarse bitmap must do; while it pans, things are mounted. */
+  #uncovered(zooms) {
+    if (zooms && this.overview.isThere()) this.#showUnderlay(true);
+    else this.#mount();
   }
 
   #viewRests() {
-    this.plane.classList.remove("busy");
-    if (this.far && !this.#tooMuch(NEAR_AGAIN)) this.#setFar(false);
+    if (this.far && !this.#tooMuch(LEAVING)) this.#setFar(false);
     this.cull();
     if (this.far) this.overview.sharpen(this.selection.keys);
     this.handles.refresh();
+    if (this.shownZoom !== this.sharpZoom) this.#rasterAnew();
   }
 
-  #tooMuch(border) {
-    return this.viewport.k < border && this.scene.nodes.size > FAR_STATES;
+  /** A layer keeps the sharpness it was first drawn with; for a moment it must be none. */
+  #rasterAnew() {
+    this.sharpZoom = this.shownZoom;
+    this.plane.classList.remove("layer");
+    requestAnimationFrame(() => requestAnimationFrame(() => this.plane.classList.add("layer")));
+  }
+
+  #mount() {
+    this.painter.cull(this.viewport.rect(), { far: this.far, moving: !this.viewport.resting });
+    this.#showUnderlay(false);
+  }
+
+  #showUnderlay(shown) {
+    this.stage.classList.toggle("under", shown);
+  }
+
+  /** Whether there is more in sight than the browser should draw piece by piece; `slack` below 1 makes leaving harder. */
+  #tooMuch(slack) {
+    if (this.scene.nodes.size <= FAR_STATES) return false;
+    return this.viewport.k < FAR / slack || this.scene.nodeGrid.query(this.viewport.rect()).size > CROWD * slack;
   }
 
   #setFar(far) {
     this.far = far;
     if (far) this.overview.prepare(this.selection.keys);
     this.stage.classList.toggle("far", far);
-    this.cull();
+    this.#mount();
   }
 
+  /** The dots are one layer that is only moved and scaled; painting them anew in each frame would cost a third of all frames. */
   #placeDots(x, y, k) {
-    let gap = DOT_GAP * k;
-    while (gap < 14) gap *= 2;
-    this.dots.style.backgroundSize = `${gap}px ${gap}px`;
-    this.dots.style.transform = `translate(${(x % gap) + (80 % gap) - gap / 2}px, ${(y % gap) + (80 % gap) - gap / 2}px)`;
+    let scale = k;
+    while (scale < 0.7) scale *= 2;
+    while (scale >= 1.4) scale /= 2;
+    const gap = DOT_GAP * scale;
+    const within = (value) => (((value % gap) + gap) % gap) - gap;
+    this.dots.style.transform = `translate(${within(x)}px, ${within(y)}px) scale(${scale})`;
   }
 
   #selectionChanged(quiet) {
     this.handles.refresh();
     if (!quiet) this.report("select", { items: this.selection.items() });
-    if (this.far) {
-      this.overview.spoil();
-      this.#redrawSoon();
-    }
+    if (!this.far) return;
+    this.frame.ask("cull", () => this.cull());
+    // A small selection lies as SVG above the bitmap; a large one is drawn into it.
+    const inBitmap = this.selection.keys.size > MOST_PINNED;
+    if (inBitmap || this.overview.showsSelection) this.overview.spoil();
+    this.overview.showsSelection = inBitmap;
+    this.#redrawSoon();
   }
 
   #coloursChanged() {
@@ -270,7 +306,7 @@ class Canvas {
     this.empty.hidden = [...this.scene.nodes.values()].some((node) => node.of === "states");
     this.stage.setAttribute("aria-label", `State machine ${this.scene.component}`);
     this.overview.spoil();
-    if (this.far && !this.#tooMuch(NEAR_AGAIN)) this.#setFar(false);
+    if (this.far && !this.#tooMuch(LEAVING)) this.#setFar(false);
     this.frame.ask("minimap", () => this.minimap.draw());
     this.frame.ask("scene", () => {
       this.cull();
@@ -280,11 +316,12 @@ class Canvas {
     this.#redrawSoon();
   }
 
+  /** Bitmaps follow a change when there is time: soon when they are looked at, later when they only stand by. */
   #redrawSoon() {
-    this.frame.afterRest("overview", 60, () => {
-      if (!this.far || this.gestures.isDragging()) return;
+    this.frame.afterRest("overview", this.far ? 60 : 500, () => {
+      if (this.gestures.isDragging() || !this.viewport.resting) return this.#redrawSoon();
       this.overview.prepare(this.selection.keys);
-      this.overview.sharpen(this.selection.keys);
+      if (this.far) this.overview.sharpen(this.selection.keys);
     });
   }
 

@@ -1,6 +1,7 @@
 // A uniform grid over the plane: which keys may touch a rectangle, in constant time per cell.
 
 const CELL = 320;
+const NONE = new Set();
 
 export class Grid {
   constructor() {
@@ -43,6 +44,11 @@ export class Grid {
       for (const key of this.cells.get(cell) ?? []) found.add(key);
     }
     return found;
+  }
+
+  /** The keys of the one cell a point lies in, without copying them. */
+  at(x, y) {
+    return this.cells.get(cellName(Math.floor(x / CELL), Math.floor(y / CELL))) ?? NONE;
   }
 
   #file(key, cells) {

@@ -122,11 +122,11 @@ export class Keyboard {
   }
 }
 
-/** Every node, each followed by what leaves it. */
+/** Every node, each followed by what leaves it: transitions by their order, then links. */
 function walkOf(scene) {
   return [...scene.nodes.values()].flatMap((node) => {
     const leaving = scene.edgesOf(node.key).filter((edge) => edge.source === node.key && scene.isDrawable(edge));
-    leaving.sort((a, b) => (a.data.order ?? 0) - (b.data.order ?? 0));
+    leaving.sort((a, b) => (a.data.order ?? Infinity) - (b.data.order ?? Infinity) || 0);
     return [node.key, ...leaving.map((edge) => edge.key)];
   });
 }

@@ -5,7 +5,7 @@ import { shorten, textWidth } from "./text.js";
 const HEIGHT = 22;
 const PADDING = 8;
 const ICON = 15;
-const ROOM = 170;
+const ROOM = 150;
 const PLACES = [0.5, 0.42, 0.58, 0.34, 0.66, 0.27, 0.73, 0.2, 0.8];
 const SHIFTS = [0, -14, 14, -26, 26];
 

@@ -1,5 +1,5 @@
 // The whole scene in a corner; a press or drag there brings that place to the middle.
-import { bounds, grow, rectOf } from "./geometry.js";
+import { bounds, covers, grow, rectOf } from "./geometry.js";
 import { html } from "./svg.js";
 
 const WIDTH = 180;
@@ -14,6 +14,7 @@ export class Minimap {
     this.frame = html("div", { class: "frame" });
     this.element = html("div", { class: "minimap", "aria-hidden": "true" }, [this.canvas, this.frame]);
     this.map = null;
+    this.extent = null;
     this.#listen();
   }
 
@@ -23,8 +24,8 @@ export class Minimap {
     pen.setTransform(1, 0, 0, 1, 0, 0);
     pen.clearRect(0, 0, this.canvas.width, this.canvas.height);
     const extent = this.scene.extent();
-    this.element.hidden = !extent;
-    if (!extent) return;
+    this.extent = extent;
+    if (!extent) return this.follow();
     const area = grow(extent, Math.max(extent.w, extent.h) * 0.06);
     const scale = Math.min(WIDTH / area.w, HEIGHT / area.h);
     this.map = { scale, x: (WIDTH - area.w * scale) / 2 - area.x * scale, y: (HEIGHT - area.h * scale) / 2 - area.y * scale };
@@ -39,10 +40,11 @@ export class Minimap {
     this.follow();
   }
 
-  /** Shows which part of the map is seen. */
+  /** Shows which part of the map is seen; when that is all of it, the map is only in the way. */
   follow() {
-    if (!this.map) return;
     const seen = this.viewport.rect();
+    this.element.hidden = !this.extent || covers(seen, this.extent);
+    if (this.element.hidden) return;
     const corner = (x, y) => ({ x: clamp(x * this.map.scale + this.map.x, WIDTH), y: clamp(y * this.map.scale + this.map.y, HEIGHT), w: 0, h: 0 });
     const box = bounds([corner(seen.x, seen.y), corner(seen.x + seen.w, seen.y + seen.h)]);
     Object.assign(this.frame.style, { left: `${box.x}px`, top: `${box.y}px`, width: `${box.w}px`, height: `${box.h}px` });

@@ -1,5 +1,5 @@
 // From far the scene is two bitmaps: a coarse one of everything and a sharp one of what is seen.
-import { bounds, grow, overlaps, rectOf } from "./geometry.js";
+import { bounds, covers, grow, overlaps, rectOf } from "./geometry.js";
 import { html } from "./svg.js";
 import { FONTS } from "./text.js";
 
@@ -16,6 +16,7 @@ export class Overview {
     this.sharp = { canvas: html("canvas", { class: "bitmap" }), region: null, scale: 1 };
     this.elements = [this.coarse.canvas, this.sharp.canvas];
     this.stale = true;
+    this.showsSelection = false;
   }
 
   /** The scene or its colours changed. The old bitmaps stay until new ones are drawn, so that nothing flickers. */
@@ -33,11 +34,17 @@ export class Overview {
     this.#draw(this.coarse, region, Math.min(1, COARSE_PIXELS / Math.max(region.w, region.h)), selected);
   }
 
+  isThere() {
+    return this.coarse.region !== null;
+  }
+
   /** Draws what is seen, and some more, at the present zoom. */
   sharpen(selected) {
     const extent = this.scene.extent();
     if (!extent) return;
     const seen = this.viewport.rect();
+    if (this.sharp.region && this.sharp.zoom === this.viewport.k && holdsSeen(this.sharp.region, seen, extent)) return;
+    this.sharp.zoom = this.viewport.k;
     const region = intersection(grow(extent, 60), grow(seen, Math.max(seen.w, seen.h) / 3));
     if (!region) return;
     const scale = Math.min(this.viewport.k * devicePixelRatio, SHARP_PIXELS / Math.max(region.w, region.h));
@@ -47,6 +54,7 @@ export class Overview {
 
   /** Moves both bitmaps to where the viewport wants them. */
   place() {
+    if (!this.isThere()) return;
     const { x, y, k } = this.viewport;
     for (const { canvas, region, scale } of [this.coarse, this.sharp]) {
       canvas.style.visibility = region ? "visible" : "hidden";
@@ -125,6 +133,12 @@ const LOOKS = {
   warning: ["warning", "warning"],
   note: ["note", "note"],
 };
+
+/** Whether a bitmap of a region shows everything of the scene that is seen. */
+function holdsSeen(region, seen, extent) {
+  const part = intersection(seen, extent);
+  return !part || covers(region, part);
+}
 
 function intersection(a, b) {
   if (!overlaps(a, b)) return null;

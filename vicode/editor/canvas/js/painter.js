@@ -5,7 +5,10 @@ import { drawNode, placeNode } from "./node_art.js";
 import { svg } from "./svg.js";
 
 // Marked things stay mounted also where the overview bitmap stands for the rest, up to this many of each mark.
-const PINNED = { selected: 150, active: 150, drop: 1, lit: 200, held: 1500 };
+export const MOST_PINNED = 150;
+const PINNED = { selected: MOST_PINNED, active: MOST_PINNED, drop: 1, lit: 200, held: 1500 };
+
+const MOST_MOUNTED = 2500;
 
 export class Painter {
   constructor(scene, router) {
@@ -30,13 +33,15 @@ export class Painter {
     return this.far || (this.covered !== null && covers(this.covered, seen));
   }
 
-  /** Mounts what a rectangle (with a margin) shows; from far only what is marked. */
-  cull(seen, far) {
+  /** Mounts what a rectangle (with a margin) shows; from far only what is marked. While the view moves nothing is taken away. */
+  cull(seen, { far, moving = false }) {
     this.far = far;
     this.covered = grow(seen, Math.max(seen.w, seen.h) / 3);
     const wanted = far ? new Set() : this.#near(this.covered);
     for (const key of this.#pinned()) wanted.add(key);
-    for (const key of [...this.items.keys()]) if (!wanted.has(key)) this.#unmount(key);
+    if (far || !moving || this.items.size > MOST_MOUNTED) {
+      for (const key of [...this.items.keys()]) if (!wanted.has(key)) this.#unmount(key);
+    }
     for (const key of wanted) if (!this.items.has(key)) this.#mount(key);
   }
 

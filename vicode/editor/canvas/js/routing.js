@@ -1,6 +1,6 @@
 // The way of every edge: all edges between one pair of nodes are routed together, so that they fan out.
 import { Grid } from "./grid.js";
-import { curveBounds, exitPoint, grow, holds, overlaps, pointAt, raise, rectAround, rectOf } from "./geometry.js";
+import { curveBounds, exitPoint, grow, overlaps, pointAt, raise, rectAround, rectOf } from "./geometry.js";
 import { chipOf, placeLabel } from "./labels.js";
 import { pairOf } from "./scene.js";
 
@@ -67,7 +67,7 @@ export class Router {
     edges.forEach((edge, index) => {
       const curve = curves[index];
       const chip = chipOf(edge);
-      const at = placeLabel(curve, chip, (rect) => this.#crowd(rect));
+      const at = first.source === first.target ? loopLabel(curve, chip) : placeLabel(curve, chip, (rect) => this.#crowd(rect));
       this.routes.set(edge.key, { curve, chip, at });
       if (chip) this.#fileLabel(edge.key, rectAround(at.x, at.y, chip.w, chip.h));
     });
@@ -106,15 +106,18 @@ export class Router {
     return raise(exitPoint(source, control.x, control.y), control, exitPoint(target, control.x, control.y));
   }
 
+  /** How many boxes a curve runs over, looked up along the curve in steps smaller than a box. */
   #boxesUnder(curve, from, to) {
     const hit = new Set();
-    const boxes = [...this.scene.nodeGrid.query(curveBounds(curve))]
-      .map((key) => this.scene.nodes.get(key))
-      .filter((node) => node && node !== from && node !== to);
-    if (!boxes.length) return 0;
-    for (let step = 1; step < 20; step += 1) {
-      const point = pointAt(curve, step / 20);
-      for (const box of boxes) if (holds(grow(rectOf(box), CLEARANCE), point.x, point.y)) hit.add(box.key);
+    const length = Math.hypot(curve[6] - curve[0], curve[7] - curve[1]);
+    const steps = Math.min(80, Math.max(8, Math.ceil(length / 36)));
+    for (let step = 1; step < steps; step += 1) {
+      const { x, y } = pointAt(curve, step / steps);
+      for (const key of this.scene.nodeGrid.at(x, y)) {
+        const box = this.scene.nodes.get(key);
+        if (box === from || box === to) continue;
+        if (Math.abs(x - box.x) < box.w / 2 + CLEARANCE && Math.abs(y - box.y) < box.h / 2 + CLEARANCE) hit.add(key);
+      }
     }
     return hit.size;
   }
@@ -162,8 +165,16 @@ export class Router {
   }
 }
 
+/** The chip of a loop hangs on its outermost point, so that the loop itself stays visible. */
+function loopLabel(curve, chip) {
+  const apex = pointAt(curve, 0.5);
+  const foot = { x: (curve[0] + curve[6]) / 2, y: (curve[1] + curve[7]) / 2 };
+  if (!chip || Math.abs(apex.x - foot.x) < Math.abs(apex.y - foot.y)) return apex;
+  return { x: apex.x + Math.sign(apex.x - foot.x) * (chip.w / 2 - 8), y: apex.y };
+}
+
 function loop(node, side, ring) {
-  const reach = 56 + ring * 26;
+  const reach = 62 + ring * 26;
   const half = 16 + ring * 6;
   const spread = half + 18;
   const along = { x: -side.y, y: side.x };

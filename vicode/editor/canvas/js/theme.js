@@ -5,6 +5,7 @@ export class Theme {
     this.stage = stage;
     this.onChange = onChange;
     this.wish = "auto";
+    this.colours = new Map();
     this.system = matchMedia("(prefers-color-scheme: dark)");
     this.refresh = () => this.#refresh();
     this.system.addEventListener("change", this.refresh);
@@ -20,7 +21,8 @@ export class Theme {
 
   /** The value of a colour of the style sheet, for bitmaps. */
   colour(name) {
-    return this.style.getPropertyValue(`--${name}`).trim();
+    if (!this.colours.has(name)) this.colours.set(name, getComputedStyle(this.stage).getPropertyValue(`--${name}`).trim());
+    return this.colours.get(name);
   }
 
   dispose() {
@@ -30,9 +32,9 @@ export class Theme {
 
   #refresh() {
     const theme = this.#resolve();
-    this.style = getComputedStyle(this.stage);
     if (theme === this.stage.dataset.theme) return;
     this.stage.dataset.theme = theme;
+    this.colours.clear();
     this.onChange();
   }
 

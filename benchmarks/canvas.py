@@ -1,0 +1,212 @@
+"""How fast the canvas opens, and how many frames it keeps while a hand drags, pans and zooms.
+
+Run `python -m benchmarks.canvas [SIZE …]`. Every figure is the median of the runs; frames are given as a share of
+what the same browser reaches on the same page at rest, since a bare figure says more about the machine.
+"""
+
+import json
+import os
+import socket
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from statistics import median
+from urllib.request import urlopen
+
+from playwright.sync_api import Browser, Page, sync_playwright
+
+from tests.editor.canvas.player_scene import machine
+
+ROOT = Path(__file__).parents[1]
+SERVER = ROOT / "tests/editor/canvas/canvas_page.py"
+SIZES = (20, 300, 1000, 3000)
+RUNS = 5
+STROKE_S = 0.7
+ARGUMENTS = ("--no-sandbox", "--disable-dev-shm-usage")
+
+COUNT_FRAMES = """seconds => new Promise(done => {
+    const begin = performance.now();
+    let frames = 0;
+    const tick = now => {
+        if (now - begin >= seconds * 1000) done(frames * 1000 / (now - begin));
+        else { frames += 1; requestAnimationFrame(tick); }
+    };
+    requestAnimationFrame(tick);
+})"""
+START_COUNTING = f"seconds => {{ window.counted = ({COUNT_FRAMES})(seconds); }}"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Row:
+    """The medians for one scene, seen from one distance."""
+
+    states: int
+    distance: str
+    open_s: float
+    rest_fps: float
+    drag: float
+    pan: float
+    zoom: float
+
+
+def main(sizes: Sequence[int] = SIZES) -> None:
+    """Measure every size and print a table."""
+    print("states  view   open s   rest fps   drag    pan    zoom   (share of the frames at rest)")
+    with sync_playwright() as playwright:
+        browser = playwright.chromium.launch(executable_path="/usr/bin/chromium", args=list(ARGUMENTS))
+        for size in sizes:
+            for row in measure(browser, size):
+                print(
+                    f"{row.states:6}  {row.distance:4} {row.open_s:8.2f} {row.rest_fps:10.1f}"
+                    f"{row.drag:7.0%}{row.pan:7.0%}{row.zoom:8.0%}",
+                    flush=True,
+                )
+        browser.close()
+
+
+def measure(browser: Browser, size: int) -> Iterator[Row]:
+    """Open a made-up machine several times, then work on it from far and from near."""
+    with serving(machine(size)) as address:
+        opened = [open_page(browser, address) for _ in range(RUNS)]
+        page = opened[-1][0]
+        for other, _ in opened[:-1]:
+            other.close()
+        for distance in ("fit", "near"):
+            yield measure_gestures(page, size, distance, median(seconds for _, seconds in opened))
+        page.close()
+
+
+def measure_gestures(page: Page, size: int, distance: str, open_s: float) -> Row:
+    """Measure rest, drag, pan and zoom in turn, several times over."""
+    set_view(page, distance)
+    counts: dict[str, list[float]] = {"rest": [], "drag": [], "pan": [], "zoom": []}
+    for _ in range(RUNS):
+        rest = page.evaluate(COUNT_FRAMES, STROKE_S)
+        counts["rest"].append(rest)
+        for name, stroke in (("drag", drag), ("pan", pan), ("zoom", zoom)):
+            set_view(page, distance)
+            counts[name].append(count_during(page, stroke) / rest)
+    middle = {name: median(values) for name, values in counts.items()}
+    return Row(
+        states=size,
+        distance=distance,
+        open_s=open_s,
+        rest_fps=middle["rest"],
+        drag=middle["drag"],
+        pan=middle["pan"],
+        zoom=middle["zoom"],
+    )
+
+
+def count_during(page: Page, stroke: Callable[[Page, float], None]) -> float:
+    """The frames per second while a stroke of the hand is made."""
+    page.mouse.move(683, 384)
+    page.evaluate(START_COUNTING, STROKE_S)
+    stroke(page, time.monotonic() + STROKE_S)
+    return float(page.evaluate("window.counted"))
+
+
+def drag(page: Page, until: float) -> None:
+    """Drag the state nearest to the middle in circles."""
+    x, y = page.evaluate(
+        """() => {
+            const {vicode} = document.querySelector('.vicode-canvas');
+            const places = Object.keys(vicode.positions()).map(name => vicode.screen('states', name.split('/')[1]));
+            const far = ({x, y}) => Math.hypot(x - 683, y - 384);
+            const {x, y} = places.reduce((best, each) => far(each) < far(best) ? each : best);
+            return [x, y];
+        }"""
+    )
+    page.mouse.move(x, y)
+    page.mouse.down()
+    swing(page, x, y, until)
+    page.mouse.up()
+
+
+def pan(page: Page, until: float) -> None:
+    """Pan with the middle button."""
+    page.mouse.down(button="middle")
+    swing(page, 683, 384, until)
+    page.mouse.up(button="middle")
+
+
+def zoom(page: Page, until: float) -> None:
+    """Turn the wheel, out and in again."""
+    turn = 0
+    while time.monotonic() < until:
+        page.mouse.wheel(0, 100 if (turn // 8) % 2 == 0 else -100)
+        time.sleep(0.02)
+        turn += 1
+
+
+def swing(page: Page, x: float, y: float, until: float) -> None:
+    """Move the mouse to and fro, about once a frame."""
+    step = 0
+    while time.monotonic() < until:
+        step += 1
+        page.mouse.move(x + 8 * (step % 40), y + 4 * (step % 30))
+        time.sleep(0.008)
+
+
+def set_view(page: Page, distance: str) -> None:
+    """Show everything, or the middle of the scene at life size."""
+    page.keyboard.press("Escape")
+    page.locator(".stage").press("1")
+    if distance == "near":
+        page.locator(".stage").press("0")
+    page.wait_for_function("document.querySelector('.vicode-canvas').vicode.view().resting")
+    time.sleep(0.3)
+
+
+def open_page(browser: Browser, address: str) -> tuple[Page, float]:
+    """Open the page; the seconds are from the request to the painted scene."""
+    page = browser.new_page(viewport={"width": 1366, "height": 768})
+    begin = time.monotonic()
+    page.goto(address, wait_until="commit")
+    page.wait_for_selector(".vicode-canvas[data-ready]")
+    page.evaluate("new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))")
+    seconds = time.monotonic() - begin
+    time.sleep(0.5)
+    return page, seconds
+
+
+@contextmanager
+def serving(scene: dict[str, object]) -> Iterator[str]:
+    """Serve a scene in a process of its own."""
+    with tempfile.TemporaryDirectory() as folder, socket.socket() as free:
+        scene_file = Path(folder, "scene.json")
+        scene_file.write_text(json.dumps(scene), encoding="utf-8")
+        free.bind(("127.0.0.1", 0))
+        port = free.getsockname()[1]
+        free.close()
+        kept = {name: value for name, value in os.environ.items() if not name.startswith(("PYTEST_", "NICEGUI_"))}
+        environment = {**kept, "NICEGUI_STORAGE_PATH": folder, "PYTHONPATH": str(ROOT)}
+        command = [sys.executable, str(SERVER), str(port), str(scene_file), "light"]
+        process = subprocess.Popen(command, env=environment, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        try:
+            wait_until_served(f"http://127.0.0.1:{port}/heard", process)
+            yield f"http://127.0.0.1:{port}/"
+        finally:
+            process.kill()
+            process.wait()
+
+
+def wait_until_served(address: str, process: subprocess.Popen[bytes]) -> None:
+    """Wait for the first answer, or fail when the server died."""
+    while process.poll() is None:
+        try:
+            urlopen(address).close()
+        except OSError:
+            time.sleep(0.05)
+        else:
+            return
+    raise RuntimeError("the server for the benchmark ended by itself")
+
+
+if __name__ == "__main__":
+    main([int(argument) for argument in sys.argv[1:]] or SIZES)

@@ -1,0 +1,192 @@
+"""The canvas in a real browser: a server with nothing but the canvas, and a hand that works on it."""
+
+import json
+import os
+import socket
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Iterator, Mapping
+from pathlib import Path
+from typing import Any
+from urllib.request import Request, urlopen
+
+import pytest
+from playwright.sync_api import Browser, ConsoleMessage, Error, Locator, Page
+
+from tests.editor.canvas.player_scene import player
+
+ROOT = Path(__file__).parents[3]
+SERVER = Path(__file__).parent / "canvas_page.py"
+Point = tuple[float, float]
+
+
+class Hand:
+    """A person at the canvas: points, drags and types, and can ask what Python heard."""
+
+    def __init__(self, page: Page, address: str) -> None:
+        self.page = page
+        self.address = address
+
+    def show(self, scene: Mapping[str, Any]) -> None:
+        """Begin anew with a scene, all of it in sight and the mouse out of the way."""
+        self.page.mouse.move(1, 1)
+        self.press("Escape")
+        self.call("show_links", True)
+        self.call("select", [])
+        self.page.evaluate("document.querySelector('.vicode-canvas').removeAttribute('data-ready')")
+        self.call("load", scene)
+        self.page.wait_for_selector(".vicode-canvas[data-ready]")
+        self.call("fit")
+        self.page.wait_for_timeout(30)
+        self.wait_until_rest()
+        self._ask("/forget", b"")
+
+    def at(self, of: str, identity: str, right: float = 0, down: float = 0) -> Point:
+        """Where the middle of a thing is on the screen, or a point beside it."""
+        spot = self.vicode(f"screen({json.dumps(of)}, {json.dumps(identity)})")
+        return spot["x"] + right, spot["y"] + down
+
+    def drag(self, start: Point, end: Point, button: Any = "left") -> None:
+        self.page.mouse.move(*start)
+        self.page.mouse.down(button=button)
+        self.page.mouse.move((start[0] + end[0]) / 2, (start[1] + end[1]) / 2, steps=3)
+        self.page.mouse.move(*end, steps=3)
+        self.page.mouse.up(button=button)
+
+    def drag_handle(self, of: str, identity: str, end: Point) -> None:
+        """Hover a node until its handles show, and drag the one at its lower side."""
+        self.page.mouse.move(*self.at(of, identity))
+        handle = self.page.locator("circle.handle-hit[data-handle]").nth(2)
+        handle.wait_for()
+        box = handle.bounding_box()
+        assert box is not None
+        self.drag((box["x"] + box["width"] / 2, box["y"] + box["height"] / 2), end)
+
+    def click(self, spot: Point, *, double: bool = False) -> None:
+        self.page.mouse.click(*spot, click_count=2 if double else 1)
+
+    def press(self, *keys: str) -> None:
+        for key in keys:
+            self.page.keyboard.press(key)
+
+    def heard(self, kind: str) -> dict[str, Any]:
+        """The newest gesture of a kind, waited for; it comes without its revision."""
+        end = time.monotonic() + 10
+        while time.monotonic() < end:
+            if found := self.heard_all(kind):
+                return {name: value for name, value in found[-1].items() if name not in {"kind", "rev"}}
+            time.sleep(0.02)
+        raise AssertionError(f"no gesture {kind!r} was heard, only {[each['kind'] for each in self.heard_all()]}")
+
+    def heard_all(self, kind: str = "") -> list[dict[str, Any]]:
+        gestures: list[dict[str, Any]] = json.loads(self._ask("/heard"))
+        return [gesture for gesture in gestures if gesture["kind"] == kind or not kind]
+
+    def call(self, method: str, *arguments: object) -> None:
+        """Call a method of the Python element."""
+        self._ask(f"/call/{method}", json.dumps(arguments).encode())
+
+    def vicode(self, call: str) -> Any:
+        return self.page.evaluate(f"document.querySelector('.vicode-canvas').vicode.{call}")
+
+    def place(self, name: str) -> Point:
+        """Where a node is in the scene: `place("states/FollowBall")`."""
+        node = self.vicode("positions()")[name]
+        return node["x"], node["y"]
+
+    def selection(self) -> set[str]:
+        return {f"{item['of']}/{item['id']}" for item in self.vicode("selection()")}
+
+    def group(self, kind: str, identity: str) -> Locator:
+        return self.page.locator(f'g.item:not(.chip)[data-kind="{kind}"][data-id={json.dumps(identity)}]')
+
+    def wait_until_rest(self) -> None:
+        self.page.wait_for_function("document.querySelector('.vicode-canvas').vicode.view().resting")
+
+    def wait_for(self, claim: str) -> None:
+        """Wait until something holds, said with the canvas' test interface as `vicode`."""
+        self.page.wait_for_function(
+            f"() => {{ const {{vicode}} = document.querySelector('.vicode-canvas'); return {claim}; }}"
+        )
+
+    def _ask(self, path: str, body: bytes | None = None) -> str:
+        request = Request(self.address + path, data=body, headers={"Content-Type": "application/json"})
+        with urlopen(request) as answer:
+            return str(answer.read().decode())
+
+
+@pytest.fixture(scope="module")
+def canvas_address(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
+    """A server for the module; its scene is given by each test."""
+    folder = tmp_path_factory.mktemp("canvas")
+    scene_file = folder / "scene.json"
+    scene_file.write_text(json.dumps(player()), encoding="utf-8")
+    with socket.socket() as free:
+        free.bind(("127.0.0.1", 0))
+        port = free.getsockname()[1]
+    # NiceGUI behaves differently when it believes to be under test.
+    kept = {name: value for name, value in os.environ.items() if not name.startswith(("PYTEST_", "NICEGUI_"))}
+    environment = {**kept, "NICEGUI_STORAGE_PATH": str(folder), "PYTHONPATH": str(ROOT)}
+    command = [sys.executable, str(SERVER), str(port), str(scene_file), "light"]
+    with (folder / "log").open("wb") as log:
+        process = subprocess.Popen(command, env=environment, stdout=log, stderr=log)
+    try:
+        _wait_until_served(f"http://127.0.0.1:{port}", process, folder / "log")
+        yield f"http://127.0.0.1:{port}"
+    finally:
+        process.kill()
+        process.wait()
+
+
+@pytest.fixture(scope="module")
+def canvas_page(chromium: Browser, canvas_address: str) -> Iterator[Page]:
+    """One page for the whole module: opening it anew for each test would take most of the time."""
+    page = chromium.new_page(viewport={"width": 1366, "height": 768})
+    page.goto(canvas_address)
+    page.wait_for_selector(".vicode-canvas[data-ready]")
+    yield page
+    page.close()
+
+
+@pytest.fixture
+def show(canvas_page: Page, canvas_address: str) -> Iterator[Callable[[Mapping[str, Any]], Hand]]:
+    """Shows a scene and answers the hand that works on it; errors in the console fail the test."""
+    errors: list[str] = []
+
+    def on_console(message: ConsoleMessage) -> None:
+        if message.type == "error":
+            errors.append(message.text)
+
+    def on_page_error(error: Error) -> None:
+        errors.append(str(error))
+
+    def show_scene(scene: Mapping[str, Any]) -> Hand:
+        hand = Hand(canvas_page, canvas_address)
+        hand.show(scene)
+        return hand
+
+    canvas_page.on("console", on_console)
+    canvas_page.on("pageerror", on_page_error)
+    yield show_scene
+    canvas_page.remove_listener("console", on_console)
+    canvas_page.remove_listener("pageerror", on_page_error)
+    assert not errors, "the browser reported errors:\n" + "\n".join(errors)
+
+
+@pytest.fixture
+def hand(show: Callable[[Mapping[str, Any]], Hand]) -> Hand:
+    """A hand at the player's scene."""
+    return show(player())
+
+
+def _wait_until_served(address: str, process: subprocess.Popen[bytes], log: Path) -> None:
+    end = time.monotonic() + 60
+    while time.monotonic() < end and process.poll() is None:
+        try:
+            urlopen(f"{address}/heard").close()
+        except OSError:
+            time.sleep(0.05)
+        else:
+            return
+    pytest.fail(f"the canvas server did not come up:\n{log.read_text(errors='replace')}")

@@ -1,0 +1,81 @@
+"""The canvas without a pointer."""
+
+import pytest
+from playwright.sync_api import expect
+
+from tests.editor.canvas.conftest import Hand
+
+
+@pytest.mark.parametrize(("keys", "kind"), [("Control+z", "undo"), ("Control+Shift+Z", "redo"), ("Control+y", "redo")])
+def test_history_keys_are_reported(hand: Hand, keys: str, kind: str) -> None:
+    hand.page.locator(".stage").focus()
+    hand.press(keys)
+    assert hand.heard(kind) == {}
+
+
+def test_arrows_nudge_the_selection(hand: Hand) -> None:
+    hand.click(hand.at("states", "GiveUp"))
+    hand.press("ArrowRight", "Shift+ArrowDown")
+    hand.wait_for("vicode.positions()['states/GiveUp'].y === 331")
+    assert hand.heard("move")["items"] == [{"of": "states", "id": "GiveUp", "x": 90, "y": 331}]
+
+
+def test_select_all_takes_everything(hand: Hand) -> None:
+    hand.page.locator(".stage").focus()
+    hand.press("Control+a")
+    assert len(hand.heard("select")["items"]) == 8 + 12 + 3 + 5 + 1
+
+
+def test_tab_walks_from_a_state_to_what_leaves_it_and_enter_renames(hand: Hand) -> None:
+    hand.page.locator(".stage").focus()
+    hand.press("Tab")
+    assert hand.selection() == {"states/LookForBall"}
+    expect(hand.group("state", "LookForBall")).to_be_focused()
+    hand.press("Enter")
+    expect(hand.page.locator("input.rename")).to_have_value("LookForBall")
+    hand.press("Escape", "Tab")
+    assert hand.selection() == {"transitions/LookForBall/0"}
+    hand.press("Enter")
+    assert hand.heard("open") == {"of": "transitions", "id": "LookForBall/0"}
+    hand.press("Shift+Tab", "Shift+Tab")
+    assert hand.selection() == {"states/LookForBall"}
+    expect(hand.page.locator(".stage")).to_be_focused()
+
+
+def test_t_connects_to_the_state_clicked_next(hand: Hand) -> None:
+    hand.click(hand.at("states", "GiveUp"))
+    hand.press("t")
+    expect(hand.page.locator(".message")).to_be_visible()
+    hand.click(hand.at("states", "FollowBall"))
+    assert hand.heard("connect")["target"] == "FollowBall"
+    expect(hand.page.locator(".message")).to_be_hidden()
+
+
+def test_t_connects_to_the_state_one_tabs_to(hand: Hand) -> None:
+    hand.click(hand.at("states", "KickLeft"))
+    hand.press("t", "Tab", "Enter")
+    assert hand.heard("connect") == {"source": "KickLeft", "target": "KickRight", "x": None, "y": None}
+
+
+def test_s_creates_a_state(hand: Hand) -> None:
+    hand.page.locator(".stage").focus()
+    hand.press("s")
+    assert set(hand.heard("create")) == {"x", "y"}
+
+
+def test_escape_clears_the_selection(hand: Hand) -> None:
+    hand.click(hand.at("states", "GiveUp"))
+    hand.press("Escape")
+    assert hand.selection() == set()
+    assert hand.heard_all("select")[-1]["items"] == []
+
+
+def test_zoom_keys(hand: Hand) -> None:
+    hand.page.locator(".stage").focus()
+    fitted = hand.vicode("view()")["k"]
+    hand.press("+")
+    assert hand.vicode("view()")["k"] == pytest.approx(fitted * 1.25)
+    hand.press("0")
+    assert hand.vicode("view()")["k"] == 1
+    hand.press("1")
+    assert hand.vicode("view()")["k"] == pytest.approx(fitted)
