@@ -133,8 +133,9 @@ class DesignPage:
         except ChangedOnDiskError:
             ask_about_disk(self.desk)
             return False
-        except OSError as error:
-            _say(f"Not saved: {error.strerror or error}", "negative")
+        except (OSError, ValueError) as error:
+            # A design may hold for a while what no file can: two declarations of one name.
+            _say(f"Not saved: {error}", "negative")
             return False
         _say("Saved", "positive")
         return True

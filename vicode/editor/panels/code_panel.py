@@ -31,12 +31,16 @@ class CodePanel:
             self.is_busy = True
             background_tasks.create(self._follow(), name="preview")
 
+    def _preview(self) -> preview.Preview:
+        workspace = self.desk.workspace
+        return preview.preview_of(workspace.project, self.desk.design, workspace.sources)
+
     async def _follow(self) -> None:
         """Generate beside the event loop until the newest design is shown."""
         try:
             while self.shown_rev != self.desk.document.rev:
                 self.shown_rev = self.desk.document.rev
-                shown = await run.io_bound(preview.preview_of, self.desk.workspace.project, self.desk.design)
+                shown = await run.io_bound(self._preview)
                 # Nothing comes back while the server is shutting down.
                 if shown is None or self.editor.is_deleted:
                     return

@@ -53,6 +53,13 @@ class Workspace:
         wanted = path.resolve()
         return next((name for name, file in self.files.items() if name and file.resolve() == wanted), None)
 
+    @property
+    def sources(self) -> dict[str, str]:
+        """The files of the designs by component, relative to the project's folder."""
+        folder = self.folder.resolve()
+        inside = ((name, file.resolve()) for name, file in self.files.items() if name)
+        return {name: file.relative_to(folder).as_posix() for name, file in inside if file.is_relative_to(folder)}
+
     def save(self, document: Document, *, over: bool = False) -> None:
         """Write a design into its file, patching the text that stands there.
 
@@ -103,7 +110,7 @@ class Workspace:
             OSError: A file cannot be written.
         """
         folder = (self.folder / self.project.generated).resolve()
-        return generate_into(folder, self.project, document.design.component)
+        return generate_into(folder, self.project, document.design.component, self.sources)
 
     def _check(self, design: Design) -> tuple[Finding, ...]:
         designs = (design if each.component == design.component else each for each in self.project.designs)

@@ -1,0 +1,47 @@
+"""What the button Generate does: checks, generates, guards what was edited by hand, writes."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+from vicode.check import check_project
+from vicode.findings import Severity
+from vicode.generators import collect_components, generate, list_outputs
+from vicode.model.project import Project
+from vicode.output import Status, apply, compare
+from vicode.sync import find_hand_edits
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Generated:
+    """What came of it, in words; `files` were written."""
+
+    words: str
+    is_sound: bool
+    files: tuple[Path, ...] = ()
+
+
+def generate_into(folder: Path, project: Project, component: str, sources: Mapping[str, str]) -> Generated:
+    """Write the code of a component and of all it uses into a folder; nothing is written if anything is wrong.
+
+    Raises:
+        OSError: A file cannot be written.
+    """
+    wanted = collect_components(project, (component,))
+    errors = [each for each in check_project(project, wanted) if each.severity is Severity.ERROR]
+    if errors:
+        first = errors[0]
+        where = f"{first.thing.component}: " if first.thing and first.thing.component != component else ""
+        more = f" (and {len(errors) - 1} more)" if len(errors) > 1 else ""
+        return Generated(words=f"Nothing generated. {where}{first.message}{more}", is_sound=False)
+    files = generate(project, components=(component,), sources=sources)
+    differences = compare(files, folder, keep=list_outputs(project))
+    edits = find_hand_edits(differences)
+    if edits:
+        return Generated(words=f"Nothing generated. {edits[0].message}: {edits[0].mend}", is_sound=False)
+    changed = [each for each in differences if each.status in (Status.NEW, Status.CHANGED)]
+    touched = apply(changed, folder)
+    if not touched:
+        return Generated(words=f"Generated code in {folder.name} is up to date", is_sound=True)
+    names = ", ".join(path.name for path in touched[:4]) + (", …" if len(touched) > 4 else "")
+    return Generated(words=f"Generated {names} in {touched[0].parent}", is_sound=True, files=touched)
