@@ -98,7 +98,9 @@ def _shape_problem(named: Named) -> Problem | None:
 def _reserved_problem(named: Named) -> Problem | None:
     name, what = named.name, named.what
     mend = f"choose another name, such as {name}_value"
-    is_taken = (what in _MEMBERS and name in RESERVED_NAMES) or (what in _WITH_SELF and name == "self")
+    # Parameters of hand-written components are handed over by name and need not become attributes.
+    is_member = what in _MEMBERS and (named.is_shared or what == "output")
+    is_taken = (is_member and name in RESERVED_NAMES) or (what in _WITH_SELF and name == "self")
     if is_taken or (what, name) == ("element", "mro"):
         return "D405", f"'{name}' is a name of the runtime", mend
     if named.is_shared and name in _OWN_WORDS:
