@@ -12,6 +12,7 @@ from vicode.model.project import Project
 from vicode.model.walks import Located, walk_transitions
 
 Scene = dict[str, Any]
+_LABEL_FITS = 18
 _Findings = dict[Selected, list[Finding]]
 
 
@@ -84,13 +85,19 @@ def _transitions(transitions: list[Located], by_thing: _Findings) -> Iterable[di
             "id": key,
             "source": "@common" if located.source == COMMON else located.source,
             "target": transition.to,
-            "label": label_of(located),
+            "label": _short_label(located, transition.doc),
             "order": orders[located.source],
             "of": counts[located.source],
             "kind": "tree" if located.groups else _kind(transition.guard),
-            "doc": transition.doc,
+            "doc": "\n".join(part for part in (label_of(located), transition.doc) if part),
             **_marks(by_thing, Selected(of="transitions", id=key)),
         }
+
+
+def _short_label(located: Located, doc: str) -> str:
+    """The guard where it fits on an arrow; a long one gives way to a short doc, and is read in the tip."""
+    label = label_of(located)
+    return doc if len(label) > _LABEL_FITS and 0 < len(doc) <= _LABEL_FITS + 14 else label
 
 
 def label_of(located: Located) -> str:
