@@ -11,7 +11,7 @@ const ICONS = {
 
 /** The two groups of an edge: `line` for the edge layer and `chip` for the label layer (or null). */
 export function drawEdge(edge, route, ends) {
-  const names = { "data-id": edge.id, "data-kind": kindOf(edge), "data-key": edge.key };
+  const names = { "data-id": edge.id, "data-kind": kindOf(edge), "data-key": edge.key, "data-text": route.chip?.text ?? "" };
   const style = ["item", "edge", kindOf(edge), edge.of === "links" ? edge.data.kind : edge.data.kind ?? "", styleOf(edge)].join(" ");
   const title = hint(edge, ends);
   const line = svg("g", { class: style, ...names, role: "button", tabindex: "-1", "aria-label": describe(edge, ends) }, [

@@ -8,6 +8,9 @@ export class Keyboard {
     this.canvas = canvas;
     canvas.stage.addEventListener("keydown", (event) => this.#down(event));
     canvas.stage.addEventListener("keyup", (event) => this.#up(event));
+    // The focus is shown to those who steer by keys, and only to them.
+    canvas.stage.addEventListener("keyup", () => canvas.stage.classList.add("keys"));
+    canvas.stage.addEventListener("pointerdown", () => canvas.stage.classList.remove("keys"), { capture: true });
     canvas.stage.addEventListener("blur", () => this.#space(false));
   }
 

@@ -5,17 +5,30 @@ import { shorten, textWidth } from "./text.js";
 const HEIGHT = 22;
 const PADDING = 8;
 const ICON = 15;
-const ROOM = 150;
+const MOST_ROOM = 150;
+const LEAST_ROOM = 60;
 const PLACES = [0.5, 0.42, 0.58, 0.34, 0.66, 0.27, 0.73, 0.2, 0.8];
 const SHIFTS = [0, -14, 14, -26, 26];
 
+/**
+ * How wide a text may be on a curve: between two boxes side by side no wider than the gap, else it would be pushed off its curve.
+ * In steps of 10, so that a chip is not drawn anew at every movement.
+ */
+function roomOn(curve) {
+  const [dx, dy] = [Math.abs(curve[6] - curve[0]), Math.abs(curve[7] - curve[1])];
+  if (dx < 2 * dy || dx < 30) return MOST_ROOM;
+  return Math.min(MOST_ROOM, Math.max(LEAST_ROOM, Math.floor((dx - 30) / 10) * 10));
+}
+
 /** What the chip of an edge shows and its size, or null when there is nothing to say. */
-export function chipOf(edge) {
+export function chipOf(edge, curve) {
   if (edge.of !== "transitions") return null;
   const { data } = edge;
   const order = data.of > 1 ? String(data.order) : "";
-  const text = shorten(data.label ?? "", "label", ROOM);
   const icon = ["timer", "code", "tree"].includes(data.kind);
+  const used = (order ? 18 : 0) + (icon ? ICON : 0);
+  const isLoop = edge.source === edge.target;
+  const text = shorten(data.label ?? "", "label", isLoop ? MOST_ROOM : Math.max(LEAST_ROOM, roomOn(curve) - used));
   if (!order && !text && !icon) return null;
   const orderWidth = order ? textWidth(text || icon ? `${order} · ` : order, "label") + 1 : 0;
   const iconWidth = icon ? ICON : 0;

@@ -148,8 +148,12 @@ export class Painter {
   #placeEdge(edge) {
     const item = this.items.get(edge.key);
     if (!item) return;
-    if (this.scene.isDrawable(edge)) placeEdge(item, this.router.route(edge));
-    else this.#unmount(edge.key);
+    if (!this.scene.isDrawable(edge)) return this.#unmount(edge.key);
+    const route = this.router.route(edge);
+    if (route.chip?.text === item.line.dataset.text || !route.chip) return placeEdge(item, route);
+    // There is more or less room for the text now.
+    this.#unmount(edge.key);
+    this.#mount(edge.key);
   }
 
   #toggle(key, name, on) {

@@ -66,7 +66,7 @@ export class Router {
     const curves = first.source === first.target ? this.#loops(edges) : this.#fan(edges);
     edges.forEach((edge, index) => {
       const curve = curves[index];
-      const chip = chipOf(edge);
+      const chip = chipOf(edge, curve);
       const at = first.source === first.target ? loopLabel(curve, chip) : placeLabel(curve, chip, (rect) => this.#crowd(rect));
       this.routes.set(edge.key, { curve, chip, at });
       if (chip) this.#fileLabel(edge.key, rectAround(at.x, at.y, chip.w, chip.h));
