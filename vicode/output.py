@@ -2,6 +2,7 @@
 
 import os
 import secrets
+import shutil
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from difflib import unified_diff
@@ -75,6 +76,15 @@ def apply(differences: Iterable[Difference], folder: Path) -> tuple[Path, ...]:
         path.parent.mkdir(parents=True, exist_ok=True)
         write_atomically(path, difference.new)
     return tuple(touched)
+
+
+def set_aside(path: Path) -> Path:
+    """Copy a file to NAME.edited beside it, or NAME.edited2 … where that is taken; returns the copy."""
+    number = 1
+    while (copy := path.with_name(f"{path.name}.edited{number if number > 1 else ''}")).exists():
+        number += 1
+    shutil.copy2(path, copy)
+    return copy
 
 
 def diff(difference: Difference) -> str:

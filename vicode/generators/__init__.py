@@ -29,6 +29,7 @@ def generate(
     project: Project,
     *,
     components: Collection[str] | None = None,
+    leave_out: Collection[str] = (),
     languages: Collection[str] | None = None,
     standalone: bool = False,
     sources: Mapping[str, str] | None = None,
@@ -38,6 +39,7 @@ def generate(
     Args:
         project: Without error findings in what is generated.
         components: Only these and every design they use; None for all.
+        leave_out: But not these, since they have mistakes.
         languages: None for those of the project.
         standalone: Copy the runtime into the package, so that it runs without vicode.
         sources: The design files by component, relative to the project's folder: how files and errors name them.
@@ -47,7 +49,8 @@ def generate(
     """
     files: list[OutputFile] = []
     for generator in _choose(project, languages):
-        plan = plan_project(project, components, sources or {}, generator.reserved_modules)
+        wanted = collect_components(project, components) - set(leave_out)
+        plan = plan_project(project, wanted, sources or {}, generator.reserved_modules)
         files += generator.write(plan, standalone=standalone)
     return tuple(sorted(files, key=lambda file: file.path))
 

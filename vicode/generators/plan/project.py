@@ -11,18 +11,17 @@ from vicode.model.project import Project
 
 
 def plan_project(
-    project: Project, components: Collection[str] | None, sources: Mapping[str, str], reserved: frozenset[str]
+    project: Project, components: Collection[str], sources: Mapping[str, str], reserved: frozenset[str]
 ) -> ProjectPlan:
     """Plan components with every design they use.
 
     Args:
         project: A project without mistakes in what is planned.
-        components: Names of components, None for all that have a design.
+        components: Names of those to plan.
         sources: Design files by component, as they are named to people.
         reserved: Names no module may have in a language.
     """
     package = plan_package(project, reserved)
-    wanted = collect_components(project, components)
     constants = plan_values(project.constants, scope_of(project, None))
     return ProjectPlan(
         name=project.name,
@@ -34,7 +33,7 @@ def plan_project(
         components=tuple(
             plan_component(project, design, package.modules, sources.get(design.component, ""))
             for design in project.designs
-            if design.component in wanted
+            if design.component in components
         ),
     )
 

@@ -1,0 +1,28 @@
+"""Tell what is wrong with designs."""
+
+import argparse
+
+from vicode.cli.opening import open_paths
+from vicode.cli.printing import count_findings, print_findings
+from vicode.findings import Severity, render_json
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Declare the arguments of `vicode check`."""
+    parser.add_argument("paths", metavar="PATH", nargs="+", help="a design, a project's folder, a folder of projects")
+    parser.add_argument("--json", action="store_true", help="print the findings as JSON")
+    parser.add_argument("--strict", action="store_true", help="let warnings count as much as errors")
+
+
+def run(args: argparse.Namespace) -> int:
+    """Print findings; 1 when there are errors, or with --strict warnings."""
+    projects = open_paths(args.paths)
+    findings = tuple(finding for project in projects for finding in project.findings)
+    if args.json:
+        print(render_json(findings), end="")
+    else:
+        print_findings(findings)
+        designs = sum(len(project.meant) + len(project.opened.broken) for project in projects)
+        print(f"{count_findings(findings)} in {designs} design{'s' * (designs != 1)}")
+    counted = {Severity.ERROR, Severity.WARNING} if args.strict else {Severity.ERROR}
+    return int(any(finding.severity in counted for finding in findings))

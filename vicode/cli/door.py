@@ -1,0 +1,52 @@
+"""Where the command line begins: finds the command, runs it, turns what happened into an exit code."""
+
+import argparse
+import os
+import sys
+from collections.abc import Sequence
+
+from vicode import __version__
+from vicode.cli import check, edit, gen, run, schema
+
+COMMANDS = {"edit": edit, "gen": gen, "check": check, "run": run, "schema": schema}
+SOUND, FOUND, FAILED, INTERRUPTED = 0, 1, 2, 130
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run one command; returns 0 when all is sound, 1 with findings or stale files, 2 when it could not run."""
+    parsed = _make_parser().parse_args(arguments)
+    try:
+        code: int = parsed.run(parsed)
+        sys.stdout.flush()
+    except KeyboardInterrupt:
+        return INTERRUPTED
+    except BrokenPipeError:
+        # Whoever read our output has gone; the interpreter's last flush must not complain either.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return FAILED
+    except OSError as error:
+        print(f"vicode: {_describe(error)}", file=sys.stderr)
+        return FAILED
+    return code
+
+
+def _make_parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(
+        prog="vicode",
+        description="Design robot state machines in the browser, check them, and generate the code that runs them.",
+        epilog="Exit codes: 0 all is sound, 1 findings or stale files, 2 it could not run.",
+    )
+    parser.add_argument("--version", action="version", version=f"vicode {__version__}")
+    commands = parser.add_subparsers(title="commands", metavar="COMMAND", required=True)
+    for name, module in COMMANDS.items():
+        summary = (module.__doc__ or "").strip().split("\n")[0]
+        command = commands.add_parser(name, help=summary, description=summary)
+        module.add_arguments(command)
+        command.set_defaults(run=module.run)
+    return parser
+
+
+def _describe(error: OSError) -> str:
+    if error.filename is None:
+        return str(error)
+    return f"{error.filename}: {error.strerror or error}"

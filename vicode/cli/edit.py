@@ -1,0 +1,22 @@
+"""Open the editor in the browser."""
+
+import argparse
+from pathlib import Path
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Declare the arguments of `vicode edit`."""
+    parser.add_argument("path", metavar="PATH", nargs="?", default=".", help="a design or a folder (this one)")
+    parser.add_argument("--host", default="127.0.0.1", help="who may connect: an address of this machine (only itself)")
+    parser.add_argument("--port", type=int, help="port to listen on (a free one)")
+    parser.add_argument("--no-open", action="store_true", help="print the address, open no browser")
+
+
+def run(args: argparse.Namespace) -> int:
+    """Serve the editor until it is ended."""
+    from vicode.editor.serve import choose_address, serve
+
+    path = Path(args.path)
+    path.stat()
+    serve(path, choose_address(args.host, args.port), open_browser=not args.no_open)
+    return 0

@@ -1,0 +1,121 @@
+"""Write the code of designs."""
+
+import argparse
+import os
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from vicode.cli.opening import Opened, open_paths
+from vicode.cli.printing import print_findings
+from vicode.findings import Finding, Place, Severity, rule
+from vicode.output import Difference, Status, apply, compare, diff, set_aside
+from vicode.regions import is_sealed
+
+if TYPE_CHECKING:
+    from vicode.output import OutputFile
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Declare the arguments of `vicode gen`."""
+    parser.add_argument("paths", metavar="PATH", nargs="+", help="a design, a project's folder, a folder of projects")
+    parser.add_argument("--check", action="store_true", help="write nothing; name missing, changed and stale files")
+    parser.add_argument("--diff", action="store_true", help="write nothing; show what would change")
+    parser.add_argument("--out", metavar="DIR", help="write here (where project.yaml says, else generated/ beside it)")
+    parser.add_argument("--language", metavar="L", action="append", help="only this language; may be repeated")
+    parser.add_argument(
+        "--standalone", action="store_true", help="copy the runtime beside the code: it needs no vicode"
+    )
+    parser.add_argument("--force", action="store_true", help="write over edited files too, keeping them as NAME.edited")
+
+
+def run(args: argparse.Namespace) -> int:
+    """Generate every project; 1 when something was refused, or with --check and --diff is not up to date."""
+    from vicode.generators import GENERATORS
+
+    unknown = sorted(set(args.language or ()) - set(GENERATORS))
+    if unknown:
+        print(f"vicode: cannot generate {unknown[0]}; there is {', '.join(GENERATORS)}", file=sys.stderr)
+        return 2
+    codes = [_generate(opened, args) for opened in open_paths(args.paths)]
+    if not codes:
+        print("vicode: no designs here", file=sys.stderr)
+        return 2
+    return max(codes)
+
+
+def _generate(opened: Opened, args: argparse.Namespace) -> int:
+    errors = [finding for finding in opened.findings if finding.severity is Severity.ERROR]
+    print_findings(errors, to_stderr=True)
+    folder = _folder(opened, args.out)
+    differences = _differences(opened, folder, args)
+    if args.diff:
+        print("".join(diff(difference) for difference in differences), end="")
+    if args.check:
+        print_findings(_stale(difference, folder) for difference in differences)
+    if args.diff or args.check:
+        return int(bool(differences or errors))
+    refused = _write(differences, folder, is_forced=args.force)
+    return int(bool(refused or errors))
+
+
+def _folder(opened: Opened, out: str | None) -> Path:
+    folder = Path(out) if out else opened.opened.folder / opened.opened.project.generated
+    # `designs/forward/../../generated` reads worse than where that is.
+    return Path(os.path.relpath(folder)) if not folder.is_absolute() else folder
+
+
+def _differences(opened: Opened, folder: Path, args: argparse.Namespace) -> tuple[Difference, ...]:
+    """All that is not as it should be in the folder."""
+    from vicode.generators import list_outputs
+
+    files = _files(opened, args)
+    keep = list_outputs(opened.opened.project, languages=args.language, standalone=args.standalone)
+    compared = compare(files, folder, keep=keep, is_ours=is_sealed)
+    # While a design cannot be read nobody knows what it is called, so nothing is stale for sure.
+    spared = {Status.UNCHANGED, Status.STALE} if opened.opened.broken else {Status.UNCHANGED}
+    return tuple(difference for difference in compared if difference.status not in spared)
+
+
+def _files(opened: Opened, args: argparse.Namespace) -> "tuple[OutputFile, ...]":
+    from vicode.generators import generate
+
+    wanted = [name for name in opened.meant if name not in opened.faulty]
+    if not wanted:
+        return ()
+    return generate(
+        opened.opened.project,
+        components=wanted,
+        leave_out=opened.faulty,
+        languages=args.language,
+        standalone=args.standalone,
+        sources=opened.sources,
+    )
+
+
+def _write(differences: tuple[Difference, ...], folder: Path, *, is_forced: bool) -> int:
+    """Write what loses nobody's work, or with force all; returns how many files were refused."""
+    from vicode.sync import find_edits_by_file
+
+    edits = find_edits_by_file(differences, shown=folder.as_posix())
+    if is_forced:
+        for path in edits:
+            print(f"kept {set_aside(folder / path).as_posix()}")
+        edits = {}
+    print_findings((finding for findings in edits.values() for finding in findings), to_stderr=True)
+    allowed = [difference for difference in differences if difference.path not in edits]
+    for difference in allowed:
+        verb = "deleted" if difference.status is Status.STALE else "wrote"
+        print(f"{verb} {(folder / difference.path).as_posix()}")
+    apply(allowed, folder)
+    return len(edits)
+
+
+def _stale(difference: Difference, folder: Path) -> Finding:
+    problem = {
+        Status.NEW: "missing: no such file",
+        Status.CHANGED: "changed: not what the design gives",
+        Status.STALE: "stale: no design gives this file any more",
+    }[difference.status]
+    place = Place(file=(folder / difference.path).as_posix(), line=1, column=1)
+    return Finding(rule=rule("G502"), message=problem, mend="run 'vicode gen'", place=place)

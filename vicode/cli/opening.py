@@ -1,0 +1,101 @@
+"""Opens what paths on the command line name: designs, project folders, folders of projects."""
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from vicode.findings import Finding, Severity
+
+if TYPE_CHECKING:
+    from vicode.store import OpenProject
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Opened:
+    """A project and the components that are meant (all of it: None), with what is wrong with them.
+
+    `named` are the components whose files were given; the others that are meant are used by them.
+    """
+
+    opened: "OpenProject"
+    components: frozenset[str] | None
+    named: tuple[str, ...] = ()
+    findings: tuple[Finding, ...]
+
+    @property
+    def meant(self) -> tuple[str, ...]:
+        """Names of the components that are meant and have a design, in order."""
+        designs = (design.component for design in self.opened.project.designs)
+        return tuple(name for name in designs if self.components is None or name in self.components)
+
+    @property
+    def faulty(self) -> frozenset[str]:
+        """Components that nothing can be generated for; mistakes in project.yaml make all of them so."""
+        guilty = {self._owner(finding) for finding in self.findings if finding.severity is Severity.ERROR}
+        return frozenset(self.opened.files) if "" in guilty else frozenset(guilty)
+
+    @property
+    def sources(self) -> dict[str, str]:
+        """The design files by component, relative to the project's folder."""
+        folder = self.opened.folder.resolve()
+        files = {name: path.resolve() for name, path in self.opened.files.items() if name}
+        return {
+            name: path.relative_to(folder).as_posix() if path.is_relative_to(folder) else path.name
+            for name, path in files.items()
+        }
+
+    def _owner(self, finding: Finding) -> str:
+        if finding.place is not None:
+            guilty = Path(finding.place.file).resolve()
+            broken = {path.resolve() for path in self.opened.broken}
+            owners = {path.resolve(): name for name, path in self.opened.files.items()}
+            return "(broken)" if guilty in broken else owners.get(guilty, "")
+        return finding.thing.component if finding.thing else ""
+
+
+def open_paths(paths: Iterable[str]) -> tuple[Opened, ...]:
+    """Open every path, each project once.
+
+    Raises:
+        OSError: A path does not exist or cannot be read.
+    """
+    # Reading designs is not needed for --help, and takes longer than that.
+    from vicode.store import find_projects
+
+    wanted: dict[Path, set[Path] | None] = {}
+    for path in (Path(each) for each in paths):
+        path.stat()
+        if path.is_dir():
+            wanted.update(dict.fromkeys(find_projects(path) or (path,)))
+        elif path.name in ("project.yaml", "project.yml"):
+            wanted[path.parent] = None
+        else:
+            (folder,) = find_projects(path)
+            files = wanted.setdefault(folder, set())
+            if files is not None:
+                files.add(path)
+    return tuple(_open(folder, files) for folder, files in wanted.items())
+
+
+def _open(folder: Path, files: set[Path] | None) -> Opened:
+    from vicode.check import check_project
+    from vicode.generators import collect_components
+    from vicode.store import locate, open_project
+
+    if files is None:
+        opened = open_project(folder)
+        return Opened(
+            opened=opened,
+            components=None,
+            findings=locate([*opened.findings, *check_project(opened.project)], opened),
+        )
+    opened = open_project(min(files))
+    found = (opened.component_of(file) for file in sorted(files))
+    named = tuple(name for name in found if name is not None)
+    components = collect_components(opened.project, named)
+    relevant = {opened.files[name].resolve() for name in (*components, "") if name in opened.files}
+    relevant |= {file.resolve() for file in files}
+    findings = locate([*opened.findings, *check_project(opened.project, components)], opened)
+    kept = tuple(each for each in findings if each.place is None or Path(each.place.file).resolve() in relevant)
+    return Opened(opened=opened, components=components, named=named, findings=kept)

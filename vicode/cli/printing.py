@@ -1,0 +1,54 @@
+"""Prints findings with the lines they are about, in colour where somebody looks."""
+
+import sys
+from collections import Counter
+from collections.abc import Iterable
+from functools import lru_cache
+from pathlib import Path
+
+from vicode.findings import Finding, Severity, render_text
+
+_COLOURS = {Severity.ERROR: "bold red", Severity.WARNING: "yellow", Severity.NOTE: "cyan"}
+
+
+def print_findings(findings: Iterable[Finding], *, to_stderr: bool = False) -> None:
+    """Print findings in the order given, worst marked by colour on a terminal."""
+    text = render_text(findings, _source_line)
+    stream = sys.stderr if to_stderr else sys.stdout
+    if not text:
+        return
+    if not stream.isatty():
+        stream.write(text)
+        return
+    from rich.console import Console
+    from rich.text import Text
+
+    shown = Text(text.rstrip("\n"))
+    for severity, colour in _COLOURS.items():
+        shown.highlight_regex(rf"(?m)(?<=: ){severity} [A-Z]\d+|^{severity} [A-Z]\d+", colour)
+    shown.highlight_regex(r"(?m)^ +\^+$", "bold green")
+    Console(file=stream, soft_wrap=True).print(shown)
+
+
+def count_findings(findings: Iterable[Finding]) -> str:
+    """How many of each severity, in words."""
+    counts = Counter(finding.severity for finding in findings)
+    words = [
+        f"{counts[severity]} {severity}{'s' * (counts[severity] != 1)}" for severity in Severity if counts[severity]
+    ]
+    return ", ".join(words) or "no findings"
+
+
+def _source_line(file: str, line: int) -> str | None:
+    lines = _lines(file)
+    return lines[line - 1] if 0 < line <= len(lines) else None
+
+
+@lru_cache(maxsize=64)
+def _lines(file: str) -> tuple[str, ...]:
+    try:
+        text = Path(file).read_text(encoding="utf-8", errors="replace")
+    except OSError:
+        return ()
+    # Lines end where the reader of designs ends them, not at every separator Unicode knows.
+    return tuple(text.replace("\r\n", "\n").replace("\r", "\n").split("\n"))

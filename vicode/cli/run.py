@@ -1,0 +1,111 @@
+"""Run a component in the world of its project, and watch it."""
+
+import argparse
+import os
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from vicode.cli.opening import Opened, open_paths
+from vicode.cli.printing import print_findings
+from vicode.findings import Severity
+
+if TYPE_CHECKING:
+    from vicode.cli.watching import Watcher
+
+_DEFAULT_SECONDS = 60.0
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Declare the arguments of `vicode run`."""
+    add = parser.add_argument
+    add("path", metavar="DESIGN", help="the design of the root component, or a project's folder with one agent")
+    add("--seconds", type=float, metavar="S", help="stop after S seconds of the clock (60; in real time no end)")
+    add("--ticks", type=int, metavar="N", help="stop after N iterations")
+    add("--seed", type=int, default=0, metavar="N", help="seed of the world (0)")
+    add("--trace", metavar="FILE", help="write one JSON line an iteration, and a summary")
+    add("--real-time", action="store_true", help="let real time pass; else it is simulated, as fast as it goes")
+    add("--tick-ms", type=float, metavar="MS", help="time between two iterations (20)")
+    add("--plain", action="store_true", help="one line a change of state; so too when no terminal is there")
+
+
+def run(args: argparse.Namespace) -> int:
+    """Generate into a private folder, start a fresh process there and show what it does."""
+    (opened,) = open_paths([args.path])
+    errors = [finding for finding in opened.findings if finding.severity is Severity.ERROR]
+    if errors:
+        print_findings(errors, to_stderr=True)
+        return 1
+    component = _root_of(opened)
+    if component is None:
+        print(f"vicode: {args.path}: name the design to run", file=sys.stderr)
+        return 2
+    with tempfile.TemporaryDirectory(prefix="vicode-run-") as folder:
+        class_path = _generate(opened, component, Path(folder))
+        return _watch(_command(opened, class_path, folder, args), is_plain=args.plain)
+
+
+def _root_of(opened: Opened) -> str | None:
+    """The component to run: the one named, else the root of the only agent, else the only design."""
+    if opened.components is not None:
+        return next(iter(opened.named), None)
+    roots = [agent.root for agent in opened.opened.project.agents] or list(opened.meant)
+    return roots[0] if len(roots) == 1 else None
+
+
+def _generate(opened: Opened, component: str, folder: Path) -> str:
+    """Write the component with all it uses; returns where its class is found."""
+    from vicode.generators import generate, python_class
+    from vicode.output import apply, compare
+
+    project = opened.opened.project
+    files = generate(project, components=[component], languages=["python"], sources=opened.sources)
+    apply(compare(files, folder), folder)
+    return python_class(project, component)
+
+
+def _command(opened: Opened, class_path: str, folder: str, args: argparse.Namespace) -> list[str]:
+    # -P: what lies in the folder we happen to be in must not hide a module.
+    command = [sys.executable, "-P", "-m", "vicode.bica", class_path, "--stream", "--path", str(Path(folder, "python"))]
+    command += ["--path", str(opened.opened.folder.resolve()), "--seed", str(args.seed)]
+    if opened.opened.project.world:
+        command += ["--world", opened.opened.project.world]
+    seconds = args.seconds
+    if seconds is None and args.ticks is None and not args.real_time:
+        seconds = _DEFAULT_SECONDS
+    given = {"--seconds": seconds, "--ticks": args.ticks, "--tick-ms": args.tick_ms, "--trace": args.trace}
+    command += [part for name, value in given.items() if value is not None for part in (name, str(value))]
+    return command + ["--real-time"] * args.real_time
+
+
+def _watch(command: list[str], *, is_plain: bool) -> int:
+    from vicode.cli.watching import PlainWatcher, follow
+
+    is_live = sys.stdout.isatty() and not is_plain
+    # In a session of its own the child does not get the terminal's Ctrl-C, but ours, once.
+    child = subprocess.Popen(
+        command,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE if is_live else None,
+        stdin=subprocess.DEVNULL,
+        text=True,
+        encoding="utf-8",
+        errors="replace",
+        env=_environment(),
+        start_new_session=True,
+    )
+    watcher: Watcher = PlainWatcher()
+    if is_live:
+        from vicode.cli.live import LiveWatcher
+
+        watcher = LiveWatcher()
+    return follow(child, watcher)
+
+
+def _environment() -> dict[str, str]:
+    """Ours, with vicode on the path even where it is not installed."""
+    home = str(Path(__file__).parents[2])
+    paths = [path for path in os.environ.get("PYTHONPATH", "").split(os.pathsep) if path]
+    return {**os.environ, "PYTHONPATH": os.pathsep.join([*paths, home]), "PYTHONIOENCODING": "utf-8"}
