@@ -1,6 +1,7 @@
 """Gives every node of a parsed expression its meaning and its type."""
 
 import ast
+import math
 from collections.abc import Callable
 from dataclasses import dataclass, field
 
@@ -108,9 +109,12 @@ class Binder:
             return Truth(value=value, span=span)
         if isinstance(value, int) and value <= _EXACT_INT:
             return Number(value=value, type=INT, span=span)
-        if isinstance(value, float):
+        if isinstance(value, float) and math.isfinite(value):
             return Number(value=value, type=FLOAT, span=span)
-        mend = "use an enumeration" if isinstance(value, str) else "write a number with a decimal point"
+        if isinstance(value, int | float) and not isinstance(value, bool):
+            self.report("E302", "the number is larger than any that all languages hold", "write a smaller one", syntax)
+            return None
+        mend = "use an enumeration" if isinstance(value, str) else "write a number"
         self.report("E302", "only numbers, True, False and enumeration elements can be written", mend, syntax)
         return None
 
