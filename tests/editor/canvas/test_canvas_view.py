@@ -46,7 +46,10 @@ def test_user_text_stays_text(show: Show) -> None:
     expect(page.locator("g.node.component").first).to_be_visible()
     hand.click(hand.at("states", "GiveUp"), double=True)
     expect(page.locator("input.rename")).to_have_value(HOSTILE)
-    assert page.locator("g.node.state title").first.text_content().startswith(HOSTILE)  # type: ignore[union-attr]
+    hand.press("Escape")
+    for kind, identity in (("states", "GetUp"), ("transitions", "LookForBall/1"), ("components", HOSTILE)):
+        page.mouse.move(*hand.at(kind, identity))
+        expect(page.locator("g.item.hover title").first).to_contain_text(HOSTILE[:20])
     assert page.locator(".vicode-canvas img").count() == 0
     assert page.locator("body").get_attribute("data-hacked") is None
 

@@ -19,7 +19,7 @@ import { Viewport } from "./viewport.js";
 
 const FAR = 0.3;
 const FAR_STATES = 150;
-const CROWD = 700;
+const CROWD = 320;
 const LEAVING = 0.88;
 const DOT_GAP = 20;
 

@@ -13,20 +13,18 @@ const ICONS = {
 export function drawEdge(edge, route, ends) {
   const names = { "data-id": edge.id, "data-kind": kindOf(edge), "data-key": edge.key, "data-text": route.chip?.text ?? "" };
   const style = ["item", "edge", kindOf(edge), edge.of === "links" ? edge.data.kind : edge.data.kind ?? "", styleOf(edge)].join(" ");
-  const title = hint(edge, ends);
   const line = svg("g", { class: style, ...names, role: "button", tabindex: "-1", "aria-label": describe(edge, ends) }, [
-    svg("title", { text: title }),
     svg("path", { class: "hit" }),
     svg("path", { class: "line" }),
     svg("path", { class: "head" }),
   ]);
-  const chip = route.chip || edge.data.severity ? drawChip(edge, route, names, title) : null;
+  const chip = route.chip || edge.data.severity ? drawChip(edge, route, names) : null;
   placeEdge({ line, chip }, route);
   return { line, chip };
 }
 
 export function placeEdge({ line, chip }, { curve, at }) {
-  const [, hit, stroke, head] = line.children;
+  const [hit, stroke, head] = line.children;
   const { tip, base } = headOf(curve);
   hit.setAttribute("d", pathOf(curve, { x: curve[6], y: curve[7] }));
   stroke.setAttribute("d", pathOf(curve, base));
@@ -51,8 +49,8 @@ export function headOf(curve) {
   return { tip: `M${round(curve[6])} ${round(curve[7])}L${corner(1)}L${notch}L${corner(-1)}Z`, base: { x: base.x + u.x * 2, y: base.y + u.y * 2 } };
 }
 
-function drawChip(edge, { chip }, names, title) {
-  const group = svg("g", { class: `item chip ${kindOf(edge)} ${styleOf(edge)}`, ...names, "aria-hidden": "true" }, [svg("title", { text: title })]);
+function drawChip(edge, { chip }, names) {
+  const group = svg("g", { class: `item chip ${kindOf(edge)} ${styleOf(edge)}`, ...names, "aria-hidden": "true" });
   if (chip) {
     const { w, h, padding, orderWidth, iconWidth } = chip;
     let x = -w / 2 + padding;
@@ -69,7 +67,8 @@ function drawChip(edge, { chip }, names, title) {
 
 const styleOf = (edge) => [edge.source === "common" ? "common-edge" : "", edge.data.disabled ? "disabled" : ""].join(" ");
 
-function hint(edge, { source, target }) {
+/** The tooltip of an edge: its whole text, as the chip may show only the beginning. */
+export function edgeHint(edge, { source, target }) {
   const { data } = edge;
   if (edge.of === "links") return data.kind === "requires" ? `${data.state} requires ${data.component}` : `${data.state} modulates ${data.component}`;
   const order = data.of > 1 ? ` (${data.order} of ${data.of})` : "";
@@ -78,7 +77,7 @@ function hint(edge, { source, target }) {
 
 function describe(edge, { source, target }) {
   const { data } = edge;
-  if (edge.of === "links") return hint(edge, { source, target });
+  if (edge.of === "links") return edgeHint(edge, { source, target });
   const label = data.label ? `: ${data.label}` : "";
   return [`Transition ${data.order} of ${data.of} from ${source} to ${target}${label}`, ...findings(data)].join(", ");
 }

@@ -26,7 +26,7 @@ export function drawNode(node) {
     tabindex: "-1",
     "aria-label": describe(node),
   });
-  group.append(svg("title", { text: hint(node) }), ...draw(node));
+  group.append(...draw(node));
   placeNode(group, node);
   return group;
 }
@@ -115,7 +115,8 @@ export function badge(data, x, y) {
   return group;
 }
 
-function hint(node) {
+/** The tooltip of a node. */
+export function nodeHint(node) {
   const { data } = node;
   const title = node.of === "common" ? "Common transitions, tested before those of every state" : data.name;
   const second = node.of === "components" && data.name !== data.id ? `as ${data.id}` : "";

@@ -1,7 +1,7 @@
 // Keeps in the DOM what is near enough to be seen, and nothing else; knows the marks on every thing.
-import { drawEdge, placeEdge } from "./edge_art.js";
+import { drawEdge, edgeHint, placeEdge } from "./edge_art.js";
 import { covers, grow, overlaps, rectOf } from "./geometry.js";
-import { drawNode, placeNode } from "./node_art.js";
+import { drawNode, nodeHint, placeNode } from "./node_art.js";
 import { svg } from "./svg.js";
 
 // Marked things stay mounted also where the overview bitmap stands for the rest, up to this many of each mark.
@@ -125,11 +125,15 @@ export class Painter {
 
   #mountEdge(edge) {
     if (!this.scene.isDrawable(edge)) return null;
-    const title = (key) => (key === "common" ? "every state" : String(this.scene.nodes.get(key).data.name));
-    const item = drawEdge(edge, this.router.route(edge), { source: title(edge.source), target: title(edge.target) });
+    const item = drawEdge(edge, this.router.route(edge), this.#endsOf(edge));
     this.layers[edge.of === "links" ? "links" : "edges"].append(item.line);
     if (item.chip) this.layers.chips.append(item.chip);
     return item;
+  }
+
+  #endsOf(edge) {
+    const nameOf = (key) => (key === "common" ? "every state" : String(this.scene.nodes.get(key).data.name));
+    return { source: nameOf(edge.source), target: nameOf(edge.target) };
   }
 
   #unmount(key) {
@@ -160,8 +164,16 @@ export class Painter {
     for (const part of Object.values(this.items.get(key) ?? {})) {
       if (!part) continue;
       part.classList.toggle(name, on);
+      if (on && name === "hover") this.#giveHint(part, key);
       if (on && name === "lit" && part.nextSibling) bringForward(part);
     }
+  }
+
+  /** Tooltips are made when they are first wanted; few ever are. */
+  #giveHint(part, key) {
+    if (part.querySelector("title")) return;
+    const thing = this.scene.find(key);
+    part.append(svg("title", { text: this.scene.nodes.has(key) ? nodeHint(thing) : edgeHint(thing, this.#endsOf(thing)) }));
   }
 }
 

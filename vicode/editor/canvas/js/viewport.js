@@ -1,7 +1,7 @@
 // Which part of the plane is seen: screen = world * k + (x, y). Moving it never touches the scene.
 const MIN_ZOOM = 0.02;
 const MAX_ZOOM = 4;
-const REST_MS = 160;
+const REST_MS = 200;
 
 export class Viewport {
   constructor(stage, frame) {
