@@ -1,5 +1,6 @@
 """Starts the editor's server: one process, this machine only unless told otherwise."""
 
+import asyncio
 import os
 import secrets
 import socket
@@ -19,10 +20,14 @@ class Address:
     token: str = ""
 
     @property
+    def local_host(self) -> str:
+        """How this machine reaches it."""
+        return "127.0.0.1" if self.host in ("0.0.0.0", "::") else self.host  # noqa: S104 - compared, not bound
+
+    @property
     def url(self) -> str:
         """What to open in a browser."""
-        name = "127.0.0.1" if self.host in ("0.0.0.0", "::") else self.host  # noqa: S104 - compared, not bound
-        shown = f"[{name}]" if ":" in name else name
+        shown = f"[{self.local_host}]" if ":" in self.local_host else self.local_host
         return f"http://{shown}:{self.port}/" + (f"?token={self.token}" if self.token else "")
 
 
@@ -44,7 +49,7 @@ def serve(path: Path, address: Address, *, open_browser: bool = True) -> None:
     """
     # NiceGUI would make its folder in the working directory, which is the user's project.
     os.environ.setdefault(STORAGE, str(Path(tempfile.gettempdir()) / f"vicode-{os.getuid()}"))
-    from nicegui import app, ui  # noqa: PLC0415 - it reads the environment when imported
+    from nicegui import app, background_tasks, ui  # noqa: PLC0415 - it reads the environment when imported
 
     from vicode.editor.guard import Guard  # noqa: PLC0415
     from vicode.editor.pages.add import add_pages  # noqa: PLC0415
@@ -53,7 +58,7 @@ def serve(path: Path, address: Address, *, open_browser: bool = True) -> None:
     add_pages(Library(path))
     hosts = ("127.0.0.1", "localhost", "::1") if not address.token else None
     app.add_middleware(Guard, hosts=hosts, token=address.token)
-    app.on_startup(lambda: print(f"vicode edits {path} at {address.url}  (Ctrl-C ends it)", flush=True))  # noqa: T201
+    app.on_startup(lambda: background_tasks.create(_announce(path, address), name="announce"))
     ui.run(
         host=address.host,
         port=address.port,
@@ -67,6 +72,19 @@ def serve(path: Path, address: Address, *, open_browser: bool = True) -> None:
         storage_secret=secrets.token_urlsafe(32),
         uvicorn_logging_level="warning",
     )
+
+
+async def _announce(path: Path, address: Address) -> None:
+    """Print the address once the server answers there: it is told that it starts before it listens."""
+    for _attempt in range(500):
+        try:
+            _reader, writer = await asyncio.open_connection(address.local_host, address.port)
+        except OSError:
+            await asyncio.sleep(0.02)
+        else:
+            writer.close()
+            break
+    print(f"vicode edits {path} at {address.url}  (Ctrl-C ends it)", flush=True)  # noqa: T201
 
 
 def _free_port(host: str, wanted: int | None) -> int:
