@@ -1,0 +1,126 @@
+"""An open project: saving patches, other programs' changes are not lost, code is generated or refused in words."""
+
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from vicode.editor.session import ChangedOnDiskError, Document, Library, Workspace, apply_gesture
+from vicode.model.design import Declaration, Guard, Transition
+from vicode.model.edits import replace_decision
+
+
+@pytest.fixture
+def workspace(project: Path) -> Workspace:
+    return Workspace(project / "forward", key="forward")
+
+
+def opened(workspace: Workspace, component: str) -> Document:
+    document = workspace.document(component)
+    assert document is not None
+    return document
+
+
+def test_library_opens_the_agent_or_the_file_that_was_named(project: Path) -> None:
+    library = Library(project)
+    first = library.first
+    assert first is not None
+    assert (first[0].key, first[1]) == ("forward", "Player")
+    by_file = Library(project / "forward" / "face_ball.yaml").first
+    assert by_file is not None
+    assert by_file[1] == "FaceBall"
+    assert library.workspace("elsewhere") is None
+
+
+def test_an_unedited_save_writes_nothing(workspace: Workspace) -> None:
+    document = opened(workspace, "Player")
+    before = document.file.stat()
+    workspace.save(document)
+    assert document.file.stat().st_mtime_ns == before.st_mtime_ns
+    assert workspace.document("Player") is document
+    assert workspace.document("Perception") is None
+
+
+def test_an_edit_changes_its_own_lines(workspace: Workspace) -> None:
+    document = opened(workspace, "Player")
+    before = document.file.read_text().splitlines()
+    apply_gesture(document, {"kind": "rename", "of": "states", "id": "WatchBall", "name": "Rest"})
+    assert not document.is_saved
+    workspace.save(document)
+    assert document.is_saved
+    after = document.file.read_text().splitlines()
+    changed = [line.strip() for line in after if line not in before]
+    assert changed == ["- {to: Rest, when: not kicker.busy, after: 0.5, doc: kicked}", "Rest:", "id: WatchBall"]
+    assert sum(line not in after for line in before) == 2
+
+
+def test_a_change_on_disk_is_told_and_can_be_kept_or_taken(workspace: Workspace) -> None:
+    document = opened(workspace, "Player")
+    document.edit("doc", lambda design: replace(design, doc="mine"))
+    text = document.file.read_text()
+    document.file.write_text(text.replace("frequency: 10", "frequency: 20  # faster"))
+    with pytest.raises(ChangedOnDiskError):
+        workspace.save(document)
+    assert workspace.reload(document) == ""
+    assert (document.design.frequency_hz, document.is_saved) == (20, True)
+    document.undo()
+    assert (document.design.doc, document.design.frequency_hz) == ("mine", 10)
+    workspace.save(document, over=True)
+    assert "# faster" in document.file.read_text()
+    assert "  mine\n" in document.file.read_text()
+
+
+def test_a_file_that_holds_no_design_any_more_is_not_taken(workspace: Workspace) -> None:
+    document = opened(workspace, "Player")
+    document.file.write_text("nothing: here\n")
+    assert "no design" in workspace.reload(document)
+    assert document.design.states
+
+
+def test_a_new_design_is_a_file_at_once_and_never_replaces_one(workspace: Workspace) -> None:
+    document = workspace.create("Cheer")
+    assert document.file.name == "cheer.yaml"
+    assert "component: Cheer" in document.file.read_text()
+    assert "Cheer" in Workspace(workspace.folder, key="again").project.interfaces()
+    (workspace.folder / "wave.yaml").write_text("mine\n")
+    with pytest.raises(FileExistsError):
+        workspace.create("Wave")
+
+
+def test_what_others_read_is_checked_when_it_changes(workspace: Workspace) -> None:
+    player, search = opened(workspace, "Player"), opened(workspace, "SearchNet")
+    assert player.findings == ()
+    outputs = tuple(each for each in search.design.outputs if each.name != "found")
+    search.edit("remove output", lambda design: replace(design, outputs=outputs))
+    assert [finding.rule.code for finding in player.findings] == ["E303"]
+    search.undo()
+    assert player.findings == ()
+
+
+def test_generate_writes_what_the_design_says(workspace: Workspace) -> None:
+    document = opened(workspace, "Player")
+    first = workspace.generate(document)
+    assert first.is_sound, first.words
+    assert {"player.py", "face_ball.py", "declarations.py"} <= {path.name for path in first.files}
+    assert "up to date" in workspace.generate(document).words
+    path = ("states", "LookForBall", "transitions", 0)
+    guarded = Transition(to="FollowBall", guard=Guard(when="perception.ball_distance < 1234"))
+    document.edit("guard", lambda design: replace_decision(design, path, guarded))
+    again = workspace.generate(document)
+    assert [path.name for path in again.files] == ["player.py"]
+    assert "self.perception.ball_distance < 1234" in again.files[0].read_text()
+
+
+def test_generate_refuses_mistakes_and_hand_edits_in_words(workspace: Workspace) -> None:
+    document = opened(workspace, "Player")
+    (written,) = (path for path in workspace.generate(document).files if path.name == "player.py")
+    document.edit("broken", lambda design: replace(design, variables=(Declaration(name="kick", type="Kik"),)))
+    refused = workspace.generate(document)
+    assert not refused.is_sound
+    assert "Nothing generated" in refused.words
+    document.undo()
+    edited = written.read_text().replace("recent = self._distances[-5:]", "recent = self._distances[-9:]")
+    written.write_text(edited)
+    document.edit("doc", lambda design: replace(design, doc="new"))
+    assert "edited" in workspace.generate(document).words
+    assert written.read_text() == edited
