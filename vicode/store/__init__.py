@@ -4,7 +4,9 @@ from vicode.store.documents import ReadDesign, ReadProject, read_design, read_pr
 from vicode.store.locating import locate, place_of
 from vicode.store.projects import OpenProject, design_files, find_projects, open_project
 from vicode.store.saving import save_design, save_project_file
+from vicode.store.schema import design_schema, project_schema
 from vicode.store.sources import SourceMap
+from vicode.store.writing import write_text
 
 __all__ = [
     "OpenProject",
@@ -12,12 +14,15 @@ __all__ = [
     "ReadProject",
     "SourceMap",
     "design_files",
+    "design_schema",
     "find_projects",
     "locate",
     "open_project",
     "place_of",
+    "project_schema",
     "read_design",
     "read_project_file",
     "save_design",
     "save_project_file",
+    "write_text",
 ]

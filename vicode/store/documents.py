@@ -70,6 +70,10 @@ def default_name(folder: str) -> str:
 
 def read_record(text: str | bytes, file: str, shape: Record) -> tuple[Report, Read | None]:
     """Read a whole text as one record; no record when the text is broken as a whole."""
+    if len(text) > MAXIMUM_BYTES:
+        report = Report(lines=Lines("", file))
+        report.add("Y108", f"the file is larger than {MAXIMUM_BYTES} bytes", (0, 1), mend="split the design")
+        return report, None
     decoded = _decode(text)
     report = Report(lines=Lines(decoded if decoded is not None else "", file))
     if decoded is None:
@@ -88,19 +92,23 @@ def read_record(text: str | bytes, file: str, shape: Record) -> tuple[Report, Re
 def _whole(root: Read, tree: Tree, report: Report) -> Read | None:
     if not tree.is_whole:
         # What is missing in the part that was read may well stand in the rest.
-        report.findings[:] = [finding for finding in report.findings if finding.rule.code != "Y104"]
+        starts = {(place.line, place.column) for place in (report.lines.place(each, each) for each in tree.unfinished)}
+        report.findings[:] = [each for each in report.findings if _is_certain(each, starts)]
         return None
     is_known_version = all(finding.rule.code != "Y109" for finding in report.findings)
     return root if root.value is not None and is_known_version else None
 
 
+def _is_certain(finding: Finding, unfinished: set[tuple[int, int]]) -> bool:
+    is_of_unfinished = finding.place is not None and (finding.place.line, finding.place.column) in unfinished
+    return finding.rule.code == "Y101" or not (finding.rule.code == "Y104" or is_of_unfinished)
+
+
 def _decode(text: str | bytes) -> str | None:
     if isinstance(text, str):
         return text
-    # Only the beginning of a file that is too large is looked at: it is refused by its length.
-    content = text if len(text) <= MAXIMUM_BYTES else text[:MAXIMUM_BYTES] + b" "
     try:
-        return content.decode("utf-8")
+        return text.decode("utf-8")
     except UnicodeDecodeError:
         return None
 

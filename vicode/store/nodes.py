@@ -62,10 +62,14 @@ _NodeEvent = yaml.ScalarEvent | yaml.MappingStartEvent | yaml.SequenceStartEvent
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Tree:
-    """The root, None when there is none; not `is_whole` when the parser gave up on the way."""
+    """The root, None when there is none; not `is_whole` when the parser gave up on the way.
+
+    `unfinished` is where the collections begin whose ends were not met.
+    """
 
     root: Node | None
     is_whole: bool
+    unfinished: tuple[int, ...] = ()
 
 
 @dataclass(slots=True)
@@ -94,16 +98,14 @@ def parse_tree(text: str, report: Report) -> Tree:
             builder.take(event)
     except yaml.YAMLError as error:
         _report_syntax(error, skipped, report)
-        return Tree(root=builder.close(), is_whole=False)
+        unfinished = tuple(each.start for each in builder.open)
+        return Tree(root=builder.close(), is_whole=False, unfinished=unfinished)
     except _GiveUp:
         return Tree(root=None, is_whole=False)
     return Tree(root=builder.root, is_whole=True)
 
 
 def _is_acceptable(text: str, skipped: int, report: Report) -> bool:
-    if len(text) > MAXIMUM_BYTES:
-        report.add("Y108", f"the file is larger than {MAXIMUM_BYTES} bytes", (0, 1), mend="split the design")
-        return False
     match = _UNREADABLE.search(text, skipped)
     if match:
         message = f"the character U+{ord(match.group()):04X} cannot stand in a text file"

@@ -242,7 +242,7 @@ class Reader:
             known = shape.key(name) if name is not None else None
             if known is None and name is not None and key_node is not None:
                 self._unknown_key(name, key_node, shape, path)
-            if known is None or (isinstance(value, Scalar) and value.is_empty and known.name not in shape.one_of):
+            if known is None or _is_left_out(value, known, shape):
                 continue
             target = shape.key(known.stands_for) if known.stands_for else known
             assert target is not None, "the table names a key that the record does not have"
@@ -320,6 +320,12 @@ def _is_long(node: Node, short: Key) -> bool:
         return True
     names = {key.text: value for key, value in node.pairs if isinstance(key, Scalar)}
     return not isinstance(names.get(short.name, Scalar("", "", 0, 0)), Scalar)
+
+
+def _is_left_out(value: Node, key: Key, record: Record) -> bool:
+    """A key with nothing behind it counts as left out, unless that would be another guard or another item."""
+    is_needed = key.name in record.one_of or key.shape == Leaf(kind=Kind.EXPRESSION)
+    return isinstance(value, Scalar) and value.is_empty and not is_needed
 
 
 def _is_nothing(node: Node) -> bool:

@@ -1,0 +1,163 @@
+"""Random designs and projects that can be saved: names are unique in their mapping, nothing more is promised."""
+
+import string
+from typing import Any
+
+from hypothesis import strategies as st
+
+from vicode.model.design import (
+    Action,
+    Assign,
+    Call,
+    Code,
+    Common,
+    Decision,
+    Declaration,
+    Design,
+    Group,
+    Guard,
+    RunCode,
+    State,
+    Stay,
+    Transition,
+    Use,
+)
+from vicode.model.project import Agent, Enumeration, Interface, Project
+
+AWKWARD_NAMES = ("on", "off", "no", "yes", "null", "true", "1e3", "007", "code", "doc", "elements", "default", "python")
+AWKWARD_TEXTS = (
+    "a: b", "# no comment", "- item", "", " ", "x ", "'quoted'", 'say "hi"', "{a: b}", "[1]", "*a", "&a", "!x", "%d",
+    "@x", "`", "a #b", "key:", "null", "~", "0x10", "é ü 😀", "back\\slash", "---", "...", "? x", "a, b", "=", "<<",
+)  # fmt: skip
+AWKWARD_CODE = (
+    "go()\n", "if x:\n    go()\n", "  indented\n", "a\n\n\nb\n\n", "\n", "\nx\n", "x\n  ", "\ttab\n", "# only\n",
+    "a\r\nb\r\n", "no end", "s = '''\n---\n...\n'''\n", "x\u2028y\n", "\x07\n", "x\n\n\n",
+)  # fmt: skip
+
+plain_names = st.builds(
+    str.__add__, st.sampled_from(string.ascii_letters), st.text(string.ascii_letters + string.digits + "_", max_size=6)
+)
+names = plain_names | st.sampled_from(AWKWARD_NAMES)
+_characters = st.characters(codec="utf-8", exclude_categories=("Cs", "Cn"))
+texts = st.sampled_from(AWKWARD_TEXTS) | st.text(_characters, max_size=20) | st.text("ab :#-'\"\n{}[],", max_size=12)
+codes = st.sampled_from(AWKWARD_CODE) | st.text("ab#:-| \t\n", max_size=12) | texts
+expressions = (
+    plain_names
+    | st.integers(-999, 999).map(str)
+    | st.builds("{} {} {}".format, plain_names, st.sampled_from(["<", "and", "!=", "%"]), plain_names)
+    | texts.filter(lambda text: bool(text.strip()))
+)
+numbers = st.integers(-5000, 5000).map(float) | st.floats(-1e6, 1e6, allow_nan=False).map(lambda number: number + 0.0)
+points = st.none() | st.tuples(numbers, numbers)
+frequencies = st.none() | st.integers(1, 100).map(float) | st.floats(1e-3, 1e3)
+code = st.builds(
+    Code,
+    texts=st.dictionaries(st.sampled_from(["python", "cpp", "xabsl"]), codes, max_size=2).map(
+        lambda each: tuple(each.items())
+    ),
+)
+ids = st.just("") | plain_names
+
+
+def _unique(values: st.SearchStrategy[Any], name: str, largest: int = 4) -> st.SearchStrategy[tuple[Any, ...]]:
+    return st.lists(values, max_size=largest, unique_by=lambda value: getattr(value, name)).map(tuple)
+
+
+def _tuples(values: st.SearchStrategy[Any], largest: int = 3) -> st.SearchStrategy[tuple[Any, ...]]:
+    return st.lists(values, max_size=largest).map(tuple)
+
+
+def _pairs(largest: int = 3) -> st.SearchStrategy[tuple[tuple[str, str], ...]]:
+    return st.dictionaries(names, expressions, max_size=largest).map(lambda each: tuple(each.items()))
+
+
+def declarations(arguments: st.SearchStrategy[Any] | None = None) -> st.SearchStrategy[Declaration]:
+    """Declarations of values, or of functions where `arguments` draws a tuple."""
+    return st.builds(
+        Declaration,
+        name=names,
+        type=st.sampled_from(["", "bool", "int", "float", "Side"]),
+        initial=st.just("") | expressions,
+        unit=st.just("") | texts,
+        range=points,
+        doc=st.just("") | texts,
+        xabsl_name=st.just("") | texts,
+        arguments=st.none() if arguments is None else arguments,
+    )
+
+
+outputs = declarations(st.none() | _unique(declarations(), "name", 2))
+calls = st.builds(Call, alias=names, arguments=_pairs())
+actions: st.SearchStrategy[Action] = st.builds(Assign, values=_pairs()) | calls | st.builds(RunCode, code=code, id=ids)
+guards = st.builds(
+    Guard, when=st.just("") | expressions, after=st.just("") | expressions, code=st.none() | st.none() | code
+)
+transitions = st.builds(Transition, to=names, guard=guards, doc=st.just("") | texts, id=ids)
+_stays = st.builds(Stay, guard=guards, doc=st.just("") | texts, id=ids)
+decisions: st.SearchStrategy[Decision] = st.recursive(
+    transitions | _stays,
+    lambda inner: st.builds(Group, guard=guards, then=_tuples(inner, 2), otherwise=_tuples(inner, 2), id=ids),
+    max_leaves=3,
+)
+states = st.builds(
+    State,
+    name=names,
+    id=ids,
+    doc=st.just("") | texts,
+    at=points,
+    final=st.booleans(),
+    requires=_tuples(names),
+    modulates=_unique(calls, "alias", 2),
+    enter=_tuples(actions, 2),
+    actions=_tuples(actions),
+    leave=_tuples(actions, 2),
+    transitions=_tuples(decisions),
+)
+uses = st.builds(Use, alias=names, component=names, at=points)
+designs = st.builds(
+    Design,
+    component=names,
+    doc=st.just("") | texts,
+    frequency_hz=frequencies,
+    resume=st.booleans(),
+    arithmetic=st.sampled_from(["", "xabsl"]),
+    time_unit=st.sampled_from(["", "s", "ms"]),
+    uses=_unique(uses, "alias"),
+    parameters=_unique(declarations(), "name", 2),
+    outputs=_unique(outputs, "name", 2),
+    variables=_unique(declarations(), "name", 2),
+    initial=st.just("") | names,
+    module=code,
+    members=code,
+    common=st.builds(
+        Common, doc=st.just("") | texts, at=points, actions=_tuples(actions, 2), transitions=_tuples(decisions, 2)
+    ),
+    states=_unique(states, "name", 3),
+)
+enumerations = st.builds(
+    Enumeration,
+    name=names,
+    doc=st.just("") | texts,
+    elements=st.dictionaries(names, st.just("") | texts, min_size=1, max_size=4).map(lambda each: tuple(each.items())),
+)
+interfaces = st.builds(
+    Interface,
+    component=names,
+    doc=st.just("") | texts,
+    implementation=st.just("") | st.just("field.head:Head") | texts,
+    frequency_hz=frequencies,
+    parameters=_unique(declarations(), "name", 2),
+    outputs=_unique(outputs, "name", 2),
+)
+projects = st.builds(
+    Project,
+    name=names,
+    doc=st.just("") | texts,
+    languages=_tuples(st.sampled_from(["python", "cpp", "xabsl"]), 2),
+    world=st.just("") | texts,
+    generated=st.sampled_from(["generated", "../out", ""]),
+    enumerations=_unique(enumerations, "name", 2),
+    constants=_unique(declarations(), "name", 2),
+    components=_unique(interfaces, "component", 2),
+    agents=_unique(st.builds(Agent, name=names, root=names, doc=st.just("") | texts), "name", 2),
+)
