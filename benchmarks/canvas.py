@@ -40,6 +40,16 @@ COUNT_FRAMES = """seconds => new Promise(done => {
 })"""
 START_COUNTING = f"seconds => {{ window.counted = ({COUNT_FRAMES})(seconds); }}"
 
+FIND_MIDDLE = """() => {
+    const {vicode} = document.querySelector('.vicode-canvas');
+    const {x, y, k} = vicode.view();
+    const spots = Object.values(vicode.positions()).map(place => [place.x * k + x, place.y * k + y]);
+    const far = ([x, y]) => Math.hypot(x - 683, y - 384);
+    return spots.reduce((best, each) => far(each) < far(best) ? each : best);
+}"""
+
+Point = Sequence[float]
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Row:
@@ -103,40 +113,32 @@ def measure_gestures(page: Page, size: int, distance: str, open_s: float) -> Row
     )
 
 
-def count_during(page: Page, stroke: Callable[[Page, float], None]) -> float:
+def count_during(page: Page, stroke: Callable[[Page, Point, float], None]) -> float:
     """The frames per second while a stroke of the hand is made."""
-    page.mouse.move(683, 384)
+    spot = page.evaluate(FIND_MIDDLE)
+    page.mouse.move(*spot)
     page.evaluate(START_COUNTING, STROKE_S)
-    stroke(page, time.monotonic() + STROKE_S)
+    stroke(page, spot, time.monotonic() + STROKE_S)
     return float(page.evaluate("window.counted"))
 
 
-def drag(page: Page, until: float) -> None:
-    """Drag the state nearest to the middle in circles."""
-    x, y = page.evaluate(
-        """() => {
-            const {vicode} = document.querySelector('.vicode-canvas');
-            const places = Object.keys(vicode.positions()).map(name => vicode.screen('states', name.split('/')[1]));
-            const far = ({x, y}) => Math.hypot(x - 683, y - 384);
-            const {x, y} = places.reduce((best, each) => far(each) < far(best) ? each : best);
-            return [x, y];
-        }"""
-    )
-    page.mouse.move(x, y)
+def drag(page: Page, spot: Point, until: float) -> None:
+    """Drag the state in the middle to and fro."""
     page.mouse.down()
-    swing(page, x, y, until)
+    swing(page, spot, until)
     page.mouse.up()
 
 
-def pan(page: Page, until: float) -> None:
+def pan(page: Page, spot: Point, until: float) -> None:
     """Pan with the middle button."""
     page.mouse.down(button="middle")
-    swing(page, 683, 384, until)
+    swing(page, spot, until)
     page.mouse.up(button="middle")
 
 
-def zoom(page: Page, until: float) -> None:
+def zoom(page: Page, spot: Point, until: float) -> None:
     """Turn the wheel, out and in again."""
+    page.mouse.move(*spot)
     turn = 0
     while time.monotonic() < until:
         page.mouse.wheel(0, 100 if (turn // 8) % 2 == 0 else -100)
@@ -144,12 +146,12 @@ def zoom(page: Page, until: float) -> None:
         turn += 1
 
 
-def swing(page: Page, x: float, y: float, until: float) -> None:
+def swing(page: Page, spot: Point, until: float) -> None:
     """Move the mouse to and fro, about once a frame."""
     step = 0
     while time.monotonic() < until:
         step += 1
-        page.mouse.move(x + 8 * (step % 40), y + 4 * (step % 30))
+        page.mouse.move(spot[0] + 8 * (step % 40), spot[1] + 4 * (step % 30))
         time.sleep(0.008)
 
 

@@ -140,6 +140,30 @@ def test_two_fingers_on_a_touchpad_pan(hand: Hand) -> None:
     assert hand.at("states", "KickLeft") == pytest.approx((spot[0] - 7, spot[1] - 13), abs=1)
 
 
+def test_one_finger_pans_and_two_zoom(hand: Hand) -> None:
+    cdp = hand.page.context.new_cdp_session(hand.page)
+
+    def touch(kind: str, *points: tuple[float, float]) -> None:
+        fingers = [{"x": x, "y": y, "id": number} for number, (x, y) in enumerate(points)]
+        cdp.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": fingers})
+
+    spot = hand.at("states", "KickLeft")
+    touch("touchStart", (620, 650))
+    touch("touchMove", (620, 600))
+    touch("touchMove", (640, 560))
+    touch("touchEnd")
+    hand.wait_for(f"vicode.screen('states', 'KickLeft').y < {spot[1] - 80}")
+    before = hand.vicode("view()")["k"]
+    touch("touchStart", (600, 500), (700, 500))
+    touch("touchMove", (560, 500), (740, 500))
+    touch("touchMove", (520, 500), (780, 500))
+    touch("touchEnd")
+    hand.wait_for(f"vicode.view().k > {before} * 1.5")
+    assert not hand.heard_all("move")
+    hand.drag((620, 330), (660, 330))
+    assert not hand.heard_all("create")
+
+
 def test_a_press_on_the_minimap_goes_there(hand: Hand) -> None:
     minimap = hand.page.locator(".minimap")
     expect(minimap).to_be_hidden()

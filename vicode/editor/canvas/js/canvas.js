@@ -12,7 +12,7 @@ import { Router } from "./routing.js";
 import { keyOf, Scene } from "./scene.js";
 import { Selection } from "./selection.js";
 import { html } from "./svg.js";
-import { forgetWidths } from "./text.js";
+import { FONTS, forgetWidths } from "./text.js";
 import { Theme } from "./theme.js";
 import { Toolbar } from "./toolbar.js";
 import { Viewport } from "./viewport.js";
@@ -22,6 +22,7 @@ const FAR_STATES = 150;
 const CROWD = 320;
 const LEAVING = 0.88;
 const DOT_GAP = 20;
+const DIM_MS = 120;
 
 const sheet = new CSSStyleSheet();
 sheet.replaceSync(await (await fetch(new URL("./canvas.css", import.meta.url))).text());
@@ -144,6 +145,19 @@ class Canvas {
     if (this.far) this.frame.ask("cull", () => this.cull());
   }
 
+  /** The selection changed, by Python's wish (`quiet`) or by hand. */
+  selectionChanged(quiet) {
+    this.handles.refresh();
+    if (!quiet) this.report("select", { items: this.selection.items() });
+    if (!this.far) return;
+    this.frame.ask("cull", () => this.cull());
+    // A small selection lies as SVG above the bitmap; a large one is drawn into it.
+    const inBitmap = this.selection.keys.size > MOST_PINNED;
+    if (inBitmap || this.overview.showsSelection) this.overview.spoil();
+    this.overview.showsSelection = inBitmap;
+    this.#redrawSoon();
+  }
+
   /** Brings the mounted part up to what is seen. */
   cull() {
     if (!this.far && this.#tooMuch(1)) this.#setFar(true);
@@ -159,6 +173,11 @@ class Canvas {
     else if (this.scene.isDrawable(thing)) this.viewport.reveal({ ...this.router.route(thing).at, w: 0, h: 0 });
     this.frame.flush();
     this.cull();
+  }
+
+  /** What is lit changed: the rest steps back once the hand rests. */
+  dimSoon() {
+    this.frame.afterRest("dim", DIM_MS, () => (this.gestures.isDragging() ? this.dimSoon() : this.painter.dim()));
   }
 
   say(text) {
@@ -181,7 +200,7 @@ class Canvas {
     this.minimap = new Minimap(this.scene, this.viewport, colours);
     this.theme = new Theme(this.stage, () => this.#coloursChanged());
     this.toolbar = new Toolbar(this);
-    this.selection = new Selection(this.scene, this.painter, (quiet) => this.#selectionChanged(quiet));
+    this.selection = new Selection(this);
     this.gestures = new Gestures(this);
     this.handles = new Handles(this);
     this.keyboard = new Keyboard(this);
@@ -199,13 +218,17 @@ class Canvas {
     this.viewport.onRest = () => this.#viewRests();
     this.sizes = new ResizeObserver(() => this.#resized());
     this.sizes.observe(this.stage);
-    document.fonts.ready.then(() => {
-      forgetWidths();
-      this.scene.remeasure();
-      this.router.clear();
-      this.painter.refresh({ touched: [...this.painter.items.keys()], gone: [], near: [] });
-      this.#sceneChanged();
-    });
+    const fonts = Object.values(FONTS).map((font) => document.fonts.load(font));
+    Promise.allSettled(fonts).then(() => this.#fontsCame());
+  }
+
+  /** What was measured with a stand-in font may be wrong. */
+  #fontsCame() {
+    forgetWidths();
+    this.scene.remeasure();
+    this.router.clear();
+    this.painter.refresh({ touched: [...this.painter.items.keys()], gone: [], near: [] });
+    this.#sceneChanged();
   }
 
   #resized() {
@@ -279,18 +302,6 @@ class Canvas {
     const gap = DOT_GAP * scale;
     const within = (value) => (((value % gap) + gap) % gap) - gap;
     this.dots.style.transform = `translate(${within(x)}px, ${within(y)}px) scale(${scale})`;
-  }
-
-  #selectionChanged(quiet) {
-    this.handles.refresh();
-    if (!quiet) this.report("select", { items: this.selection.items() });
-    if (!this.far) return;
-    this.frame.ask("cull", () => this.cull());
-    // A small selection lies as SVG above the bitmap; a large one is drawn into it.
-    const inBitmap = this.selection.keys.size > MOST_PINNED;
-    if (inBitmap || this.overview.showsSelection) this.overview.spoil();
-    this.overview.showsSelection = inBitmap;
-    this.#redrawSoon();
   }
 
   #coloursChanged() {

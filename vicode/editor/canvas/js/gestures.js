@@ -14,6 +14,7 @@ export class Gestures {
     this.drag = null;
     this.tool = null;
     this.touches = new Map();
+    this.pinch = null;
     this.lastClick = { key: "", time: 0 };
     this.spaceHeld = false;
     this.pointer = null;
@@ -38,6 +39,7 @@ export class Gestures {
     this.tool?.cancel();
     this.drag = null;
     this.tool = null;
+    this.pinch = null;
     this.touches.clear();
     this.canvas.say("");
     this.canvas.afterGesture();

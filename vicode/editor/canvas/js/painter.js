@@ -52,7 +52,12 @@ export class Painter {
     this.marks.set(name, now);
     for (const key of old) if (!now.has(key)) this.#toggle(key, name, false);
     for (const key of now) if (!old.has(key)) this.#toggle(key, name, true);
-    for (const layer of Object.values(this.layers)) layer.classList.toggle("dim", this.marks.get("lit").size > 0);
+  }
+
+  /** Lets everything that is not lit step back. This paints all anew, so it is not for moments when the hand moves. */
+  dim() {
+    const isDim = this.marks.get("lit").size > 0;
+    for (const name of ["links", "edges", "nodes", "chips"]) this.layers[name].classList.toggle("dim", isDim);
   }
 
   /** Redraws what changed; `near` are the nodes whose edges may want another way. */

@@ -3,10 +3,10 @@
 const MOST_LIT = 40;
 
 export class Selection {
-  constructor(scene, painter, report) {
-    this.scene = scene;
-    this.painter = painter;
-    this.report = report;
+  constructor(canvas) {
+    this.canvas = canvas;
+    this.scene = canvas.scene;
+    this.painter = canvas.painter;
     this.keys = new Set();
     this.hovered = null;
   }
@@ -19,7 +19,7 @@ export class Selection {
     this.keys = new Set(known);
     this.painter.mark("selected", this.keys);
     this.light();
-    this.report(quiet);
+    this.canvas.selectionChanged(quiet);
   }
 
   toggle(key) {
@@ -69,5 +69,6 @@ export class Selection {
       for (const each of edges) for (const part of [each.key, each.source, each.target]) lit.add(part);
     }
     this.painter.mark("lit", lit);
+    this.canvas.dimSoon();
   }
 }
