@@ -3,10 +3,14 @@
 import re
 from random import Random
 
+from hypothesis import settings
 from hypothesis import strategies as st
 
-from tests.strategies.designs import designs
+from tests.strategies.designs import designs_with_states
 from vicode.store import read_design, save_design
+
+fewer_examples = settings(max_examples=max(10, settings.default.max_examples // 3))
+"""For laws whose examples take long to draw."""
 
 COMMENT = re.compile(r"#~\d+")
 """A comment put in; its number makes it unique."""
@@ -20,7 +24,7 @@ def comments_of(text: str) -> set[str]:
 @st.composite
 def decorated_texts(draw: st.DrawFn, largest: int = 8) -> str:
     """The text of a random design with comments, blank lines and line ends put in where they change nothing."""
-    text = save_design(draw(designs))
+    text = save_design(draw(designs_with_states))
     meant = read_design(text).design
     random = Random(draw(st.integers(0, 2**32)))
     for number in range(random.randint(0, largest)):

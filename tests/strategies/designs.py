@@ -59,8 +59,11 @@ code = st.builds(
 ids = st.just("") | plain_names
 
 
-def _unique(values: st.SearchStrategy[Any], name: str, largest: int = 4) -> st.SearchStrategy[tuple[Any, ...]]:
-    return st.lists(values, max_size=largest, unique_by=lambda value: getattr(value, name)).map(tuple)
+def _unique(
+    values: st.SearchStrategy[Any], name: str, largest: int = 4, smallest: int = 0
+) -> st.SearchStrategy[tuple[Any, ...]]:
+    unique = st.lists(values, min_size=smallest, max_size=largest, unique_by=lambda value: getattr(value, name))
+    return unique.map(tuple)
 
 
 def _tuples(values: st.SearchStrategy[Any], largest: int = 3) -> st.SearchStrategy[tuple[Any, ...]]:
@@ -99,7 +102,7 @@ decisions: st.SearchStrategy[Decision] = st.recursive(
     lambda inner: st.builds(Group, guard=guards, then=_tuples(inner, 2), otherwise=_tuples(inner, 2), id=ids),
     max_leaves=3,
 )
-states = st.builds(
+states: st.SearchStrategy[State] = st.builds(
     State,
     name=names,
     id=ids,
@@ -114,26 +117,26 @@ states = st.builds(
     transitions=_tuples(decisions),
 )
 uses = st.builds(Use, alias=names, component=names, at=points)
-designs = st.builds(
-    Design,
-    component=names,
-    doc=st.just("") | texts,
-    frequency_hz=frequencies,
-    resume=st.booleans(),
-    arithmetic=st.sampled_from(["", "xabsl"]),
-    time_unit=st.sampled_from(["", "s", "ms"]),
-    uses=_unique(uses, "alias"),
-    parameters=_unique(declarations(), "name", 2),
-    outputs=_unique(outputs, "name", 2),
-    variables=_unique(declarations(), "name", 2),
-    initial=st.just("") | names,
-    module=code,
-    members=code,
-    common=st.builds(
+_parts: dict[str, st.SearchStrategy[Any]] = {
+    "component": names,
+    "doc": st.just("") | texts,
+    "frequency_hz": frequencies,
+    "resume": st.booleans(),
+    "arithmetic": st.sampled_from(["", "xabsl"]),
+    "time_unit": st.sampled_from(["", "s", "ms"]),
+    "uses": _unique(uses, "alias"),
+    "parameters": _unique(declarations(), "name", 2),
+    "outputs": _unique(outputs, "name", 2),
+    "variables": _unique(declarations(), "name", 2),
+    "initial": st.just("") | names,
+    "module": code,
+    "members": code,
+    "common": st.builds(
         Common, doc=st.just("") | texts, at=points, actions=_tuples(actions, 2), transitions=_tuples(decisions, 2)
     ),
-    states=_unique(states, "name", 3),
-)
+}
+designs = st.builds(Design, **_parts, states=_unique(states, "name", 3))
+designs_with_states = st.builds(Design, **_parts, states=_unique(states, "name", 3, smallest=1))
 enumerations = st.builds(
     Enumeration,
     name=names,

@@ -1,0 +1,72 @@
+"""docs/design-format.md says what the reader reads: its tables come from the format, its examples are sound."""
+
+import re
+from pathlib import Path
+
+import pytest
+
+from vicode.store import read_design, read_project_file
+from vicode.store.format import PROJECT_RECORDS, RECORDS
+from vicode.store.lines import MAXIMUM_FINDINGS
+from vicode.store.nodes import MAXIMUM_BYTES, MAXIMUM_DEPTH, MAXIMUM_NODES
+from vicode.store.shapes import Key, Leaf, Listing, Pair, Record, Shape, Table
+
+PAGE = Path(__file__).parents[2] / "docs" / "design-format.md"
+BLOCK = re.compile(r"(<!-- keys: (\w+) -->\n)((?:\|.*\n)*)")
+EXAMPLE = re.compile(r"```yaml\n(.*?)```", re.DOTALL)
+BY_NAME = {record.name: record for record in (*PROJECT_RECORDS, *RECORDS)}
+
+
+def test_the_tables_are_those_of_the_reader(accept: bool) -> None:
+    text = PAGE.read_text(encoding="utf-8")
+    fresh = BLOCK.sub(lambda match: match.group(1) + _table(BY_NAME[match.group(2)]), text)
+    if accept:
+        PAGE.write_text(fresh, encoding="utf-8")
+    assert PAGE.read_text(encoding="utf-8") == fresh, "run pytest --accept and read the difference"
+
+
+def test_every_record_has_its_table() -> None:
+    shown = {match.group(2) for match in BLOCK.finditer(PAGE.read_text(encoding="utf-8"))}
+    same_keys = {"variable", "argument"}
+    assert shown | same_keys == set(BY_NAME)
+
+
+@pytest.mark.parametrize("example", EXAMPLE.findall(PAGE.read_text(encoding="utf-8")))
+def test_the_examples_are_sound(example: str) -> None:
+    read = read_project_file if "project:" in example else read_design
+    assert read(example).findings == ()
+
+
+def test_the_limits_are_those_of_the_reader() -> None:
+    text = PAGE.read_text(encoding="utf-8")
+    assert f"{MAXIMUM_BYTES // 1_000_000} MB" in text
+    assert f"{MAXIMUM_NODES // 1000} 000 values" in text
+    assert f"{MAXIMUM_DEPTH} levels" in text
+    assert MAXIMUM_FINDINGS > 100
+
+
+def _table(record: Record) -> str:
+    rows = [
+        f"| `{key.name}` | {_shape(key.shape)} | {_default(key, record)} | {key.meaning} |\n" for key in record.keys
+    ]
+    return "".join(["| key | shape | left out | meaning |\n", "|-----|-------|----------|---------|\n", *rows])
+
+
+def _default(key: Key, record: Record) -> str:
+    if key.required:
+        return "a mistake"
+    if key.name in record.one_of:
+        return "one of " + ", ".join(f"`{name}`" for name in record.one_of)
+    if key.name == "languages":
+        return "`[python]`"
+    return f"`{key.implied}`" if isinstance(key.implied, str) else "no" if key.implied is False else "–"
+
+
+def _shape(shape: Shape) -> str:
+    match shape:
+        case Leaf(kind=kind, choices=choices):
+            return " or ".join(f"`{choice}`" for choice in choices) or str(kind)
+        case Pair() | Listing() | Table():
+            return shape.what
+        case Record():
+            return shape.what
