@@ -9,6 +9,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from types import ModuleType
 
+from vicode.generators import generate
+from vicode.model.design import Assign, Declaration, Design, Guard, State, Transition, Use
+from vicode.model.project import Interface, Project
+
 TICK_NS = 20_000_000
 TIMER_NS = 300_000_000
 
@@ -56,31 +60,35 @@ def make_machine(states: int, edges: int, *, acts: bool) -> Machine:
 
 
 def write_component(machine: Machine) -> str:
-    """Return the source of a component `Measured` in the shape that the Python generator writes."""
-    lines = [
-        "from benchmarks.senses import Senses",
-        "from vicode.bica import Component, Root, State",
-        "class Measured(Component):",
-        "    frequency_hz = 50",
-        "    def __init__(self, root: Root) -> None:",
-        "        super().__init__(root)",
-        "        self.senses = root.component(Senses)",
-        "        self.speed = 0",
-        "        self._set_states(",
-        *(f"            State('S{state}', self._in_s{state})," for state in range(len(machine.edges))),
-        "        )",
-    ]
-    for state, edges in enumerate(machine.edges):
-        lines += [f"    def _in_s{state}(self, decide: bool = True) -> None:", "        if decide:"]
-        for edge in edges:
-            lines += [
-                f"            if {spell_guard(edge, 'self.root.now_ns - self._entered_ns')}:",
-                f"                self._change_to('S{edge.target}')",
-                "                return",
-            ]
-        if machine.acts:
-            lines.append(f"        self.speed = {state}")
-    return "\n".join(lines)
+    """Return the source of the component `Measured` as `vicode gen` writes it."""
+    senses = Interface(
+        component="Senses",
+        implementation="benchmarks.senses:Senses",
+        outputs=tuple(Declaration(name=name, type="float") for name in "abc"),
+    )
+    design = Design(
+        component="Measured",
+        frequency_hz=50,
+        uses=(Use(alias="senses", component="Senses"),),
+        variables=(Declaration(name="speed", initial="0"),),
+        initial="S0",
+        states=tuple(make_state(machine, number) for number in range(len(machine.edges))),
+    )
+    project = Project(name="bench", components=(senses,), designs=(design,))
+    return next(file.text for file in generate(project) if file.path.endswith("measured.py"))
+
+
+def make_state(machine: Machine, number: int) -> State:
+    """Return a state of the design that says what a machine does."""
+    actions = (Assign(values=(("speed", str(number)),)),) if machine.acts else ()
+    transitions = tuple(
+        Transition(
+            to=f"S{edge.target}",
+            guard=Guard(when=f"senses.{edge.sense} > 0.9") if edge.sense else Guard(after=str(TIMER_NS / 1e9)),
+        )
+        for edge in machine.edges[number]
+    )
+    return State(name=f"S{number}", actions=actions, transitions=transitions)
 
 
 def write_if_elif(machine: Machine) -> str:
