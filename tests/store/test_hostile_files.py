@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tests.strategies.decorated import decorated_texts
+from tests.strategies.decorated import decorated_texts, fewer_examples
 from vicode.store import read_design, read_project_file, save_design
 
 DESIGNS = Path(__file__).parents[2] / "designs"
@@ -40,6 +40,7 @@ def test_any_damaged_design_is_read_and_saved(text: str, damages: list[tuple[flo
         assert save_design(read.design, text) == text or read.findings
 
 
+@fewer_examples
 @given(decorated_texts(4), st.randoms(use_true_random=False))
 def test_any_design_with_other_keys_is_read(text: str, random: object) -> None:
     words = re.findall(r"\w+", text)

@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tests.strategies.decorated import decorated_texts
+from tests.strategies.decorated import decorated_texts, fewer_examples
 from vicode.findings import Finding, Note, Place, Thing, rule
 from vicode.findings import Path as ThingPath
 from vicode.model.walks import walk_code, walk_expressions
@@ -93,6 +93,7 @@ def test_findings_and_notes_get_their_places(tmp_path: Path) -> None:
     assert locate([Finding(rule=rule("P202"), message="", place=kept)], project)[0].place == kept
 
 
+@fewer_examples
 @given(decorated_texts(), st.data())
 def test_every_visible_character_is_found(text: str, data: st.DataObject) -> None:
     read = read_design(text)

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from tests.strategies.decorated import comments_of, decorated_texts
+from tests.strategies.decorated import comments_of, decorated_texts, fewer_examples
 from tests.strategies.designs import decisions, states
 from vicode.model.design import Code as CodeOf
 from vicode.model.design import Decision, Design, Guard, RunCode, State, Transition
@@ -43,10 +43,10 @@ def _guarded(decision: Decision) -> Decision:
     return replace(decision, guard=Guard(when="fresh < 1"))
 
 
+@fewer_examples
 @given(decorated_texts(), st.data(), st.sampled_from(sorted(EDITS)))
 def test_an_edit_of_a_state_touches_no_other_line(text: str, data: st.DataObject, edit: str) -> None:
     design = _design_in(text)
-    assume(design.states)
     _assert_is_local(text, design, data.draw(st.integers(0, len(design.states) - 1)), edit)
 
 
@@ -59,16 +59,18 @@ def test_an_edit_of_a_shipped_design_touches_no_other_line(path: Path, edit: str
         _assert_is_local(text, design, number, edit)
 
 
+@fewer_examples
 @given(decorated_texts(), states, st.integers(0, 9))
 def test_a_new_state_removes_no_line(text: str, state: State, place: int) -> None:
     design = _design_in(text)
-    assume(design.states and state.name not in {each.name for each in design.states})
+    assume(state.name not in {each.name for each in design.states})
     new = replace(design, states=(*design.states[:place], state, *design.states[place:]))
     saved = _saved(new, text)
     assert not Counter(_lines(text)) - Counter(_lines(saved))
     assert _is_in_order(_lines(text), _lines(saved))
 
 
+@fewer_examples
 @given(decorated_texts(), st.data())
 def test_a_removed_state_takes_only_its_own_lines(text: str, data: st.DataObject) -> None:
     design = _design_in(text)
@@ -82,6 +84,7 @@ def test_a_removed_state_takes_only_its_own_lines(text: str, data: st.DataObject
     assert comments_of(text) - comments_of(saved) <= own | _attached_comments(_lines(text)[:start])
 
 
+@fewer_examples
 @given(decorated_texts(), st.randoms(use_true_random=False))
 def test_reordered_states_keep_their_lines(text: str, random: object) -> None:
     design = _design_in(text)
@@ -92,12 +95,12 @@ def test_reordered_states_keep_their_lines(text: str, random: object) -> None:
     assert Counter(filled) == Counter(line for line in _lines(saved) if line.strip())
 
 
+@fewer_examples
 @given(decorated_texts(), st.data(), st.lists(decisions, max_size=4).map(tuple))
 def test_other_transitions_leave_all_comments_outside(
     text: str, data: st.DataObject, transitions: tuple[Decision, ...]
 ) -> None:
     design = _design_in(text)
-    assume(design.states)
     number = data.draw(st.integers(0, len(design.states) - 1))
     saved = _saved(_with_state(design, number, replace(design.states[number], transitions=transitions)), text)
     start, end = _region(text, design, number)

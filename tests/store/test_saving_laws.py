@@ -2,6 +2,7 @@
 
 from hypothesis import given
 
+from tests.strategies.decorated import fewer_examples
 from tests.strategies.designs import designs, projects
 from vicode.model.design import Design
 from vicode.model.project import Project
@@ -28,6 +29,7 @@ def test_an_unedited_save_keeps_every_byte(design: Design) -> None:
     assert save_design(design, text) == text
 
 
+@fewer_examples
 @given(designs, designs)
 def test_any_design_can_be_saved_over_any_other(old: Design, new: Design) -> None:
     assert read_design(save_design(new, save_design(old))).design == new

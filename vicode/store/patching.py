@@ -11,6 +11,7 @@ from vicode.store.nodes import Mapping, Node, Scalar, Sequence
 from vicode.store.regions import Region, after_line, blank_lines_before, line_end, line_start, regions_of
 from vicode.store.wishes import Kept, Member, Members, Wish, Word
 
+_BEFORE_COMMENT = re.compile(r" +(?=#)")
 _HEADER = re.compile(r"[|>][-+0-9]*")
 
 
@@ -74,13 +75,22 @@ class Patcher:
         if wish.bare or not (is_block or "\n" in wish.text):
             quote = node.style if node.style in ("'", '"') and not wish.bare else ""
             new = wish.text if wish.bare else text_in_line(wish.text, in_flow=slot.in_flow, quote=quote)
-            self._replace(node, wish, slot) if is_block else self._replace_edit(node.start, node.end, new)
+            self._replace(node, wish, slot) if is_block else self._replace_text(node, new, slot)
         elif slot.in_flow:
             self._replace_edit(node.start, node.end, text_in_line(wish.text, in_flow=True, quote='"'))
         elif is_block:
             self._block(node, wish, slot)
         else:
             self._replace(node, wish, slot)
+
+    def _replace_text(self, node: Scalar, new: str, slot: Slot) -> None:
+        """Another text in the same line; a comment beside it keeps its column where it can."""
+        blanks = _BEFORE_COMMENT.match(self.text, node.end)
+        end, old = node.end, self.text[node.start : node.end]
+        if blanks and not slot.in_flow and "\n" not in old and new != old:
+            end = blanks.end()
+            new += " " * max(min(2, end - node.end), end - node.start - len(new))
+        self._replace_edit(node.start, end, new)
 
     def _block(self, node: Scalar, wish: Word, slot: Slot) -> None:
         """Another text in the same block, as deep as the old one."""
@@ -152,7 +162,7 @@ class Patcher:
             self._flow(node, wish, is_restructured=is_restructured)
             return
         limit = slot.end if slot is not None else len(self.text)
-        regions = regions_of(self.text, node, limit)
+        regions = regions_of(self.text, node, slot.after if slot is not None else None, limit)
         if is_restructured:
             self._restructure(node, wish, regions)
         else:

@@ -18,13 +18,20 @@ class Region:
     is_inline: bool
 
 
-def regions_of(text: str, node: Mapping | Sequence, limit: int) -> list[Region]:
-    """The regions of a block's members; `limit` is where what belongs to the block ends."""
+def regions_of(text: str, node: Mapping | Sequence, floor: int | None, limit: int) -> list[Region]:
+    """The regions of a block's members.
+
+    Args:
+        text: The file.
+        node: A mapping or list in block style.
+        floor: The colon or dash that the block follows; None for the document, whose head is nobody's comment.
+        limit: Where what belongs to the block ends.
+    """
     firsts = _firsts(text, node)
     values = [value for _key, value in node.pairs] if isinstance(node, Mapping) else list(node.items)
     column = firsts[0] - line_start(text, firsts[0])
     regions: list[Region] = []
-    free = line_start(text, firsts[0])
+    free = line_start(text, firsts[0]) if floor is None else after_line(text, floor)
     for number, value in enumerate(values):
         first = firsts[number]
         own_line = line_start(text, first)
