@@ -93,9 +93,9 @@ def measure(browser: Browser, size: int) -> Iterator[Row]:
 
 def measure_gestures(page: Page, size: int, distance: str, open_s: float) -> Row:
     """Measure rest, drag, pan and zoom in turn, several times over."""
-    set_view(page, distance)
     counts: dict[str, list[float]] = {"rest": [], "drag": [], "pan": [], "zoom": []}
     for _ in range(RUNS):
+        set_view(page, distance)
         rest = page.evaluate(COUNT_FRAMES, STROKE_S)
         counts["rest"].append(rest)
         for name, stroke in (("drag", drag), ("pan", pan), ("zoom", zoom)):

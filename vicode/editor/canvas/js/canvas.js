@@ -19,7 +19,7 @@ import { Viewport } from "./viewport.js";
 
 const FAR = 0.3;
 const FAR_STATES = 150;
-const CROWD = 320;
+const CROWD = 240;
 const LEAVING = 0.88;
 const DOT_GAP = 20;
 const DIM_MS = 120;
@@ -273,7 +273,7 @@ class Canvas {
   }
 
   #mount() {
-    this.painter.cull(this.viewport.rect(), { far: this.far, moving: !this.viewport.resting });
+    this.painter.cull(this.viewport.rect(), { far: this.far, zoom: this.viewport.k, moving: !this.viewport.resting });
     this.#showUnderlay(false);
   }
 

@@ -34,9 +34,10 @@ export class Painter {
   }
 
   /** Mounts what a rectangle (with a margin) shows; from far only what is marked. While the view moves nothing is taken away. */
-  cull(seen, { far, moving = false }) {
+  cull(seen, { far, zoom, moving = false }) {
     this.far = far;
-    this.covered = grow(seen, Math.max(seen.w, seen.h) / 3);
+    // The smaller things are, the more of them the margin would hold.
+    this.covered = grow(seen, (Math.max(seen.w, seen.h) / 3) * Math.min(1, zoom * zoom));
     const wanted = far ? new Set() : this.#near(this.covered);
     for (const key of this.#pinned()) wanted.add(key);
     if (far || !moving || this.items.size > MOST_MOUNTED) {
