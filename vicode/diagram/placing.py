@@ -1,15 +1,21 @@
 """Places for what a design gives no place to: a simple layering, so that every design can be drawn at once."""
 
+import math
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from itertools import count
 
+from vicode.diagram.boxes import COMMON_SIZE, NARROWEST, Ground, size_of_state, size_of_use
 from vicode.model.design import Design, Point, Transition
 from vicode.model.walks import walk_decisions
 
 COLUMN, ROW = 240.0, 110.0
 ORIGIN = (120.0, 100.0)
-_NEAR = (150.0, 60.0)
+_BETWEEN_COLUMNS = 100.0
+_SCREEN_RATIO = 1.6
+_FEWEST_ROWS = 8
+# A place farther out than this is a slip of the pen; steps of a row would be lost in rounding there.
+_FAR = 1e7
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -23,23 +29,51 @@ class Placement:
 
 def place(design: Design) -> Placement:
     """The places a design gives, and free ones for the rest: states in columns by their distance from the start."""
+    ground = Ground()
     states = {state.name: state.at for state in design.states if state.at}
-    taken = list(states.values()) + [use.at for use in design.uses if use.at]
-    if design.common.at:
-        taken.append(design.common.at)
-    for column, names in enumerate(_columns(design)):
-        for name in names:
-            if name not in states:
-                states[name] = _free(_down((ORIGIN[0] + column * COLUMN, ORIGIN[1])), taken)
-                taken.append(states[name])
-    below = max((y for _x, y in taken), default=ORIGIN[1]) + 1.5 * ROW
-    uses: dict[str, Point] = {}
+    for name, at in states.items():
+        ground.take(at, size_of_state(name))
     for use in design.uses:
-        uses[use.alias] = use.at or _free(_across((ORIGIN[0], below)), taken)
-        taken.append(uses[use.alias])
-    left = min((x for x, _y in states.values()), default=ORIGIN[0])
-    common = design.common.at or _free(_down((left, min(ORIGIN[1] - ROW, below - 3 * ROW))), taken)
+        if use.at:
+            ground.take(use.at, size_of_use(use.alias, use.component))
+    if design.common.at:
+        ground.take(design.common.at, COMMON_SIZE)
+    states |= _place_states(design, ground, states)
+    placed = (*states.values(), *(use.at for use in design.uses if use.at))
+    below = max((y for _x, y in placed if abs(y) < _FAR), default=ORIGIN[1]) + 1.5 * ROW
+    uses = _place_uses(design, ground, below)
+    common = design.common.at
+    if common is None:
+        left = min((x for x, _y in states.values() if abs(x) < _FAR), default=ORIGIN[0])
+        top = min((y for _x, y in states.values() if abs(y) < _FAR), default=ORIGIN[1])
+        common = ground.find_free(_up((left, min(ORIGIN[1], top) - ROW)), COMMON_SIZE)
     return Placement(states=states, uses=uses, common=common)
+
+
+def _place_states(design: Design, ground: Ground, given: Iterable[str]) -> dict[str, Point]:
+    """Each layer is a column, or several when it is higher than a screen would be."""
+    known = set(given)
+    rows = max(_FEWEST_ROWS, math.ceil(math.sqrt(len(design.states) * COLUMN / ROW / _SCREEN_RATIO)))
+    states: dict[str, Point] = {}
+    left = ORIGIN[0] - NARROWEST / 2
+    for names in _columns(design):
+        for start in range(0, len(names), rows):
+            column = names[start : start + rows]
+            width = max(size_of_state(name).width for name in column)
+            downwards = _down((left + width / 2, ORIGIN[1]))
+            free = {name: size_of_state(name) for name in column if name not in known}
+            states |= {name: ground.find_free(downwards, size) for name, size in free.items()}
+            left += width + _BETWEEN_COLUMNS
+    return states
+
+
+def _place_uses(design: Design, ground: Ground, below: float) -> dict[str, Point]:
+    """In rows below the states."""
+    uses: dict[str, Point] = {}
+    places = _rows((ORIGIN[0], below))
+    for use in design.uses:
+        uses[use.alias] = use.at or ground.find_free(places, size_of_use(use.alias, use.component))
+    return uses
 
 
 def _columns(design: Design) -> Iterator[list[str]]:
@@ -64,14 +98,9 @@ def _down(start: Point) -> Iterator[Point]:
     return ((start[0], start[1] + row * ROW) for row in count())
 
 
-def _across(start: Point) -> Iterator[Point]:
-    return ((start[0] + column * COLUMN * 0.75, start[1]) for column in count())
+def _up(start: Point) -> Iterator[Point]:
+    return ((start[0], start[1] - row * ROW) for row in count())
 
 
-def _free(candidates: Iterable[Point], taken: list[Point]) -> Point:
-    """The first candidate that keeps its distance from all that is taken."""
-    return next(
-        point
-        for point in candidates
-        if all(abs(point[0] - x) >= _NEAR[0] or abs(point[1] - y) >= _NEAR[1] for x, y in taken)
-    )
+def _rows(start: Point) -> Iterator[Point]:
+    return ((start[0] + column * COLUMN, start[1] + row * ROW) for row in count() for column in range(_FEWEST_ROWS))

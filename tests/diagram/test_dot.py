@@ -1,0 +1,65 @@
+"""DOT text: deterministic, one arrow a pair, and no name can break out of it."""
+
+import pytest
+
+from tests.diagram.drawn_designs import HOSTILE_NAMES, ring_design
+from vicode.diagram.dot import Direction, Effort, write_dot
+from vicode.diagram.sketch import sketch_of
+from vicode.model.design import Call, Common, Design, Guard, State, Transition, Use
+
+
+def _lines(design: Design) -> list[str]:
+    text = write_dot(sketch_of(design), Direction.RIGHT, Effort.FULL)
+    return [line.strip() for line in text.splitlines()]
+
+
+def _arrows(design: Design) -> list[str]:
+    return [line.split(" [")[0] for line in _lines(design) if "->" in line]
+
+
+def test_the_same_design_gives_the_same_text() -> None:
+    assert _lines(ring_design(30)) == _lines(ring_design(30))
+
+
+def test_arrows_are_merged_and_self_loops_left_out() -> None:
+    leads = tuple(Transition(to=to, guard=Guard(after="1")) for to in ("B", "B", "A", "nowhere"))
+    design = Design(
+        component="D", initial="A", states=(State(name="A", transitions=leads), State(name="B", transitions=leads))
+    )
+    assert _arrows(design) == ["s0 -> s1"]
+
+
+def test_arrows_lead_away_from_the_initial_state() -> None:
+    states = (State(name="End", transitions=(Transition(to="Start"),)), State(name="Start", transitions=()))
+    design = Design(component="D", initial="Start", states=states)
+    assert _arrows(design) == ["s1 -> s0"]
+
+
+def test_links_weigh_less_than_transitions() -> None:
+    first = State(name="A", requires=("eyes",), modulates=(Call(alias="legs"),), transitions=(Transition(to="B"),))
+    design = Design(
+        component="D",
+        initial="A",
+        uses=(Use(alias="eyes", component="Eyes"), Use(alias="legs", component="Legs")),
+        common=Common(transitions=(Transition(to="B"),)),
+        states=(first, State(name="B")),
+    )
+    weights = {line.split(" [")[0]: line.split("weight=")[1] for line in _lines(design) if "->" in line}
+    assert weights == {"s0 -> s1": "8]", "s0 -> u0": "1]", "s0 -> u1": "1]", "common -> s1": "1]"}
+
+
+def test_long_names_get_wider_boxes() -> None:
+    nodes = sketch_of(Design(component="D", states=(State(name="A"), State(name="LookForTheBallAround")))).nodes
+    assert nodes[0].width == 140
+    assert nodes[1].width > 200
+
+
+@pytest.mark.parametrize("name", HOSTILE_NAMES)
+def test_a_name_stays_in_its_line(name: str) -> None:
+    states = (State(name=name, transitions=(Transition(to="Other"),)), State(name="Other"))
+    plain = _lines(
+        Design(component="D", states=(State(name="First", transitions=(Transition(to="Other"),)), states[1]))
+    )
+    hostile = _lines(Design(component="D", states=states))
+    assert len(hostile) == len(plain)
+    assert "\n".join(hostile).encode("utf-8")

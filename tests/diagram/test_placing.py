@@ -1,0 +1,53 @@
+"""Places without Graphviz: instant, nothing overlaps, and what has a place keeps it."""
+
+from hypothesis import given
+from hypothesis import strategies as st
+
+from tests.diagram.drawn_designs import find_overlaps, list_boxes, ring_design, shipped_designs
+from vicode.diagram import place
+from vicode.model.design import Common, Design, Point, State, Transition, Use
+
+_coordinates = st.integers(-500, 2500).map(float) | st.sampled_from([0.0, 120.0, 1e9, -1e300, 1e300])
+_places = st.none() | st.tuples(_coordinates, _coordinates)
+_names = st.lists(st.text(max_size=4) | st.text("Wide name", min_size=15, max_size=40), unique=True, max_size=12)
+
+
+@st.composite
+def designs(draw: st.DrawFn) -> Design:
+    names = draw(_names)
+    targets = st.lists(st.sampled_from([*names, "nowhere"]), max_size=3)
+    states = tuple(
+        State(name=name, at=draw(_places), transitions=tuple(Transition(to=to) for to in draw(targets)))
+        for name in names
+    )
+    uses = tuple(Use(alias=alias, component="C", at=draw(_places)) for alias in draw(_names))
+    common = Common(at=draw(_places), transitions=(Transition(to="nowhere"),))
+    return Design(component="D", initial=draw(st.sampled_from([*names, ""])), states=states, uses=uses, common=common)
+
+
+@given(designs())
+def test_given_places_are_kept_and_nothing_else_overlaps(design: Design) -> None:
+    placement = place(design)
+    kept = _given(design)
+    boxes = list_boxes(design, placement)
+    assert {name: boxes[name][0] for name in kept} == kept
+    assert not find_overlaps(boxes, apart_from=kept)
+
+
+def test_shipped_designs_without_their_places_do_not_overlap() -> None:
+    for design in shipped_designs():
+        assert not find_overlaps(list_boxes(design, place(design)))
+
+
+def test_three_thousand_states_are_about_as_wide_as_a_screen() -> None:
+    design = ring_design(3000)
+    states = place(design).states.values()
+    assert len(set(states)) == 3000
+    wide, high = (max(point[axis] for point in states) - min(point[axis] for point in states) for axis in (0, 1))
+    assert 1 < wide / high < 3
+
+
+def _given(design: Design) -> dict[str, Point]:
+    places = {f"state {state.name}": state.at for state in design.states}
+    places |= {f"use {use.alias}": use.at for use in design.uses} | {"common": design.common.at}
+    return {name: at for name, at in places.items() if at is not None}

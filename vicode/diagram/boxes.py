@@ -1,0 +1,95 @@
+"""How much room things take on the canvas, and which ground is taken already.
+
+The canvas measures texts in the browser; here widths are estimated, rather too wide than too narrow.
+"""
+
+import math
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+
+from vicode.model.design import Point
+
+GAP = 30.0
+"""Free pixels between two boxes that were placed by us."""
+
+_HEIGHT = 60.0
+NARROWEST, _WIDEST = 140.0, 280.0
+_CELL = (320.0, 120.0)
+_WIDE_LETTERS = frozenset("mwMW@%")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Size:
+    """Width and height in pixels."""
+
+    width: float
+    height: float
+
+
+COMMON_SIZE = Size(width=140.0, height=40.0)
+
+
+def size_of_state(name: str) -> Size:
+    """The box of a state: wider for a long name, which the canvas shortens in the end."""
+    return Size(width=_width_for(name, 44), height=_HEIGHT)
+
+
+def size_of_use(alias: str, component: str) -> Size:
+    """The hexagon of a used component, with its name in small letters below the alias."""
+    return Size(width=max(_width_for(alias, 64), _width_for(component, 44)), height=_HEIGHT)
+
+
+def width_of(text: str) -> float:
+    """About how wide a text is in bold letters of 14 pixels."""
+    return sum(map(_width_of_letter, " ".join(text[:120].split())))
+
+
+class Ground:
+    """The boxes that stand already, in a coarse grid, so that asking does not grow with their number."""
+
+    def __init__(self) -> None:
+        self._cells: dict[tuple[int, int], list[tuple[Point, Size]]] = {}
+
+    def take(self, at: Point, size: Size) -> None:
+        """Put a box with this centre on the ground."""
+        for cell in _cells(at, size):
+            self._cells.setdefault(cell, []).append((at, size))
+
+    def is_free(self, at: Point, size: Size, gap: float = GAP) -> bool:
+        """Whether a box with this centre keeps its distance from all that was taken."""
+        wide = Size(width=size.width + 2 * gap, height=size.height + 2 * gap)
+        return not any(_overlap(at, wide, *other) for cell in _cells(at, wide) for other in self._cells.get(cell, ()))
+
+    def find_free(self, places: Iterable[Point], size: Size) -> Point:
+        """The first place where such a box is free; it is taken then."""
+        at = next(place for place in places if self.is_free(place, size))
+        self.take(at, size)
+        return at
+
+
+def _cells(at: Point, size: Size) -> Iterator[tuple[int, int]]:
+    left, right = at[0] - size.width / 2, at[0] + size.width / 2
+    top, bottom = at[1] - size.height / 2, at[1] + size.height / 2
+    for column in range(math.floor(left / _CELL[0]), math.floor(right / _CELL[0]) + 1):
+        for row in range(math.floor(top / _CELL[1]), math.floor(bottom / _CELL[1]) + 1):
+            yield column, row
+
+
+def _overlap(at: Point, size: Size, other: Point, other_size: Size) -> bool:
+    return (
+        abs(at[0] - other[0]) < (size.width + other_size.width) / 2
+        and abs(at[1] - other[1]) < (size.height + other_size.height) / 2
+    )
+
+
+def _width_for(text: str, around: float) -> float:
+    room = math.ceil((width_of(text) + around) / 20) * 20.0
+    return min(_WIDEST, max(NARROWEST, room))
+
+
+def _width_of_letter(letter: str) -> float:
+    if ord(letter) > 0x2E80:
+        return 15.0
+    if letter in _WIDE_LETTERS:
+        return 13.0
+    return 10.0 if letter.isupper() else 8.5

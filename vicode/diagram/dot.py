@@ -1,0 +1,77 @@
+"""A sketch as DOT text, written by the `graphviz` package; the same sketch gives the same text."""
+
+from enum import StrEnum
+
+import graphviz  # type: ignore[import-untyped]
+
+from vicode.diagram.sketch import Node, Sketch
+
+POINTS_PER_INCH = 72.0
+_LONGEST_LABEL = 24
+
+
+class Direction(StrEnum):
+    """Which way the arrows go; the values are Graphviz's."""
+
+    RIGHT = "LR"
+    DOWN = "TB"
+
+
+class Effort(StrEnum):
+    """How much work goes into a picture."""
+
+    FULL = "full"
+    BOUNDED = "bounded"
+    QUICK = "quick"
+
+
+_LIMITS = {
+    Effort.FULL: {},
+    Effort.BOUNDED: {"nslimit": "1", "nslimit1": "1"},
+    Effort.QUICK: {"nslimit": "0.1", "nslimit1": "0.1", "mclimit": "0.1"},
+}
+# Free pixels between neighbours of a rank and between ranks: the canvas routes the arrows there.
+_BESIDE = {Direction.RIGHT: 40.0, Direction.DOWN: 60.0}
+_BETWEEN = 80.0
+
+
+def write_dot(sketch: Sketch, direction: Direction, effort: Effort) -> str:
+    """The DOT text: boxes of fixed size, one arrow a pair, no routes (the canvas routes)."""
+    graph = graphviz.Digraph(
+        graph_attr={
+            "rankdir": str(direction),
+            "splines": "none",
+            "nodesep": _inches(_BESIDE[direction]),
+            "ranksep": _inches(_space_between_ranks(sketch, direction)),
+            **_LIMITS[effort],
+        },
+        node_attr={"shape": "box", "fixedsize": "true", "fontsize": "10"},
+    )
+    for node in sketch.nodes:
+        _write_node(graph, node)
+    for edge in sketch.edges:
+        graph.edge(edge.source, edge.target, weight=str(edge.weight))
+    return str(graph.source)
+
+
+def _space_between_ranks(sketch: Sketch, direction: Direction) -> float:
+    # Labels as Graphviz knows them cost minutes at 150 states and pull ranks apart; a wider gap holds them as well.
+    if direction is Direction.DOWN:
+        return _BETWEEN
+    return max((_BETWEEN, *(edge.label_width + 30 for edge in sketch.edges)))
+
+
+def _write_node(graph: graphviz.Digraph, node: Node) -> None:
+    graph.node(node.id, label=_escape(node.label), width=_inches(node.width), height=_inches(node.height))
+
+
+def _inches(pixels: float) -> str:
+    return f"{pixels / POINTS_PER_INCH:.4f}"
+
+
+def _escape(text: str) -> str:
+    """One line of printable letters, with nothing in it that Graphviz takes for markup."""
+    line = "".join(letter if letter.isprintable() else "\ufffd" for letter in " ".join(text.split()))
+    # It stays of the type that `escape` gave it: a plain text in <> would be written as markup.
+    escaped: str = graphviz.escape(line if len(line) <= _LONGEST_LABEL else line[: _LONGEST_LABEL - 1] + "…")
+    return escaped

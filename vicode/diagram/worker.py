@@ -1,0 +1,117 @@
+"""The process that runs Graphviz: `python -m vicode.diagram.worker` answers each line of JSON with one line of JSON.
+
+A crash or an endless computation of Graphviz ends here, and not in the editor.
+"""
+
+import contextlib
+import json
+import os
+import signal
+import subprocess
+import sys
+import threading
+from collections.abc import Callable, Iterator
+from typing import Any, TextIO
+
+import graphviz  # type: ignore[import-untyped]
+
+from vicode.diagram.dot import POINTS_PER_INCH, Direction, Effort, write_dot
+from vicode.diagram.sketch import Edge, Node, Sketch
+
+try:
+    import pygraphviz
+except ImportError:
+    # No wheel for this machine: an installed `dot` will do.
+    pygraphviz = None
+
+Positions = dict[str, tuple[float, float]]
+
+_SCREEN_RATIO = 1.6
+_SMALL, _MIDDLE = 150, 500
+# Graphviz recurses once a box: 3000 states overflow the usual 8 MB. Memory that is not touched costs nothing.
+_STACK_BYTES = 512 * 1024 * 1024
+
+
+def main() -> None:
+    """Answer requests until there are no more."""
+    with _private_answers() as answers:
+        threading.stack_size(_STACK_BYTES)
+        thread = threading.Thread(target=_serve, args=(sys.stdin, answers))
+        thread.start()
+        thread.join()
+
+
+def positions_of(sketch: Sketch, run: Callable[[str], str]) -> Positions:
+    """Centres in pixels by id, x to the right and y downwards; of both directions the one that fits a screen better."""
+    size = len(sketch.nodes)
+    effort = Effort.FULL if size <= _SMALL else Effort.BOUNDED if size <= _MIDDLE else Effort.QUICK
+    directions = tuple(Direction) if size <= _SMALL else (Direction.RIGHT,)
+    pictures = (_read_plain(run(write_dot(sketch, direction, effort))) for direction in directions)
+    return min(pictures, key=lambda picture: _screens(picture[0]))[1]
+
+
+def _serve(requests: TextIO, answers: TextIO) -> None:
+    for line in requests:
+        answers.write(json.dumps(_answer(json.loads(line))) + "\n")
+        answers.flush()
+
+
+def _answer(request: dict[str, Any]) -> dict[str, Any]:
+    sketch = Sketch(
+        nodes=tuple(Node(**node) for node in request["nodes"]), edges=tuple(Edge(**edge) for edge in request["edges"])
+    )
+    _end_after(request["timeout_s"])
+    try:
+        return {"positions": positions_of(sketch, _run_library if pygraphviz else _run_program)}
+    except (OSError, ValueError, subprocess.SubprocessError, graphviz.ExecutableNotFound) as error:
+        return {"error": str(error)}
+    finally:
+        _end_after(0)
+
+
+def _run_library(text: str) -> str:
+    graph = pygraphviz.AGraph(string=text)
+    try:
+        return bytes(graph.draw(format="plain", prog="dot")).decode()
+    finally:
+        graph.close()
+
+
+def _run_program(text: str) -> str:
+    return str(graphviz.Source(text).pipe(format="plain", encoding="utf-8", quiet=True))
+
+
+def _read_plain(text: str) -> tuple[tuple[float, float], Positions]:
+    """The size and the centres in Graphviz's plain format: inches, y upwards."""
+    width = height = 0.0
+    positions: Positions = {}
+    for line in text.splitlines():
+        match line.split():
+            case ["graph", _scale, wide, high]:
+                width, height = float(wide), float(high)
+            case ["node", id_, x, y, *_rest]:
+                positions[id_] = (float(x) * POINTS_PER_INCH, (height - float(y)) * POINTS_PER_INCH)
+    return (width, height), positions
+
+
+def _screens(size: tuple[float, float]) -> float:
+    """How many times wider, or higher, than a screen of height 1 a picture is."""
+    return max(size[0] / _SCREEN_RATIO, size[1])
+
+
+def _end_after(seconds: float) -> None:
+    """Let the system end this process then, even inside Graphviz and when nobody is left to kill it; 0: never."""
+    if hasattr(signal, "setitimer"):
+        signal.setitimer(signal.ITIMER_REAL, seconds)
+
+
+@contextlib.contextmanager
+def _private_answers() -> Iterator[TextIO]:
+    """The real standard output; what C code prints to it goes to standard error instead."""
+    with os.fdopen(os.dup(1), "w", encoding="utf-8") as answers:
+        os.dup2(2, 1)
+        yield answers
+
+
+if __name__ == "__main__":
+    main()
