@@ -52,7 +52,7 @@ def _code(text: str) -> Code:
 
 words = st.lists(st.sampled_from(_WORDS) | st.text(max_size=8), max_size=4).map(" ".join)
 docs = st.just("") | words | st.lists(words, max_size=3).map("\n\n".join)
-codes = st.lists(st.sampled_from(_LINES), min_size=1, max_size=2).map(lambda lines: _code("\n".join(lines)))
+codes = st.lists(st.sampled_from(_LINES), min_size=1, max_size=2).map(lambda lines: _code("\n\n".join(lines)))
 predicates = st.sampled_from(["return self.seen", "near = self.a < 3\nreturn near"]).map(_code)
 
 
@@ -170,7 +170,9 @@ def project_of(design: Design, words: str = "") -> Project:
             Declaration(name="seen", type="bool"),
             Declaration(name="distance"),
             Declaration(name="count", type="int"),
-            Declaration(name="bearing_to", arguments=(Declaration(name="x"), Declaration(name="y", type="float", initial="0"))),
+            Declaration(
+                name="bearing_to", arguments=(Declaration(name="x"), Declaration(name="y", type="float", initial="0"))
+            ),
         ),
     )
     legs = Interface(

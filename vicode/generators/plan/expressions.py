@@ -23,12 +23,9 @@ from vicode.model.expressions import (
     Reading,
     Scope,
     Truth,
-    Variable,
     parse_expression,
-    walk,
 )
 from vicode.model.expressions.functions import NUMBER
-from vicode.model.expressions.scope import Kind
 
 _NOWHERE = (0, 0)
 
@@ -129,8 +126,3 @@ def nanoseconds_of(node: Node, unit: str) -> int | None:
         return None
     ns = time * (1e6 if unit == "ms" else 1e9)
     return round(ns) if math.isfinite(ns) else None
-
-
-def constants_in(node: Node) -> set[str]:
-    """Names of the constants that an expression reads."""
-    return {each.name for each in walk(node) if isinstance(each, Variable) and each.kind == Kind.CONSTANT}

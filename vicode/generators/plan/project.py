@@ -1,11 +1,11 @@
-"""From a project to its plan: which components, their modules, constants in an order that can be evaluated."""
+"""From a project to its plan: which components, and how their modules are called."""
 
 from collections.abc import Collection, Mapping
 
 from vicode.generators.plan.component import plan_component, plan_values
-from vicode.generators.plan.expressions import UnsoundDesignError, constants_in, literal_of
+from vicode.generators.plan.expressions import UnsoundDesignError, literal_of
 from vicode.generators.plan.naming import Names, package_of, stem_of
-from vicode.generators.plan.values import PackagePlan, ProjectPlan, Value
+from vicode.generators.plan.values import PackagePlan, ProjectPlan
 from vicode.model.expressions import scope_of
 from vicode.model.project import Project
 
@@ -28,7 +28,7 @@ def plan_project(
         doc=project.doc,
         package=package,
         enumerations=project.enumerations,
-        constants=_in_order_of_use(constants),
+        constants=constants,
         never_zero=frozenset(constant.name for constant in constants if literal_of(constant.initial)),
         components=tuple(
             plan_component(project, design, package.modules, sources.get(design.component, ""))
@@ -69,20 +69,3 @@ def collect_components(project: Project, components: Collection[str] | None) -> 
             found.add(component)
             waiting += [use.component for use in designs[component].uses]
     return frozenset(found)
-
-
-def _in_order_of_use(constants: tuple[Value, ...]) -> tuple[Value, ...]:
-    """Each constant after those its value is made of; the order of the file where there is a alternative."""
-    by_name = {constant.name: constant for constant in constants}
-    ordered: dict[str, Value] = {}
-
-    def place(constant: Value, above: tuple[str, ...]) -> None:
-        if constant.name in above:
-            raise UnsoundDesignError(f"the constant '{constant.name}' is made of itself")
-        for name in sorted(constants_in(constant.initial) & set(by_name) - set(ordered)):
-            place(by_name[name], (*above, constant.name))
-        ordered.setdefault(constant.name, constant)
-
-    for constant in constants:
-        place(constant, ())
-    return tuple(ordered.values())

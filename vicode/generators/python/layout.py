@@ -120,5 +120,5 @@ def _fits(first: list[_Task], rest: list[_Task], room: int) -> bool:
             case Group(inner=inner, is_broken=is_broken):
                 if is_broken and is_flat:
                     return False
-                tasks.append((depth, not is_broken, inner))
+                tasks.append((depth, is_flat, inner))
     return False

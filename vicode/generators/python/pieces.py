@@ -107,10 +107,10 @@ def statement(before: str, piece: Piece, after: str = "", *, indent: int) -> lis
     flat = _flat(before, piece, after, indent)
     if len(flat) == 1 and len(flat[0]) <= WIDTH:
         return flat
-    is_single = piece.loosest[1] <= 1 and (piece.begins_bracketed or piece.ends_bracketed)
-    if is_single and all(len(line) <= WIDTH for line in flat):
-        return flat
-    if is_single and piece.loosest[1] == 0:
+    # Brackets that the expression has already serve to break it, unless operators would be torn apart.
+    has_brackets = piece.begins_bracketed or piece.ends_bracketed
+    is_single = piece.loosest[1] <= 1 and piece.precedence != CHOICE
+    if is_single and has_brackets and (piece.loosest[1] == 0 or all(len(line) <= WIDTH for line in flat)):
         return flat
     inside = render(joined(before, bracketed("(", piece.breakable), after), indent)
     if piece.loosest[1] == 0 and any(len(line) > WIDTH for line in inside):

@@ -1,6 +1,5 @@
 """Spells typed trees as Python, with no bracket too many."""
 
-import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 
@@ -150,9 +149,7 @@ class Speller:
 
 
 def spell_number(value: float) -> str:
-    """A number, which is never negative, as a formatter leaves it."""
-    if math.isinf(value):
-        return 'float("inf")'
+    """A number as a formatter leaves it."""
     return repr(value).replace("e+", "e")
 
 

@@ -15,6 +15,8 @@ def docstring(text: str, indent: int, sections: tuple[str, ...] = ()) -> str:
         *(line for section in sections for line in ("", *section.split("\n"))),
     ]
     escaped = [_escaped(line) for line in lines]
+    if escaped[0].startswith('"'):
+        escaped[0] = f"\\{escaped[0]}"
     if len(escaped) == 1 and indent + 6 + len(escaped[0]) <= WIDTH:
         return f'{margin}"""{_with_safe_end(escaped[0])}"""'
     rest = [margin + line if line else "" for line in escaped[1:]]
@@ -73,7 +75,9 @@ def _wrapped(text: str, width: int) -> list[str]:
 
 def _plain_lines(text: str) -> list[str]:
     lines = defuse(text).replace("\r\n", "\n").replace("\r", "\n").expandtabs(4).split("\n")
-    lines = [line.rstrip() for line in textwrap.dedent("\n".join(lines)).strip("\n ").split("\n")]
+    lines = "\n".join(line.rstrip() for line in lines).strip("\n ").lstrip().split("\n")
+    # As Python reads docstrings: the first line may begin anywhere, the others have a margin in common.
+    lines = [lines[0], *textwrap.dedent("\n".join(lines[1:])).split("\n")] if lines[1:] else lines
     return [line for index, line in enumerate(lines) if line or lines[index - 1]]
 
 
