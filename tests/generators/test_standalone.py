@@ -1,0 +1,33 @@
+"""With --standalone the package needs neither vicode nor anything but the standard library."""
+
+import subprocess
+import sys
+from pathlib import Path
+
+from tests.generators.formatting import write_files
+from vicode.generators import generate, list_outputs
+from vicode.store import open_project
+
+DESIGN = """\
+vicode: 1
+component: Halver
+variables: {a: 1.0}
+initial: S
+states:
+  S: {actions: [{set: {a: a / (a - a)}}], transitions: [{to: T, after: 0.1}]}
+  T: {final: true}
+"""
+
+
+def test_a_copied_package_runs_on_a_bare_python(tmp_path: Path) -> None:
+    (tmp_path / "halver.yaml").write_text(DESIGN, encoding="utf-8")
+    project = open_project(tmp_path).project
+    files = generate(project, standalone=True)
+    assert {file.path for file in files} == set(list_outputs(project, standalone=True))
+    write_files(files, tmp_path / "out")
+    package = files[0].path.split("/")[1]
+    program = f"import sys; sys.path.insert(0, '.'); from {package}.bica.run import main; sys.exit(main(sys.argv[1:]))"
+    command = [sys.executable, "-I", "-S", "-c", program, f"{package}.halver:Halver", "--until-done"]
+    result = subprocess.run(command, cwd=tmp_path / "out" / "python", capture_output=True, text=True, check=False)
+    assert result.returncode == 0, result.stderr
+    assert "stopped: done" in result.stdout
