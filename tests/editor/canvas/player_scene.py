@@ -7,7 +7,8 @@ def player() -> dict[str, Any]:
     """Eight states, a self loop, both directions, parallel edges, components, links and findings."""
     return {
         "rev": 1, "component": "Player", "doc": "Forward player.", "theme": "auto",
-        "states": _player_states(), "transitions": _player_transitions(), "components": _player_components(), "links": _player_links(),
+        "states": _player_states(), "transitions": _player_transitions(),
+        "components": _player_components(), "links": _player_links(),
         "common": {"x": -160, "y": 530, "transitions": 1, "actions": False},
     }  # fmt: skip
 
