@@ -2,8 +2,10 @@
 
 import math
 import re
+from collections.abc import Mapping as MappingOf
 from dataclasses import dataclass, field
 from enum import StrEnum
+from types import MappingProxyType
 
 from vicode.findings import Path, did_you_mean
 from vicode.store.format import VERSION
@@ -38,8 +40,12 @@ class Read:
     value: Data | None
     key: Node | None = None
     form: Form = Form.LONG
-    parts: "dict[str | int, Read]" = field(default_factory=dict)
+    parts: "Parts" = field(default_factory=lambda: _NO_PARTS)
     members: tuple[str | int | None, ...] = ()
+
+
+Parts = MappingOf[str | int, Read]
+_NO_PARTS: Parts = MappingProxyType({})
 
 
 class Reader:

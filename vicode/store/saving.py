@@ -10,6 +10,7 @@ from vicode.store.emitting import Layout, document_text, layout_of
 from vicode.store.flattening import flatten_design, flatten_project
 from vicode.store.format import DESIGN, PROJECT
 from vicode.store.patching import CannotPatchError, Patcher
+from vicode.store.reading import Read
 from vicode.store.shapes import Data, Record
 from vicode.store.wishing import Wishing
 
@@ -40,17 +41,18 @@ def _save(shape: Record, data: Data, old_text: str) -> str:
     is_windows = "\r\n" in old_text and old_text.count("\r\n") == old_text.count("\n")
     plain = old_text.replace("\r\n", "\n") if is_windows else old_text
     for deepest in _DEPTHS:
-        new = _patched(shape, data, plain, deepest)
+        new = _patched(shape, data, plain, old if plain is old_text else None, deepest)
         new = new.replace("\n", "\r\n") if new is not None and is_windows else new
         if new is not None and _says(shape, new, data):
             return new
     return _fresh(shape, data, old_text)
 
 
-def _patched(shape: Record, data: Data, text: str, deepest: int) -> str | None:
+def _patched(shape: Record, data: Data, text: str, old: Read | None, deepest: int) -> str | None:
     is_ended = text.endswith("\n")
     ended = text if is_ended else text + "\n"
-    _report, old = read_record(ended, "", shape)
+    if old is None or not is_ended:
+        _report, old = read_record(ended, "", shape)
     if old is None:
         return None
     wish = Wishing(ended, deepest=deepest).wish(shape, data, old)
