@@ -1,5 +1,7 @@
 """Marks around code: what is wrapped is found again, whatever the code; broken marks are named with their line."""
 
+import re
+
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -105,3 +107,17 @@ def test_a_text_without_bodies_keeps_what_stands_around() -> None:
 def test_defused_text_is_no_mark() -> None:
     text = "# <vicode a 12345678>\n# </vicode>"
     assert regions.find(regions.defuse(text)) == regions.Found()
+
+
+def test_a_seal_is_broken_by_any_edit_outside_regions() -> None:
+    sealed = regions.seal(f"a = 1\n{regions.wrap('r', 'x = 1')}", "player.yaml")
+    assert regions.is_sealed(sealed)
+    assert not regions.is_touched(sealed)
+    assert not regions.is_touched(sealed.replace("x = 1", "x = 2"))
+    assert regions.is_touched(sealed.replace("a = 1", "a = 2"))
+    assert regions.is_touched(sealed.replace("(seal ", "("))
+
+
+def test_no_file_name_can_choose_an_encoding() -> None:
+    first = regions.seal("", "coding: utf-7\n.yaml").split("\n")[0]
+    assert not re.search(r"coding[:=]", first)

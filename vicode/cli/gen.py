@@ -37,11 +37,7 @@ def run(args: argparse.Namespace) -> int:
     if unknown:
         print(f"vicode: cannot generate {unknown[0]}; there is {', '.join(GENERATORS)}", file=sys.stderr)
         return 2
-    codes = [_generate(opened, args) for opened in open_paths(args.paths)]
-    if not codes:
-        print("vicode: no designs here", file=sys.stderr)
-        return 2
-    return max(codes)
+    return max(_generate(opened, args) for opened in open_paths(args.paths))
 
 
 def _generate(opened: Opened, args: argparse.Namespace) -> int:

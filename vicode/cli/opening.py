@@ -1,6 +1,6 @@
 """Opens what paths on the command line name: designs, project folders, folders of projects."""
 
-from collections.abc import Iterable
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -54,11 +54,11 @@ class Opened:
         return finding.thing.component if finding.thing else ""
 
 
-def open_paths(paths: Iterable[str]) -> tuple[Opened, ...]:
+def open_paths(paths: Sequence[str]) -> tuple[Opened, ...]:
     """Open every path, each project once.
 
     Raises:
-        OSError: A path does not exist or cannot be read.
+        OSError: A path does not exist or cannot be read, or there is no design at all.
     """
     # Reading designs is not needed for --help, and takes longer than that.
     from vicode.store import find_projects
@@ -67,7 +67,7 @@ def open_paths(paths: Iterable[str]) -> tuple[Opened, ...]:
     for path in (Path(each) for each in paths):
         path.stat()
         if path.is_dir():
-            wanted.update(dict.fromkeys(find_projects(path) or (path,)))
+            wanted.update(dict.fromkeys(find_projects(path)))
         elif path.name in ("project.yaml", "project.yml"):
             wanted[path.parent] = None
         else:
@@ -75,6 +75,8 @@ def open_paths(paths: Iterable[str]) -> tuple[Opened, ...]:
             files = wanted.setdefault(folder, set())
             if files is not None:
                 files.add(path)
+    if not wanted:
+        raise OSError(f"no designs in {', '.join(paths)}")
     return tuple(_open(folder, files) for folder, files in wanted.items())
 
 

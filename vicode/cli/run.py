@@ -33,7 +33,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Generate into a private folder, start a fresh process there and show what it does."""
-    (opened,) = open_paths([args.path])
+    projects = open_paths([args.path])
+    if len(projects) > 1:
+        print(f"vicode: {args.path}: there are {len(projects)} projects, name a design", file=sys.stderr)
+        return 2
+    opened = projects[0]
     errors = [finding for finding in opened.findings if finding.severity is Severity.ERROR]
     if errors:
         print_findings(errors, to_stderr=True)

@@ -1,0 +1,58 @@
+"""vicode check and the other small commands."""
+
+import json
+from pathlib import Path
+
+import pytest
+
+from tests.cli.commands import BULB, LAMP, lamps, vicode
+from vicode import __version__
+
+__all__ = ["lamps"]
+
+
+def test_sound_designs_are_called_so(lamps: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert vicode("check", "lamps") == 0
+    assert capsys.readouterr().out == "no findings in 2 designs\n"
+
+
+def test_findings_come_with_their_lines(lamps: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (lamps / "lamp.yaml").write_text(LAMP.replace("to: Lit", "to: Lot"), encoding="utf-8")
+    assert vicode("check", "lamps/lamp.yaml") == 1
+    lines = capsys.readouterr().out.splitlines()
+    assert lines[0].startswith("lamps/lamp.yaml:9:")
+    assert "error D402 unknown-state" in lines[0]
+    assert lines[1].strip() == "transitions: [{to: Lot, after: pause}]"
+    assert lines[2].strip() == "^^^"
+
+
+def test_only_what_was_asked_for_is_judged(lamps: Path) -> None:
+    (lamps / "lamp.yaml").write_text(LAMP.replace("to: Lit", "to: Lot"), encoding="utf-8")
+    assert vicode("check", "lamps/bulb.yaml") == 0
+    (lamps / "bulb.yaml").write_text(BULB.replace("initial: On", "initial: Off"), encoding="utf-8")
+    (lamps / "lamp.yaml").write_text(LAMP, encoding="utf-8")
+    assert vicode("check", "lamps/lamp.yaml") == 1
+
+
+def test_findings_can_be_had_as_json(lamps: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (lamps / "lamp.yaml").write_text(LAMP.replace("to: Lit", "to: Lot"), encoding="utf-8")
+    assert vicode("check", "--json", "lamps") == 1
+    first = json.loads(capsys.readouterr().out)[0]
+    assert (first["code"], first["line"], first["component"]) == ("D402", 9, "Lamp")
+
+
+def test_strict_counts_warnings(lamps: Path) -> None:
+    (lamps / "lamp.yaml").write_text(LAMP.replace("initial:", "variables: {unused: 0}\ninitial:"), encoding="utf-8")
+    assert vicode("check", "lamps") == 0
+    assert vicode("check", "lamps", "--strict") == 1
+
+
+@pytest.mark.parametrize("arguments", [["schema"], ["schema", "--project"]])
+def test_the_schema_is_json(arguments: list[str], capsys: pytest.CaptureFixture[str]) -> None:
+    assert vicode(*arguments) == 0
+    assert "$schema" in json.loads(capsys.readouterr().out)
+
+
+def test_the_version_is_told(capsys: pytest.CaptureFixture[str]) -> None:
+    assert vicode("--version") == 0
+    assert capsys.readouterr().out == f"vicode {__version__}\n"
