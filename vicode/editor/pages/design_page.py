@@ -6,6 +6,7 @@ from urllib.parse import quote
 
 from nicegui import background_tasks, run, ui
 
+from vicode.diagram.layout import lay_out
 from vicode.editor.canvas import Canvas
 from vicode.editor.canvas.gesture import Gesture, Item
 from vicode.editor.pages.look import Theme, add_look
@@ -18,6 +19,7 @@ from vicode.editor.panels.inspector import Inspector
 from vicode.editor.panels.save_dialog import ask_about_disk
 from vicode.editor.session import ChangedOnDiskError, Document, Library, Workspace, apply_gesture
 from vicode.editor.view import Scene, Selected, difference, scene_of
+from vicode.model.edits import move
 
 
 class DesignPage:
@@ -31,7 +33,11 @@ class DesignPage:
         add_look()
         with ui.element("div").classes("shell") as shell:
             commands = Commands(
-                save=self._save, generate=self._generate, toggle_links=self._links, toggle_theme=self._theme
+                save=self._save,
+                generate=self._generate,
+                lay_out=self._lay_out,
+                toggle_links=self._links,
+                toggle_theme=self._theme,
             )
             self.header = Header(self.desk, commands)
             designs_list(library, (workspace.key, document.design.component), _say)
@@ -119,6 +125,19 @@ class DesignPage:
     def _reveal(self, thing: Selected) -> None:
         if any(item["id"] == thing.id for item in self.scene.get(thing.of, ()) or () if isinstance(item, dict)):
             self.canvas.centre(cast("Any", thing.of), thing.id)
+
+    async def _lay_out(self) -> None:
+        """Graphviz works beside the server; its answer is one edit, so undo takes it back."""
+        desk = self.desk
+        only = [thing.id for thing in desk.selected if thing.of == "states"] or None
+        layout = await run.io_bound(lay_out, desk.design, only=only)
+        if layout is None or self.canvas.is_deleted:
+            return
+        placed = layout.placement
+        desk.edit("lay out", lambda design: move(design, placed.states, placed.uses, placed.common))
+        if layout.note:
+            _say(layout.note, "info")
+        self.canvas.fit()
 
     def _links(self) -> None:
         self.links_shown = not self.links_shown

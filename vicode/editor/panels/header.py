@@ -18,6 +18,7 @@ class Commands:
 
     save: Act
     generate: Act
+    lay_out: Act
     toggle_links: Act
     toggle_theme: Act
 
@@ -38,6 +39,7 @@ class Header:
             ui.element("div").classes("spacer")
             self.undo = icon_button("undo", "Undo", desk.document.undo)
             self.redo = icon_button("redo", "Redo", desk.document.redo)
+            icon_button("auto_awesome_mosaic", "Lay out what is selected, or everything", commands.lay_out)
             icon_button("hub", "Show or hide links to components", commands.toggle_links)
             icon_button("contrast", "Light, dark, or as the system", commands.toggle_theme)
             ui.button("Save", icon="save", on_click=commands.save).props("flat no-caps dense").classes("head-button")
