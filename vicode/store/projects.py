@@ -114,7 +114,7 @@ class _Opening:
 
     def __init__(self, folder: Path) -> None:
         self.folder = folder
-        self.project = Project(name=default_name(folder.resolve().name))
+        self.project = Project(name=default_name(folder.resolve().name), generated=_default_output(folder))
         self.files: dict[str, Path] = {}
         self.reads: dict[str, ReadDesign] = {}
         self.sources: dict[str, SourceMap] = {}
@@ -204,6 +204,15 @@ def _folder_of(file: Path) -> Path:
             break
         folder = folder.parent
     return beside
+
+
+def _default_output(folder: Path) -> str:
+    """Where a project without project.yaml generates to: `generated` at the top of its repository, else beside it."""
+    inside = folder.resolve()
+    for place in (inside, *inside.parents):
+        if (place / ".git").exists():
+            return Path(os.path.relpath(place / "generated", inside)).as_posix()
+    return "generated"
 
 
 def _walk(folder: Path) -> Iterator[tuple[str, list[str], list[str]]]:
