@@ -52,7 +52,7 @@ def draw_iteration(record: Record) -> RenderableType:
         # Somebody stepped twice gets a branch each time, and what it steps then hangs on the latest.
         nodes[step["component"]] = node
     world = describe_world(record.get("world"))
-    return Group(*parts, *([Text(world, style="cyan")] if world else []))
+    return Group(*parts, *([Text(world, style="cyan", no_wrap=True, overflow="ellipsis")] if world else []))
 
 
 def _label(step: Record) -> Text:
