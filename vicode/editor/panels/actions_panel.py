@@ -36,13 +36,15 @@ def actions_panel(desk: Desk, path: Path, actions: tuple[Action, ...], *, calls:
 
 def python(text: str) -> Code:
     """A piece of Python code."""
-    return Code(texts=(("python", text),) if text.strip() else ())
+    return with_python(None, text)
 
 
 def with_python(code: Code | None, text: str) -> Code:
     """The same code with another text in Python; what is written in other languages stays."""
     others = tuple(pair for pair in (code.texts if code else ()) if pair[0] != "python")
-    return Code(texts=((("python", text), *others) if text.strip() else others))
+    # Lines that end are what a block of YAML holds; one line may stand alone.
+    ended = text + "\n" if "\n" in text and not text.endswith("\n") else text
+    return Code(texts=((("python", ended), *others) if text.strip() else others))
 
 
 def assignments(text: str) -> tuple[tuple[str, str], ...]:

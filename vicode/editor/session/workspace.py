@@ -10,8 +10,7 @@ from vicode.findings import Finding
 from vicode.model.design import Design, State
 from vicode.model.names import snake_case
 from vicode.model.project import Project
-from vicode.output import write_atomically
-from vicode.store import open_project, read_design, save_design
+from vicode.store import open_project, read_design, save_design, write_text
 
 
 class ChangedOnDiskError(Exception):
@@ -72,7 +71,7 @@ class Workspace:
             raise ChangedOnDiskError
         new = save_design(document.design, text)
         if new != text:
-            write_atomically(document.file, new)
+            write_text(document.file, new)
         document.mark_saved(new)
 
     def reload(self, document: Document) -> str:
@@ -96,7 +95,7 @@ class Workspace:
             raise FileExistsError(file)
         design = Design(component=component, initial="Start", states=(State(name="Start", at=(160, 120)),))
         text = save_design(design, "")
-        write_atomically(file, text)
+        write_text(file, text)
         self.files[component], self._texts[component] = file, text
         self.project = replace(self.project, designs=(*self.project.designs, design))
         document = self.document(component)
