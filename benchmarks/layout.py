@@ -1,6 +1,6 @@
 """Time to lay a design out: by our service, and bare pygraphviz on the same design as most people would draw it.
 
-Run it with `python -m benchmarks.layout`. Both run in a process of their own that is up already; a time is of one request.
+Run it with `python -m benchmarks.layout`. Both run in a process that is up already; a time is of one request.
 """
 
 from __future__ import annotations
