@@ -244,7 +244,8 @@ def _imported_libraries(path: str) -> set[str]:
 
 
 def _generator_packages() -> set[str]:
-    return {match.group(1) for path in PACKAGE if (match := re.match(r"vicode/generators/(\w+)/", path))}
+    folders = {match.group(1) for path in PACKAGE if (match := re.match(r"vicode/generators/(\w+)/", path))}
+    return folders - {"plan"}
 
 
 def _imported_generators(path: str) -> set[str]:

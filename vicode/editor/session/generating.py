@@ -8,7 +8,8 @@ from vicode.check import check_project
 from vicode.findings import Severity
 from vicode.generators import collect_components, generate, list_outputs
 from vicode.model.project import Project
-from vicode.output import Status, apply, compare
+from vicode.output import apply, compare
+from vicode.regions import is_sealed
 from vicode.sync import find_hand_edits
 
 
@@ -35,12 +36,11 @@ def generate_into(folder: Path, project: Project, component: str, sources: Mappi
         more = f" (and {len(errors) - 1} more)" if len(errors) > 1 else ""
         return Generated(words=f"Nothing generated. {where}{first.message}{more}", is_sound=False)
     files = generate(project, components=(component,), sources=sources)
-    differences = compare(files, folder, keep=list_outputs(project))
+    differences = compare(files, folder, keep=list_outputs(project), is_ours=is_sealed)
     edits = find_hand_edits(differences)
     if edits:
         return Generated(words=f"Nothing generated. {edits[0].message}: {edits[0].mend}", is_sound=False)
-    changed = [each for each in differences if each.status in (Status.NEW, Status.CHANGED)]
-    touched = apply(changed, folder)
+    touched = apply(differences, folder)
     if not touched:
         return Generated(words=f"Generated code in {folder.name} is up to date", is_sound=True)
     names = ", ".join(path.name for path in touched[:4]) + (", …" if len(touched) > 4 else "")
