@@ -17,9 +17,8 @@ from vicode.editor.panels.findings_panel import FindingsPanel
 from vicode.editor.panels.header import Commands, Header
 from vicode.editor.panels.inspector import Inspector
 from vicode.editor.panels.save_dialog import ask_about_disk
-from vicode.editor.session import ChangedOnDiskError, Document, Library, Workspace, apply_gesture
+from vicode.editor.session import ChangedOnDiskError, Document, Library, Workspace, apply_gesture, take_places
 from vicode.editor.view import Scene, Selected, difference, scene_of
-from vicode.model.edits import move
 
 
 class DesignPage:
@@ -133,8 +132,7 @@ class DesignPage:
         layout = await run.io_bound(lay_out, desk.design, only=only)
         if layout is None or self.canvas.is_deleted:
             return
-        placed = layout.placement
-        desk.edit("lay out", lambda design: move(design, placed.states, placed.uses, placed.common))
+        desk.edit("lay out", lambda design: take_places(design, layout.placement, only))
         if layout.note:
             _say(layout.note, "info")
         self.canvas.fit()

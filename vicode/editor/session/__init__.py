@@ -1,7 +1,7 @@
 """Open designs: history, edits by gesture, saving and generating. Knows no NiceGUI."""
 
 from vicode.editor.session.document import Document
-from vicode.editor.session.gestures import Outcome, apply_gesture
+from vicode.editor.session.gestures import Outcome, apply_gesture, take_places
 from vicode.editor.session.history import History, Step
 from vicode.editor.session.library import Library
 from vicode.editor.session.workspace import ChangedOnDiskError, Workspace
@@ -15,4 +15,5 @@ __all__ = [
     "Step",
     "Workspace",
     "apply_gesture",
+    "take_places",
 ]

@@ -4,10 +4,11 @@ The payloads come from a browser: nothing in them is trusted.
 """
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from vicode.diagram import Placement
 from vicode.editor.session.document import Document
 from vicode.editor.view import Selected, path_of_key, transition_key
 from vicode.findings import Path
@@ -78,6 +79,14 @@ def new_state(document: Document, at: Point, source: str = "") -> str:
 
     document.edit(f"add state {name}", change)
     return name
+
+
+def take_places(design: Design, placement: Placement, only: Collection[str] | None) -> Design:
+    """The design with the places of a layout: of everything, or of some states only."""
+    if only is not None:
+        return move(design, {name: point for name, point in placement.states.items() if name in only})
+    has_common = design.common.transitions or design.common.actions
+    return move(design, placement.states, placement.uses, placement.common if has_common else None)
 
 
 def _move(document: Document, payload: Payload) -> Outcome:
