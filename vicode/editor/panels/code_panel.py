@@ -15,14 +15,18 @@ class CodePanel:
         self.is_shown = False
         self.shown_rev = -1
         self.is_busy = False
-        with ui.column().classes("code-panel"):
+        self.editor: ui.codemirror | None = None
+        with ui.column().classes("code-panel") as self.column:
             self.note = ui.label().classes("code-note mono")
-            self.editor = desk.code_editors.make().classes("preview")
-            self.editor.disable()
 
     def show(self, *, flag: bool) -> None:
         """Begin or stop following the design."""
         self.is_shown = flag
+        if flag and self.editor is None:
+            # The editor is a large script, which the first sight of a page need not wait for.
+            with self.column:
+                self.editor = self.desk.code_editors.make().classes("preview")
+                self.editor.disable()
         self.refresh()
 
     def refresh(self) -> None:
@@ -42,7 +46,7 @@ class CodePanel:
                 self.shown_rev = self.desk.document.rev
                 shown = await run.io_bound(self._preview)
                 # Nothing comes back while the server is shutting down.
-                if shown is None or self.editor.is_deleted:
+                if shown is None or self.editor is None or self.editor.is_deleted:
                     return
                 self.note.set_text(shown.note)
                 self.editor.set_value(shown.text)

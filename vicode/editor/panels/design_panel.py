@@ -40,9 +40,23 @@ def design_panel(desk: Desk) -> list[Field]:
         heading(title, hint=hint)
         fields += _declarations(desk, section)
     fields += common_panel(desk)
-    heading("Code", hint="for the top of the module, and for the class")
-    fields += [code_field(desk, _module_code()), code_field(desk, _member_code())]
+    _code(desk, fields)
     return fields
+
+
+def _code(desk: Desk, fields: list[Field]) -> None:
+    """The code for module and class, built when it is opened: code editors are a large script to load."""
+    written = [name for name, code in (("module", desk.design.module), ("members", desk.design.members)) if code.texts]
+    hint = f"written: {', '.join(written)}" if written else "for the top of the module, and for the class"
+    opened: list[bool] = []
+
+    def build() -> None:
+        if not opened:
+            opened.append(True)
+            with section:
+                fields.extend([code_field(desk, _module_code()), code_field(desk, _member_code())])
+
+    section = ui.expansion("Code", caption=hint, on_value_change=build).classes("section").props("dense")
 
 
 def common_panel(desk: Desk) -> list[Field]:

@@ -12,7 +12,7 @@ from vicode.model.project import Project
 from vicode.model.walks import Located, walk_transitions
 
 Scene = dict[str, Any]
-_LABEL_FITS = 18
+_LABEL_FITS = 16
 _Findings = dict[Selected, list[Finding]]
 
 
