@@ -137,6 +137,7 @@ def test_texts_from_strangers_stay_texts(page: Page, editor: str) -> None:
     expect(page.get_by_label("Findings").locator(".finding").first).to_be_visible()
     page.get_by_label("When").blur()
     page.get_by_role("tab", name="Generated code").click()
-    page.wait_for_timeout(300)
+    expect(page.locator(".preview .cm-editor")).to_be_visible()
+    expect(page.locator(".code-note")).to_contain_text("No code yet")
     assert page.locator("img[src=x]").count() == 0
     assert "owned" not in page.title()

@@ -13,7 +13,13 @@ _COLOURS = {Severity.ERROR: "bold red", Severity.WARNING: "yellow", Severity.NOT
 
 def print_findings(findings: Iterable[Finding], *, to_stderr: bool = False) -> None:
     """Print findings in the order given, worst marked by colour on a terminal."""
-    text = render_text(findings, _source_line)
+    lines_of = lru_cache(maxsize=64)(_read_lines)
+
+    def source_line(file: str, line: int) -> str | None:
+        lines = lines_of(file)
+        return lines[line - 1] if 0 < line <= len(lines) else None
+
+    text = render_text(findings, source_line)
     stream = sys.stderr if to_stderr else sys.stdout
     if not text:
         return
@@ -39,13 +45,7 @@ def count_findings(findings: Iterable[Finding]) -> str:
     return ", ".join(words) or "no findings"
 
 
-def _source_line(file: str, line: int) -> str | None:
-    lines = _lines(file)
-    return lines[line - 1] if 0 < line <= len(lines) else None
-
-
-@lru_cache(maxsize=64)
-def _lines(file: str) -> tuple[str, ...]:
+def _read_lines(file: str) -> tuple[str, ...]:
     try:
         text = Path(file).read_text(encoding="utf-8", errors="replace")
     except OSError:

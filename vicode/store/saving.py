@@ -42,16 +42,22 @@ def _save(shape: Record, data: Data, old_text: str) -> str:
     plain = old_text.replace("\r\n", "\n") if is_windows else old_text
     for deepest in _DEPTHS:
         new = _patched(shape, data, plain, old if plain is old_text else None, deepest)
-        new = new.replace("\n", "\r\n") if new is not None and is_windows else new
-        if new is not None and _says(shape, new, data):
-            return new
+        for text in () if new is None else _endings(new, is_ended=plain.endswith("\n")):
+            saved = text.replace("\n", "\r\n") if is_windows else text
+            if _says(shape, saved, data):
+                return saved
     return _fresh(shape, data, old_text)
 
 
+def _endings(new: str, *, is_ended: bool) -> tuple[str, ...]:
+    """The text, first as the old one ended: without a line break a block of code at the end would lose its own."""
+    return (new,) if is_ended else (new.removesuffix("\n"), new)
+
+
 def _patched(shape: Record, data: Data, text: str, old: Read | None, deepest: int) -> str | None:
-    is_ended = text.endswith("\n")
-    ended = text if is_ended else text + "\n"
-    if old is None or not is_ended:
+    """The new text, ending in a line break whether or not the old one did."""
+    ended = text if text.endswith("\n") else text + "\n"
+    if old is None or ended is not text:
         _report, old = read_record(ended, "", shape)
     if old is None:
         return None
@@ -59,10 +65,9 @@ def _patched(shape: Record, data: Data, text: str, old: Read | None, deepest: in
     patcher = Patcher(text=ended, layout=layout_of(old.node, ended))
     try:
         patcher.document(old.node, wish)
-        new = patcher.result()
+        return patcher.result()
     except CannotPatchError:
         return None
-    return new if is_ended else new.removesuffix("\n")
 
 
 def _says(shape: Record, text: str, data: Data) -> bool:

@@ -17,7 +17,8 @@ def docstring(text: str, indent: int, sections: tuple[str, ...] = ()) -> str:
     escaped = [_escaped(line) for line in lines]
     if escaped[0].startswith('"'):
         escaped[0] = f"\\{escaped[0]}"
-    if len(escaped) == 1 and indent + 6 + len(escaped[0]) <= WIDTH:
+    # The closing quotes stand alone only where they, and they alone, are too much for the line.
+    if len(escaped) == 1 and not WIDTH - 3 < indent + 3 + _columns(escaped[0]) <= WIDTH:
         return f'{margin}"""{_with_safe_end(escaped[0])}"""'
     rest = [margin + line if line else "" for line in escaped[1:]]
     return "\n".join([f'{margin}"""{escaped[0]}', *rest, f'{margin}"""'])
@@ -74,11 +75,19 @@ def _wrapped(text: str, width: int) -> list[str]:
 
 
 def _plain_lines(text: str) -> list[str]:
-    lines = defuse(text).replace("\r\n", "\n").replace("\r", "\n").expandtabs(4).split("\n")
+    # Wrapping would make blanks of vertical tabs and form feeds, after the margin has been measured.
+    blank = defuse(text).replace("\v", " ").replace("\f", " ")
+    lines = blank.replace("\r\n", "\n").replace("\r", "\n").expandtabs(4).split("\n")
     lines = "\n".join(line.rstrip() for line in lines).strip("\n ").lstrip().split("\n")
     # As Python reads docstrings: the first line may begin anywhere, the others have a margin in common.
     lines = [lines[0], *textwrap.dedent("\n".join(lines[1:])).split("\n")] if lines[1:] else lines
     return [line for index, line in enumerate(lines) if line or lines[index - 1]]
+
+
+def _columns(text: str) -> int:
+    """How many columns a formatter counts: letters of East Asia are wide, marks on letters take no room."""
+    wide = sum(unicodedata.east_asian_width(char) in "WF" for char in text)
+    return len(text) + wide - sum(unicodedata.combining(char) > 0 for char in text)
 
 
 def _clean(text: str) -> str:
