@@ -41,7 +41,9 @@ def test_sound_designs_give_code_that_compiles(design: Design, text: str) -> Non
 
 
 # Shrinking would start the formatter thousands of times.
-@settings(max_examples=max(8, settings.default.max_examples // 20), phases=[Phase.explicit, Phase.reuse, Phase.generate])
+@settings(
+    max_examples=max(8, settings.default.max_examples // 20), phases=[Phase.explicit, Phase.reuse, Phase.generate]
+)
 @given(st.lists(sound_designs(), min_size=1, max_size=4))
 def test_the_formatter_changes_nothing(some: list[Design]) -> None:
     with tempfile.TemporaryDirectory() as folder:
