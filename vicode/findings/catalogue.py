@@ -76,6 +76,7 @@ _ERRORS = {
     "D414": ("missing-language", "code that is missing in a language of the project"),
     "D415": ("empty-code", "a predicate without code"),
     "D416": ("bad-frequency", "a frequency that is not above 0"),
+    "D417": ("arithmetic-not-generated", "rules of arithmetic that no generator writes"),
     # Generated files
     "G501": ("edited-outside", "a generated file whose code was edited by hand"),
     "G502": ("stale-output", "a generated file that is not what the design gives"),
