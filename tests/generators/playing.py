@@ -44,6 +44,11 @@ class Legs(Component):
 
     def work(self):
         self.world.log.append(f"legs {self.speed:g} {self.turn:g}")
+
+
+class Arm(Component):
+    def modulate(self, *, reach, fast, side=None, lift=99):
+        self.world.log.append(f"arm {reach} {fast} {side.name} {lift}")
 """
 
 PROJECT = """
@@ -61,6 +66,9 @@ components:
   Legs:
     implementation: parts_{name}:Legs
     parameters: {{speed: {{type: float, default: 7}}, turn: {{type: float, default: 8}}}}
+  Arm:
+    implementation: parts_{name}:Arm
+    parameters: {{reach: {{type: float, default: patience * 4}}, fast: {{type: bool}}, side: {{type: Side}}, lift: 7}}
 """
 
 

@@ -225,3 +225,20 @@ def test_times_may_count_milliseconds(play: Player) -> None:
         component.tick(100)
         states.append(component.main.state)
     assert states == ["A", "A", "A", "B", "B", "C"]
+
+
+ARM = """
+component: Armed
+uses: {arm: Arm}
+initial: Rest
+states:
+  Rest: {modulates: [arm], transitions: [{to: Lift, after: 1}]}
+  Lift: {modulates: {arm: {lift: 2, side: Side.right}}}
+"""
+
+
+def test_hand_written_components_get_the_declared_defaults(play: Player) -> None:
+    armed = play(ARM)
+    assert armed.tick() == ["arm 2.0 False left 7"]
+    assert armed.tick(1000) == ["arm 2.0 False right 2"]
+    assert armed.errors == []

@@ -142,7 +142,7 @@ class _Planner:
                 )
             case Call(alias=alias, arguments=arguments):
                 pairs = tuple((name, self._argument(alias, name, text)) for name, text in arguments)
-                return (CallComponent(alias=alias, arguments=pairs),)
+                return (CallComponent(alias=alias, arguments=(*pairs, *self._defaults(alias, dict(pairs)))),)
             case RunCode(code=code, id=given_id):
                 return (Run(body=self.bodies.action(source, phase, code, given_id)),)
 
@@ -158,6 +158,15 @@ class _Planner:
         if parameter is None:
             raise UnsoundDesignError(f"'{alias}' has no parameter '{name}'")
         return tree_of(text, self.scope, self.scope.type_of(parameter))
+
+    def _defaults(self, alias: str, given: Mapping[str, Node]) -> tuple[tuple[str, Node], ...]:
+        """What a call leaves out of a hand-written component; a design's own `modulate` has its defaults."""
+        interface = self.scope.uses.get(alias)
+        if interface is None or not interface.implementation:
+            return ()
+        scope = scope_of(self.project, None)
+        left_out = (each for each in interface.parameters if each.name not in given)
+        return tuple((each.name, initial_of(each, scope)) for each in left_out)
 
     def plan_decisions(self, decisions: tuple[Decision, ...], source: str) -> tuple[Alternative, ...]:
         planned: list[Alternative] = []

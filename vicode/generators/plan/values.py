@@ -106,7 +106,7 @@ class Set:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CallComponent:
-    """Set the parameters of a used component and step it."""
+    """Set the parameters of a used component, all of them if it is hand-written, and step it."""
 
     alias: str
     arguments: tuple[tuple[str, Node], ...]
