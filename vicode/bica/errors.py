@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from types import CodeType, FrameType
+    from types import FrameType
 
     from .component import Component
 
@@ -87,7 +87,7 @@ def make_error_record(component: Component, error: Exception) -> ErrorRecord:
     """Describe `error`, raised by code of `component`, with the innermost place in that component's own methods."""
     frame, file_line = _find_own_frame(component, error)
     code = frame.f_code
-    region, line_before = _find_region(code, file_line)
+    region, line_before = find_region(code.co_filename, file_line, code.co_firstlineno)
     prefix = "_" + code.co_name.split("_")[1] if code.co_name.startswith("_") else ""
     return ErrorRecord(
         component=type(component).__name__,
@@ -99,10 +99,27 @@ def make_error_record(component: Component, error: Exception) -> ErrorRecord:
         line=file_line - line_before,
         file=code.co_filename,
         file_line=file_line,
-        message=f"{type(error).__name__}: {error}" if str(error) else type(error).__name__,
+        message=describe_exception(error),
         iteration=component.root.iteration,
         time_ns=component.root.now_ns,
     )
+
+
+def describe_exception(error: BaseException) -> str:
+    """Say what was raised, in a line's words."""
+    return f"{type(error).__name__}: {error}" if str(error) else type(error).__name__
+
+
+def find_region(file: str, file_line: int, first_line: int = 0) -> tuple[str, int]:
+    """Return the id of the marked region around a line and the line of its mark, else "" and `first_line`.
+
+    Only what follows `first_line`, the `def` of a method, is looked at.
+    """
+    for number in range(file_line - 1, first_line, -1):
+        mark = _MARK.match(linecache.getline(file, number))
+        if mark is not None:
+            return mark["id"], number
+    return "", first_line
 
 
 def _find_own_frame(component: Component, error: Exception) -> tuple[FrameType, int]:
@@ -118,12 +135,3 @@ def _find_own_frame(component: Component, error: Exception) -> tuple[FrameType, 
             own = found
         traceback = traceback.tb_next
     return own or found
-
-
-def _find_region(code: CodeType, file_line: int) -> tuple[str, int]:
-    """Return the id of the marked region around a line of a method and the line of its mark, else of the `def`."""
-    for number in range(file_line - 1, code.co_firstlineno, -1):
-        mark = _MARK.match(linecache.getline(code.co_filename, number))
-        if mark is not None:
-            return mark["id"], number
-    return "", code.co_firstlineno

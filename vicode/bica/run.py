@@ -1,13 +1,10 @@
 """The command that runs a component in a world: simulated or real time, trace, live stream, summary.
 
-Exit codes: 0 ran to its end, 1 a component failed and `--on-error stop` was given, 2 could not start, 130 interrupted.
+Exit codes: 0 ran to its end, 1 a component failed and `--on-error stop` was given, 2 could not run, 130 interrupted.
 """
 
 from __future__ import annotations
 
-import argparse
-import importlib
-import inspect
 import json
 import math
 import os
@@ -20,42 +17,65 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, TextIO
 
 from .clock import RealClock, SimulatedClock
-from .component import Component
 from .errors import ComponentError, CyclicUseError
+from .loading import UserCodeError, load_component, make_world, telling
 from .observer import IterationRecord, Observer, to_plain
+from .options import make_parser
 from .root import Root
 
 if TYPE_CHECKING:
+    import argparse
     from collections.abc import Sequence
     from types import FrameType
+
+    from .component import Component
 
 EXIT_CODES = {"error": 1, "interrupted": 130}
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command and return its exit code."""
-    options = _make_parser().parse_args(arguments)
+    options = make_parser().parse_args(arguments)
     sys.path[:0] = [str(Path(folder).resolve()) for folder in options.path]
-    with ExitStack() as files:
-        try:
-            component_class = _load(options.component)
-            world = _make_world(options.world, options.seed)
-            trace = files.enter_context(Path(options.trace).open("w", encoding="utf-8")) if options.trace else None
-            lines = _Lines(trace=trace, world=world, options=options)
-            root = _make_root(component_class, lines)
-        except (_StartError, CyclicUseError, OSError) as error:
-            sys.stderr.write(f"error: {error}\n")
-            return 2
-        try:
-            return _run(root, lines)
-        except BrokenPipeError:
-            # Whoever read the stream has gone; nothing is left to say, also not by the interpreter's last flush.
-            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-            return 1
+    try:
+        with ExitStack() as files:
+            try:
+                lines, root = _prepare(options, files)
+            except (CyclicUseError, OSError) as error:
+                raise UserCodeError(str(error)) from error
+            with telling("the world failed", only_users=True):
+                return _run(root, lines)
+    except UserCodeError as error:
+        return _fail(str(error), is_streamed=options.stream)
+    except KeyboardInterrupt:
+        return EXIT_CODES["interrupted"]
+    except BrokenPipeError:
+        # Whoever read the stream has gone; nothing is left to say, also not by the interpreter's last flush.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return 1
 
 
-class _StartError(Exception):
-    """What was named on the command line cannot be loaded."""
+def _prepare(options: argparse.Namespace, files: ExitStack) -> tuple[_Lines, Root]:
+    component_class = load_component(options.component)
+    world = make_world(options.world, options.seed)
+    trace = None
+    if options.trace:
+        trace = Path(options.trace).open("w", encoding="utf-8")  # noqa: SIM115 - the stack closes it
+        files.callback(trace.close)
+    lines = _Lines(trace=trace, world=world, options=options)
+    with telling(f"cannot make {options.component}"):
+        return lines, _make_root(component_class, lines)
+
+
+def _fail(message: str, *, is_streamed: bool) -> int:
+    """Tell the user, and whoever reads the stream, who could not tell it from an end that the program made itself."""
+    # A message of several lines would not be the one line that people look for.
+    line = " ".join(message.split("\n"))
+    if is_streamed:
+        sys.stdout.write(json.dumps({"failed": line}) + "\n")
+        sys.stdout.flush()
+    sys.stderr.write(f"error: {line}\n")
+    return 2
 
 
 @dataclass(slots=True, kw_only=True)
@@ -166,30 +186,6 @@ def _count_ticks(options: argparse.Namespace, tick_ns: int) -> float:
     return min(by_seconds, math.inf if options.ticks is None else options.ticks)
 
 
-def _load(name: str) -> type[Component]:
-    found = _find(name)
-    if not (isinstance(found, type) and issubclass(found, Component)):
-        raise _StartError(f"{name} is not a component of this runtime, {Component.__module__}")
-    return found
-
-
-def _make_world(name: str | None, seed: int) -> Any:
-    if name is None:
-        return None
-    make = _find(name)
-    return make(seed=seed) if "seed" in inspect.signature(make).parameters else make()
-
-
-def _find(name: str) -> Any:
-    module, colon, attribute = name.partition(":")
-    if not colon:
-        raise _StartError(f"{name}: write it as module:Class")
-    try:
-        return getattr(importlib.import_module(module), attribute)
-    except (ImportError, AttributeError) as error:
-        raise _StartError(f"cannot load {name}: {error}") from error
-
-
 def _ask(world: Any, question: str) -> Any:
     answer = getattr(world, question, None)
     return to_plain(answer()) if answer is not None else None
@@ -201,22 +197,3 @@ def _describe(summary: dict[str, Any], cycle_times: dict[str, Any]) -> str:
         numbers = ", ".join(f"{key} {value:g}" for key, value in times.items())
         lines.append(f"{name}: {numbers}")
     return "\n".join(lines) + "\n"
-
-
-def _make_parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(prog=f"python -m {__package__}", description="Run a component in a world.")
-    add = parser.add_argument
-    add("component", metavar="MODULE:CLASS", help="the root component")
-    add("--world", metavar="MODULE:CLASS", help="made with seed=N if it takes that; may have advance, finished, …")
-    add("--path", metavar="DIR", action="append", default=[], help="import from here too; may be repeated")
-    add("--seed", type=int, default=0, metavar="N", help="seed of the world (0)")
-    add("--ticks", type=int, metavar="N", help="stop after N iterations")
-    add("--seconds", type=float, metavar="S", help="stop after S seconds of the clock")
-    add("--until-done", action="store_true", help="stop when the root component is done")
-    add("--tick-ms", type=float, default=20.0, metavar="MS", help="time between two iterations (20)")
-    add("--real-time", action="store_true", help="let real time pass instead of simulated time")
-    add("--on-error", choices=("continue", "stop"), default="continue", help="what an exception in a component does")
-    add("--trace", metavar="FILE", help="write one JSON line an iteration, and a summary")
-    add("--stream", action="store_true", help="write JSON lines with the world's snapshot on standard output")
-    add("--values", action="store_true", help="add outputs and variables to the lines")
-    return parser
