@@ -141,3 +141,27 @@ def test_texts_from_strangers_stay_texts(page: Page, editor: str) -> None:
     expect(page.locator(".code-note")).to_contain_text("No code yet")
     assert page.locator("img[src=x]").count() == 0
     assert "owned" not in page.title()
+
+
+def test_keys_work_wherever_the_focus_is(page: Page, editor: str, project: Path) -> None:
+    open_player(page, editor)
+    page.get_by_label("Doc").first.fill("by keys")
+    page.get_by_label("Doc").first.blur()
+    expect(page.get_by_text("Unsaved changes")).to_be_visible()
+    page.keyboard.press("Control+s")
+    expect(page.get_by_text("Unsaved changes")).to_have_count(0)
+    assert "by keys" in (project / "forward" / "player.yaml").read_text()
+    page.keyboard.press("Control+z")
+    expect(page.get_by_text("Unsaved changes")).to_be_visible()
+    page.keyboard.press("Control+Shift+Z")
+    expect(page.get_by_text("Unsaved changes")).to_have_count(0)
+
+
+def test_other_programs_are_followed(page: Page, editor: str, project: Path) -> None:
+    open_player(page, editor)
+    file = project / "forward" / "player.yaml"
+    file.write_text(file.read_text().replace("WatchBall", "Rest"))
+    (project / "forward" / "wave.yaml").write_text("vicode: 1\ncomponent: Wave\nstates: {Up: {}}\n")
+    expect(state(page, "Rest")).to_be_visible()
+    expect(page.get_by_role("link", name="Wave")).to_be_visible()
+    expect(page.get_by_text("Saved", exact=True)).to_be_visible()

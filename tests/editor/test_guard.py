@@ -1,12 +1,13 @@
 """Who may speak to the editor's server, and how much at once."""
 
 import asyncio
+import socket
 from typing import Any
 
 import pytest
 
 from vicode.editor.guard import COOKIE, MAXIMUM_BODY, Guard
-from vicode.editor.serve import choose_address
+from vicode.editor.serve import Address, choose_address
 
 Headers = dict[str, str]
 
@@ -54,6 +55,8 @@ OPEN = Guard(_application, hosts=None, token="secret")
         ({"host": "127.0.0.1.evil.example"}, {}, 403),
         ({"host": "evil.example@127.0.0.1"}, {}, 200),
         ({}, {}, 403),
+        ({"host": "[::1"}, {}, 403),
+        ({"host": "127.0.0.1:1", "origin": "http://[::1"}, {"method": "POST"}, 403),
         ({"host": "127.0.0.1:1", "origin": "http://evil.example"}, {}, 200),
         ({"host": "127.0.0.1:1", "origin": "http://evil.example"}, {"method": "POST"}, 403),
         ({"host": "127.0.0.1:1", "origin": "null"}, {"method": "POST"}, 403),
@@ -104,8 +107,19 @@ def test_the_token_moves_from_the_address_into_a_cookie() -> None:
 
 
 def test_a_token_is_made_for_every_address_but_this_machine() -> None:
-    assert choose_address("127.0.0.1", 8000).token == ""
-    address = choose_address("0.0.0.0", 8000)
+    assert choose_address("127.0.0.1", 0).token == ""
+    address = choose_address("0.0.0.0", 0)
     assert len(address.token) > 20
-    assert address.url == f"http://127.0.0.1:8000/?token={address.token}"
-    assert choose_address("::1", 8000).url == "http://[::1]:8000/"
+    assert address.url == f"http://127.0.0.1:{address.port}/?token={address.token}"
+    assert Address(host="::1", port=8000).url == "http://[::1]:8000/"
+
+
+def test_an_address_that_cannot_be_had_is_told_before_anything_starts() -> None:
+    with socket.socket() as taken:
+        taken.bind(("127.0.0.1", 0))
+        taken.listen()
+        port = taken.getsockname()[1]
+        with pytest.raises(OSError, match=rf"127\.0\.0\.1 port {port}"):
+            choose_address("127.0.0.1", port)
+    with pytest.raises(OSError, match=r"192\.0\.2\.1"):
+        choose_address("192.0.2.1", 0)

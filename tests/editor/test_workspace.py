@@ -106,6 +106,7 @@ def test_generate_writes_what_the_design_says(workspace: Workspace) -> None:
     path = ("states", "LookForBall", "transitions", 0)
     guarded = Transition(to="FollowBall", guard=Guard(when="perception.ball_distance < 1234"))
     document.edit("guard", lambda design: replace_decision(design, path, guarded))
+    workspace.save(document)
     again = workspace.generate(document)
     assert [path.name for path in again.files] == ["player.py"]
     assert "self.perception.ball_distance < 1234" in again.files[0].read_text()
@@ -115,6 +116,7 @@ def test_generate_refuses_mistakes_and_hand_edits_in_words(workspace: Workspace)
     document = opened(workspace, "Player")
     (written,) = (path for path in workspace.generate(document).files if path.name == "player.py")
     document.edit("broken", lambda design: replace(design, variables=(Declaration(name="kick", type="Kik"),)))
+    workspace.save(document)
     refused = workspace.generate(document)
     assert not refused.is_sound
     assert "Nothing generated" in refused.words
@@ -122,5 +124,56 @@ def test_generate_refuses_mistakes_and_hand_edits_in_words(workspace: Workspace)
     edited = written.read_text().replace("recent = self._distances[-5:]", "recent = self._distances[-9:]")
     written.write_text(edited)
     document.edit("doc", lambda design: replace(design, doc="new"))
+    workspace.save(document)
     assert "edited" in workspace.generate(document).words
     assert written.read_text() == edited
+
+
+def test_what_the_file_says_in_vain_is_a_finding_and_stops_generating(project: Path) -> None:
+    file = project / "forward" / "turn.yaml"
+    file.write_text(file.read_text() + "    on_enter: wave\n")
+    workspace = Workspace(project / "forward", key="forward")
+    document = opened(workspace, "Turn")
+    assert [finding.rule.code for finding in document.findings] == ["Y102"]
+    assert "Nothing generated" in workspace.generate(document).words
+    file.write_text(file.read_text().replace("    on_enter: wave\n", ""))
+    workspace.follow_disk()
+    assert document.findings == ()
+    assert workspace.generate(document).is_sound
+
+
+def test_files_that_come_change_and_go_are_followed(workspace: Workspace) -> None:
+    player, turn = opened(workspace, "Player"), opened(workspace, "Turn")
+    turn.edit("doc", lambda design: replace(design, doc="mine"))
+    for document in (player, turn):
+        text = document.file.read_text().replace("frequency: 10", "frequency: 12")
+        document.file.write_text(text + "# theirs\n")
+    (workspace.folder / "wave.yaml").write_text("vicode: 1\ncomponent: Wave\nstates: {Up: {}}\n")
+    (workspace.folder / "search_net.yaml").unlink()
+    workspace.follow_disk()
+    assert (player.design.frequency_hz, player.is_saved) == (12, True)
+    assert (turn.design.doc, turn.is_saved) == ("mine", False)
+    assert opened(workspace, "Wave").design.states
+    assert workspace.document("SearchNet") is None
+    assert {finding.rule.code for finding in player.findings} == {"P202"}
+    with pytest.raises(ChangedOnDiskError):
+        workspace.save(turn)
+
+
+def test_a_design_whose_file_is_gone_is_kept_until_it_is_saved_again(workspace: Workspace) -> None:
+    document = opened(workspace, "Turn")
+    document.file.unlink()
+    workspace.follow_disk()
+    assert workspace.document("Turn") is document
+    assert "no design" in workspace.reload(document)
+    with pytest.raises(ChangedOnDiskError):
+        workspace.save(document)
+    workspace.save(document, over=True)
+    assert "component: Turn" in document.file.read_text()
+
+
+def test_generate_takes_other_designs_as_they_were_saved(workspace: Workspace) -> None:
+    player, face_ball = opened(workspace, "Player"), opened(workspace, "FaceBall")
+    face_ball.edit("doc", lambda design: replace(design, doc="not yet"))
+    for path in workspace.generate(player).files:
+        assert "not yet" not in path.read_text()

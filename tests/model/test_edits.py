@@ -1,12 +1,16 @@
 """Pure edits: what they change, and that they touch nothing else."""
 
+from dataclasses import replace
+
 from vicode.model.design import (
     COMMON,
     Call,
+    Code,
     Common,
     Design,
     Group,
     Guard,
+    RunCode,
     State,
     Stay,
     Transition,
@@ -17,6 +21,7 @@ from vicode.model.edits import (
     add_transition,
     add_use,
     free_name,
+    give_id,
     modulate,
     move,
     remove_decisions,
@@ -28,6 +33,7 @@ from vicode.model.edits import (
     replace_decision,
     require,
     unlink,
+    update_state,
 )
 from vicode.model.walks import decision_at, walk_transitions
 
@@ -52,14 +58,16 @@ def targets(design: Design) -> list[tuple[str, str]]:
 
 def test_rename_follows_every_way_and_keeps_an_id() -> None:
     renamed = rename_state(DESIGN, "B", "Back")
-    assert [(state.name, state.id) for state in renamed.states] == [("A", ""), ("Back", "B")]
+    assert [(state.name, state.id) for state in renamed.states] == [("A", ""), ("Back", "")]
     assert targets(renamed) == [(COMMON, "Back"), ("A", "Back"), ("A", "Back"), ("A", "A"), ("Back", "A")]
     assert rename_state(DESIGN, "A", "First").initial == "First"
     assert rename_state(DESIGN, "B", "A") == DESIGN
 
 
-def test_renaming_there_and_back_keeps_the_first_id() -> None:
-    there = rename_state(rename_state(DESIGN, "B", "C"), "C", "D")
+def test_a_renamed_state_with_code_keeps_its_first_name_as_id() -> None:
+    code = RunCode(code=Code(texts=(("python", "pass"),)))
+    with_code = update_state(DESIGN, "B", lambda state: replace(state, enter=(code,)))
+    there = rename_state(rename_state(with_code, "B", "C"), "C", "D")
     assert there.states[1].id == "B"
 
 
@@ -71,8 +79,10 @@ def test_remove_states_takes_their_transitions_and_finds_another_start() -> None
     assert remove_states(DESIGN, ["A", "B"]).initial == ""
 
 
-def test_transitions_get_ids_of_their_own() -> None:
+def test_transitions_get_ids_of_their_own_when_they_need_one() -> None:
     twice = add_transition(add_transition(DESIGN, "B", "A"), "B", "A")
+    for index in (1, 2, 2):
+        twice = give_id(twice, ("states", "B", "transitions", index))
     ids = [at.decision.id for at in walk_transitions(twice) if at.source == "B"]
     assert ids == ["", "b_to_a", "b_to_a2"]
     assert targets(add_transition(DESIGN, COMMON, "A"))[1] == (COMMON, "A")

@@ -8,8 +8,15 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments of `vicode edit`."""
     parser.add_argument("path", metavar="PATH", nargs="?", default=".", help="a design or a folder (this one)")
     parser.add_argument("--host", default="127.0.0.1", help="who may connect: an address of this machine (only itself)")
-    parser.add_argument("--port", type=int, help="port to listen on (a free one)")
+    parser.add_argument("--port", type=_port, help="port to listen on (a free one)")
     parser.add_argument("--no-open", action="store_true", help="print the address, open no browser")
+
+
+def _port(text: str) -> int:
+    port = int(text)
+    if not 0 <= port < 2**16:
+        raise ValueError(text)
+    return port
 
 
 def run(args: argparse.Namespace) -> int:

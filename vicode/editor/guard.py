@@ -49,15 +49,14 @@ class Guard:
 
     def _is_welcome(self, scope: Scope, headers: dict[bytes, str]) -> bool:
         host = headers.get(b"host", "")
-        name = urlsplit(f"//{host}").hostname or ""
-        if self.hosts is not None and name not in self.hosts:
+        if self.hosts is not None and _parts(f"//{host}")[0] not in self.hosts:
             return False
         origin = headers.get(b"origin")
         changes = scope["type"] == "websocket" or scope.get("method") not in ("GET", "HEAD")
         if origin is None:
             return True
         is_socket_path = str(scope["path"]).startswith("/_nicegui_ws")
-        return not (changes or is_socket_path) or urlsplit(origin).netloc == host
+        return not (changes or is_socket_path) or _parts(origin)[1] == host
 
     def _has_token(self, headers: dict[bytes, str]) -> bool:
         if not self.token:
@@ -111,6 +110,15 @@ class Guard:
         except TooLargeError:
             if not started:
                 await _refuse(scope, send, 413)
+
+
+def _parts(address: str) -> tuple[str, str]:
+    """Name of the host, and host with port, of an address; empty for what is none."""
+    try:
+        parts = urlsplit(address)
+    except ValueError:
+        return "", ""
+    return parts.hostname or "", parts.netloc
 
 
 async def _refuse(scope: Scope, send: Send, status: int) -> None:

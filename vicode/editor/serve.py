@@ -35,10 +35,13 @@ def choose_address(host: str, port: int | None) -> Address:
     """Where to listen: `port`, or a free one for None and 0.
 
     There is a token unless only this machine can connect.
+
+    Raises:
+        OSError: The port is taken, or this machine has no such address.
     """
     is_local = host in ("127.0.0.1", "localhost", "::1")
     token = "" if is_local else secrets.token_urlsafe(24)
-    return Address(host=host, port=port or _free_port(host, port), token=token)
+    return Address(host=host, port=_free_port(host, port), token=token)
 
 
 def serve(path: Path, address: Address, *, open_browser: bool = True) -> None:
@@ -83,19 +86,26 @@ async def _announce(path: Path, address: Address) -> None:
             await asyncio.sleep(0.02)
         else:
             writer.close()
-            break
-    print(f"vicode edits {path} at {address.url}  (Ctrl-C ends it)", flush=True)  # noqa: T201
+            print(f"vicode edits {path} at {address.url}  (Ctrl-C ends it)", flush=True)  # noqa: T201
+            return
 
 
 def _free_port(host: str, wanted: int | None) -> int:
-    """A free port: the first from 8321, so that the address stays the same from day to day; for 0 any."""
+    """The port asked for; for None the first free one from 8321, so that the address stays the same from day to day.
+
+    Raises:
+        OSError: The port is taken, or this machine has no such address.
+    """
     family = socket.AF_INET6 if ":" in host else socket.AF_INET
-    for port in (*(() if wanted == 0 else range(8321, 8421)), 0):
+    ports = (wanted,) if wanted is not None else (*range(8321, 8421), 0)
+    reason = OSError("no port is free")
+    for port in ports:
         with socket.socket(family, socket.SOCK_STREAM) as probe:
             probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
             try:
                 probe.bind((host, port))
-            except OSError:
+            except OSError as error:
+                reason = OSError(f"cannot listen on {host} port {port}: {error.strerror or error}")
                 continue
             return int(probe.getsockname()[1])
-    return 0
+    raise reason

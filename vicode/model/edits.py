@@ -23,7 +23,7 @@ from vicode.model.design import (
     Use,
 )
 from vicode.model.names import snake_case
-from vicode.model.walks import walk_decisions
+from vicode.model.walks import has_code, walk_decisions
 
 
 def free_name(wanted: str, taken: Collection[str]) -> str:
@@ -48,14 +48,14 @@ def update_state(design: Design, name: str, change: Callable[[State], State]) ->
 
 
 def rename_state(design: Design, old: str, new: str) -> Design:
-    """Rename a state and all that leads to it; its id keeps the code written outside in place."""
+    """Rename a state and all that leads to it; if it holds code an id keeps the marks of that code as they were."""
     if old == new or design.state(old) is None or design.state(new) is not None:
         return design
     states = tuple(
         replace(
             state,
             name=new if state.name == old else state.name,
-            id=(state.id or old) if state.name == old else state.id,
+            id=old if state.name == old and not state.id and has_code(state) else state.id,
             transitions=retarget(state.transitions, old, new),
         )
         for state in design.states
@@ -89,10 +89,19 @@ def move(
 
 
 def add_transition(design: Design, source: str, to: str, guard: Guard | None = None) -> Design:
-    """Add a transition at the end of a state's (or with COMMON the common) ones, with an id of its own."""
-    id_ = free_name(snake_case(f"{source.lstrip('@')}_to_{to}"), _ids(design))
-    transition = Transition(to=to, guard=guard or Guard(), id=id_)
+    """Add a transition at the end of a state's (or with COMMON the common) ones."""
+    transition = Transition(to=to, guard=guard or Guard())
     return update_items(design, items_path(design, source), lambda items: (*items, transition))
+
+
+def give_id(design: Design, path: Path) -> Design:
+    """Give a decision an id, by which the marks of its code find it again after every other edit."""
+    located = next((each for each in walk_decisions(design) if each.path == path), None)
+    if located is None or located.decision.id:
+        return design
+    to = located.decision.to if isinstance(located.decision, Transition) else "decision"
+    id_ = free_name(snake_case(f"{located.source.lstrip('@')}_to_{to}"), _ids(design))
+    return replace_decision(design, path, replace(located.decision, id=id_))
 
 
 def items_path(design: Design, source: str) -> Path:

@@ -169,6 +169,14 @@ def walk_code(design: Design) -> Iterator[PlacedCode]:
             yield PlacedCode(path=path, role="predicate", code=code, state=located.source, id=located.decision.id)
 
 
+def has_code(state: State) -> bool:
+    """Whether a state holds hand-written code, in its actions or its guards."""
+    actions = (*state.enter, *state.actions, *state.leave)
+    return any(isinstance(action, RunCode) for action in actions) or any(
+        located.decision.guard.code is not None for located in walk_decisions_of(state)
+    )
+
+
 def always_holds(decision: Decision) -> bool:
     """Whether nothing after it can be reached.
 

@@ -1,5 +1,6 @@
 """The page that edits a design: canvas in the middle, designs to the left, inspector to the right, findings below."""
 
+import contextlib
 from collections.abc import Mapping
 from typing import Any, cast
 from urllib.parse import quote
@@ -9,9 +10,10 @@ from nicegui import background_tasks, run, ui
 from vicode.diagram.layout import lay_out
 from vicode.editor.canvas import Canvas
 from vicode.editor.canvas.gesture import Gesture, Item
+from vicode.editor.pages.keys import listen_to_keys
 from vicode.editor.pages.look import Theme, add_look
 from vicode.editor.panels.code_panel import CodePanel
-from vicode.editor.panels.designs_list import designs_list
+from vicode.editor.panels.designs_list import DesignsList
 from vicode.editor.panels.desk import Desk
 from vicode.editor.panels.findings_panel import FindingsPanel
 from vicode.editor.panels.header import Commands, Header
@@ -30,7 +32,7 @@ class DesignPage:
         self.links_shown = True
         self.theme = Theme(self.desk.code_editors)
         add_look()
-        with ui.element("div").classes("shell") as shell:
+        with ui.element("div").classes("shell"):
             commands = Commands(
                 save=self._save,
                 generate=self._generate,
@@ -39,21 +41,27 @@ class DesignPage:
                 toggle_theme=self._theme,
             )
             self.header = Header(self.desk, commands)
-            designs_list(library, (workspace.key, document.design.component), _say)
+            self.designs = DesignsList(library, (workspace.key, document.design.component), _say)
             with ui.element("main").classes("stage"):
                 self.canvas = Canvas(self._gesture)
                 self.canvas.classes("canvas")
             self.findings = FindingsPanel(self.desk)
             with ui.element("aside").classes("side").props('aria-label="Inspector"'):
                 self._side()
-        shell.on("keydown.ctrl.s.prevent", self._save)
-        shell.on("keydown.meta.s.prevent", self._save)
+        listen_to_keys(save=self._save, undo=document.undo, redo=document.redo)
         self.scene: Scene = self._draw()
         self.canvas.load(self.scene)
         self.desk.listen(self._refresh)
         self._refresh()
         unwatch = document.watch(lambda _document: self._changed())
         ui.context.client.on_delete(unwatch)
+        ui.timer(1.0, self._follow_disk)
+
+    def _follow_disk(self) -> None:
+        # The folder itself may go while the editor is open; what is open here stays, and can be saved elsewhere.
+        with contextlib.suppress(OSError):
+            self.desk.workspace.follow_disk()
+        self.designs.refresh()
 
     def _side(self) -> None:
         with ui.tabs().props("dense no-caps align=left").classes("side-tabs") as tabs:
@@ -164,8 +172,13 @@ class DesignPage:
     async def _write_code(self) -> None:
         try:
             outcome = await run.io_bound(self.desk.workspace.generate, self.desk.document)
+        except ChangedOnDiskError:
+            with self.canvas.client:
+                ask_about_disk(self.desk)
+            return
         except OSError as error:
-            _say(f"Not generated: {error.strerror or error}", "negative")
+            with self.canvas.client:
+                _say(f"Not generated: {error}", "negative")
             return
         if outcome is None or self.canvas.is_deleted:
             return

@@ -14,7 +14,7 @@ from vicode.editor.panels.rows import heading
 from vicode.editor.view import Selected, path_of_key
 from vicode.findings import Path
 from vicode.model.design import COMMON, Decision, Design, Group, Guard, Transition
-from vicode.model.edits import remove_decisions, replace_decision
+from vicode.model.edits import give_id, remove_decisions, replace_decision
 from vicode.model.walks import decision_at
 
 _CODE_HINT = "return self.perception.ball_seen\n"
@@ -92,9 +92,11 @@ def _code(desk: Desk, path: Path, guard: Guard) -> list[Field]:
 
     if guard.code is None:
         add = set_code(_CODE_HINT)
-        ui.button("Predicate in code", icon="add", on_click=lambda: desk.edit("add code", add)).props(
-            "flat dense no-caps size=sm"
-        )
+        ui.button(
+            "Predicate in code",
+            icon="add",
+            on_click=lambda: desk.edit("add code", lambda design: give_id(add(design), path)),
+        ).props("flat dense no-caps size=sm")
         return []
 
     def read(design: Design) -> str:

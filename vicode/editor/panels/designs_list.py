@@ -17,26 +17,51 @@ def design_url(workspace: Workspace, component: str) -> str:
     return f"/design/{quote(workspace.key, safe='')}/{quote(component, safe='')}"
 
 
-def designs_list(library: Library, here: tuple[str, str], say: Say) -> None:
-    """Show the designs; `here` is the project's key and the component that is open."""
-    with ui.element("nav").classes("designs").props('aria-label="Designs"'):
-        for workspace in library.workspaces:
-            with ui.row().classes("project-head"):
-                ui.label(workspace.project.name).classes("project-name")
-                icon_button("add", f"New design in {workspace.project.name}", _creator(workspace, say))
-            for design in sorted(workspace.project.designs, key=lambda each: each.component.casefold()):
-                is_here = here == (workspace.key, design.component)
-                link = ui.link(target=design_url(workspace, design.component))
-                link.classes("design-link" + (" is-open" if is_here else ""))
-                if is_here:
-                    link.props('aria-current="page"')
-                with link:
-                    ui.label(design.component)
-            for file in workspace.broken:
-                with ui.row().classes("design-link is-broken"):
-                    ui.icon("error")
-                    ui.label(file)
-                    ui.tooltip(f"{file} cannot be read: run 'vicode check' for the places and mends")
+class DesignsList:
+    """The designs; built anew when files come or go, or a design becomes saved or unsaved."""
+
+    def __init__(self, library: Library, here: tuple[str, str], say: Say) -> None:
+        """Build it; `here` is the project's key and the component that is open."""
+        self.library, self.here, self.say = library, here, say
+        self.shape: object = None
+        self.body = ui.element("nav").classes("designs").props('aria-label="Designs"')
+        self.refresh()
+
+    def refresh(self) -> None:
+        """Show what there is now."""
+        shape = [
+            (each.key, sorted(each.project.interfaces()), each.broken, each.unsaved) for each in self.library.workspaces
+        ]
+        if shape == self.shape:
+            return
+        self.shape = shape
+        self.body.clear()
+        with self.body:
+            for workspace in self.library.workspaces:
+                self._project(workspace)
+
+    def _project(self, workspace: Workspace) -> None:
+        with ui.row().classes("project-head"):
+            ui.label(workspace.project.name).classes("project-name")
+            icon_button("add", f"New design in {workspace.project.name}", _creator(workspace, self.say))
+        for design in sorted(workspace.project.designs, key=lambda each: each.component.casefold()):
+            self._design(workspace, design.component)
+        for file in workspace.broken:
+            with ui.row().classes("design-link is-broken"):
+                ui.icon("error")
+                ui.label(file)
+                ui.tooltip(f"{file} cannot be read: run 'vicode check' for the places and mends")
+
+    def _design(self, workspace: Workspace, component: str) -> None:
+        is_here = self.here == (workspace.key, component)
+        link = ui.link(target=design_url(workspace, component))
+        link.classes("design-link" + (" is-open" if is_here else ""))
+        if is_here:
+            link.props('aria-current="page"')
+        with link:
+            ui.label(component)
+            if component in workspace.unsaved:
+                ui.label("●").classes("unsaved-mark").props('aria-label="unsaved" role="img"')
 
 
 def _creator(workspace: Workspace, say: Say) -> Callable[[], None]:

@@ -40,7 +40,9 @@ class FindingsPanel:
         with ui.element("button").classes(f"finding {severity}").props('type="button"') as row:
             ui.icon(_ICONS[severity]).props('aria-hidden="true"')
             ui.label(f"{severity} {finding.rule.code}").classes("finding-code mono")
-            ui.label(finding.message).classes("finding-message")
+            # What was wrong when the file was read stands in the file, not in the drawing.
+            line = f"{finding.place.file}, line {finding.place.line}: " if finding.place else ""
+            ui.label(line + finding.message).classes("finding-message")
             ui.label(finding.mend).classes("finding-mend")
         row.on("click", self._opener(finding))
 

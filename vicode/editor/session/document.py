@@ -18,13 +18,15 @@ Checker = Callable[[Design], tuple[Finding, ...]]
 class Document:
     """An open design. Every change goes through `edit`, `undo` or `redo`; watchers are told after each.
 
-    `rev` counts the changes. `disk_text` is the text last read from or written to `file`.
+    `rev` counts the changes. `disk_text` is the text last read from or written to `file`, `reading` what is wrong
+    with it: keys that mean nothing are not in the design, but they are in the file.
     """
 
     file: Path
     disk_text: str
     saved: Design
     check: Checker
+    reading: tuple[Finding, ...] = ()
     history: History = field(init=False)
     findings: tuple[Finding, ...] = field(init=False, default=())
     rev: int = field(init=False, default=0)
@@ -34,7 +36,7 @@ class Document:
     def __post_init__(self) -> None:
         """Begin with what is on disk."""
         self.history = History(present=Step(label="open", design=self.saved))
-        self.findings = self.check(self.saved)
+        self.findings = self._find(self.saved)
 
     @property
     def design(self) -> Design:
@@ -66,14 +68,15 @@ class Document:
         self._typing_in = ""
         self._become(self.history.redone())
 
-    def mark_saved(self, text: str) -> None:
+    def mark_saved(self, text: str, reading: tuple[Finding, ...] = ()) -> None:
         """Note that the design as it is now stands in the file as `text`."""
-        self.saved, self.disk_text = self.design, text
+        self.saved, self.disk_text, self.reading = self.design, text, reading
+        self.findings = self._find(self.design)
         self._tell()
 
-    def reload(self, design: Design, text: str) -> None:
+    def reload(self, design: Design, text: str, reading: tuple[Finding, ...] = ()) -> None:
         """Take what the file holds now; the edits made here stay in the history."""
-        self.saved, self.disk_text = design, text
+        self.saved, self.disk_text, self.reading = design, text, reading
         self._become(self.history.then("reload from disk", design))
         self._tell()
 
@@ -83,7 +86,7 @@ class Document:
 
     def check_again(self) -> None:
         """Check once more, because another design of the project has changed."""
-        findings = self.check(self.design)
+        findings = self._find(self.design)
         if findings != self.findings:
             self.findings = findings
             self._tell()
@@ -103,8 +106,11 @@ class Document:
             return
         self.history = history
         self.rev += 1
-        self.findings = self.check(self.design)
+        self.findings = self._find(self.design)
         self._tell()
+
+    def _find(self, design: Design) -> tuple[Finding, ...]:
+        return tuple(dict.fromkeys((*self.reading, *self.check(design))))
 
     def _tell(self) -> None:
         for watcher in tuple(self._watchers):

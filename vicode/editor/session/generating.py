@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from vicode.check import check_project
-from vicode.findings import Severity
+from vicode.findings import Finding, Severity
 from vicode.generators import collect_components, generate, list_outputs
 from vicode.model.project import Project
 from vicode.output import apply, compare
@@ -22,20 +22,31 @@ class Generated:
     files: tuple[Path, ...] = ()
 
 
-def generate_into(folder: Path, project: Project, component: str, sources: Mapping[str, str]) -> Generated:
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Job:
+    """What to generate from: a project, its files by component, and what was wrong with them when they were read."""
+
+    project: Project
+    sources: Mapping[str, str]
+    reading: Mapping[str, tuple[Finding, ...]]
+
+
+def generate_into(folder: Path, job: Job, component: str) -> Generated:
     """Write the code of a component and of all it uses into a folder; nothing is written if anything is wrong.
 
     Raises:
         OSError: A file cannot be written.
     """
+    project = job.project
     wanted = collect_components(project, (component,))
-    errors = [each for each in check_project(project, wanted) if each.severity is Severity.ERROR]
+    read = [finding for name in ("", *wanted) for finding in job.reading.get(name, ())]
+    errors = [each for each in (*read, *check_project(project, wanted)) if each.severity is Severity.ERROR]
     if errors:
         first = errors[0]
         where = f"{first.thing.component}: " if first.thing and first.thing.component != component else ""
         more = f" (and {len(errors) - 1} more)" if len(errors) > 1 else ""
         return Generated(words=f"Nothing generated. {where}{first.message}{more}", is_sound=False)
-    files = generate(project, components=(component,), sources=sources)
+    files = generate(project, components=(component,), sources=job.sources)
     differences = compare(files, folder, keep=list_outputs(project), is_ours=is_sealed)
     edits = find_hand_edits(differences)
     if edits:

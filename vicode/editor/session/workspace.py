@@ -1,16 +1,17 @@
 """One open project: its designs as they are now, and their files."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from vicode.check import check_design
 from vicode.editor.session.document import Document
-from vicode.editor.session.generating import Generated, generate_into
+from vicode.editor.session.generating import Generated, Job, generate_into
 from vicode.findings import Finding
 from vicode.model.design import Design, State
 from vicode.model.names import snake_case
 from vicode.model.project import Project
-from vicode.store import open_project, read_design, save_design, write_text
+from vicode.store import OpenProject, design_files, open_project, read_design, save_design, write_text
 
 
 class ChangedOnDiskError(Exception):
@@ -27,22 +28,32 @@ class Workspace:
     broken: tuple[str, ...] = field(init=False)
     files: dict[str, Path] = field(init=False)
     _texts: dict[str, str] = field(init=False)
+    _reading: dict[str, tuple[Finding, ...]] = field(init=False)
+    _seen: frozenset[tuple[str, int, int]] = field(init=False, default=frozenset())
     _documents: dict[str, Document] = field(init=False, default_factory=dict)
 
     def __post_init__(self) -> None:
         """Read the project."""
-        opened = open_project(self.folder)
-        self.project = opened.project
-        self.files = dict(opened.files)
-        self.broken = tuple(file.name for file in opened.broken)
-        self._texts = dict(opened.texts)
+        self.follow_disk()
+
+    def follow_disk(self) -> None:
+        """Take over what other programs wrote; designs with unsaved changes stay as they are here until they are saved.
+
+        Raises:
+            OSError: The folder is gone.
+        """
+        seen = frozenset(_signature(file) for file in (*design_files(self.folder), *_project_files(self.folder)))
+        if seen != self._seen:
+            self._seen = seen
+            self._take(open_project(self.folder))
 
     def document(self, component: str) -> Document | None:
         """The open document of a design, opened now if it was not; None when there is no such design."""
         design = self.project.design(component)
         if component not in self._documents and design is not None:
             file, text = self.files[component], self._texts[component]
-            document = Document(file=file, disk_text=text, saved=design, check=self._check)
+            reading = self._reading.get(component, ())
+            document = Document(file=file, disk_text=text, saved=design, check=self._check, reading=reading)
             document.watch(self._follow)
             self._documents[component] = document
         return self._documents.get(component)
@@ -51,6 +62,11 @@ class Workspace:
         """The component whose design a file holds."""
         wanted = path.resolve()
         return next((name for name, file in self.files.items() if name and file.resolve() == wanted), None)
+
+    @property
+    def unsaved(self) -> tuple[str, ...]:
+        """The components whose designs have changes that no file holds."""
+        return tuple(name for name, document in self._documents.items() if not document.is_saved)
 
     @property
     def sources(self) -> dict[str, str]:
@@ -66,21 +82,21 @@ class Workspace:
             ChangedOnDiskError: Another program changed the file and `over` does not say to write all the same.
             OSError: The file cannot be written.
         """
-        text = _read(document.file) if document.file.exists() else ""
+        text = _read(document.file)
         if text != document.disk_text and not over:
             raise ChangedOnDiskError
-        new = save_design(document.design, text)
+        new = save_design(document.design, text or "")
         if new != text:
             write_text(document.file, new)
-        document.mark_saved(new)
+        document.mark_saved(new, read_design(new, document.file.name).findings)
 
     def reload(self, document: Document) -> str:
         """Open a design as it is on disk now; returns why not, if it cannot be read."""
         text = _read(document.file)
-        design = read_design(text, document.file.name).design
-        if design is None or design.component != document.design.component:
+        read = read_design(text or "", document.file.name)
+        if text is None or read.design is None or read.design.component != document.design.component:
             return f"{document.file.name} holds no design of {document.design.component} any more"
-        document.reload(design, text)
+        document.reload(read.design, text, read.findings)
         return ""
 
     def create(self, component: str) -> Document:
@@ -103,13 +119,43 @@ class Workspace:
         return document
 
     def generate(self, document: Document) -> Generated:
-        """Write the code of a design, and of all it uses, into the project's output folder.
+        """Write the code of a design, and of all it uses as they were saved, into the project's output folder.
 
         Raises:
+            ChangedOnDiskError: Another program changed the file of the design.
             OSError: A file cannot be written.
         """
+        self.follow_disk()
+        if _read(document.file) != document.disk_text:
+            raise ChangedOnDiskError
+        saved = {name: each.saved for name, each in self._documents.items()}
+        designs = tuple(saved.get(each.component, each) for each in self.project.designs)
+        reading = {**self._reading, **{name: each.reading for name, each in self._documents.items()}}
         folder = (self.folder / self.project.generated).resolve()
-        return generate_into(folder, self.project, document.design.component, self.sources)
+        job = Job(project=replace(self.project, designs=designs), sources=self.sources, reading=reading)
+        return generate_into(folder, job, document.design.component)
+
+    def _take(self, opened: OpenProject) -> None:
+        """Make a project as read the one that is worked on."""
+        self._texts, self.files = dict(opened.texts), dict(opened.files)
+        self.broken = tuple(file.name for file in opened.broken)
+        self._reading = dict.fromkeys(opened.texts, ())
+        for finding in opened.findings:
+            name = finding.thing.component if finding.thing else ""
+            self._reading[name] = (*self._reading.get(name, ()), finding)
+        read = {design.component: design for design in opened.project.designs}
+        # A design whose file is gone goes on here: saving it makes the file again.
+        kept = {name: each.design for name, each in self._documents.items() if not self._is_overtaken(each, name, read)}
+        for name in kept:
+            self.files.setdefault(name, self._documents[name].file)
+        self.project = replace(opened.project, designs=tuple({**read, **kept}.values()))
+        for name, document in self._documents.items():
+            if name not in kept:
+                document.reload(read[name], self._texts[name], self._reading[name])
+            document.check_again()
+
+    def _is_overtaken(self, document: Document, name: str, read: Mapping[str, Design]) -> bool:
+        return name in read and document.is_saved and document.disk_text != self._texts[name]
 
     def _check(self, design: Design) -> tuple[Finding, ...]:
         designs = (design if each.component == design.component else each for each in self.project.designs)
@@ -125,6 +171,22 @@ class Workspace:
                 document.check_again()
 
 
-def _read(file: Path) -> str:
-    # Bytes, as reading text would turn the line ends of other systems into ours.
-    return file.read_bytes().decode("utf-8")
+def _read(file: Path) -> str | None:
+    """The text of a file, None when there is none."""
+    try:
+        # Bytes, as reading text would turn the line ends of other systems into ours.
+        return file.read_bytes().decode("utf-8")
+    except (FileNotFoundError, UnicodeDecodeError):
+        return None
+
+
+def _signature(file: Path) -> tuple[str, int, int]:
+    try:
+        status = file.stat()
+    except OSError:
+        return (str(file), 0, 0)
+    return (str(file), status.st_mtime_ns, status.st_size)
+
+
+def _project_files(folder: Path) -> tuple[Path, ...]:
+    return (folder / "project.yaml", folder / "project.yml")

@@ -35,6 +35,7 @@ def scene_of(project: Project, design: Design, findings: Iterable[Finding], rev:
                 "id": use.alias,
                 "name": use.component,
                 "design": project.design(use.component) is not None,
+                "parameters": _parameters(project, use.component),
                 **_marks(by_thing, Selected(of="components", id=use.alias)),
                 **_at(placement.uses[use.alias]),
             }
@@ -43,6 +44,11 @@ def scene_of(project: Project, design: Design, findings: Iterable[Finding], rev:
         "links": list(_links(design)),
         "common": _common(design, by_thing, placement.common),
     }
+
+
+def _parameters(project: Project, component: str) -> int | None:
+    interface = project.interface(component)
+    return len(interface.parameters) if interface else None
 
 
 def _at(point: tuple[float, float]) -> dict[str, float]:
