@@ -6,7 +6,7 @@ import json
 from types import SimpleNamespace
 
 from tests.bica.sample_player import Player
-from vicode.bica import IterationRecord, Observer, Root, SimulatedClock
+from vicode.bica import Component, ErrorRecord, IterationRecord, Observer, Root, SimulatedClock
 
 
 class Run:
@@ -123,3 +123,49 @@ def test_cycle_times_count_the_works() -> None:
     assert 0 < times["Player"].min_ns <= times["Player"].mean_ns <= times["Player"].max_ns
     assert run.root.measure
     assert Run().root.cycle_times == {}
+
+
+def test_an_observed_mistake_of_a_caller_is_the_same_mistake() -> None:
+    class Legs(Component):
+        pass
+
+    class Caller(Component):
+        def __init__(self, root: Root) -> None:
+            super().__init__(root)
+            self.legs = root.component(Legs)
+
+        def work(self) -> None:
+            self._call(self.legs, speed=1)
+
+    records: list[ErrorRecord] = []
+    for observer in (None, Observer()):
+        Root(Caller, clock=SimulatedClock(), on_error=records.append, observer=observer).step()
+    assert records[0] == records[1]
+    assert (records[1].component, records[1].method) == ("Caller", "work")
+
+
+def test_an_observed_component_calls_again_with_the_same_mistake() -> None:
+    class Legs(Component):
+        def modulate(self, *, speed: int = 0) -> None:
+            del speed
+
+    class Caller(Component):
+        frequency_hz = 1.0
+
+        def __init__(self, root: Root) -> None:
+            super().__init__(root)
+            self.legs = root.component(Legs)
+
+        def work(self) -> None:
+            self._call(self.legs, spede=1)
+
+    places = []
+    for observer in (None, Observer()):
+        clock = SimulatedClock()
+        root = Root(Caller, clock=clock, on_error=lambda _record: None, observer=observer)
+        for _ in range(3):
+            root.step()
+            clock.advance(1_000_000)
+        places.append(root.errors)
+    assert places[0] == places[1]
+    assert len(places[1]) == 1

@@ -177,9 +177,10 @@ class Component:
 
     def _call(self, component: Component, /, **parameters: Any) -> None:
         """Modulate `component` and step it; remembered until the next work, to step it when it is not time to work."""
+        # Parameters that cannot be set now could not be set again either: the mistake is told once, here.
+        _modulate(component, parameters)
         if self._period_ns:
             self._called.append((component, parameters))
-        _modulate(component, parameters)
         component.step()
 
     def _step_called_again(self) -> None:
