@@ -6,7 +6,7 @@ from vicode.check import check_design, check_project
 from vicode.check.code import python_problem
 from vicode.findings import Finding, Thing
 from vicode.model.design import Code, Declaration, Design, Guard, RunCode, State, Transition, Use
-from vicode.model.project import Interface, Project
+from vicode.model.project import Enumeration, Interface, Project
 
 
 def _design(**changes: object) -> Design:
@@ -100,3 +100,12 @@ def test_a_changed_interface_is_seen_at_once() -> None:
     assert _only(check_project(before)).rule.code == "E303"
     seeing = Interface(component="Head", implementation="field:Head", outputs=(Declaration(name="seen", type="bool"),))
     assert check_project(Project(name="p", components=(seeing,), designs=(design,))) == ()
+
+
+def test_an_enumeration_without_elements_says_that_it_has_none() -> None:
+    project = Project(name="p", enumerations=(Enumeration(name="Foot", elements=()),))
+    design = _design(
+        states=(State(name="Wait", transitions=(Transition(to="Wait", guard=Guard(when="Foot.a == 1")),)),)
+    )
+    finding = next(each for each in check_design(project, design) if each.rule.code == "E306")
+    assert (finding.message, finding.mend) == ("'Foot' has no element 'a'", "it has none")

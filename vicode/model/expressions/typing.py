@@ -157,7 +157,7 @@ class Binder:
         elements = self.scope.enumerations[enumeration]
         if name in elements:
             return Element(element=name, type=enumeration, span=self.span_of(syntax))
-        mend = did_you_mean(name, elements, f"it has {', '.join(elements)}" if elements else "it has none; add it there")
+        mend = did_you_mean(name, elements, f"it has {', '.join(elements) or 'none'}")
         self.report("E306", f"'{enumeration}' has no element '{name}'", mend, syntax)
         return None
 
