@@ -1,6 +1,8 @@
 """Rules about what a project file declares."""
 
+import keyword
 import re
+import sys
 from collections import Counter
 from collections.abc import Iterator
 from dataclasses import replace
@@ -12,9 +14,36 @@ from vicode.check.readings import Expression, Reader, literal_value, plain_reade
 from vicode.findings import Finding, Note, Path, Span, Thing, did_you_mean, rule
 from vicode.model.design import Declaration
 from vicode.model.expressions import Scope, scope_of
+from vicode.model.names import snake_case
 from vicode.model.project import LANGUAGES, Project
 
 _CLASS_IN_MODULE = re.compile(r"[A-Za-z_]\w*(\.[A-Za-z_]\w*)*:[A-Za-z_]\w*\Z", re.ASCII)
+
+
+def find_unusable_project_names(project: Project) -> Iterator[Finding]:
+    """P208: a name whose Python package cannot be imported, or is found in the place of another module."""
+    reason = _unusable_because(project) if "python" in project.languages else ""
+    if reason:
+        message = f"the package '{_package_of(project)}' of this project {reason}"
+        yield _find("P208", ("project",), message, "give another name with 'project:' in project.yaml")
+
+
+def _unusable_because(project: Project) -> str:
+    package = _package_of(project)
+    written = {"world": project.world, **{each.component: each.implementation for each in project.components}}
+    hidden = [name for name, target in written.items() if target.partition(":")[0].partition(".")[0] == package]
+    if keyword.iskeyword(package):
+        return "is a keyword of Python"
+    if package in sys.stdlib_module_names:
+        return "would hide a module of Python's library"
+    if package in ("vicode", "bica"):
+        return "would hide the runtime"
+    return f"would hide the module of '{hidden[0]}'" if hidden else ""
+
+
+def _package_of(project: Project) -> str:
+    """The project's package in Python; the digit that the generators put a word before hides nothing."""
+    return re.sub(r"[^a-z0-9]+", "_", snake_case(project.name), flags=re.ASCII).strip("_")
 
 
 def find_bad_names(project: Project) -> Iterator[Finding]:
@@ -161,6 +190,7 @@ def _find(
 
 
 RULES = (
+    find_unusable_project_names,
     find_bad_names,
     find_duplicate_names,
     find_duplicate_components,

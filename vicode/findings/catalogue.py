@@ -49,6 +49,7 @@ _ERRORS = {
     "P205": ("unknown-type", "a type that is neither bool, int, float nor an enumeration"),
     "P206": ("bad-range", "a range whose ends are swapped, or on something that is not a number"),
     "P207": ("empty-enumeration", "an enumeration without elements"),
+    "P208": ("unusable-project-name", "a project whose Python package cannot be imported or hides another module"),
     # Expressions
     "E301": ("not-an-expression", "text that is not an expression"),
     "E302": ("outside-grammar", "Python that expressions do not allow"),
