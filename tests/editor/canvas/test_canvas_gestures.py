@@ -1,9 +1,13 @@
 """What a hand does on the canvas is what Python hears."""
 
+from collections.abc import Callable, Mapping
+from typing import Any
+
 import pytest
 from playwright.sync_api import expect
 
 from tests.editor.canvas.conftest import Hand
+from tests.editor.canvas.player_scene import player
 
 
 def test_a_dragged_state_follows_and_snaps_to_the_grid(hand: Hand) -> None:
@@ -96,6 +100,14 @@ def test_a_state_to_a_component_modulates_and_back_requires(hand: Hand) -> None:
     hand.drag_handle("components", "follow_ball", hand.at("states", "GetUp"))
     hand.page.wait_for_timeout(50)
     assert hand.heard("link") == {"kind_of_link": "requires", "state": "GetUp", "component": "follow_ball"}
+
+
+def test_a_component_without_parameters_can_only_be_required(show: Callable[[Mapping[str, Any]], Hand]) -> None:
+    scene = player()
+    scene["components"][2]["parameters"] = 0
+    hand = show(scene)
+    hand.drag_handle("states", "GiveUp", hand.at("components", "follow_ball"))
+    assert hand.heard("link") == {"kind_of_link": "requires", "state": "GiveUp", "component": "follow_ball"}
 
 
 def test_the_end_of_a_selected_transition_is_taken_elsewhere(hand: Hand) -> None:

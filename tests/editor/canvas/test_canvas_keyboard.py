@@ -13,6 +13,27 @@ def test_history_keys_are_reported(hand: Hand, keys: str, kind: str) -> None:
     assert hand.heard(kind) == {}
 
 
+@pytest.mark.parametrize("keys", [(), ("F2",)], ids=["on a state", "in its name"])
+def test_the_key_to_save_reaches_the_page(hand: Hand, keys: tuple[str, ...]) -> None:
+    hand.page.evaluate(
+        """() => document.body.addEventListener("keydown", event => {
+          if (event.key !== "s") return;
+          document.body.dataset.saved = String(event.ctrlKey);
+          event.preventDefault();
+        })"""
+    )
+    hand.click(hand.at("states", "GiveUp"))
+    hand.press(*keys)
+    if keys:
+        hand.page.locator("input.rename").fill("Resign")
+    hand.press("Control+s")
+    expect(hand.page.locator("body")).to_have_attribute("data-saved", "true")
+    hand.page.evaluate("delete document.body.dataset.saved")
+    assert not hand.heard_all("create")
+    if keys:
+        assert hand.heard("rename")["name"] == "Resign"
+
+
 def test_arrows_nudge_the_selection(hand: Hand) -> None:
     hand.click(hand.at("states", "GiveUp"))
     hand.press("ArrowRight", "Shift+ArrowDown")

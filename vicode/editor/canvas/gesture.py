@@ -72,7 +72,11 @@ class Reconnect(TypedDict):
 
 
 class Link(TypedDict):
-    """A state is to require or to modulate a component."""
+    """A state is to require or to modulate a component.
+
+    Drawn from the component it means `requires`. Drawn from the state it means `modulates`, but `requires` where the
+    scene's component says `"parameters": 0`; without that key its parameters are unknown.
+    """
 
     kind: Literal["link"]
     rev: int

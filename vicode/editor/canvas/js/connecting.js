@@ -52,7 +52,8 @@ export class Connect {
       return;
     }
     const [state, component] = source.of === "states" ? [source, target] : [target, source];
-    const kind = source.of === "states" ? "modulates" : "requires";
+    // What takes no parameters cannot be modulated: a state can only wish that it runs.
+    const kind = source.of === "states" && target.data.parameters !== 0 ? "modulates" : "requires";
     this.canvas.report("link", { kind_of_link: kind, state: state.id, component: component.id });
   }
 

@@ -1,5 +1,6 @@
 // Curves with arrow heads and their label chips. A curve and its chip lie in different layers.
 import { badge, findings, kindOf } from "./node_art.js";
+import { BADGE } from "./labels.js";
 import { svg } from "./svg.js";
 
 const HEAD = 10;
@@ -52,16 +53,16 @@ export function headOf(curve) {
 function drawChip(edge, { chip }, names) {
   const group = svg("g", { class: `item chip ${kindOf(edge)} ${styleOf(edge)}`, ...names, "aria-hidden": "true" });
   if (chip) {
-    const { w, h, padding, orderWidth, iconWidth } = chip;
+    const { w, h, padding, orderWidth, iconWidth, badgeWidth } = chip;
     let x = -w / 2 + padding;
-    group.append(svg("rect", { class: "plate bg", x: -w / 2, y: -h / 2, width: w, height: h, rx: h / 2 }));
+    group.append(svg("rect", { class: "plate bg", x: -w / 2, y: -h / 2, width: w - badgeWidth, height: h, rx: h / 2 }));
     if (chip.order) group.append(svg("text", { class: "order", x, text: chip.text || chip.icon ? `${chip.order} · ` : chip.order }));
     x += orderWidth;
     if (chip.icon) group.append(svg("path", { class: "icon", d: ICONS[chip.icon], transform: `translate(${x} 0)` }));
     x += iconWidth;
     if (chip.text) group.append(svg("text", { class: "label", x, text: chip.text }));
   }
-  if (edge.data.severity) group.append(badge(edge.data, chip ? chip.w / 2 : 0, chip ? -chip.h / 2 : 0));
+  if (edge.data.severity) group.append(badge(edge.data, chip ? (chip.w - BADGE) / 2 + 2 : 0, 0));
   return group;
 }
 

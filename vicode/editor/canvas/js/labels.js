@@ -5,6 +5,8 @@ import { shorten, textWidth } from "./text.js";
 const HEIGHT = 22;
 const PADDING = 8;
 const ICON = 15;
+// The mark of findings stands behind the text, within the chip's room, so that it hides nothing.
+export const BADGE = 24;
 const MOST_ROOM = 150;
 const LEAST_ROOM = 60;
 const PLACES = [0.5, 0.42, 0.58, 0.34, 0.66, 0.27, 0.73, 0.2, 0.8];
@@ -26,14 +28,15 @@ export function chipOf(edge, curve) {
   const { data } = edge;
   const order = data.of > 1 ? String(data.order) : "";
   const icon = ["timer", "code", "tree"].includes(data.kind);
-  const used = (order ? 18 : 0) + (icon ? ICON : 0);
+  const badgeWidth = data.severity ? BADGE : 0;
+  const used = (order ? 18 : 0) + (icon ? ICON : 0) + badgeWidth;
   const isLoop = edge.source === edge.target;
   const text = shorten(data.label ?? "", "label", isLoop ? MOST_ROOM : Math.max(LEAST_ROOM, roomOn(curve) - used));
   if (!order && !text && !icon) return null;
   const orderWidth = order ? textWidth(text || icon ? `${order} · ` : order, "label") + 1 : 0;
   const iconWidth = icon ? ICON : 0;
-  const w = Math.ceil(2 * PADDING + orderWidth + iconWidth + (text ? textWidth(text, "label") : 0));
-  return { order, text, icon: icon ? data.kind : "", orderWidth, iconWidth, padding: PADDING, w, h: HEIGHT };
+  const w = Math.ceil(2 * PADDING + orderWidth + iconWidth + (text ? textWidth(text, "label") : 0)) + badgeWidth;
+  return { order, text, icon: icon ? data.kind : "", orderWidth, iconWidth, badgeWidth, padding: PADDING, w, h: HEIGHT };
 }
 
 /** The first free place along the curve, beside it when there is none on it, else the least crowded. */

@@ -61,9 +61,12 @@ export class Painter {
     for (const name of ["links", "edges", "nodes", "chips"]) this.layers[name].classList.toggle("dim", isDim);
   }
 
-  /** Redraws what changed; `near` are the nodes whose edges may want another way. */
-  refresh({ touched, gone, near }) {
-    for (const key of gone) this.#unmount(key);
+  /** Redraws what changed; `near` are the nodes whose edges may want another way, `ground` is where boxes came or left. */
+  refresh({ touched, gone, near, ground = [] }) {
+    for (const key of gone) {
+      this.#unmount(key);
+      this.router.drop(key);
+    }
     for (const keys of this.marks.values()) for (const key of gone) keys.delete(key);
     for (const key of near) this.router.forgetAround(key);
     const focused = this.svg.getRootNode().activeElement?.dataset?.key;
@@ -74,6 +77,7 @@ export class Painter {
     }
     if (focused && touched.includes(focused)) this.focus(focused);
     this.#placeEdges(near);
+    this.settle(ground);
   }
 
   /** Follows nodes that are being moved, with the edges at them. */

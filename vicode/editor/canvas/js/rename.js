@@ -41,13 +41,17 @@ export class Rename {
   }
 
   #down(event) {
+    // Saving is the page's business; what is saved includes the name just typed.
+    if ((event.ctrlKey || event.metaKey) && event.key.toLowerCase() === "s") return this.#leave(true);
     event.stopPropagation();
-    if (event.key === "Enter") this.#close(true);
-    if (event.key === "Escape") this.#close(false);
-    if (["Enter", "Escape", "Tab"].includes(event.key)) {
-      event.preventDefault();
-      this.canvas.stage.focus({ preventScroll: true });
-    }
+    if (!["Enter", "Escape", "Tab"].includes(event.key)) return;
+    event.preventDefault();
+    this.#leave(event.key !== "Escape");
+  }
+
+  #leave(keep) {
+    this.#close(keep);
+    this.canvas.stage.focus({ preventScroll: true });
   }
 
   #close(keep) {

@@ -1,6 +1,6 @@
 // The way of every edge: all edges between one pair of nodes are routed together, so that they fan out.
 import { Grid } from "./grid.js";
-import { curveBounds, exitPoint, grow, overlaps, pointAt, raise, rectAround, rectOf } from "./geometry.js";
+import { bounds, curveBounds, exitPoint, grow, overlaps, pointAt, raise, rectAround, rectOf } from "./geometry.js";
 import { chipOf, placeLabel } from "./labels.js";
 import { pairOf } from "./scene.js";
 
@@ -36,8 +36,15 @@ export class Router {
   }
 
   forget(edge) {
-    for (const key of this.scene.pairs.get(pairOf(edge)) ?? []) this.#drop(key);
-    this.#drop(edge.key);
+    for (const key of this.scene.pairs.get(pairOf(edge)) ?? []) this.drop(key);
+    this.drop(edge.key);
+  }
+
+  /** Forgets one edge only, also one that is gone from the scene: its label must not keep others from their places. */
+  drop(key) {
+    this.routes.delete(key);
+    this.labels.remove(key);
+    this.labelRects.delete(key);
   }
 
   forgetAround(nodeKey) {
@@ -49,15 +56,15 @@ export class Router {
     const found = [];
     for (const key of this.scene.edgeGrid.query(grow(rect, 160))) {
       const route = this.routes.get(key);
-      if (route && overlaps(curveBounds(route.curve), rect)) found.push(this.scene.edges.get(key));
+      if (route && overlaps(this.#sweep(this.scene.edges.get(key), route.curve), rect)) found.push(this.scene.edges.get(key));
     }
     return found;
   }
 
-  #drop(key) {
-    this.routes.delete(key);
-    this.labels.remove(key);
-    this.labelRects.delete(key);
+  /** What an edge covers and, as it may have bowed around a box, what it would like to cover. */
+  #sweep(edge, curve) {
+    const ends = [edge.source, edge.target].map((key) => this.scene.nodes.get(key)).filter(Boolean);
+    return bounds([curveBounds(curve), ...ends.map(({ x, y }) => ({ x, y, w: 0, h: 0 }))]);
   }
 
   #routePair(pair) {

@@ -21,6 +21,7 @@ export class Scene {
     this.nodeGrid = new Grid();
     this.edgeGrid = new Grid();
     this.near = new Set();
+    this.ground = [];
     this.linksShown = true;
   }
 
@@ -34,10 +35,14 @@ export class Scene {
     this.reindex(this.nodes.keys());
   }
 
-  /** Takes a difference; answers which keys were touched, which are gone, and the nodes whose edges may run differently. */
+  /**
+   * Takes a difference; answers which keys were touched, which are gone, the nodes whose edges may run differently,
+   * and the rectangles where boxes came or left.
+   */
   apply(changes) {
     this.rev = changes.rev;
     this.near = new Set();
+    this.ground = [];
     const gone = this.#remove(changes.remove ?? {});
     const touched = this.#upsert(changes.upsert ?? {});
     if ("common" in changes) {
@@ -45,7 +50,7 @@ export class Scene {
       else if (this.nodes.has("common")) gone.push(this.#dropNode("common"));
     }
     this.reindex(touched.filter((key) => this.nodes.has(key)));
-    return { touched, gone, near: this.near };
+    return { touched, gone, near: this.near, ground: this.ground };
   }
 
   /** Moves a node without filing it anew; `reindex` does that once the hand lets go. */
@@ -115,14 +120,19 @@ export class Scene {
 
   #putNode(of, id, data) {
     const key = keyOf(of, id);
+    const old = this.nodes.get(key);
+    const node = { key, of, id, data, x: data.x, y: data.y, ...sizeOf(of, data) };
     this.near.add(key);
-    this.nodes.set(key, { key, of, id, data, x: data.x, y: data.y, ...sizeOf(of, data) });
+    this.nodes.set(key, node);
+    if (!old) this.ground.push(rectOf(node));
+    else if (["x", "y", "w"].some((name) => old[name] !== node[name])) this.ground.push(rectOf(old), rectOf(node));
     return key;
   }
 
   #dropNode(key) {
     this.near.add(key);
     for (const edge of this.edgesOf(key)) this.near.add(edge.source).add(edge.target);
+    if (this.nodes.has(key)) this.ground.push(rectOf(this.nodes.get(key)));
     this.nodes.delete(key);
     this.nodeGrid.remove(key);
     for (const edge of this.edgesAt.get(key) ?? []) this.edgeGrid.remove(edge);
