@@ -106,14 +106,18 @@ class _Lines:
 
 
 class _Interrupt:
-    """Notes the first Ctrl-C, so that the iteration ends whole; the second one interrupts as usual."""
+    """Notes the first Ctrl-C, so that the iteration ends whole; the second one ends the command at once."""
 
-    def __init__(self) -> None:
+    def __init__(self, *, is_silent: bool) -> None:
         self.has_come = False
+        self._is_silent = is_silent
         signal.signal(signal.SIGINT, self._note)
 
     def _note(self, _number: int, _frame: FrameType | None) -> None:
         self.has_come = True
+        if not self._is_silent:
+            # Written past Python's streams: the signal may have come in the middle of a write to them.
+            os.write(2, b"stopping after this iteration; press Ctrl-C again to end at once\n")
         signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
@@ -148,7 +152,7 @@ def _run(root: Root, lines: _Lines) -> int:
 
 def _loop(root: Root, options: argparse.Namespace) -> str:
     """Iterate until something says stop, and return what it was."""
-    interrupt, world = _Interrupt(), root.world
+    interrupt, world = _Interrupt(is_silent=options.stream), root.world
     tick_ns = round(options.tick_ms * 1e6)
     limit = _count_ticks(options, tick_ns)
     advance_world = getattr(world, "advance", None)

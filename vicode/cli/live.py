@@ -31,6 +31,10 @@ class LiveWatcher:
         """Scroll it with them."""
         self._console.print(Text(text, style="red" if text.startswith("error") else ""))
 
+    def show_notice(self, text: str) -> None:
+        """Scroll it too."""
+        self._console.print(Text(text, style="bold"))
+
     def close(self) -> None:
         """Leave the last drawing standing."""
         self._live.stop()

@@ -8,6 +8,7 @@ import tempfile
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from vicode.bica import options
 from vicode.cli.opening import Opened, open_paths
 from vicode.cli.printing import print_findings
 from vicode.findings import Severity
@@ -22,12 +23,19 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments of `vicode run`."""
     add = parser.add_argument
     add("path", metavar="DESIGN", help="the design of the root component, or a project's folder with one agent")
-    add("--seconds", type=float, metavar="S", help="stop after S seconds of the clock (60; in real time no end)")
-    add("--ticks", type=int, metavar="N", help="stop after N iterations")
+    add(
+        "--seconds",
+        type=options.seconds,
+        metavar="S",
+        help="stop after S seconds of the clock (60; in real time no end)",
+    )
+    add("--ticks", type=options.count, metavar="N", help="stop after N iterations")
     add("--seed", type=int, default=0, metavar="N", help="seed of the world (0)")
     add("--trace", metavar="FILE", help="write one JSON line an iteration, and a summary")
     add("--real-time", action="store_true", help="let real time pass; else it is simulated, as fast as it goes")
-    add("--tick-ms", type=float, metavar="MS", help="time between two iterations (20)")
+    add("--tick-ms", type=options.tick_ms, metavar="MS", help="time between two iterations (20)")
+    add("--until-done", action="store_true", help="stop when the root component is done")
+    add("--on-error", choices=("continue", "stop"), default="continue", help="what an exception in a component does")
     add("--plain", action="store_true", help="one line a change of state; so too when no terminal is there")
 
 
@@ -81,7 +89,8 @@ def _command(opened: Opened, class_path: str, folder: str, args: argparse.Namesp
         seconds = _DEFAULT_SECONDS
     given = {"--seconds": seconds, "--ticks": args.ticks, "--tick-ms": args.tick_ms, "--trace": args.trace}
     command += [part for name, value in given.items() if value is not None for part in (name, str(value))]
-    return command + ["--real-time"] * args.real_time
+    command += ["--on-error", args.on_error]
+    return command + ["--real-time"] * args.real_time + ["--until-done"] * args.until_done
 
 
 def _watch(command: list[str], *, is_plain: bool) -> int:

@@ -2,13 +2,20 @@
 
 import contextlib
 import json
+import os
 import signal
 import subprocess
+import sys
 import threading
 from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from types import FrameType
 from typing import IO, Any, Protocol
 
 _PATIENCE_S = 5.0
+_ANSWER_S = 2.0
+_FAILED = 2
+_INTERRUPTED = 130
 
 Record = Mapping[str, Any]
 """One line of the stream, read from JSON."""
@@ -22,6 +29,9 @@ class Watcher(Protocol):
 
     def show_text(self, text: str) -> None:
         """The component, or its runtime, said something."""
+
+    def show_notice(self, text: str) -> None:
+        """We have something to say ourselves; another thread may call this."""
 
     def close(self) -> None:
         """Nothing more comes but the summary."""
@@ -39,30 +49,36 @@ class PlainWatcher:
         """Print it between them."""
         print(text, flush=True)
 
+    def show_notice(self, text: str) -> None:
+        """Keep it out of what may be read by a program."""
+        print(text, file=sys.stderr, flush=True)
+
     def close(self) -> None:
         """Nothing to clear away."""
 
 
 def follow(child: "subprocess.Popen[str]", watcher: Watcher) -> int:
-    """Show a process until it ends, pass an interrupt on to it, print the summary; returns the exit code."""
+    """Show a process until it ends, pass an interrupt on to it, print the summary; returns the exit code.
+
+    The process must lead a session of its own.
+    """
     assert child.stdout is not None
-    changes = Changes()
-    summary: Record | None = None
+    changes, ending = Changes(), _Ending()
+    interrupt = _Interrupt(child, watcher)
     reader = _follow_errors(child.stderr, watcher) if child.stderr is not None else None
     try:
-        with _passing_interrupt_to(child):
+        with interrupt.passed_on():
             for line in child.stdout:
-                summary = _show(line, changes, watcher) or summary
+                _show(line, changes, watcher, ending)
             child.wait()
     finally:
         _end(child)
         if reader is not None:
             reader.join(_PATIENCE_S)
         watcher.close()
-    if summary is not None:
-        print(describe_summary(summary), end="")
-    has_errors = summary is not None and summary["errors"] > 0
-    return child.returncode if child.returncode in (1, 2, 130) else int(has_errors or child.returncode != 0)
+    if ending.summary is not None:
+        print(describe_summary(ending.summary), end="", flush=True)
+    return _INTERRUPTED if interrupt.has_come else _judge(child.returncode, ending)
 
 
 class Changes:
@@ -111,34 +127,89 @@ def describe_summary(summary: Record) -> str:
     return "\n".join(lines) + "\n"
 
 
-def _show(line: str, changes: Changes, watcher: Watcher) -> Record | None:
-    """Show a line of the stream; returns the summary if it is that."""
+@dataclass(slots=True)
+class _Ending:
+    """What a program said last: a summary, or that it failed. One that ends itself says neither."""
+
+    summary: Record | None = None
+    has_failed: bool = False
+
+
+def _judge(code: int, ending: _Ending) -> int:
+    """Turn the exit code of a program into ours; an end that nobody asked for is told."""
+    if ending.has_failed:
+        return _FAILED
+    if ending.summary is None:
+        cause = f"by itself with exit code {code}" if code >= 0 else f"by signal {signal.Signals(-code).name}"
+        print(f"the program ended {cause}", file=sys.stderr)
+        return 1
+    return code if code in (1, _INTERRUPTED) else int(ending.summary["errors"] > 0 or code != 0)
+
+
+def _show(line: str, changes: Changes, watcher: Watcher, ending: _Ending) -> None:
+    """Show a line of the stream, or note that it tells the end."""
     try:
         record = json.loads(line)
     except ValueError:
         record = None
     if isinstance(record, dict) and "summary" in record:
-        summary: Record = record["summary"]
-        return summary
-    if isinstance(record, dict) and "tree" in record:
+        ending.summary = record["summary"]
+    elif isinstance(record, dict) and "failed" in record:
+        ending.has_failed = True
+    elif isinstance(record, dict) and "tree" in record:
         watcher.show_iteration(record, changes.lines_of(record))
     else:
         # Hand-written code may print what it likes.
         watcher.show_text(line.rstrip("\n"))
-    return None
 
 
-@contextlib.contextmanager
-def _passing_interrupt_to(child: "subprocess.Popen[str]") -> Iterator[None]:
-    """While inside, Ctrl-C goes to the child, which then ends its iteration and tells its summary."""
-    if threading.current_thread() is not threading.main_thread():
-        yield
-        return
-    before = signal.signal(signal.SIGINT, lambda _number, _frame: child.send_signal(signal.SIGINT))
-    try:
-        yield
-    finally:
-        signal.signal(signal.SIGINT, before)
+class _Interrupt:
+    """Passes Ctrl-C on to a program, which then ends its iteration and tells its summary, or is ended."""
+
+    def __init__(self, child: "subprocess.Popen[str]", watcher: Watcher) -> None:
+        self.has_come = False
+        self._child = child
+        self._watcher = watcher
+        self._is_over = threading.Event()
+        self._waiter: threading.Thread | None = None
+
+    @contextlib.contextmanager
+    def passed_on(self) -> Iterator[None]:
+        """While inside, Ctrl-C does not end us."""
+        if threading.current_thread() is not threading.main_thread():
+            yield
+            return
+        before = signal.signal(signal.SIGINT, self._note)
+        try:
+            yield
+        finally:
+            self._is_over.set()
+            signal.signal(signal.SIGINT, before)
+            if self._waiter is not None:
+                self._waiter.join(_PATIENCE_S)
+
+    def _note(self, _number: int, _frame: FrameType | None) -> None:
+        if self.has_come:
+            _kill(self._child)
+            return
+        self.has_come = True
+        self._child.send_signal(signal.SIGINT)
+        # What a signal came in the middle of may hold the lock of the very stream that we would write to.
+        self._waiter = threading.Thread(target=self._wait_for_answer, daemon=True)
+        self._waiter.start()
+
+    def _wait_for_answer(self) -> None:
+        self._watcher.show_notice("stopping after this iteration; press Ctrl-C again to end at once")
+        if not self._is_over.wait(_ANSWER_S) and self._child.returncode is None:
+            self._watcher.show_notice("it did not stop, and was ended")
+            _kill(self._child)
+
+
+def _kill(child: "subprocess.Popen[str]") -> None:
+    """End a program and all that it started: who still held its output would keep us waiting."""
+    if child.returncode is None:
+        with contextlib.suppress(ProcessLookupError):
+            os.killpg(child.pid, signal.SIGKILL)
 
 
 def _end(child: "subprocess.Popen[str]") -> None:
