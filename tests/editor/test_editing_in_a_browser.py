@@ -97,6 +97,13 @@ def test_what_a_person_does(page: Page, editor: str, project: Path) -> None:
     assert after.splitlines()[:5] == before.splitlines()[:5]
 
 
+def test_a_double_click_on_an_arrow_leads_to_its_guard(page: Page, editor: str) -> None:
+    open_player(page, editor)
+    page.locator('g[data-kind="transition"][data-id="Kick/0"] .plate').first.dblclick(force=True)
+    expect(page.get_by_label("When")).to_be_focused()
+    expect(page.get_by_label("When")).to_have_value("not kicker.busy")
+
+
 def test_two_windows_stay_in_step(page: Page, editor: str) -> None:
     other = page.context.new_page()
     open_player(page, editor)

@@ -23,6 +23,9 @@ from vicode.editor.session import ChangedOnDiskError, Document, Library, Workspa
 from vicode.editor.view import Scene, Selected, difference, scene_of
 
 
+_FOCUS_GUARD = 'setTimeout(() => document.querySelector(".inspector textarea")?.focus(), 200)'
+
+
 class DesignPage:
     """One window on one design; everything in it can be rebuilt from the document."""
 
@@ -121,6 +124,10 @@ class DesignPage:
                     self.canvas.rename_in_place(outcome.rename)
 
     def _open(self, of: str, identity: str) -> None:
+        if of in ("transitions", "common"):
+            self.desk.select(Selected(of=of, id=identity))
+            ui.run_javascript(_FOCUS_GUARD)
+            return
         use = self.desk.design.use(identity) if of == "components" else None
         if use is None:
             return

@@ -5,7 +5,7 @@ from urllib.parse import quote
 
 from nicegui import ui
 
-from vicode.editor.panels.rows import icon_button
+from vicode.editor.panels.rows import icon_button, primary_button
 from vicode.editor.session import Library, Workspace
 from vicode.model.names import is_name
 
@@ -83,7 +83,7 @@ def _creator(workspace: Workspace, say: Say) -> Callable[[], None]:
             name.on("keydown.enter", create)
             with ui.row().classes("dialog-buttons"):
                 ui.button("Cancel", on_click=dialog.close).props("flat no-caps")
-                ui.button("Create", on_click=create).props("unelevated no-caps")
+                primary_button("Create", create)
         dialog.open()
 
     return ask

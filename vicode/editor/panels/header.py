@@ -7,7 +7,7 @@ from nicegui import ui
 
 from vicode.editor.panels.desk import Desk
 from vicode.editor.panels.fields import enable
-from vicode.editor.panels.rows import icon_button
+from vicode.editor.panels.rows import icon_button, primary_button
 
 Act = Callable[[], object]
 
@@ -43,9 +43,7 @@ class Header:
             icon_button("hub", "Show or hide links to components", commands.toggle_links)
             icon_button("contrast", "Light, dark, or as the system", commands.toggle_theme)
             ui.button("Save", icon="save", on_click=commands.save).props("flat no-caps dense").classes("head-button")
-            ui.button("Generate", icon="bolt", on_click=commands.generate).props("unelevated no-caps dense").classes(
-                "head-button primary"
-            )
+            primary_button("Generate", commands.generate, icon="bolt")
 
     def refresh(self) -> None:
         """Show whether it is saved and what undo and redo would do."""

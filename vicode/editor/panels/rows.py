@@ -15,6 +15,12 @@ def icon_button(icon: str, label: str, act: Act) -> ui.button:
     return button
 
 
+def primary_button(label: str, act: Act, *, icon: str | None = None) -> ui.button:
+    """The one button of its place that most people want."""
+    # Without a colour of Quasar's, whose white text would be too pale on the light blue of a dark page.
+    return ui.button(label, icon=icon, on_click=act, color=None).props("unelevated no-caps").classes("primary-button")
+
+
 def row_of_buttons(*, up: Act | None, down: Act | None, remove: Act) -> None:
     """Buttons to move a row and to remove it; None: at that end already."""
     with ui.row().classes("row-buttons"):

@@ -3,6 +3,7 @@
 from nicegui import ui
 
 from vicode.editor.panels.desk import Desk
+from vicode.editor.panels.rows import primary_button
 
 
 def ask_about_disk(desk: Desk) -> None:
@@ -26,5 +27,5 @@ def ask_about_disk(desk: Desk) -> None:
         with ui.row().classes("dialog-buttons"):
             ui.button("Cancel", on_click=dialog.close).props("flat no-caps")
             ui.button("Take theirs", on_click=take).props("flat no-caps")
-            ui.button("Keep yours", on_click=keep).props("unelevated no-caps")
+            primary_button("Keep yours", keep)
     dialog.open()
