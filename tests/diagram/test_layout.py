@@ -13,6 +13,7 @@ import pytest
 from tests.diagram.drawn_designs import HOSTILE_NAMES, find_overlaps, list_boxes, ring_design, shipped_designs
 from vicode.diagram import place
 from vicode.diagram.layout import WORKER, Layout, LayoutService, Method, lay_out
+from vicode.diagram.settling import screens_of
 from vicode.model.design import Design, State, Transition
 
 PATIENCE_S = 60.0
@@ -25,6 +26,21 @@ def test_shipped_designs_are_laid_out_the_same_each_time_without_overlaps(design
     assert first == second
     assert (first.method, first.note) == (Method.GRAPHVIZ, "")
     _assert_sound(design, first)
+
+
+def test_what_layers_show_far_larger_is_placed_in_layers() -> None:
+    design = ring_design(300, chords=3)
+    layout = lay_out(design, timeout_s=PATIENCE_S)
+    assert layout.method == Method.LAYERS
+    assert "times as large; placed in layers instead" in layout.note
+    assert screens_of(layout.placement.states.values()) < 6
+    _assert_sound(design, layout)
+
+
+def test_the_players_layout_is_read_on_a_screen() -> None:
+    (design,) = (design for design in shipped_designs() if design.component == "Player")
+    placement = lay_out(design, timeout_s=PATIENCE_S).placement
+    assert screens_of([*placement.states.values(), *placement.uses.values()]) < 1.4
 
 
 def test_any_text_can_be_a_name() -> None:

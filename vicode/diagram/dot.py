@@ -30,9 +30,12 @@ _LIMITS = {
     Effort.BOUNDED: {"nslimit": "1", "nslimit1": "1"},
     Effort.QUICK: {"nslimit": "0.1", "nslimit1": "0.1", "mclimit": "0.1"},
 }
-# Free pixels between neighbours of a rank and between ranks: the canvas routes the arrows there.
-_BESIDE = {Direction.RIGHT: 40.0, Direction.DOWN: 60.0}
-_BETWEEN = 80.0
+# Free pixels between neighbours of a rank and between ranks: the canvas routes the arrows there. An arrow that passes a
+# rank takes that much as well, so that wide gaps between neighbours cost more than they show.
+_BESIDE = 30.0
+_BETWEEN = 70.0
+# Beside a shown label stay 30 pixels of its arrow; the canvas shortens labels to the room there is.
+_AROUND_LABEL, _WIDEST_GAP = 30.0, 110.0
 
 
 def write_dot(sketch: Sketch, direction: Direction, effort: Effort) -> str:
@@ -41,7 +44,7 @@ def write_dot(sketch: Sketch, direction: Direction, effort: Effort) -> str:
         graph_attr={
             "rankdir": str(direction),
             "splines": "none",
-            "nodesep": _inches(_BESIDE[direction]),
+            "nodesep": _inches(_BESIDE),
             "ranksep": _inches(_space_between_ranks(sketch, direction)),
             **_LIMITS[effort],
         },
@@ -58,7 +61,7 @@ def _space_between_ranks(sketch: Sketch, direction: Direction) -> float:
     # Labels as Graphviz knows them cost minutes at 150 states and pull ranks apart; a wider gap holds them as well.
     if direction is Direction.DOWN:
         return _BETWEEN
-    return max((_BETWEEN, *(edge.label_width + 30 for edge in sketch.edges)))
+    return min(_WIDEST_GAP, max((_BETWEEN, *(edge.label_width + _AROUND_LABEL for edge in sketch.edges))))
 
 
 def _write_node(graph: graphviz.Digraph, node: Node) -> None:

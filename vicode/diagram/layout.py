@@ -15,7 +15,7 @@ from enum import StrEnum
 from pathlib import Path
 
 from vicode.diagram.placing import Placement
-from vicode.diagram.settling import layer, settle
+from vicode.diagram.settling import layer, screens_of, settle
 from vicode.diagram.sketch import Sketch, sketch_of
 from vicode.model.design import Design, Point
 
@@ -25,6 +25,10 @@ WORKER: Command = (sys.executable, "-P", "-m", "vicode.diagram.worker")
 
 # The worker ends itself so much later than we give up, should nobody be left to kill it.
 _GRACE_S = 1.0
+
+# Graphviz orders better than layers do, and is worth some room: it is given up only for a picture that must be
+# shrunk below a half on a screen, and so many times further than layers.
+_ROOMY_SCREENS, _FAR_LARGER = 2.0, 1.8
 
 
 class Method(StrEnum):
@@ -59,6 +63,11 @@ class LayoutService:
         except _NoAnswerError as reason:
             note = f"{reason}; placed in layers instead"
             return Layout(placement=settle(design, layer(design, only), only), method=Method.LAYERS, note=note)
+        layers = layer(design, only)
+        larger = screens_of(centres.values()) / screens_of(layers.values())
+        if screens_of(centres.values()) > _ROOMY_SCREENS and larger > _FAR_LARGER:
+            note = f"Graphviz made it {larger:.1f} times as large; placed in layers instead"
+            return Layout(placement=settle(design, layers, only), method=Method.LAYERS, note=note)
         return Layout(placement=settle(design, centres, only), method=Method.GRAPHVIZ)
 
     def close(self) -> None:

@@ -4,7 +4,7 @@ from collections.abc import Collection, Iterator, Mapping
 from dataclasses import replace
 from itertools import count
 
-from vicode.diagram.boxes import COMMON_SIZE, Ground, Size, size_of_state, size_of_use
+from vicode.diagram.boxes import COMMON_SIZE, NARROWEST, Ground, Size, size_of_state, size_of_use
 from vicode.diagram.placing import ORIGIN, Placement, place
 from vicode.diagram.sketch import COMMON_ID, state_ids, use_ids
 from vicode.model.design import Common, Design, Point
@@ -12,6 +12,7 @@ from vicode.model.edits import move
 
 GRID = 10.0
 _STEPS = 60
+_SCREEN, _BOX = Size(width=1280, height=800), Size(width=NARROWEST, height=60)
 
 
 def settle(design: Design, centres: Mapping[str, Point], only: Collection[str] | None) -> Placement:
@@ -47,6 +48,12 @@ def layer(design: Design, only: Collection[str] | None) -> dict[str, Point]:
     if design.common.transitions or design.common.actions:
         centres[COMMON_ID] = placement.common
     return centres
+
+
+def screens_of(centres: Collection[Point]) -> float:
+    """How many screens of 1280 by 800 pixels are needed to the wider side for boxes with these centres."""
+    xs, ys = [x for x, _y in centres] or [0.0], [y for _x, y in centres] or [0.0]
+    return max((max(xs) - min(xs) + _BOX.width) / _SCREEN.width, (max(ys) - min(ys) + _BOX.height) / _SCREEN.height)
 
 
 def _settle_part(design: Design, states: Mapping[str, Point]) -> Placement:
