@@ -22,7 +22,6 @@ from vicode.editor.panels.save_dialog import ask_about_disk
 from vicode.editor.session import ChangedOnDiskError, Document, Library, Workspace, apply_gesture, take_places
 from vicode.editor.view import Scene, Selected, difference, scene_of
 
-
 _FOCUS_GUARD = 'setTimeout(() => document.querySelector(".inspector textarea")?.focus(), 200)'
 
 
