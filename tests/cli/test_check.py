@@ -1,12 +1,16 @@
 """vicode check and the other small commands."""
 
 import json
+import os
+import signal
 from pathlib import Path
 
 import pytest
 
 from tests.cli.commands import BULB, LAMP, lamps, vicode
 from vicode import __version__
+from vicode.cli.printing import _read_lines
+from vicode.store.nodes import MAXIMUM_BYTES
 
 __all__ = ["lamps"]
 
@@ -56,3 +60,28 @@ def test_the_schema_is_json(arguments: list[str], capsys: pytest.CaptureFixture[
 def test_the_version_is_told(capsys: pytest.CaptureFixture[str]) -> None:
     assert vicode("--version") == 0
     assert capsys.readouterr().out == f"vicode {__version__}\n"
+
+
+def test_what_is_no_file_is_not_read(lamps: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    os.mkfifo(lamps / "pipe.yaml")
+    signal.alarm(10)
+    try:
+        assert vicode("check", "lamps/pipe.yaml") == 1
+        assert "pipe.yaml:1:1: error Y110" in (out := capsys.readouterr().out)
+        assert "no regular file" in out
+        assert vicode("check", "/dev/zero") in (1, 2)
+        (lamps / "pipe.yaml").unlink()
+        os.mkfifo(lamps / "sub.yaml")
+        assert vicode("check", "lamps") == 0
+    finally:
+        signal.alarm(0)
+
+
+def test_of_a_long_file_no_more_is_read_than_the_store_reads(tmp_path: Path) -> None:
+    long = tmp_path / "long.yaml"
+    long.write_text("a\n" * (MAXIMUM_BYTES // 2) + "never shown\n")
+    lines = _read_lines(str(long))
+    assert lines[0] == "a"
+    assert "never shown" not in lines
+    os.mkfifo(tmp_path / "pipe")
+    assert _read_lines(str(tmp_path / "pipe")) == ()

@@ -102,3 +102,39 @@ def test_a_folder_without_designs_says_so(lamps: Path, tmp_path: Path, capsys: p
     (tmp_path / "empty").mkdir()
     assert vicode("gen", "empty") == 2
     assert "no designs" in capsys.readouterr().err
+
+
+def test_nothing_is_called_written_that_was_not(lamps: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (lamps / "generated").write_text("in the way")
+    other = lamps.parent / "other"
+    other.mkdir()
+    (other / "project.yaml").write_text("vicode: 1\nproject: Other\n", encoding="utf-8")
+    (other / "bulb.yaml").write_text(BULB, encoding="utf-8")
+    assert vicode("gen", "lamps", "other") == 2
+    captured = capsys.readouterr()
+    assert "lamps/generated" not in captured.out
+    assert captured.err.startswith("vicode: lamps/generated")
+    assert captured.err.count("\n") == 1
+    assert "wrote other/generated/python/other/bulb.py\n" in captured.out
+    assert Path("other/generated/python/other/bulb.py").exists()
+
+
+def test_a_file_is_no_folder_to_write_to(lamps: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    Path("a_file").write_text("mine")
+    assert vicode("gen", "lamps", "--out", "a_file") == 2
+    captured = capsys.readouterr()
+    assert (captured.out, captured.err.count("\n")) == ("", 1)
+    assert Path("a_file").read_text() == "mine"
+
+
+def test_a_check_tells_of_an_edit_what_to_do_about_it(lamps: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    vicode("gen", "lamps")
+    file = Path(PACKAGE, "lamp.py")
+    file.write_text(file.read_text().replace("self.count = 1", "self.count = 2"))
+    capsys.readouterr()
+    assert vicode("gen", "--check", "lamps") == 1
+    out = capsys.readouterr().out
+    assert "error G501 edited-outside" in out
+    assert "region 'Dark.enter' was edited here" in out
+    assert "--force" in out
+    assert "run 'vicode gen'" not in out

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 
 from vicode import __version__
 from vicode.cli import check, edit, gen, run, schema
+from vicode.cli.printing import describe_os_error
 
 COMMANDS = {"edit": edit, "gen": gen, "check": check, "run": run, "schema": schema}
 SOUND, FOUND, FAILED, INTERRUPTED = 0, 1, 2, 130
@@ -25,7 +26,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return FAILED
     except OSError as error:
-        print(f"vicode: {_describe(error)}", file=sys.stderr)
+        print(f"vicode: {describe_os_error(error)}", file=sys.stderr)
         return FAILED
     return code
 
@@ -44,9 +45,3 @@ def _make_parser() -> argparse.ArgumentParser:
         module.add_arguments(command)
         command.set_defaults(run=module.run)
     return parser
-
-
-def _describe(error: OSError) -> str:
-    if error.filename is None:
-        return str(error)
-    return f"{error.filename}: {error.strerror or error}"

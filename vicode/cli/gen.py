@@ -1,13 +1,15 @@
 """Write the code of designs."""
 
 import argparse
+import errno
 import os
 import sys
+from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from vicode.cli.opening import Opened, open_paths
-from vicode.cli.printing import print_findings
+from vicode.cli.printing import describe_os_error, print_findings
 from vicode.findings import Finding, Place, Severity, rule
 from vicode.output import Difference, Status, apply, compare, diff, set_aside
 from vicode.regions import is_sealed
@@ -37,7 +39,19 @@ def run(args: argparse.Namespace) -> int:
     if unknown:
         print(f"vicode: cannot generate {unknown[0]}; there is {', '.join(GENERATORS)}", file=sys.stderr)
         return 2
-    return max(_generate(opened, args) for opened in open_paths(args.paths))
+    return max(_generate_or_tell(opened, args) for opened in open_paths(args.paths))
+
+
+def _generate_or_tell(opened: Opened, args: argparse.Namespace) -> int:
+    """Generate one project; what the outside world has against it does not keep the others from being done."""
+    try:
+        return _generate(opened, args)
+    except BrokenPipeError:
+        raise
+    except OSError as error:
+        sys.stdout.flush()
+        print(f"vicode: {describe_os_error(error)}", file=sys.stderr)
+        return 2
 
 
 def _generate(opened: Opened, args: argparse.Namespace) -> int:
@@ -48,7 +62,7 @@ def _generate(opened: Opened, args: argparse.Namespace) -> int:
     if args.diff:
         print("".join(diff(difference) for difference in differences), end="")
     if args.check:
-        print_findings(_stale(difference, folder) for difference in differences)
+        print_findings(_not_fresh(differences, folder))
     if args.diff or args.check:
         return int(bool(differences or errors))
     refused = _write(differences, folder, is_forced=args.force)
@@ -101,10 +115,27 @@ def _write(differences: tuple[Difference, ...], folder: Path, *, is_forced: bool
     print_findings((finding for findings in edits.values() for finding in findings), to_stderr=True)
     allowed = [difference for difference in differences if difference.path not in edits]
     for difference in allowed:
+        _refuse_file_in_the_way(folder / difference.path)
+        apply([difference], folder)
         verb = "deleted" if difference.status is Status.STALE else "wrote"
         print(f"{verb} {(folder / difference.path).as_posix()}")
-    apply(allowed, folder)
     return len(edits)
+
+
+def _refuse_file_in_the_way(path: Path) -> None:
+    """Say which file stands where a folder is needed: the system names another path, or a reason hard to read."""
+    for parent in path.parents:
+        if parent.exists() and not parent.is_dir():
+            raise NotADirectoryError(errno.ENOTDIR, "this file is in the way of a folder", parent.as_posix())
+
+
+def _not_fresh(differences: tuple[Difference, ...], folder: Path) -> Iterator[Finding]:
+    """What is out of date; of edited files the edit, since generating would refuse them."""
+    from vicode.sync import find_edits_by_file
+
+    edits = find_edits_by_file(differences, shown=folder.as_posix())
+    for difference in differences:
+        yield from edits.get(difference.path) or (_stale(difference, folder),)
 
 
 def _stale(difference: Difference, folder: Path) -> Finding:

@@ -45,9 +45,23 @@ def count_findings(findings: Iterable[Finding]) -> str:
     return ", ".join(words) or "no findings"
 
 
+def describe_os_error(error: OSError) -> str:
+    """What the outside world has against it, in a line."""
+    if error.filename is None:
+        return str(error)
+    return f"{error.filename}: {error.strerror or error}"
+
+
 def _read_lines(file: str) -> tuple[str, ...]:
+    """The lines of a file as far as designs are read: a pipe would keep us waiting, a device may never end."""
+    from vicode.store.nodes import MAXIMUM_BYTES
+
+    path = Path(file)
     try:
-        text = Path(file).read_text(encoding="utf-8", errors="replace")
+        if not path.is_file():
+            return ()
+        with path.open("rb") as stream:
+            text = stream.read(MAXIMUM_BYTES).decode(errors="replace")
     except OSError:
         return ()
     # Lines end where the reader of designs ends them, not at every separator Unicode knows.

@@ -1,7 +1,9 @@
 """Opens folders: finds project.yaml and the designs that belong to it, and reads them all."""
 
+import errno
 import os
 import re
+import stat
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -187,6 +189,9 @@ class _Opening:
 
 
 def _content(file: Path) -> bytes:
+    # A pipe would keep us waiting, and a device may never end.
+    if not stat.S_ISREG(file.stat().st_mode):
+        raise OSError(errno.EINVAL, "it is no regular file", str(file))
     # One byte more than is allowed tells that it is too much.
     with file.open("rb") as stream:
         return stream.read(MAXIMUM_BYTES + 1)
