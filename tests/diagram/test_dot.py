@@ -35,7 +35,7 @@ def test_arrows_lead_away_from_the_initial_state() -> None:
     assert _arrows(design) == ["s1 -> s0"]
 
 
-def test_links_weigh_less_than_transitions() -> None:
+def test_links_weigh_less_than_transitions_and_need_no_rank_of_their_own() -> None:
     first = State(name="A", requires=("eyes",), modulates=(Call(alias="legs"),), transitions=(Transition(to="B"),))
     design = Design(
         component="D",
@@ -44,8 +44,13 @@ def test_links_weigh_less_than_transitions() -> None:
         common=Common(transitions=(Transition(to="B"),)),
         states=(first, State(name="B")),
     )
-    weights = {line.split(" [")[0]: line.split("weight=")[1] for line in _lines(design) if "->" in line}
-    assert weights == {"s0 -> s1": "8]", "s0 -> u0": "1]", "s0 -> u1": "1]", "common -> s1": "1]"}
+    attributes = dict(line.split(" [") for line in _lines(design) if "->" in line)
+    assert attributes == {
+        "s0 -> s1": "weight=8]",
+        "s0 -> u0": "minlen=0 weight=1]",
+        "s0 -> u1": "minlen=0 weight=1]",
+        "common -> s1": "weight=1]",
+    }
 
 
 def test_long_names_get_wider_boxes() -> None:

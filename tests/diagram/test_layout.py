@@ -40,7 +40,7 @@ def test_what_layers_show_far_larger_is_placed_in_layers() -> None:
 def test_the_players_layout_is_read_on_a_screen() -> None:
     (design,) = (design for design in shipped_designs() if design.component == "Player")
     placement = lay_out(design, timeout_s=PATIENCE_S).placement
-    assert screens_of([*placement.states.values(), *placement.uses.values()]) < 1.4
+    assert screens_of([*placement.states.values(), *placement.uses.values()]) < 1.1
 
 
 def test_any_text_can_be_a_name() -> None:

@@ -53,7 +53,8 @@ def write_dot(sketch: Sketch, direction: Direction, effort: Effort) -> str:
     for node in sketch.nodes:
         _write_node(graph, node)
     for edge in sketch.edges:
-        graph.edge(edge.source, edge.target, weight=str(edge.weight))
+        beside = {"minlen": "0"} if edge.may_stand_beside else {}
+        graph.edge(edge.source, edge.target, weight=str(edge.weight), **beside)
     return str(graph.source)
 
 

@@ -28,12 +28,16 @@ class Node:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Edge:
-    """One arrow for all from a box to another; heavy ones are kept short. `label_width` is of the first of them."""
+    """One arrow for all from a box to another; heavy ones are kept short. `label_width` is of the first of them.
+
+    `may_stand_beside`: the two may be in one rank, which spares used components ranks of their own.
+    """
 
     source: str
     target: str
     weight: int
     label_width: float = 0.0
+    may_stand_beside: bool = False
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -141,4 +145,5 @@ def _links(design: Design) -> Iterator[Edge]:
     for state in design.states:
         calls = (action.alias for action in state.all_actions if isinstance(action, Call))
         for alias in dict.fromkeys((*state.requires, *calls)):
-            yield Edge(source=ids[state.name], target=aliases.get(alias, ""), weight=_LINK_WEIGHT)
+            target = aliases.get(alias, "")
+            yield Edge(source=ids[state.name], target=target, weight=_LINK_WEIGHT, may_stand_beside=True)
