@@ -46,7 +46,7 @@ def open_player(page: Page, url: str) -> None:
     expect(state(page, "LookForBall")).to_be_visible()
 
 
-def test_what_a_person_does(page: Page, editor: str, project: Path) -> None:
+def test_what_a_person_does(editor: str, page: Page, project: Path) -> None:
     file = project / "forward" / "player.yaml"
     before = file.read_text()
     open_player(page, editor)
@@ -97,14 +97,14 @@ def test_what_a_person_does(page: Page, editor: str, project: Path) -> None:
     assert after.splitlines()[:5] == before.splitlines()[:5]
 
 
-def test_a_double_click_on_an_arrow_leads_to_its_guard(page: Page, editor: str) -> None:
+def test_a_double_click_on_an_arrow_leads_to_its_guard(editor: str, page: Page) -> None:
     open_player(page, editor)
     page.locator('g[data-kind="transition"][data-id="Kick/0"] .plate').first.dblclick(force=True)
     expect(page.get_by_label("When")).to_be_focused()
     expect(page.get_by_label("When")).to_have_value("not kicker.busy")
 
 
-def test_two_windows_stay_in_step(page: Page, editor: str) -> None:
+def test_two_windows_stay_in_step(editor: str, page: Page) -> None:
     other = page.context.new_page()
     open_player(page, editor)
     open_player(other, editor)
@@ -118,11 +118,12 @@ def test_two_windows_stay_in_step(page: Page, editor: str) -> None:
     expect(page.get_by_text("Saved", exact=True)).to_be_visible()
 
 
-def test_a_file_changed_outside_is_not_overwritten(page: Page, editor: str, project: Path) -> None:
+def test_a_file_changed_outside_is_not_overwritten(editor: str, page: Page, project: Path) -> None:
     file = project / "forward" / "player.yaml"
     open_player(page, editor)
     select_state(page, "LookForBall")
     page.get_by_label("Doc").fill("mine")
+    expect(page.get_by_text("Unsaved changes")).to_be_visible()
     theirs = file.read_text().replace("component: Player", "component: Player  # the striker")
     file.write_text(theirs)
     page.get_by_role("button", name="Save").click()
@@ -134,7 +135,7 @@ def test_a_file_changed_outside_is_not_overwritten(page: Page, editor: str, proj
     assert "mine" in file.read_text()
 
 
-def test_texts_from_strangers_stay_texts(page: Page, editor: str) -> None:
+def test_texts_from_strangers_stay_texts(editor: str, page: Page) -> None:
     evil = "<img src=x onerror=\"document.title='owned'\">"
     open_player(page, editor)
     select_state(page, "LookForBall")
@@ -150,7 +151,7 @@ def test_texts_from_strangers_stay_texts(page: Page, editor: str) -> None:
     assert "owned" not in page.title()
 
 
-def test_keys_work_wherever_the_focus_is(page: Page, editor: str, project: Path) -> None:
+def test_keys_work_wherever_the_focus_is(editor: str, page: Page, project: Path) -> None:
     open_player(page, editor)
     page.get_by_label("Doc").first.fill("by keys")
     page.get_by_label("Doc").first.blur()
@@ -164,7 +165,7 @@ def test_keys_work_wherever_the_focus_is(page: Page, editor: str, project: Path)
     expect(page.get_by_text("Unsaved changes")).to_have_count(0)
 
 
-def test_other_programs_are_followed(page: Page, editor: str, project: Path) -> None:
+def test_other_programs_are_followed(editor: str, page: Page, project: Path) -> None:
     open_player(page, editor)
     file = project / "forward" / "player.yaml"
     file.write_text(file.read_text().replace("WatchBall", "Rest"))

@@ -181,7 +181,7 @@ def project_of(design: Design, words: str = "") -> Project:
         parameters=(Declaration(name="speed"), Declaration(name="side", type="Side")),
     )
     return Project(
-        name=words or "random",
+        name=words or "sampled",
         doc=words,
         enumerations=(Enumeration(name="Side", elements=(("left", words), ("right", ""))),),
         constants=(
