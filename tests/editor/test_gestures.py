@@ -122,6 +122,7 @@ def test_move_is_one_undoable_step(document: Document) -> None:
         {"kind": "rename", "of": "states", "id": "Nowhere", "name": "C"},
         {"kind": "delete", "items": [{"of": "links", "id": "x"}]},
         {"kind": "delete", "items": [{"of": "transitions", "id": "A/0/then/x"}]},
+        {"kind": "delete", "items": [{"of": "transitions", "id": "@common"}, {"of": "transitions", "id": "A"}]},
         {"kind": "link", "kind_of_link": "requires", "state": "A", "component": "ghost"},
         {"kind": "reconnect", "id": "A/99", "end": "target", "state": "B"},
     ],

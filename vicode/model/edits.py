@@ -119,8 +119,9 @@ def replace_decision(design: Design, path: Path, decision: Decision) -> Design:
 
 def remove_decisions(design: Design, paths: Collection[Path]) -> Design:
     """Remove decisions; a group goes with all it holds."""
+    there = {located.path for located in walk_decisions(design)}
     # From the back, so that the paths still to come keep their meaning.
-    for path in sorted(set(paths), key=_position, reverse=True):
+    for path in sorted(there.intersection(paths), key=_position, reverse=True):
         design = _remove_decision(design, path)
     return design
 
