@@ -1,12 +1,11 @@
 """Registers the pages of the editor for one library of designs."""
 
-from urllib.parse import quote
-
 from nicegui import ui
 from starlette.responses import RedirectResponse, Response
 
 from vicode.editor.pages.design_page import DesignPage
 from vicode.editor.pages.look import add_look
+from vicode.editor.panels.designs_list import design_url
 from vicode.editor.session import Library
 
 
@@ -18,8 +17,11 @@ def add_pages(library: Library) -> None:
         first = library.first
         if first is not None:
             workspace, component = first
-            return RedirectResponse(f"/design/{quote(workspace.key, safe='')}/{quote(component, safe='')}")
-        _nothing("No designs here yet", f"Write one into {library.path.name}/, for example with: vicode new")
+            return RedirectResponse(design_url(workspace, component))
+        _nothing(
+            "No designs here yet",
+            f"Write one into {library.path.name}/: ten lines are enough.",
+        )
         return None
 
     @ui.page("/design/{key}/{component}", title="vicode")

@@ -3,7 +3,6 @@
 import contextlib
 from collections.abc import Mapping
 from typing import Any, cast
-from urllib.parse import quote
 
 from nicegui import background_tasks, run, ui
 
@@ -13,7 +12,7 @@ from vicode.editor.canvas.gesture import Gesture, Item
 from vicode.editor.pages.keys import listen_to_keys
 from vicode.editor.pages.look import Theme, add_look
 from vicode.editor.panels.code_panel import CodePanel
-from vicode.editor.panels.designs_list import DesignsList
+from vicode.editor.panels.designs_list import DesignsList, design_url
 from vicode.editor.panels.desk import Desk
 from vicode.editor.panels.findings_panel import FindingsPanel
 from vicode.editor.panels.header import Commands, Header
@@ -133,7 +132,7 @@ class DesignPage:
         if self.desk.workspace.project.design(use.component) is None:
             _say(f"{use.component} is hand-written: it has no design to open", "info")
         else:
-            ui.navigate.to(f"/design/{quote(self.desk.workspace.key, safe='')}/{quote(use.component, safe='')}")
+            ui.navigate.to(design_url(self.desk.workspace, use.component))
 
     def _reveal(self, thing: Selected) -> None:
         if any(item["id"] == thing.id for item in self.scene.get(thing.of, ()) or () if isinstance(item, dict)):

@@ -1,9 +1,8 @@
 """The selected component: what it shows to this design, and the states that use it."""
 
-from urllib.parse import quote
-
 from nicegui import ui
 
+from vicode.editor.panels.designs_list import design_url
 from vicode.editor.panels.desk import Desk
 from vicode.editor.panels.fields import Field
 from vicode.editor.panels.rows import heading
@@ -27,7 +26,7 @@ def use_panel(desk: Desk, alias: str) -> list[Field]:
         return []
     ui.label(interface.doc).classes("doc")
     if project.design(use.component) is not None:
-        ui.link("Open its design", f"/design/{quote(desk.workspace.key)}/{quote(use.component)}")
+        ui.link("Open its design", design_url(desk.workspace, use.component))
     else:
         ui.label(f"Hand-written: {interface.implementation}").classes("mono small")
     heading(f"Outputs, read as {alias}.…")

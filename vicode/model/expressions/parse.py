@@ -71,7 +71,7 @@ def _syntax_of(text: str) -> tuple[ast.expr | None, Mistake | None]:
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
-            parsed = ast.parse(" " * 0 + copy.strip(), mode="eval").body
+            parsed = ast.parse(copy.strip(), mode="eval").body
     except SyntaxError as error:
         start = lead + max(0, min((error.offset or 1) - 1, len(text) - lead - 1))
         return None, _not_an_expression(_reworded(error.msg), (start, min(start + 1, len(text))))
