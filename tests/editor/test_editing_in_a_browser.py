@@ -162,6 +162,12 @@ def test_keys_work_wherever_the_focus_is(editor: str, page: Page, project: Path)
     page.keyboard.press("Control+s")
     expect(page.get_by_text("Unsaved changes")).to_have_count(0)
     assert "by keys" in (project / "forward" / "player.yaml").read_text()
+    page.keyboard.press("Control+z")
+    expect(page.get_by_text("Unsaved changes")).to_be_visible()
+    expect(page.get_by_label("Doc").first).not_to_have_value("by keys")
+    page.keyboard.press("Control+Shift+Z")
+    expect(page.get_by_label("Doc").first).to_have_value("by keys")
+    expect(page.get_by_text("Unsaved changes")).to_have_count(0)
 
 
 def test_other_programs_are_followed(editor: str, page: Page, project: Path) -> None:

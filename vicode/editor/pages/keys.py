@@ -4,8 +4,9 @@ from collections.abc import Callable
 
 from nicegui import ui
 
-# The canvas and text fields undo in ways of their own.
+# The canvas and text fields undo in ways of their own. Part of the page, so that no key comes too early for it.
 _LISTEN = """
+<script>
 document.addEventListener("keydown", (event) => {
   if (!event.ctrlKey && !event.metaKey) return;
   const key = event.key.toLowerCase();
@@ -13,8 +14,9 @@ document.addEventListener("keydown", (event) => {
   const types = event.target.closest?.("input, textarea, [contenteditable=true], .canvas");
   if (!wish || (wish !== "save" && types)) return;
   event.preventDefault();
-  emitEvent("key-" + wish);
+  if (window.did_handshake) emitEvent("key-" + wish);
 }, true);
+</script>
 """
 
 
@@ -22,4 +24,4 @@ def listen_to_keys(*, save: Callable[[], object], undo: Callable[[], object], re
     """Call these on Ctrl+S, Ctrl+Z, and Ctrl+Shift+Z or Ctrl+Y (Cmd on a Mac)."""
     for name, act in (("save", save), ("undo", undo), ("redo", redo)):
         ui.on(f"key-{name}", act)
-    ui.timer(0.05, lambda: ui.run_javascript(_LISTEN), once=True)
+    ui.add_body_html(_LISTEN)
