@@ -170,6 +170,18 @@ def test_keys_work_wherever_the_focus_is(editor: str, page: Page, project: Path)
     expect(page.get_by_text("Unsaved changes")).to_have_count(0)
 
 
+def test_what_is_no_frequency_is_told_and_stays_to_be_mended(editor: str, page: Page) -> None:
+    open_player(page, editor)
+    field = page.get_by_label("Frequency, Hz")
+    field.fill("1O")
+    field.blur()
+    expect(page.get_by_text("'1O' is no number")).to_be_visible()
+    expect(field).to_have_value("1O")
+    field.fill("10")
+    expect(page.get_by_text("is no number")).to_have_count(0)
+    expect(page.get_by_text("Saved", exact=True)).to_be_visible()
+
+
 def test_other_programs_are_followed(editor: str, page: Page, project: Path) -> None:
     open_player(page, editor)
     file = project / "forward" / "player.yaml"

@@ -98,3 +98,10 @@ def test_all_projects_of_a_folder_are_found(tmp_path: Path) -> None:
     assert find_projects(tmp_path) == (tmp_path / "blink", tmp_path / "forward")
     assert find_projects(tmp_path / "forward" / "kicks" / "left.yaml")[0].samefile(tmp_path / "forward")
     assert find_projects(tmp_path / "blink") == (tmp_path / "blink",)
+
+
+def test_a_design_in_another_encoding_is_not_passed_over(tmp_path: Path) -> None:
+    (tmp_path / "player.yaml").write_bytes(_design("Player").encode("utf-16"))
+    project = open_project(tmp_path)
+    assert project.broken == (tmp_path / "player.yaml",)
+    assert [finding.rule.code for finding in project.findings] == ["Y110"]

@@ -137,3 +137,12 @@ def test_places_do_not_mind_line_ends_marks_and_other_letters(mark: str, line_en
 def test_bytes_that_are_no_text_are_a_finding() -> None:
     for content in (b"\xff\xfe", "vicode: 1".encode("utf-16"), b"doc: \x00\n", b"doc: \x1b\n"):
         assert [finding.rule.code for finding in read_design(content).findings] == ["Y110"]
+
+
+def test_another_encoding_is_told_at_its_first_byte() -> None:
+    latin = "vicode: 1\ncomponent: A\ndoc: gr\u00fcn\n".encode("latin-1")
+    (finding,) = read_design(latin, "a.yaml").findings
+    assert finding.place == Place(file="a.yaml", line=3, column=8, length=1)
+    assert "0xfc" in finding.message
+    (finding,) = read_design("vicode: 1\n".encode("utf-16"), "a.yaml").findings
+    assert "UTF-16" in finding.message

@@ -74,12 +74,11 @@ def read_record(text: str | bytes, file: str, shape: Record) -> tuple[Report, Re
         report = Report(lines=Lines("", file))
         report.add("Y108", f"the file is larger than {MAXIMUM_BYTES} bytes", (0, 1), mend="split the design")
         return report, None
-    decoded = _decode(text)
-    report = Report(lines=Lines(decoded if decoded is not None else "", file))
-    if decoded is None:
-        mend = "save it as UTF-8"
-        report.add("Y110", "the file is not UTF-8 text", (0, 1), mend=mend)
-        return report, None
+    try:
+        decoded = text if isinstance(text, str) else text.decode("utf-8")
+    except UnicodeDecodeError as error:
+        return _not_utf8(error, file), None
+    report = Report(lines=Lines(decoded, file))
     tree = parse_tree(decoded, report)
     if tree.root is None:
         if not report.findings:
@@ -104,13 +103,14 @@ def _is_certain(finding: Finding, unfinished: set[tuple[int, int]]) -> bool:
     return finding.rule.code == "Y101" or not (finding.rule.code == "Y104" or is_of_unfinished)
 
 
-def _decode(text: str | bytes) -> str | None:
-    if isinstance(text, str):
-        return text
-    try:
-        return text.decode("utf-8")
-    except UnicodeDecodeError:
-        return None
+def _not_utf8(error: UnicodeDecodeError, file: str) -> Report:
+    """The report on a file in another encoding, at its first byte that is no UTF-8."""
+    before = error.object[: error.start].decode("utf-8")
+    report = Report(lines=Lines(before, file))
+    is_utf16 = error.object.startswith((b"\xff\xfe", b"\xfe\xff"))
+    what = "the file is UTF-16" if is_utf16 else f"the byte 0x{error.object[error.start]:02x} is not UTF-8"
+    report.add("Y110", what, (len(before), len(before) + 1), mend="save the file as UTF-8")
+    return report
 
 
 def _of_component(findings: list[Finding], component: str) -> tuple[Finding, ...]:

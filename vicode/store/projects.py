@@ -141,7 +141,7 @@ class _Opening:
         except OSError as error:
             self._add_unreadable(file, error)
             return
-        if not is_meant and not _LOOKS_LIKE_DESIGN.search(content):
+        if not is_meant and not _looks_like_design(content):
             return
         read = read_design(content, shown_path(file))
         self.findings += read.findings
@@ -203,7 +203,7 @@ def _folder_of(file: Path) -> Path:
     folder = beside.resolve()
     for _level in range(_LEVELS_ABOVE):
         found = project_file_in(folder)
-        if found is not None and (folder == beside.resolve() or _LOOKS_LIKE_DESIGN.search(_content(found))):
+        if found is not None and (folder == beside.resolve() or _looks_like_design(_content(found))):
             return beside if folder == beside.resolve() else folder
         if folder.parent == folder or (folder / ".git").exists():
             break
@@ -241,4 +241,9 @@ def _is_candidate(file: Path, folder: Path) -> bool:
 
 
 def _is_design(file: Path, folder: Path) -> bool:
-    return _is_candidate(file, folder) and bool(_LOOKS_LIKE_DESIGN.search(_content(file)))
+    return _is_candidate(file, folder) and _looks_like_design(_content(file))
+
+
+def _looks_like_design(content: bytes) -> bool:
+    # Without the zeros that other encodings put between the letters: such a file is told of, not passed over.
+    return bool(_LOOKS_LIKE_DESIGN.search(content.replace(b"\0", b"")))

@@ -77,17 +77,13 @@ def _bound(label: str, attribute: str) -> Bound:
 
 
 def _frequency() -> Bound:
-    def write(design: Design, text: str) -> Design:
-        frequency = numbers.frequency_of(text)
-        # What is no frequency (yet) is typing in progress: the design keeps the last one.
-        return design if frequency is numbers.INVALID else replace(design, frequency_hz=frequency)
-
     return Bound(
         label="Frequency, Hz",
         path=("frequency",),
         read=lambda design: numbers.text_of(design.frequency_hz),
-        write=write,
+        write=lambda design, text: replace(design, frequency_hz=numbers.frequency_of(text)),
         hint="at every step",
+        refuse=numbers.refuse_frequency,
     )
 
 

@@ -1,7 +1,7 @@
 """Form fields that show one value of the design and change it, without disturbing who types in them."""
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 from nicegui import ui
@@ -15,17 +15,22 @@ from vicode.model.design import Design
 
 Read = Callable[[Design], Any]
 Write = Callable[[Design, Any], Design]
+Refuse = Callable[[Any], str]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Bound:
-    """What a field shows and changes. `path` leads to the value in the design, for findings and undo labels."""
+    """What a field shows and changes. `path` leads to the value in the design, for findings and undo labels.
+
+    `refuse` says in words why a value cannot be taken over, nothing if it can.
+    """
 
     label: str
     read: Read
     write: Write
     path: Path = ()
     hint: str = ""
+    refuse: Refuse = field(default=lambda _value: "")
 
 
 @dataclass(eq=False)
@@ -37,6 +42,9 @@ class Field:
     element: ValueElement[Any]
     message: ui.label | None = None
     has_focus: bool = False
+    refused: str = ""
+    """Why what stands in the field is not in the design."""
+    _refused_beside: Any = None
 
     def __post_init__(self) -> None:
         """Watch for typing."""
@@ -48,7 +56,10 @@ class Field:
     def refresh(self) -> None:
         """Show what the design holds, and what is wrong with it."""
         value = self.bound.read(self.desk.design)
-        if not self.has_focus and self.element.value != value:
+        # What was refused stays to be mended, until the design itself has another value.
+        if self.refused and value != self._refused_beside:
+            self.refused = ""
+        if not self.has_focus and not self.refused and self.element.value != value:
             self.element.set_value(value)
         if self.message is not None:
             self._show_findings(self.message)
@@ -60,7 +71,10 @@ class Field:
             self.refresh()
 
     def _typed(self, value: Any) -> None:
-        if value == self.bound.read(self.desk.design):
+        now = self.bound.read(self.desk.design)
+        self.refused, self._refused_beside = self.bound.refuse(value), now
+        if self.refused or value == now:
+            self.refresh()
             return
         write, key = self.bound.write, "/".join(map(str, self.bound.path)) + self.bound.label
         self.desk.edit(f"edit {self.bound.label}", lambda design: write(design, value), typing_in=key)
@@ -72,11 +86,12 @@ class Field:
             for finding in self.desk.document.findings
             if path and finding.thing is not None and finding.thing.path[: len(path)] == path
         ]
-        text = " · ".join(f"{each.message}{f' ({each.mend})' if each.mend else ''}" for each in found)
+        words = [f"{each.message}{f' ({each.mend})' if each.mend else ''}" for each in found]
+        text = " · ".join([self.refused] if self.refused else words)
         if message.text != text:
             message.set_text(text)
             message.set_visibility(bool(text))
-        self.element.classes(add="has-finding" if found else None, remove=None if found else "has-finding")
+        self.element.classes(add="has-finding" if text else None, remove=None if text else "has-finding")
 
 
 def text_field(desk: Desk, bound: Bound, *, monospace: bool = False, lines: bool = False) -> Field:

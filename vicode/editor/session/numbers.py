@@ -2,18 +2,21 @@
 
 import math
 
-INVALID = -1.0
 
-
-def frequency_of(text: str) -> float | None:
-    """Hz from a text, None for an empty one, INVALID for one that is no frequency."""
+def refuse_frequency(text: str) -> str:
+    """Why a text is no frequency, in words; nothing if it is one, or empty."""
     if not text.strip():
-        return None
+        return ""
     try:
         value = float(text)
     except ValueError:
-        return INVALID
-    return value if math.isfinite(value) and value > 0 else INVALID
+        return f"'{text[:20]}' is no number: write Hz, such as 10 or 0.5"
+    return "" if math.isfinite(value) and value > 0 else "a frequency is above 0 Hz"
+
+
+def frequency_of(text: str) -> float | None:
+    """Hz from a text that `refuse_frequency` takes, None for an empty one."""
+    return float(text) if text.strip() else None
 
 
 def text_of(value: float | None) -> str:
