@@ -1,27 +1,34 @@
 """Keys that work wherever the focus is on a page."""
 
-from collections.abc import Callable
+import json
+from collections.abc import Sequence
 
 from nicegui import ui
 
-# The canvas and text fields undo in ways of their own. Part of the page, so that no key comes too early for it.
+from vicode.editor.panels.command import Command
+
+# Part of the page, so that no key comes too early for it. Text fields and the canvas undo in ways of their own.
 _LISTEN = """
 <script>
 document.addEventListener("keydown", (event) => {
-  if (!event.ctrlKey && !event.metaKey) return;
-  const key = event.key.toLowerCase();
-  const wish = { s: "save", y: "redo", z: event.shiftKey ? "redo" : "undo" }[key];
+  const held = [["Ctrl", event.ctrlKey || event.metaKey], ["Alt", event.altKey], ["Shift", event.shiftKey]];
+  const key = event.key.length === 1 ? event.key.toUpperCase() : event.key;
+  const wish = (WISHES)[[...held.filter(([, is]) => is).map(([name]) => name), key].join("+")];
   const types = event.target.closest?.("input, textarea, [contenteditable=true], .canvas");
-  if (!wish || (wish !== "save" && types)) return;
+  if (!wish || (types && !wish.typing)) return;
   event.preventDefault();
-  if (window.did_handshake) emitEvent("key-" + wish);
+  if (window.did_handshake) emitEvent("command-" + wish.name);
 }, true);
 </script>
 """
 
 
-def listen_to_keys(*, save: Callable[[], object], undo: Callable[[], object], redo: Callable[[], object]) -> None:
-    """Call these on Ctrl+S, Ctrl+Z, and Ctrl+Shift+Z or Ctrl+Y (Cmd on a Mac)."""
-    for name, act in (("save", save), ("undo", undo), ("redo", redo)):
-        ui.on(f"key-{name}", act)
-    ui.add_body_html(_LISTEN)
+def listen_to_keys(commands: Sequence[Command]) -> None:
+    """Do each command on its keys."""
+    wishes = {}
+    for command in commands:
+        for keys in command.keys:
+            wishes[keys] = {"name": command.name, "typing": command.while_typing}
+        if command.keys:
+            ui.on(f"command-{command.name}", command.act)
+    ui.add_body_html(_LISTEN.replace("WISHES", json.dumps(wishes)))

@@ -10,28 +10,18 @@ class CodePanel:
     """A read-only view of the generated Python."""
 
     def __init__(self, desk: Desk) -> None:
-        """Build it; it works only while it is shown."""
+        """Build it; `refresh` fills it."""
         self.desk = desk
-        self.is_shown = False
         self.shown_rev = -1
         self.is_busy = False
-        self.editor: ui.codemirror | None = None
-        with ui.column().classes("code-panel") as self.column:
+        with ui.column().classes("code-panel"):
             self.note = ui.label().classes("code-note mono")
-
-    def show(self, *, flag: bool) -> None:
-        """Begin or stop following the design."""
-        self.is_shown = flag
-        if flag and self.editor is None:
-            # The editor is a large script, which the first sight of a page need not wait for.
-            with self.column:
-                self.editor = self.desk.code_editors.make().classes("preview")
-                self.editor.disable()
-        self.refresh()
+            self.editor = desk.code_editors.make().classes("preview")
+            self.editor.disable()
 
     def refresh(self) -> None:
         """Generate anew if the design has changed since."""
-        if self.is_shown and not self.is_busy and self.shown_rev != self.desk.document.rev:
+        if not self.is_busy and self.shown_rev != self.desk.document.rev:
             self.is_busy = True
             background_tasks.create(self._follow(), name="preview")
 
@@ -46,7 +36,7 @@ class CodePanel:
                 self.shown_rev = self.desk.document.rev
                 shown = await run.io_bound(self._preview)
                 # Nothing comes back while the server is shutting down.
-                if shown is None or self.editor is None or self.editor.is_deleted:
+                if shown is None or self.editor.is_deleted:
                     return
                 self.note.set_text(shown.note)
                 self.editor.set_value(shown.text)

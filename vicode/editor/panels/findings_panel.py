@@ -18,10 +18,9 @@ class FindingsPanel:
         """Build it; `refresh` fills it."""
         self.desk = desk
         self.shown: tuple[Finding, ...] | None = None
-        with ui.element("section").classes("findings").props('aria-label="Findings"'):
-            with ui.row().classes("findings-head"):
-                self.summary = ui.label().classes("findings-summary").props('role="status"')
-            self.list = ui.column().classes("findings-list")
+        with ui.row().classes("findings-head"):
+            self.summary = ui.label().classes("findings-summary").props('role="status"')
+        self.list = ui.column().classes("findings-list")
 
     def refresh(self) -> None:
         """Show the findings of the design as it is now."""

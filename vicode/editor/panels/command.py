@@ -1,0 +1,31 @@
+"""A command: one thing a person can ask of the page, by a button, a key, a menu or the palette."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from enum import StrEnum
+
+Act = Callable[[], object]
+
+
+class Place(StrEnum):
+    """Under which heading a command is listed."""
+
+    DESIGN = "Design"
+    EDIT = "Edit"
+    VIEW = "View"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Command:
+    """What the page can do; `keys` are spelt "Ctrl+Shift+Z" (Ctrl is Cmd on a Mac).
+
+    Keys of a command that is not `while_typing` are left to text fields and to the canvas, which have their own.
+    """
+
+    name: str
+    label: str
+    act: Act
+    place: Place
+    icon: str = ""
+    keys: tuple[str, ...] = ()
+    while_typing: bool = False
