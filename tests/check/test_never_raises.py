@@ -71,8 +71,11 @@ declarations = st.deferred(
     )
 )
 decisions: "st.SearchStrategy[Decision]" = st.recursive(
-    st.builds(Transition, to=names, guard=guards, id=names) | st.builds(Stay, guard=guards, id=names),
-    lambda inner: st.builds(Group, guard=guards, then=_tuples(inner), otherwise=_tuples(inner), id=names),
+    st.builds(Transition, to=names, guard=guards, id=names, disabled=st.booleans())
+    | st.builds(Stay, guard=guards, id=names, disabled=st.booleans()),
+    lambda inner: st.builds(
+        Group, guard=guards, then=_tuples(inner), otherwise=_tuples(inner), id=names, disabled=st.booleans()
+    ),
     max_leaves=4,
 )
 calls = st.builds(Call, alias=names, arguments=pairs)
@@ -84,6 +87,7 @@ states = st.builds(
     name=names,
     id=names,
     final=st.booleans(),
+    disabled=st.booleans(),
     requires=_tuples(names),
     modulates=_tuples(calls),
     enter=_tuples(actions),

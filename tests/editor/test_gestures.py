@@ -54,6 +54,19 @@ def test_connect_to_a_state_to_itself_and_to_nowhere(document: Document) -> None
     assert arrows(document) == [(COMMON, "A"), ("A", "B"), ("A", "A"), ("B", "A"), ("B", "B"), ("B", "State")]
 
 
+def test_disable_works_on_all_that_is_named_and_back(document: Document) -> None:
+    items = [{"of": "states", "id": "B"}, {"of": "transitions", "id": "A/1/then/0"}, {"of": "components", "id": "head"}]
+    apply_gesture(document, {"kind": "disable", "items": items[:1]})
+    assert document.design.states[1].disabled
+    apply_gesture(document, {"kind": "disable", "items": items})
+    group = document.design.states[0].transitions[1]
+    assert isinstance(group, Group)
+    assert (document.design.states[1].disabled, group.then[0].disabled) == (True, True)
+    apply_gesture(document, {"kind": "disable", "items": items})
+    assert document.design == DESIGN
+    assert apply_gesture(document, {"kind": "disable", "items": items[2:]}).refused
+
+
 def test_reconnect_moves_an_end(document: Document) -> None:
     apply_gesture(document, {"kind": "reconnect", "id": "A/0", "end": "target", "state": "A"})
     assert arrows(document)[0] == ("A", "A")

@@ -4,6 +4,7 @@ from vicode.editor.view import Selected, difference, guard_label, path_of_key, s
 from vicode.findings import Finding, Thing, rule
 from vicode.model.design import Code, Common, Design, Group, Guard, RunCode, State, Stay, Transition, Use
 from vicode.model.edits import move, rename_state
+from vicode.model.enabling import disable
 from vicode.model.project import Project
 
 DESIGN = Design(
@@ -45,6 +46,14 @@ def test_transitions_are_numbered_in_the_order_they_are_tested() -> None:
         ("A/1", "A", "B", "a and b and { code }", 3, 3, "code"),
     ]
     assert scene["rev"] == 7
+
+
+def test_what_does_not_work_is_marked() -> None:
+    scene = scene_of(PROJECT, disable(DESIGN, ["B"], [("states", "A", "transitions", 0)], flag=True), (), 0)
+    assert [each["disabled"] for each in scene["states"]] == [False, True]
+    assert [each["disabled"] for each in scene["transitions"]] == [True, True, True, True]
+    scene = scene_of(PROJECT, disable(DESIGN, [], [("states", "A", "transitions", 0, "else", 0)], flag=True), (), 0)
+    assert [each["disabled"] for each in scene["transitions"]] == [False, False, True, False]
 
 
 def test_everything_has_a_place() -> None:

@@ -108,8 +108,13 @@ guards = st.builds(
 )
 
 
+rarely = st.sampled_from([False, False, False, True])
+
+
 def _decisions(names: list[str]) -> st.SearchStrategy[tuple[Transition | Stay | Group, ...]]:
-    leaf = st.builds(Transition, to=st.sampled_from(names), guard=guards, doc=docs) | st.builds(Stay, guard=guards)
+    leaf = st.builds(Transition, to=st.sampled_from(names), guard=guards, doc=docs, disabled=rarely) | st.builds(
+        Stay, guard=guards, disabled=rarely
+    )
     tree = st.recursive(
         leaf,
         lambda inner: st.builds(
@@ -118,6 +123,7 @@ def _decisions(names: list[str]) -> st.SearchStrategy[tuple[Transition | Stay | 
             then=st.lists(inner, min_size=1, max_size=2).map(tuple),
             otherwise=st.lists(inner, max_size=2).map(tuple),
             doc=docs,
+            disabled=rarely,
         ),
         max_leaves=4,
     )
@@ -128,12 +134,13 @@ def _decisions(names: list[str]) -> st.SearchStrategy[tuple[Transition | Stay | 
 def sound_designs(draw: st.DrawFn) -> Design:
     """A design that names only what `sound_projects` declares."""
     names = draw(st.lists(st.sampled_from(_STATES), min_size=1, max_size=4, unique=True))
-    decisions = _decisions(names)
+    decisions, initial = _decisions(names), draw(st.sampled_from(names))
     states = tuple(
         State(
             name=name,
             doc=draw(docs),
             final=draw(st.booleans()),
+            disabled=name != initial and draw(rarely),
             requires=draw(st.sampled_from([(), ("eyes",), ("eyes", "legs")])),
             enter=draw(passages),
             actions=draw(actions),
@@ -155,7 +162,7 @@ def sound_designs(draw: st.DrawFn) -> Design:
         ),
         outputs=(Declaration(name="seen", type="bool"), Declaration(name="n", initial="0", unit="m\n")),
         variables=(Declaration(name="a", type="float", initial="limit / 2"), Declaration(name="b", doc=draw(docs))),
-        initial=draw(st.sampled_from(names)),
+        initial=initial,
         common=Common(actions=draw(actions), transitions=draw(decisions)),
         states=states,
     )

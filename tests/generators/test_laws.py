@@ -17,6 +17,7 @@ from vicode.findings import Severity
 from vicode.generators import UnsoundDesignError, generate
 from vicode.generators.python.text import comment, docstring, quoted
 from vicode.model.design import Design
+from vicode.model.enabling import enabled_part
 from vicode.model.project import Project
 from vicode.output import compare
 from vicode.sync import find_hand_edits
@@ -38,6 +39,13 @@ def test_sound_designs_give_code_that_compiles(design: Design, text: str) -> Non
         assert not any(regions.is_edited(region) for region in found.regions)
         assert not regions.is_touched(file.text)
     assert files == generate(project)
+
+
+@given(sound_designs())
+def test_what_is_disabled_is_not_in_the_code(design: Design) -> None:
+    project = project_of(design)
+    assume(is_sound(project))
+    assert generate(project) == generate(project_of(enabled_part(design)))
 
 
 # Shrinking would start the formatter thousands of times.

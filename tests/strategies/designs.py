@@ -95,11 +95,13 @@ actions: st.SearchStrategy[Action] = st.builds(Assign, values=_pairs()) | calls 
 guards = st.builds(
     Guard, when=st.just("") | expressions, after=st.just("") | expressions, code=st.none() | st.none() | code
 )
-transitions = st.builds(Transition, to=names, guard=guards, doc=st.just("") | texts, id=ids)
-_stays = st.builds(Stay, guard=guards, doc=st.just("") | texts, id=ids)
+transitions = st.builds(Transition, to=names, guard=guards, doc=st.just("") | texts, id=ids, disabled=st.booleans())
+_stays = st.builds(Stay, guard=guards, doc=st.just("") | texts, id=ids, disabled=st.booleans())
 decisions: st.SearchStrategy[Decision] = st.recursive(
     transitions | _stays,
-    lambda inner: st.builds(Group, guard=guards, then=_tuples(inner, 2), otherwise=_tuples(inner, 2), id=ids),
+    lambda inner: st.builds(
+        Group, guard=guards, then=_tuples(inner, 2), otherwise=_tuples(inner, 2), id=ids, disabled=st.booleans()
+    ),
     max_leaves=3,
 )
 states: st.SearchStrategy[State] = st.builds(
@@ -109,6 +111,7 @@ states: st.SearchStrategy[State] = st.builds(
     doc=st.just("") | texts,
     at=points,
     final=st.booleans(),
+    disabled=st.booleans(),
     requires=_tuples(names),
     modulates=_unique(calls, "alias", 2),
     enter=_tuples(actions, 2),

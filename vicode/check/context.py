@@ -8,6 +8,7 @@ from vicode.check.readings import Expression, read_expressions, reader_of
 from vicode.check.words import words_of
 from vicode.findings import Finding, Note, Path, Span, Thing, rule
 from vicode.model.design import Design
+from vicode.model.enabling import disabled_states
 from vicode.model.expressions import Scope
 from vicode.model.project import Project
 from vicode.model.walks import Located, PlacedAction, PlacedCode, walk_actions, walk_code, walk_decisions
@@ -26,6 +27,8 @@ class Context:
     codes: tuple[PlacedCode, ...]
     expressions: tuple[Expression, ...]
     steps: tuple[Step, ...]
+    off: frozenset[str]
+    """The disabled states."""
     words: frozenset[str]
     """All names in hand-written code."""
 
@@ -66,6 +69,7 @@ def context_of(project: Project, design: Design, graphs: Graphs | None = None) -
         codes=codes,
         expressions=tuple(read_expressions(design, reader, decisions, actions)),
         steps=tuple(steps_of(design)),
+        off=disabled_states(design),
         words=words_of("\n".join(text for placed in codes for _language, text in placed.code.texts)),
     )
 

@@ -5,6 +5,7 @@ from collections.abc import Iterator
 from vicode.check.context import Context
 from vicode.findings import Finding, Note, Path
 from vicode.model.design import Decision, Group, Transition
+from vicode.model.enabling import enabled_decision
 from vicode.model.walks import always_holds
 
 
@@ -12,8 +13,8 @@ def find_dead_decisions(context: Context) -> Iterator[Finding]:
     """D423: decisions that are never tested because one before them always ends the decision."""
     design = context.design
     yield from _find_dead(context, design.common.transitions, ("common", "transitions"))
-    ending = _first_ending(design.common.transitions)
-    for state in design.states:
+    ending = _first_ending(context, design.common.transitions)
+    for state in (state for state in design.states if not state.disabled):
         path = ("states", state.name, "transitions")
         if ending is None:
             yield from _find_dead(context, state.transitions, path)
@@ -32,13 +33,16 @@ def find_no_effect(context: Context) -> Iterator[Finding]:
             yield context.find("D430", (*located.path, "to"), message, "write stay: true, or choose another state")
 
 
-def _first_ending(items: tuple[Decision, ...]) -> int | None:
-    return next((index for index, item in enumerate(items) if always_holds(item)), None)
+def _first_ending(context: Context, items: tuple[Decision, ...]) -> int | None:
+    working = (enabled_decision(item, context.off) for item in items)
+    return next((index for index, item in enumerate(working) if item is not None and always_holds(item)), None)
 
 
 def _find_dead(context: Context, items: tuple[Decision, ...], path: Path) -> Iterator[Finding]:
-    ending = _first_ending(items)
+    ending = _first_ending(context, items)
     for index, item in enumerate(items):
+        if enabled_decision(item, context.off) is None:
+            continue
         if ending is not None and index > ending:
             note = Note(message="this one always holds", thing=context.thing((*path, ending)))
             mend = "give the one before it a guard, or put it after this"

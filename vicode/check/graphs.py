@@ -54,13 +54,13 @@ def graphs_of(project: Project) -> Graphs:
 
 
 def steps_of(design: Design) -> Iterator[Step]:
-    """Every place where a used component is stepped: the common ones, then state by state."""
+    """Every place where a used component is stepped: the common ones, then by every state that is not disabled."""
     components = {use.alias: use.component for use in reversed(design.uses)}
     for index, action in enumerate(design.common.actions):
         if isinstance(action, Call) and action.alias in components:
             path: Path = ("common", "actions", index, "call")
             yield Step(state=COMMON, alias=action.alias, component=components[action.alias], path=path, is_call=True)
-    for state in design.states:
+    for state in (state for state in design.states if not state.disabled):
         for alias, place, is_call in _places(state):
             if alias in components:
                 yield Step(state=state.name, alias=alias, component=components[alias], path=place, is_call=is_call)

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from vicode.check.context import Context
 from vicode.findings import Finding, did_you_mean
 from vicode.model.design import COMMON, Transition
+from vicode.model.enabling import enabled_decision
 
 
 def find_no_states(context: Context) -> Iterator[Finding]:
@@ -27,6 +28,14 @@ def find_no_initial_state(context: Context) -> Iterator[Finding]:
         yield context.find("D401", (), "the initial state is not given", f"write initial: {first}")
 
 
+def find_disabled_initial_state(context: Context) -> Iterator[Finding]:
+    """D418: the component cannot begin in a state that is disabled."""
+    initial = context.design.initial
+    if initial in context.off:
+        message = f"the initial state '{initial}' is disabled"
+        yield context.find("D418", ("initial",), message, "choose another initial state, or enable it")
+
+
 def find_unknown_states(context: Context) -> Iterator[Finding]:
     """D402: a transition to a state that does not exist."""
     names = _names(context)
@@ -40,11 +49,11 @@ def find_unknown_states(context: Context) -> Iterator[Finding]:
 def find_unreachable_states(context: Context) -> Iterator[Finding]:
     """D421: a state that no way leads to from the initial one."""
     design = context.design
-    if not design.state(design.initial):
+    if not design.state(design.initial) or design.initial in context.off:
         return
     reachable = _reachable(context, _targets(context))
     for state in design.states:
-        if state.name not in reachable:
+        if state.name not in reachable and not state.disabled:
             message = f"no way leads from '{design.initial}' to '{state.name}'"
             mend = "add a transition to it, or delete it"
             yield context.find("D421", ("states", state.name), message, mend, of_key=True)
@@ -53,13 +62,13 @@ def find_unreachable_states(context: Context) -> Iterator[Finding]:
 def find_traps(context: Context) -> Iterator[Finding]:
     """D422: a state that is reached, never left and not final; a design's only state is no trap."""
     design = context.design
-    if len(design.states) < 2:
+    if len(design.states) - len(context.off) < 2:
         return
     targets = _targets(context)
     watched = _reachable(context, targets) if design.state(design.initial) else _names(context)
     for state in design.states:
         leaves = (targets[state.name] | targets[COMMON]) - {state.name}
-        if not leaves and not state.final and state.name in watched:
+        if not leaves and not (state.final or state.disabled) and state.name in watched:
             message = f"'{state.name}' is never left, and it is not final"
             mend = "add a transition, or mark it final: true"
             yield context.find("D422", ("states", state.name), message, mend, of_key=True)
@@ -70,11 +79,13 @@ def _names(context: Context) -> set[str]:
 
 
 def _targets(context: Context) -> dict[str, set[str]]:
-    """Names that the transitions of each state lead to, known or not."""
+    """Names that the working transitions of each working state lead to, known or not."""
     targets: dict[str, set[str]] = defaultdict(set)
     for located in context.decisions:
-        if isinstance(located.decision, Transition):
-            targets[located.source].add(located.decision.to)
+        decision = located.decision
+        works = located.source not in context.off and not any(group.disabled for group, _is_then in located.groups)
+        if works and isinstance(decision, Transition) and enabled_decision(decision, context.off):
+            targets[located.source].add(decision.to)
     return targets
 
 
@@ -90,4 +101,11 @@ def _reachable(context: Context, targets: dict[str, set[str]]) -> set[str]:
     return reachable
 
 
-RULES = (find_no_states, find_no_initial_state, find_unknown_states, find_unreachable_states, find_traps)
+RULES = (
+    find_no_states,
+    find_no_initial_state,
+    find_disabled_initial_state,
+    find_unknown_states,
+    find_unreachable_states,
+    find_traps,
+)

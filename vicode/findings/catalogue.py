@@ -78,6 +78,7 @@ _ERRORS = {
     "D415": ("empty-code", "a predicate without code"),
     "D416": ("bad-frequency", "a frequency that is not above 0"),
     "D417": ("arithmetic-not-generated", "rules of arithmetic that no generator writes"),
+    "D418": ("disabled-initial-state", "an initial state that is disabled"),
     # Generated files
     "G501": ("edited-outside", "a generated file whose code was edited by hand"),
     "G502": ("stale-output", "a generated file that is not what the design gives"),

@@ -75,6 +75,7 @@ class Transition:
     guard: Guard = field(default_factory=Guard)
     doc: str = ""
     id: str = ""
+    disabled: bool = False
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -84,6 +85,7 @@ class Stay:
     guard: Guard = field(default_factory=Guard)
     doc: str = ""
     id: str = ""
+    disabled: bool = False
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -98,6 +100,7 @@ class Group:
     otherwise: tuple["Decision", ...] = ()
     doc: str = ""
     id: str = ""
+    disabled: bool = False
 
 
 Decision = Transition | Stay | Group
@@ -134,6 +137,7 @@ class State:
     """A state: what it requires, does at each iteration, and where it may go.
 
     `id` outlives a new name, so that code regions follow it. `modulates` are calls done after `actions`.
+    A `disabled` state is kept, and works as if it were not there (`vicode.model.enabling`).
     """
 
     name: str
@@ -141,6 +145,7 @@ class State:
     doc: str = ""
     at: Point | None = None
     final: bool = False
+    disabled: bool = False
     requires: tuple[str, ...] = ()
     modulates: tuple[Call, ...] = ()
     enter: tuple[Action, ...] = ()

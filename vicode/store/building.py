@@ -163,6 +163,7 @@ def _state(name: str, fields: Fields) -> State:
         doc=fields.text("doc"),
         at=fields.pair("at"),
         final=fields.flag("final"),
+        disabled=fields.flag("disabled"),
         requires=fields.words("requires"),
         modulates=tuple(
             Call(alias=alias, arguments=cast("tuple[tuple[str, str], ...]", arguments))
@@ -193,10 +194,10 @@ def _decisions(fields: Fields, name: str) -> tuple[Decision, ...]:
 
 def _decision(fields: Fields) -> Decision:
     guard = Guard(when=fields.text("when"), after=fields.text("after"), code=fields.code("code"))
-    doc, id_ = fields.text("doc"), fields.text("id")
+    doc, id_, disabled = fields.text("doc"), fields.text("id"), fields.flag("disabled")
     if fields.has("to"):
-        return Transition(to=fields.text("to"), guard=guard, doc=doc, id=id_)
+        return Transition(to=fields.text("to"), guard=guard, doc=doc, id=id_, disabled=disabled)
     if fields.has("stay"):
-        return Stay(guard=guard, doc=doc, id=id_)
+        return Stay(guard=guard, doc=doc, id=id_, disabled=disabled)
     then, otherwise = _decisions(fields, "then"), _decisions(fields, "else")
-    return Group(guard=guard, then=then, otherwise=otherwise, doc=doc, id=id_)
+    return Group(guard=guard, then=then, otherwise=otherwise, doc=doc, id=id_, disabled=disabled)

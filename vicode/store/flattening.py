@@ -141,6 +141,7 @@ def _state(state: State) -> Data:
             "doc": state.doc,
             "at": state.at,
             "final": state.final,
+            "disabled": state.disabled,
             "requires": state.requires,
             "modulates": tuple((call.alias, call.arguments) for call in state.modulates),
             "enter": _actions(state.enter),
@@ -170,7 +171,7 @@ def _decisions(decisions: Iterable[Decision]) -> Data:
 
 
 def _decision(decision: Decision) -> Data:
-    values = _guard(decision.guard) | {"doc": decision.doc, "id": decision.id}
+    values = _guard(decision.guard) | {"doc": decision.doc, "id": decision.id, "disabled": decision.disabled}
     match decision:
         case Transition(to=to):
             values["to"] = to

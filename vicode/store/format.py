@@ -120,6 +120,7 @@ DECISION: Record = Record(
         Key(name="code", shape=CODE, keeps_empty=True, meaning="body of a function whose bool result must hold"),
         Key(name="then", shape=DECISIONS, keeps_empty=True, meaning="a group: tested in order when the guard holds"),
         Key(name="else", shape=DECISIONS, meaning="of a group: tested in order when the guard does not hold"),
+        Key(name="disabled", shape=FLAG, implied=False, meaning="kept, but as if it were not there"),
     ),
 )  # fmt: skip
 _ACTIONS_KEYS = (
@@ -140,6 +141,7 @@ STATE = Record(
         _DOC,
         Key(name="at", shape=POSITION, meaning="centre on the canvas"),
         Key(name="final", shape=FLAG, implied=False, meaning="a target state: the component reports that it is done"),
+        Key(name="disabled", shape=FLAG, implied=False, meaning="kept, but neither it nor a way to it is there"),
         _ID,
         Key(name="requires", shape=NAMES, meaning="used components stepped before the state's own work"),
         Key(

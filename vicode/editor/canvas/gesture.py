@@ -113,6 +113,14 @@ class Open(TypedDict):
     id: str
 
 
+class Disable(TypedDict):
+    """States and transitions are to be disabled, or enabled when all of them are disabled."""
+
+    kind: Literal["disable"]
+    rev: int
+    items: list[Item]
+
+
 class History(TypedDict):
     """Ctrl+Z, Ctrl+Shift+Z or Ctrl+Y were pressed on the canvas."""
 
@@ -121,5 +129,5 @@ class History(TypedDict):
     note: NotRequired[str]
 
 
-Gesture = Select | Move | Delete | Connect | Reconnect | Link | Create | Rename | Open | History
+Gesture = Select | Move | Delete | Connect | Reconnect | Link | Create | Rename | Open | Disable | History
 OnGesture = Callable[[Gesture], Awaitable[None] | None]

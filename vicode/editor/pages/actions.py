@@ -8,7 +8,7 @@ from vicode.editor.pages.look import Theme
 from vicode.editor.panels.command import Command, Place
 from vicode.editor.panels.desk import Desk
 from vicode.editor.panels.save_dialog import ask_about_disk
-from vicode.editor.session import ChangedOnDiskError, take_places
+from vicode.editor.session import ChangedOnDiskError, apply_gesture, take_places
 
 
 class Actions:
@@ -24,46 +24,16 @@ class Actions:
         document = self.desk.document
         design, edit, view = Place.DESIGN, Place.EDIT, Place.VIEW
         return (
+            Command("save", "Save", self.save, design, icon="save", keys=("Ctrl+S",), while_typing=True),
+            Command("generate", "Generate", self.generate, design, icon="bolt"),
+            Command("undo", "Undo", document.undo, edit, icon="undo", keys=("Ctrl+Z",)),
+            Command("redo", "Redo", document.redo, edit, icon="redo", keys=("Ctrl+Shift+Z", "Ctrl+Y")),
             Command(
-                name="save",
-                label="Save",
-                act=self.save,
-                place=design,
-                icon="save",
-                keys=("Ctrl+S",),
-                while_typing=True,
+                "lay-out", "Lay out what is selected, or everything", self.lay_out, edit, icon="auto_awesome_mosaic"
             ),
-            Command(name="generate", label="Generate", act=self.generate, place=design, icon="bolt"),
-            Command(name="undo", label="Undo", act=document.undo, place=edit, icon="undo", keys=("Ctrl+Z",)),
-            Command(
-                name="redo",
-                label="Redo",
-                act=document.redo,
-                place=edit,
-                icon="redo",
-                keys=("Ctrl+Shift+Z", "Ctrl+Y"),
-            ),
-            Command(
-                name="lay-out",
-                label="Lay out what is selected, or everything",
-                act=self.lay_out,
-                place=edit,
-                icon="auto_awesome_mosaic",
-            ),
-            Command(
-                name="links",
-                label="Show or hide links to components",
-                act=self.toggle_links,
-                place=view,
-                icon="hub",
-            ),
-            Command(
-                name="theme",
-                label="Light, dark, or as the system",
-                act=self.toggle_theme,
-                place=view,
-                icon="contrast",
-            ),
+            Command("disable", "Disable what is selected, or enable it again", self.disable, edit, icon="block"),
+            Command("links", "Show or hide links to components", self.toggle_links, view, icon="hub"),
+            Command("theme", "Light, dark, or as the system", self.toggle_theme, view, icon="contrast"),
         )
 
     def save(self) -> bool:
@@ -98,6 +68,13 @@ class Actions:
         if layout.note:
             desk.say(layout.note, "info")
         self.drawing.canvas.fit()
+
+    def disable(self) -> None:
+        """Disable the selected states and transitions, or enable them when all of them are disabled."""
+        items = [{"of": thing.of, "id": thing.id} for thing in self.desk.selected]
+        outcome = apply_gesture(self.desk.document, {"kind": "disable", "items": items})
+        if outcome.refused:
+            self.desk.say(outcome.refused, "warning")
 
     def toggle_links(self) -> None:
         """Show or hide what states require and modulate."""

@@ -1,7 +1,7 @@
 """A command: one thing a person can ask of the page, by a button, a key, a menu or the palette."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import KW_ONLY, dataclass
 from enum import StrEnum
 
 Act = Callable[[], object]
@@ -15,7 +15,7 @@ class Place(StrEnum):
     VIEW = "View"
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, slots=True)
 class Command:
     """What the page can do; `keys` are spelt "Ctrl+Shift+Z" (Ctrl is Cmd on a Mac).
 
@@ -26,6 +26,7 @@ class Command:
     label: str
     act: Act
     place: Place
+    _: KW_ONLY
     icon: str = ""
     keys: tuple[str, ...] = ()
     while_typing: bool = False

@@ -9,7 +9,7 @@ from nicegui import ui
 from vicode.editor.panels.actions_panel import python, with_python
 from vicode.editor.panels.decisions_list import decisions_list
 from vicode.editor.panels.desk import Desk
-from vicode.editor.panels.fields import Bound, Field, choice_field, code_field, text_field
+from vicode.editor.panels.fields import Bound, Field, choice_field, code_field, flag_field, text_field
 from vicode.editor.panels.rows import heading
 from vicode.editor.view import Selected, path_of_key
 from vicode.findings import Path
@@ -35,6 +35,7 @@ def decision_panel(desk: Desk, key: str) -> list[Field]:
     fields.append(text_field(desk, _guard_bound(path, "After, seconds in this state", "after"), monospace=True))
     fields += _code(desk, path, decision.guard)
     fields.append(text_field(desk, _decision_bound(path, "Doc", "doc"), lines=True))
+    fields.append(flag_field(desk, _decision_bound(path, "Disabled: kept, but never tested", "disabled")))
     if isinstance(decision, Group):
         heading("Then")
         decisions_list(desk, located.source, (*path, "then"), decision.then)

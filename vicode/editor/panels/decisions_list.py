@@ -30,10 +30,11 @@ def _rows(desk: Desk, path: Path, items: tuple[Decision, ...]) -> None:
     for index, item in enumerate(items):
         here = (*path, index)
         thing = Selected(of="transitions", id=transition_key(here))
-        with ui.row().classes("decision-row" + (" is-selected" if desk.only == thing else "")):
+        marks = (" is-selected" if desk.only == thing else "") + (" is-disabled" if item.disabled else "")
+        with ui.row().classes("decision-row" + marks):
             with ui.element("button").classes("decision").props('type="button"').on("click", _opener(desk, thing)):
                 ui.label(f"{index + 1}").classes("order")
-                ui.label(_target(item)).classes("decision-target")
+                ui.label(_target(item) + (" (disabled)" if item.disabled else "")).classes("decision-target")
                 ui.label(guard_label(item.guard) or "always").classes("decision-guard mono")
             row_of_buttons(
                 up=None if index == 0 else _mover(desk, here, index - 1),

@@ -26,6 +26,7 @@ def state_panel(desk: Desk, name: str) -> list[Field]:
         text_field(desk, _bound(name, "Doc", "doc"), lines=True),
         flag_field(desk, _initial(name)),
         flag_field(desk, _bound(name, "Final: the component is done here", "final")),
+        flag_field(desk, _bound(name, "Disabled: kept, but not in the component", "disabled")),
     ]
     heading("Requires", hint="stepped before, to be read")
     fields.append(_requires(desk, name))

@@ -4,8 +4,8 @@ The payloads come from a browser: nothing in them is trusted.
 """
 
 import math
-from collections.abc import Callable, Collection, Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Collection, Iterable, Mapping
+from dataclasses import dataclass, replace
 from typing import Any
 
 from vicode.diagram import Placement
@@ -29,6 +29,7 @@ from vicode.model.edits import (
     require,
     unlink,
 )
+from vicode.model.enabling import disable
 from vicode.model.names import is_name, is_state_name
 from vicode.model.walks import decision_at, walk_decisions
 
@@ -55,6 +56,7 @@ def apply_gesture(document: Document, payload: Payload) -> Outcome:
         "create": _create,
         "rename": _rename,
         "delete": _delete,
+        "disable": _disable,
         "link": _link,
         "undo": _undo,
         "redo": _redo,
@@ -177,6 +179,25 @@ def _delete(document: Document, payload: Payload) -> Outcome:
     return Outcome(select=())
 
 
+def _disable(document: Document, payload: Payload) -> Outcome:
+    """Disable the states and transitions that are named, or enable them when all of them are disabled."""
+    design, items = document.design, payload["items"]
+    states = [state for state in design.states if _names(items, "states", state.name)]
+    located = [decision_at(design, path_of_key(str(item["id"]))) for item in items if item["of"] == "transitions"]
+    decisions = [each for each in located if each is not None]
+    if not states and not decisions:
+        return Outcome(refused="select states or transitions to disable them")
+    flag = not all([*(state.disabled for state in states), *(each.decision.disabled for each in decisions)])
+    names, paths = [state.name for state in states], [each.path for each in decisions]
+    what = names[0] if len(states) == 1 and not paths else "transition" if len(paths) == 1 and not names else "things"
+    document.edit(f"{'disable' if flag else 'enable'} {what}", lambda design: disable(design, names, paths, flag=flag))
+    return Outcome()
+
+
+def _names(items: Iterable[Payload], of: str, identity: str) -> bool:
+    return any(item["of"] == of and str(item["id"]) == identity for item in items)
+
+
 def _link(document: Document, payload: Payload) -> Outcome:
     state, alias = _known_state(document, str(payload["state"])), str(payload["component"])
     if document.design.use(alias) is None:
@@ -199,7 +220,7 @@ def _redo(document: Document, _payload: Payload) -> Outcome:
 
 
 def _with_target(transition: Transition, state: str) -> Transition:
-    return Transition(to=state, guard=transition.guard, doc=transition.doc, id=transition.id)
+    return replace(transition, to=state)
 
 
 def _with_source(design: Design, path: Path, transition: Transition, state: str) -> Design:

@@ -1,13 +1,14 @@
 """The scene of a design: what the canvas draws, as plain dicts with finished texts."""
 
 from collections import Counter, defaultdict
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable
 from typing import Any
 
 from vicode.diagram import place
 from vicode.editor.view.selection import Selected, thing_of_path, transition_key
 from vicode.findings import Finding, Severity, worst_severity
 from vicode.model.design import COMMON, Call, Design, Group, Guard, State, Transition
+from vicode.model.enabling import disabled_states, enabled_decision
 from vicode.model.project import Project
 from vicode.model.walks import Located, walk_transitions
 
@@ -29,7 +30,7 @@ def scene_of(project: Project, design: Design, findings: Iterable[Finding], rev:
         "component": design.component,
         "doc": design.doc,
         "states": [{**_state(design, state, by_thing), **_at(placement.states[state.name])} for state in design.states],
-        "transitions": list(_transitions(transitions, by_thing)),
+        "transitions": list(_transitions(transitions, by_thing, disabled_states(design))),
         "components": [
             {
                 "id": use.alias,
@@ -68,7 +69,7 @@ def _state(design: Design, state: State, by_thing: _Findings) -> dict[str, Any]:
         "name": state.name,
         "initial": state.name == design.initial,
         "final": state.final,
-        "disabled": False,
+        "disabled": state.disabled,
         "enter": bool(state.enter),
         "actions": any(not isinstance(action, Call) for action in state.actions),
         "leave": bool(state.leave),
@@ -79,7 +80,7 @@ def _state(design: Design, state: State, by_thing: _Findings) -> dict[str, Any]:
     }
 
 
-def _transitions(transitions: list[Located], by_thing: _Findings) -> Iterable[dict[str, Any]]:
+def _transitions(transitions: list[Located], by_thing: _Findings, off: Collection[str]) -> Iterable[dict[str, Any]]:
     counts = Counter(located.source for located in transitions)
     orders: Counter[str] = Counter()
     for located in transitions:
@@ -94,10 +95,16 @@ def _transitions(transitions: list[Located], by_thing: _Findings) -> Iterable[di
             "label": _short_label(located, transition.doc),
             "order": orders[located.source],
             "of": counts[located.source],
+            "disabled": _is_off(located, off),
             "kind": "tree" if located.groups else _kind(transition.guard),
             "doc": "\n".join(part for part in (label_of(located), transition.doc) if part),
             **_marks(by_thing, Selected(of="transitions", id=key)),
         }
+
+
+def _is_off(located: Located, off: Collection[str]) -> bool:
+    is_inside = any(group.disabled for group, _is_then in located.groups)
+    return is_inside or located.source in off or enabled_decision(located.decision, off) is None
 
 
 def _short_label(located: Located, doc: str) -> str:

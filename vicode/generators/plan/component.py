@@ -42,6 +42,7 @@ from vicode.model.design import (
     Stay,
     Transition,
 )
+from vicode.model.enabling import enabled_part
 from vicode.model.expressions import BOOL, FLOAT, Node, Scope, scope_of
 from vicode.model.project import Project
 from vicode.model.walks import always_holds
@@ -59,6 +60,7 @@ def plan_component(project: Project, design: Design, modules: Mapping[str, str],
     Raises:
         UnsoundDesignError: The design has mistakes.
     """
+    design = enabled_part(design)
     initial = design.state(design.initial)
     if initial is None:
         raise UnsoundDesignError(f"{design.component} has no initial state")
