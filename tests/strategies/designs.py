@@ -95,7 +95,9 @@ actions: st.SearchStrategy[Action] = st.builds(Assign, values=_pairs()) | calls 
 guards = st.builds(
     Guard, when=st.just("") | expressions, after=st.just("") | expressions, code=st.none() | st.none() | code
 )
-transitions = st.builds(Transition, to=names, guard=guards, doc=st.just("") | texts, id=ids, disabled=st.booleans())
+transitions = st.builds(
+    Transition, to=names, guard=guards, doc=st.just("") | texts, id=ids, disabled=st.booleans(), label_at=points
+)
 _stays = st.builds(Stay, guard=guards, doc=st.just("") | texts, id=ids, disabled=st.booleans())
 decisions: st.SearchStrategy[Decision] = st.recursive(
     transitions | _stays,

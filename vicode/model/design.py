@@ -69,13 +69,18 @@ class Guard:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Transition:
-    """To another state when the guard holds; to the state itself it ends the decision and changes nothing."""
+    """To another state when the guard holds; to the state itself it ends the decision and changes nothing.
+
+    `label_at` is where its label was put by hand: the part of the way from 0 to 1, and the pixels beside it, to the
+    right of who walks along it; None: wherever there is room.
+    """
 
     to: str
     guard: Guard = field(default_factory=Guard)
     doc: str = ""
     id: str = ""
     disabled: bool = False
+    label_at: Point | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -196,7 +196,8 @@ def _decision(fields: Fields) -> Decision:
     guard = Guard(when=fields.text("when"), after=fields.text("after"), code=fields.code("code"))
     doc, id_, disabled = fields.text("doc"), fields.text("id"), fields.flag("disabled")
     if fields.has("to"):
-        return Transition(to=fields.text("to"), guard=guard, doc=doc, id=id_, disabled=disabled)
+        to, label_at = fields.text("to"), fields.pair("label_at")
+        return Transition(to=to, guard=guard, doc=doc, id=id_, disabled=disabled, label_at=label_at)
     if fields.has("stay"):
         return Stay(guard=guard, doc=doc, id=id_, disabled=disabled)
     then, otherwise = _decisions(fields, "then"), _decisions(fields, "else")

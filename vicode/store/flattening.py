@@ -173,8 +173,9 @@ def _decisions(decisions: Iterable[Decision]) -> Data:
 def _decision(decision: Decision) -> Data:
     values = _guard(decision.guard) | {"doc": decision.doc, "id": decision.id, "disabled": decision.disabled}
     match decision:
-        case Transition(to=to):
+        case Transition(to=to, label_at=label_at):
             values["to"] = to
+            values["label_at"] = label_at
         case Stay():
             values["stay"] = True
         case _:

@@ -16,6 +16,7 @@ EXPRESSION = Leaf(kind=Kind.EXPRESSION)
 FREQUENCY = Leaf(kind=Kind.NUMBER)
 FLAG = Leaf(kind=Kind.FLAG)
 POSITION = Pair(what="a position [x, y]")
+LABEL_POSITION = Pair(what="a position [part, beside]")
 NAMES = Listing(what="a list of names", item=lambda: NAME, width=LINE)
 ASSIGNMENTS = Table(what="a mapping of names to expressions", value=EXPRESSION, width=LINE)
 ARGUMENTS = Table(what="a mapping of parameters to expressions", value=EXPRESSION, width=LINE)
@@ -105,7 +106,7 @@ DECISION: Record = Record(
     is_item=True,
     one_of=("to", "stay", "then"),
     missing=("transition has no target", "add 'to: <state>'"),
-    needs=(("else", "then"),),
+    needs=(("else", "then"), ("label_at", "to")),
     meant={
         "target": "to", "goto": "to", "next": "to", "if": "when", "guard": "when", "condition": "when",
         "timeout": "after", "description": "doc",
@@ -117,6 +118,11 @@ DECISION: Record = Record(
         Key(name="after", shape=EXPRESSION, meaning="seconds that must have passed in the state"),
         _DOC,
         _ID,
+        Key(
+            name="label_at",
+            shape=LABEL_POSITION,
+            meaning="where its label is: part of the way (0 to 1), pixels beside it; left out: where there is room",
+        ),
         Key(name="code", shape=CODE, keeps_empty=True, meaning="body of a function whose bool result must hold"),
         Key(name="then", shape=DECISIONS, keeps_empty=True, meaning="a group: tested in order when the guard holds"),
         Key(name="else", shape=DECISIONS, meaning="of a group: tested in order when the guard does not hold"),

@@ -96,6 +96,7 @@ def _transitions(transitions: list[Located], by_thing: _Findings, off: Collectio
             "order": orders[located.source],
             "of": counts[located.source],
             "disabled": _is_off(located, off),
+            "label_at": list(transition.label_at) if transition.label_at else None,
             "kind": "tree" if located.groups else _kind(transition.guard),
             "doc": "\n".join(part for part in (label_of(located), transition.doc) if part),
             **_marks(by_thing, Selected(of="transitions", id=key)),

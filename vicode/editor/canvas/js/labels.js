@@ -55,6 +55,22 @@ export function placeLabel(curve, chip, crowd) {
   return best.at;
 }
 
+/** Where a label was put by hand: `part` of the way along the curve, `shift` to the right of who walks along it. */
+export const labelAt = (curve, [part, shift]) => beside(curve, Math.min(1, Math.max(0, part)), shift);
+
+/** The `[part, shift]` that puts a label at a point, as near as can be: its foot on the curve, and how far beside. */
+export function labelPlace(curve, { x, y }) {
+  let best = { t: 0.5, reach: Infinity };
+  for (let step = 0; step <= 100; step += 1) {
+    const foot = pointAt(curve, step / 100);
+    const reach = (foot.x - x) ** 2 + (foot.y - y) ** 2;
+    if (reach < best.reach) best = { t: step / 100, reach };
+  }
+  const foot = pointAt(curve, best.t);
+  const right = beside(curve, best.t, 1);
+  return [best.t, Math.round((x - foot.x) * (right.x - foot.x) + (y - foot.y) * (right.y - foot.y))];
+}
+
 function beside(curve, t, shift) {
   const point = pointAt(curve, t);
   if (!shift) return point;

@@ -1,7 +1,7 @@
 // The way of every edge: all edges between one pair of nodes are routed together, so that they fan out.
 import { Grid } from "./grid.js";
 import { bounds, curveBounds, exitPoint, grow, overlaps, pointAt, raise, rectAround, rectOf } from "./geometry.js";
-import { chipOf, placeLabel } from "./labels.js";
+import { chipOf, labelAt, placeLabel } from "./labels.js";
 import { pairOf } from "./scene.js";
 
 const LANE = 34;
@@ -74,10 +74,14 @@ export class Router {
     edges.forEach((edge, index) => {
       const curve = curves[index];
       const chip = chipOf(edge, curve);
-      const at = first.source === first.target ? loopLabel(curve, chip) : placeLabel(curve, chip, (rect) => this.#crowd(rect));
+      const at = edge.data.label_at ? labelAt(curve, edge.data.label_at) : this.#freeLabel(edge, curve, chip);
       this.routes.set(edge.key, { curve, chip, at });
       if (chip) this.#fileLabel(edge.key, rectAround(at.x, at.y, chip.w, chip.h));
     });
+  }
+
+  #freeLabel(edge, curve, chip) {
+    return edge.source === edge.target ? loopLabel(curve, chip) : placeLabel(curve, chip, (rect) => this.#crowd(rect));
   }
 
   /** The shown edges of a pair in lane order: one direction first, each by its order in the design. */
