@@ -74,7 +74,7 @@ export function labelPlace(curve, { x, y }) {
 function beside(curve, t, shift) {
   const point = pointAt(curve, t);
   if (!shift) return point;
-  const ahead = pointAt(curve, Math.min(1, t + 0.02));
-  const length = Math.hypot(ahead.x - point.x, ahead.y - point.y) || 1;
-  return { x: point.x - ((ahead.y - point.y) / length) * shift, y: point.y + ((ahead.x - point.x) / length) * shift };
+  const [behind, ahead] = [pointAt(curve, Math.max(0, t - 0.02)), pointAt(curve, Math.min(1, t + 0.02))];
+  const length = Math.hypot(ahead.x - behind.x, ahead.y - behind.y) || 1;
+  return { x: point.x - ((ahead.y - behind.y) / length) * shift, y: point.y + ((ahead.x - behind.x) / length) * shift };
 }
