@@ -31,8 +31,9 @@ check: $(VENV)/.ready-dev  ## format, lint, types, architecture, fast tests (und
 	$(BIN)/lint-imports
 	@$(PYTEST) $(PARALLEL) -m "not browser and not nightly"
 
-nightly: $(VENV)/.ready-test chromium  ## the long runs: kills, fuzzing, and every law on many more examples
+nightly: $(VENV)/.ready-test chromium  ## the long runs: kills, fuzzing, many more examples, the browser tests 20 times
 	@VICODE_HYPOTHESIS=nightly $(PYTEST) $(PARALLEL) -m "nightly or hypothesis"
+	@VICODE_RUNS=20 $(PYTEST) $(PARALLEL) -m "browser and not nightly"
 
 bench: $(VENV)/.ready-bench  ## measure against a hand-written machine and other libraries
 	@$(BIN)/python -m benchmarks

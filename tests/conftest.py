@@ -49,6 +49,14 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
             item.add_marker(pytest.mark.browser)
 
 
+def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
+    """Run what needs Chromium as often as VICODE_RUNS says: a test that fails once in twenty runs is wrong."""
+    runs = int(os.environ.get("VICODE_RUNS", "1"))
+    if runs > 1 and "chromium" in metafunc.fixturenames:
+        metafunc.fixturenames.append("run_number")
+        metafunc.parametrize("run_number", range(runs))
+
+
 @pytest.fixture(scope="session")
 def accept(request: pytest.FixtureRequest) -> bool:
     """Whether golden tests shall rewrite their expected files instead of comparing with them."""

@@ -40,6 +40,7 @@ export class Gestures {
     this.drag = null;
     this.tool = null;
     this.pinch = null;
+    this.lastClick = { key: "", time: 0 };
     this.touches.clear();
     this.canvas.say("");
     this.canvas.afterGesture();
