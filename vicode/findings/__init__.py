@@ -2,7 +2,7 @@
 
 from vicode.findings.catalogue import RULES, Rule, Severity, rule
 from vicode.findings.finding import Finding, Note, Path, Place, Span, Thing, sort_findings, worst_severity
-from vicode.findings.nearest import did_you_mean, nearest
+from vicode.findings.nearest import did_you_mean, meant_by, nearest
 from vicode.findings.render import render_json, render_text
 
 __all__ = [
@@ -16,6 +16,7 @@ __all__ = [
     "Span",
     "Thing",
     "did_you_mean",
+    "meant_by",
     "nearest",
     "render_json",
     "render_text",

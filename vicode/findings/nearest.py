@@ -1,5 +1,6 @@
 """The known name a user most likely meant."""
 
+import re
 from collections.abc import Iterable
 from difflib import get_close_matches
 
@@ -15,3 +16,9 @@ def did_you_mean(name: str, known: Iterable[str], otherwise: str = "") -> str:
     """A mend that names the nearest known name, or `otherwise` when none is near."""
     candidate = nearest(name, known)
     return f"did you mean '{candidate}'?" if candidate else otherwise
+
+
+def meant_by(mend: str) -> str:
+    """The name that `did_you_mean` wrote into a mend, empty if it wrote none."""
+    found = re.fullmatch(r"did you mean '(.*)'\?", mend, re.DOTALL)
+    return found[1] if found else ""

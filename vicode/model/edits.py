@@ -197,6 +197,16 @@ def update_actions(design: Design, path: Path, change: Callable[[tuple[Action, .
     return update_state(design, str(path[1]), changed)
 
 
+def replace_action(design: Design, path: Path, *actions: Action) -> Design:
+    """Put other actions, or none, in the place of the one that a path ending in its number leads to."""
+    index = path[-1]
+
+    def change(old: tuple[Action, ...]) -> tuple[Action, ...]:
+        return tuple(each for at, action in enumerate(old) for each in (actions if at == index else (action,)))
+
+    return update_actions(design, path[:-1], change)
+
+
 def add_use(design: Design, component: str, at: Point | None = None) -> Design:
     """Use a component under a free alias made of its name."""
     alias = free_name(snake_case(component), {use.alias for use in design.uses})

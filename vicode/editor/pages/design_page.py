@@ -15,6 +15,7 @@ from vicode.editor.panels.desk import Desk
 from vicode.editor.panels.findings_panel import FindingsPanel
 from vicode.editor.panels.header import Header
 from vicode.editor.panels.inspector import Inspector
+from vicode.editor.panels.problems import Problems
 from vicode.editor.panels.tabs import Tabs
 from vicode.editor.session import Document, Library, Workspace
 
@@ -26,6 +27,7 @@ class DesignPage:
         """Build the page for the browser that asks for it."""
         self.desk = desk = Desk(workspace=workspace, document=document, say=_say)
         theme = Theme(desk.code_editors)
+        problems = Problems(desk)
         add_look()
         with ui.element("div").classes("shell"):
             head = ui.element("header").classes("head")
@@ -33,12 +35,12 @@ class DesignPage:
             with ui.element("main").classes("stage"):
                 self.drawing = Drawing(desk)
             with ui.element("section").classes("dock").props('aria-label="Findings"'):
-                self.dock = Tabs({"Findings": lambda: FindingsPanel(desk)}, place="dock")
+                self.dock = Tabs({"Findings": lambda: FindingsPanel(desk, problems)}, place="dock")
             with ui.element("aside").classes("side").props('aria-label="Inspector"'):
                 self.side = Tabs(
                     {"Inspect": lambda: Inspector(desk), "Generated code": lambda: CodePanel(desk)}, place="side"
                 )
-        commands = Actions(desk, self.drawing, theme).commands()
+        commands = (*Actions(desk, self.drawing, theme).commands(), *problems.commands())
         with head:
             self.header = Header(desk, commands)
         listen_to_keys(commands)

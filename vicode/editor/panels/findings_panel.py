@@ -1,63 +1,106 @@
-"""What is wrong with the open design, as it is typed; a click selects the thing and brings it into view."""
-
-from collections.abc import Callable
+"""What is wrong with the open design, as it is typed: by severity and thing, filtered, with quick fixes."""
 
 from nicegui import ui
 
 from vicode.editor.panels.desk import Desk
-from vicode.editor.view import thing_of_path
+from vicode.editor.panels.problems import Problems
+from vicode.editor.session.fixes import may_be_fixed
+from vicode.editor.session.problems import grouped, matching
+from vicode.editor.view import words_of_path
 from vicode.findings import Finding, Severity
 
 _ICONS = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.NOTE: "info"}
+_SHOWN_AT_MOST = 200
 
 
 class FindingsPanel:
     """The list below the canvas."""
 
-    def __init__(self, desk: Desk) -> None:
+    def __init__(self, desk: Desk, problems: Problems) -> None:
         """Build it; `refresh` fills it."""
-        self.desk = desk
-        self.shown: tuple[Finding, ...] | None = None
+        self.desk, self.problems = desk, problems
+        self.hidden: set[Severity] = set()
+        self.shown: object = None
         with ui.row().classes("findings-head"):
             self.summary = ui.label().classes("findings-summary").props('role="status"')
-        self.list = ui.column().classes("findings-list")
+            ui.element("div").classes("spacer")
+            self.toggles = {severity: self._toggle(severity) for severity in Severity}
+            self.filter = ui.input(placeholder="Filter", on_change=self.refresh)
+            self.filter.props('dense borderless clearable debounce=150 aria-label="Filter findings"')
+            self.filter.classes("findings-filter")
+        self.list = ui.column().classes("findings-list").props('role="list" aria-label="List of findings"')
 
     def refresh(self) -> None:
         """Show the findings of the design as it is now."""
         findings = self.desk.document.findings
-        if findings == self.shown:
+        wanted = matching(findings, self.filter.value or "", self.hidden)
+        shown = (findings, wanted, self.problems.current)
+        if shown == self.shown:
             return
-        self.shown = findings
-        self.summary.set_text(summary_of(findings))
+        self.shown = shown
+        self.summary.set_text(summary_of(findings, len(wanted)))
+        for severity, button in self.toggles.items():
+            count = sum(each.severity is severity for each in findings)
+            button.set_visibility(bool(count))
+            button.set_text(str(count))
         self.list.clear()
         with self.list:
-            for finding in sorted(findings, key=lambda each: list(Severity).index(each.severity)):
-                self._row(finding)
+            self._fill(wanted)
 
-    def _row(self, finding: Finding) -> None:
+    def _fill(self, wanted: tuple[Finding, ...]) -> None:
+        left = _SHOWN_AT_MOST
+        for _severity, findings in grouped(wanted):
+            before = ""
+            for finding in findings[: max(0, left)]:
+                words = words_of_path(self.desk.design, finding.thing.path) if finding.thing else ""
+                self._row(finding, words, is_first=words != before)
+                before = words
+            left -= len(findings)
+        if left < 0:
+            ui.label(f"and {-left} more: type into the filter to find them").classes("empty findings-more")
+
+    def _row(self, finding: Finding, words: str, *, is_first: bool) -> None:
         severity = finding.severity
-        with ui.element("button").classes(f"finding {severity}").props('type="button"') as row:
-            ui.icon(_ICONS[severity]).props('aria-hidden="true"')
-            ui.label(f"{severity} {finding.rule.code}").classes("finding-code mono")
-            # What was wrong when the file was read stands in the file, not in the drawing.
-            line = f"{finding.place.file}, line {finding.place.line}: " if finding.place else ""
-            ui.label(line + finding.message).classes("finding-message")
-            ui.label(finding.mend).classes("finding-mend")
-        row.on("click", self._opener(finding))
+        here = " is-current" if finding == self.problems.current else ""
+        with ui.element("div").classes(f"finding-row{here}").props('role="listitem"'):
+            with ui.element("button").classes(f"finding {severity}").props('type="button"') as row:
+                ui.icon(_ICONS[severity]).props('aria-hidden="true"')
+                ui.label(f"{severity} {finding.rule.code}").classes("finding-code mono")
+                ui.label(words).classes("finding-thing" + ("" if is_first else " is-same"))
+                # What was wrong when the file was read stands in the file, not in the drawing.
+                line = f"{finding.place.file}, line {finding.place.line}: " if finding.place else ""
+                ui.label(line + finding.message).classes("finding-message")
+                ui.label(finding.mend).classes("finding-mend")
+            row.on("click", lambda: self.problems.open(finding))
+            if may_be_fixed(finding):
+                self._fix_button(finding)
 
-    def _opener(self, finding: Finding) -> Callable[[], None]:
-        def select() -> None:
-            if finding.thing is not None:
-                thing = thing_of_path(finding.thing.path)
-                self.desk.select(*(() if thing.of == "design" else (thing,)))
-                self.desk.reveal(thing)
+    def _fix_button(self, finding: Finding) -> None:
+        button = ui.button("Fix", icon="auto_fix_high", color=None).props("flat dense no-caps size=sm")
+        button.classes("finding-fix").props["aria-label"] = f"Fix: {finding.message}"
+        with button, ui.menu().props("auto-close") as menu:
+            pass
+        menu.on("before-show", lambda: self.problems.fill_menu(menu, finding))
 
-        return select
+    def _toggle(self, severity: Severity) -> ui.button:
+        button = ui.button("0", icon=_ICONS[severity], on_click=lambda: self._flip(severity), color=None)
+        button.props(f'flat dense no-caps size=sm aria-label="Show {severity}s" aria-pressed="true"')
+        button.classes(f"severity-toggle {severity}")
+        with button:
+            ui.tooltip(f"Show or hide {severity}s")
+        return button
+
+    def _flip(self, severity: Severity) -> None:
+        self.hidden ^= {severity}
+        is_shown = severity not in self.hidden
+        self.toggles[severity].props(f'aria-pressed="{str(is_shown).lower()}"')
+        self.refresh()
 
 
-def summary_of(findings: tuple[Finding, ...]) -> str:
+def summary_of(findings: tuple[Finding, ...], shown: int | None = None) -> str:
     """The number of findings in words."""
     if not findings:
         return "No findings: the design is sound"
     counts = [(sum(each.severity == severity for each in findings), severity) for severity in Severity]
-    return ", ".join(f"{count} {severity}{'s' * (count != 1)}" for count, severity in counts if count)
+    words = ", ".join(f"{count} {severity}{'s' * (count != 1)}" for count, severity in counts if count)
+    return words if shown in (None, len(findings)) else f"{words}; {shown} shown"

@@ -9,7 +9,9 @@ Act = Callable[[], object]
 
 def icon_button(icon: str, label: str, act: Act) -> ui.button:
     """A button with only an icon; `label` is its tip and its name for screen readers."""
-    button = ui.button(icon=icon, on_click=act).props(f'flat dense round size=sm aria-label="{label}"')
+    button = ui.button(icon=icon, on_click=act).props("flat dense round size=sm")
+    # Set, not written into a text of props: labels hold names, and a quote in a name would begin another prop.
+    button.props["aria-label"] = label
     with button:
         ui.tooltip(label)
     return button

@@ -3,6 +3,7 @@
 from vicode.editor.view.difference import difference
 from vicode.editor.view.scene import Scene, guard_label, label_of, scene_of
 from vicode.editor.view.selection import Selected, path_of_key, thing_of_path, transition_key
+from vicode.editor.view.wording import words_of_part, words_of_path
 
 __all__ = [
     "Scene",
@@ -14,4 +15,6 @@ __all__ = [
     "scene_of",
     "thing_of_path",
     "transition_key",
+    "words_of_part",
+    "words_of_path",
 ]

@@ -1,0 +1,37 @@
+"""What a person does first on the page of the forward player: open it, find a state or a transition, select it."""
+
+from playwright.sync_api import Locator, Page, expect
+
+PLAYER = "design/forward/Player"
+
+# A busy machine takes its time; what never comes still fails.
+expect.set_options(timeout=20_000)
+
+
+def open_player(page: Page, url: str) -> None:
+    """Open the page and wait for its drawing."""
+    page.set_viewport_size({"width": 1366, "height": 768})
+    page.goto(url + PLAYER)
+    expect(state(page, "LookForBall")).to_be_visible()
+
+
+def state(page: Page, name: str) -> Locator:
+    """A state in the drawing."""
+    return page.locator(f'g[data-kind="state"][data-id="{name}"]')
+
+
+def select_state(page: Page, name: str) -> None:
+    """Click a state; the inspector shows it."""
+    state(page, name).locator("rect.box").click(force=True)
+    expect(page.get_by_label("State", exact=True)).to_have_value(name)
+
+
+def select_transition(page: Page, key: str) -> None:
+    """Click the label of a transition; the inspector shows it."""
+    page.locator(f'g[data-kind="transition"][data-id="{key}"] .plate').first.click(force=True)
+    expect(page.get_by_label("Inspector").get_by_text("Transition from")).to_be_visible()
+
+
+def findings(page: Page) -> Locator:
+    """The panel below the canvas."""
+    return page.get_by_label("Findings", exact=True)

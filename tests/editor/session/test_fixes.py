@@ -1,0 +1,133 @@
+"""The law of quick fixes: the finding vanishes and no error comes; every rule has fixes, or a reason for none."""
+
+import re
+import shutil
+from collections import Counter
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+from hypothesis import given
+
+from tests.strategies.designs import designs
+from vicode.check import check_design, check_project
+from vicode.editor.session.fixes import FIXERS, UNFIXED, fixes_of
+from vicode.findings import RULES, Finding, Severity
+from vicode.model.design import Design
+from vicode.model.project import Interface, Project
+from vicode.store import open_project
+
+ROOT = Path(__file__).parents[3]
+CASES = sorted((ROOT / "tests" / "check" / "cases").iterdir())
+PAGE = (ROOT / "docs" / "rules.md").read_text(encoding="utf-8")
+SECTION = re.compile(r"^### ([A-Z]\d{3})\n(.*?)(?=^##)", re.MULTILINE | re.DOTALL)
+EXAMPLE = re.compile(r"^```yaml ?(\S*)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+TOP_LEVEL_KEY = re.compile(r"^(\w+):.*\n(?:[ \t#-].*\n)*", re.MULTILINE)
+FRAME = dict(EXAMPLE.findall(PAGE.split("\n## ")[0]))
+BAD = {code: found[0] for code, text in SECTION.findall(PAGE + "\n##") if (found := EXAMPLE.findall(text))}
+
+# Their examples in the rules page are of another kind than what can be mended, or there is none there.
+MENDED_ELSEWHERE = {"P204", "P205", "P206", "D404", "D405", "D406", "D416", "E306", "E307"}
+
+
+def test_every_rule_has_fixes_or_a_reason_for_none() -> None:
+    assert set(FIXERS) | set(UNFIXED) == set(RULES)
+    assert not set(FIXERS) & set(UNFIXED)
+
+
+@pytest.mark.parametrize("code", sorted(BAD))
+def test_the_examples_of_the_rules_are_mended(code: str, tmp_path: Path) -> None:
+    file, text = BAD[code]
+    for name, frame in FRAME.items():
+        (tmp_path / name).write_text(_put_in(frame, text) if name == (file or "player.yaml") else frame)
+    fixes = _try_all(open_project(tmp_path).project)
+    assert bool(fixes[code]) == (code in FIXERS) or code in MENDED_ELSEWHERE
+
+
+@pytest.mark.parametrize("case", CASES, ids=lambda path: path.stem)
+def test_the_cases_of_the_checks_are_mended(case: Path, tmp_path: Path) -> None:
+    if case.is_dir():
+        shutil.copytree(case, tmp_path, dirs_exist_ok=True)
+    else:
+        shutil.copy(case, tmp_path)
+    _try_all(open_project(tmp_path).project)
+
+
+@given(designs)
+def test_random_designs_are_mended(design: Design) -> None:
+    _try_all(Project(name="p", designs=(design,), components=(Interface(component="Walk", implementation="a:B"),)))
+
+
+def test_what_another_design_may_read_is_not_removed(tmp_path: Path) -> None:
+    (tmp_path / "a.yaml").write_text("vicode: 1\ncomponent: A\ninitial: S\noutputs: {x: 0}\nstates: {S: {}}\n")
+    opened = open_project(tmp_path).project
+    assert _labels(opened, "D424") == ["Remove the output x"]
+    (tmp_path / "b.yaml").write_text(
+        "vicode: 1\ncomponent: B\ninitial: S\nuses: {a: A}\nstates: {S: {requires: [a]}}\n"
+    )
+    assert _labels(open_project(tmp_path).project, "D424") == []
+
+
+STAY = "initial: S\nstates: {S: {final: true, transitions: [{stay: true, when: %s}]}}"
+
+
+@pytest.mark.parametrize(
+    ("text", "code", "label"),
+    [
+        ("initial: A\nstates: {A: {transitions: [{to: Kik, after: 1}]}, Kick: {}}", "D402", "Lead to Kick"),
+        ("initial: S\nstates: {S: {transitions: [{to: T, after: 1}]}}", "D402", "Create the state T"),
+        (STAY % "n > 3", "E303", "Declare the variable n: 0.0"),
+        (STAY % "seen", "E303", "Declare the variable seen: False"),
+        ("variables: {seen: false}\n" + STAY % "sen", "E303", "Replace with seen"),
+        ("uses: {eye: Perception}\n" + STAY % "eye.bal", "E303", "Replace with eye.ball"),
+        ("initial: S\nstates: {S: {actions: [{set: {n: 1 + 1}}]}}", "E303", "Declare the variable n: 0"),
+        (STAY % "perception.ball", "E303", "Use the component Perception as perception"),
+        ("initial: S\nstates: {S: {requires: [perception]}}", "D403", "Use the component Perception as perception"),
+        ("initial: S\nstates: {S: {transitions: [{to: S, after: 1}]}}", "D430", "Make it a stay"),
+    ],
+)
+def test_the_fix_a_person_expects_is_offered(text: str, code: str, label: str, tmp_path: Path) -> None:
+    (tmp_path / "project.yaml").write_text(
+        "vicode: 1\nproject: P\ncomponents:\n  Perception: {implementation: 'a:B', outputs: {ball: {type: bool}}}\n"
+    )
+    (tmp_path / "player.yaml").write_text(f"vicode: 1\ncomponent: Player\n{text}\n")
+    assert label in _labels(open_project(tmp_path).project, code)
+
+
+def _labels(project: Project, code: str) -> list[str]:
+    return [
+        fix.label
+        for design in project.designs
+        for finding in check_design(project, design)
+        if finding.rule.code == code
+        for fix in fixes_of(project, design, finding)
+    ]
+
+
+def _try_all(project: Project) -> Counter[str]:
+    """Apply every fix of every finding, each alone; the number of fixes by rule."""
+    count: Counter[str] = Counter()
+    for design in project.designs:
+        for finding in check_project(project):
+            for fix in fixes_of(project, design, finding):
+                count[finding.rule.code] += 1
+                _assert_mends(project, design, finding, fix.label, fix.change(design))
+    return count
+
+
+def _assert_mends(project: Project, design: Design, finding: Finding, label: str, mended: Design) -> None:
+    designs = tuple(mended if each is design else each for each in project.designs)
+    before, after = _counted(project), _counted(replace(project, designs=designs))
+    key = (finding.rule.code, finding.message)
+    assert after[key] < before[key], f"{label} leaves {key}"
+    errors = {each for each in after - before if RULES[each[0]].severity is Severity.ERROR}
+    assert not errors, f"{label} for {key} brings {errors}"
+
+
+def _counted(project: Project) -> Counter[tuple[str, str]]:
+    return Counter((each.rule.code, each.message) for each in check_project(project))
+
+
+def _put_in(frame: str, text: str) -> str:
+    own = set(re.findall(r"^(\w+):", text, re.MULTILINE))
+    return "".join(each.group() for each in TOP_LEVEL_KEY.finditer(frame) if each.group(1) not in own) + text

@@ -1,0 +1,23 @@
+"""Every text of a design is found, and each can be replaced alone."""
+
+from hypothesis import given
+
+from tests.strategies.designs import designs
+from vicode.model.design import Design
+from vicode.model.texts import rewrite_text, walk_texts
+
+
+@given(designs)
+def test_each_text_can_be_replaced_where_it_stands(design: Design) -> None:
+    before = [(each.path, each.text) for each in walk_texts(design)]
+    for path, text in before:
+        changed = rewrite_text(design, path, lambda old: f"{old}~")
+        after = [(each.path, each.text) for each in walk_texts(changed)]
+        assert after == [(at, f"{old}~" if at == path else old) for at, old in before], path
+        assert rewrite_text(changed, path, lambda _new, old=text: old) == design
+
+
+@given(designs)
+def test_a_path_to_nothing_changes_nothing(design: Design) -> None:
+    for path in (("states", "nowhere", "doc"), ("common", "transitions", 99, "when"), ("module", "klingon"), ("x", 0)):
+        assert rewrite_text(design, path, lambda _old: "new") == design

@@ -1,0 +1,141 @@
+"""Mends of declarations: types, ranges, frequencies, what nothing uses."""
+
+from collections.abc import Callable
+from dataclasses import replace
+
+from vicode.editor.session.fixes.case import Case, Change, Fix
+from vicode.findings import Path
+from vicode.model.design import Declaration, Design
+from vicode.model.edits import set_declarations
+from vicode.model.expressions import scope_of
+from vicode.model.texts import rewrite_text
+
+
+def fix_unknown_type(case: Case) -> list[Fix]:
+    """P205."""
+    if not case.meant:
+        return []
+    name = case.meant
+    return [Fix(label=f"Change the type to {name}", change=_changer(case.path, lambda old: replace(old, type=name)))]
+
+
+def fix_bad_range(case: Case) -> list[Fix]:
+    """P206."""
+    declaration = _declaration_at(case.design, case.path)
+    if declaration is None or declaration.range is None:
+        return []
+    low, high = declaration.range
+    if high < low:
+        swap = _changer(case.path, lambda old: replace(old, range=(high, low)))
+        return [Fix(label=f"Swap the ends: {high:g} to {low:g}", change=swap)]
+    remove = _changer(case.path, lambda old: replace(old, range=None))
+    return [Fix(label="Remove the range", change=remove)]
+
+
+def fix_bad_frequency(_case: Case) -> list[Fix]:
+    """D416."""
+    return [Fix(label="Work at every step", change=lambda old: replace(old, frequency_hz=None))]
+
+
+def fix_arithmetic(_case: Case) -> list[Fix]:
+    """D417."""
+    return [Fix(label="Use the usual arithmetic", change=lambda old: replace(old, arithmetic=""))]
+
+
+def fix_unused_declaration(case: Case) -> list[Fix]:
+    """D424; what other designs may read or set is not removed."""
+    section, name = str(case.path[0]), str(case.path[1])
+    if section != "variables" and case.is_used_elsewhere():
+        return []
+
+    def change(design: Design) -> Design:
+        kept = tuple(each for each in getattr(design, section) if each.name != name)
+        return set_declarations(design, section, kept)
+
+    return [Fix(label=f"Remove the {section.removesuffix('s')} {name}", change=change)]
+
+
+def fix_outside_range(case: Case) -> list[Fix]:
+    """D427: the end of the range that is nearer."""
+    receiver = _receiver_of(case)
+    span = case.finding.thing.span if case.finding.thing else None
+    if receiver is None or receiver.range is None or span is None:
+        return []
+    low, high = receiver.range
+    is_low = _value_of(case) < low
+    text = f"{low if is_low else high:g}"
+    words = f"to {text}, the {'lowest' if is_low else 'highest'}"
+    if scope_of(case.project, case.design).type_of(receiver) == "int" and not float(text).is_integer():
+        return []
+    start, end = span
+
+    def change(design: Design) -> Design:
+        return rewrite_text(design, case.path, lambda old: old[:start] + text + old[end:])
+
+    return [Fix(label=f"Set it {words}", change=change)]
+
+
+def _value_of(case: Case) -> float:
+    """The value that the finding begins with."""
+    return float(case.finding.message.split(" ", 1)[0])
+
+
+def _receiver_of(case: Case) -> Declaration | None:
+    """The declaration that a value at the path goes to."""
+    design, path = case.design, case.path
+    own = {each.name: each for _section, each in design.declarations()}
+    if path[0] in ("parameters", "outputs", "variables"):
+        return own.get(str(path[1])) if "arguments" not in path else None
+    if "set" in path:
+        return own.get(str(path[-1]))
+    alias = str(path[3]) if path[2:3] == ("modulates",) else _called(design, path)
+    use = design.use(alias)
+    interface = case.project.interface(use.component) if use else None
+    return interface.parameter(str(path[-1])) if interface else None
+
+
+def _called(design: Design, path: Path) -> str:
+    """The alias of the call that a path leads into."""
+    at = next((index for index, part in enumerate(path) if isinstance(part, int)), None)
+    if at is None:
+        return ""
+    state = design.state(str(path[1]))
+    actions = design.common.actions if path[0] == "common" else getattr(state, str(path[2]), ())
+    index = int(path[at])
+    return str(getattr(actions[index], "alias", "")) if index < len(actions) else ""
+
+
+def _declaration_at(design: Design, path: Path) -> Declaration | None:
+    found = (each for section, each in design.declarations() if (section, each.name) == path[:2])
+    declaration = next(found, None)
+    if declaration is None or path[2:3] != ("arguments",):
+        return declaration
+    return next((each for each in declaration.arguments or () if each.name == path[3]), None)
+
+
+def _changer(path: Path, change: Callable[[Declaration], Declaration]) -> Change:
+    """Changes the declaration, or the argument of one, that a path leads into."""
+    section, name = str(path[0]), path[1]
+    argument = path[3] if path[2:3] == ("arguments",) else None
+
+    def changed(declaration: Declaration) -> Declaration:
+        if argument is None:
+            return change(declaration)
+        arguments = (change(each) if each.name == argument else each for each in declaration.arguments or ())
+        return replace(declaration, arguments=tuple(arguments))
+
+    def apply(design: Design) -> Design:
+        declarations = (changed(each) if each.name == name else each for each in getattr(design, section))
+        return set_declarations(design, section, tuple(declarations))
+
+    return apply
+
+
+FIXERS = {
+    "P205": fix_unknown_type,
+    "P206": fix_bad_range,
+    "D416": fix_bad_frequency,
+    "D417": fix_arithmetic,
+    "D424": fix_unused_declaration,
+    "D427": fix_outside_range,
+}

@@ -1,0 +1,182 @@
+"""Mends of what is wrong with used components: unknown, unused, called wrongly or at the wrong place."""
+
+from dataclasses import replace
+
+from vicode.editor.session.fixes.case import Case, Fix
+from vicode.findings import Path
+from vicode.model.design import Call, Design, State, Use
+from vicode.model.edits import remove_uses, replace_action, require, update_actions, update_state
+from vicode.model.names import is_name, snake_case
+from vicode.model.walks import walk_actions
+
+
+def fix_unknown_component(case: Case) -> list[Fix]:
+    """P202, of a use."""
+    alias, meant = str(case.path[1]), case.meant
+    fixes = []
+    # To use oneself would be the next mistake.
+    if meant and meant != case.design.component:
+        label = f"Use the component {meant}"
+        fixes.append(Fix(label=label, change=lambda old: _with_component(old, alias, meant)))
+    return fixes
+
+
+def fix_unknown_alias(case: Case) -> list[Fix]:
+    """D403, of a requirement, a call or a modulation."""
+    alias, meant = _alias_at(case), case.meant
+    fixes = []
+    if meant:
+        fixes.append(Fix(label=f"Use {meant} instead", change=lambda old: _with_alias(old, case.path, meant)))
+    fixes += use_fixes(case, alias)
+    fixes.append(Fix(label=f"Remove {alias} here", change=lambda old: _without_link(old, case.path)))
+    return fixes
+
+
+def use_fixes(case: Case, alias: str) -> list[Fix]:
+    """Use the component whose name gives an alias, if the project has one."""
+    own = case.design.component
+    known = [name for name in case.project.interfaces() if snake_case(name) == alias and name != own]
+    if len(known) != 1 or not is_name(alias) or case.design.use(alias):
+        return []
+    use = Use(alias=alias, component=known[0])
+    label = f"Use the component {known[0]} as {alias}"
+    return [Fix(label=label, change=lambda old: replace(old, uses=(*old.uses, use)))]
+
+
+def fix_unknown_parameter(case: Case) -> list[Fix]:
+    """D409."""
+    name, meant = str(case.path[-1]), case.meant
+    fixes = []
+    if meant:
+        fixes.append(Fix(label=f"Give {meant} instead", change=lambda old: _with_parameter(old, case.path, meant)))
+    fixes.append(Fix(label=f"Remove {name}", change=lambda old: _with_parameter(old, case.path, "")))
+    return fixes
+
+
+def fix_misplaced_call(case: Case) -> list[Fix]:
+    """D410."""
+    where = case.path[:-1]
+    name = case.state()
+    call = next((each.action for each in walk_actions(case.design) if each.path == where), None)
+    if not isinstance(call, Call):
+        return []
+
+    def move(design: Design) -> Design:
+        return update_actions(replace_action(design, where), ("states", name, "actions"), lambda old: (*old, call))
+
+    return [
+        Fix(label=f"Call {call.alias} in the actions of {name}", change=move),
+        Fix(label="Remove the call", change=lambda old: replace_action(old, where)),
+    ]
+
+
+def fix_never_stepped(case: Case) -> list[Fix]:
+    """D426: the state that reads a component requires it."""
+    name, span = case.state(), case.finding.thing.span if case.finding.thing else None
+    alias = case.finding.message.split("'")[1]
+    if not name or span is None:
+        return []
+    return [Fix(label=f"{name} requires {alias}", change=lambda old: require(old, name, alias))]
+
+
+def fix_unused_use(case: Case) -> list[Fix]:
+    """D428."""
+    alias = str(case.path[1])
+    return [Fix(label=f"Stop using {alias}", change=lambda old: remove_uses(old, [alias]))]
+
+
+def _with_component(design: Design, alias: str, component: str) -> Design:
+    uses = (replace(use, component=component) if use.alias == alias else use for use in design.uses)
+    return replace(design, uses=tuple(uses))
+
+
+def _alias_at(case: Case) -> str:
+    match case.path:
+        case ("states", str(name), "requires", int(index)):
+            state = case.design.state(name)
+            return state.requires[index] if state else ""
+        case ("states", _, "modulates", str(alias)):
+            return alias
+        case _:
+            found = (each.action for each in walk_actions(case.design) if each.path == case.path[:-1])
+            return next((action.alias for action in found if isinstance(action, Call)), "")
+
+
+def _with_alias(design: Design, path: Path, alias: str) -> Design:
+    """Another alias where a path leads; one that the state has already is not taken twice."""
+    match path:
+        case ("states", str(name), "requires", int(index)):
+
+            def required(state: State) -> State:
+                wanted = (alias if at == index else each for at, each in enumerate(state.requires))
+                return replace(state, requires=tuple(dict.fromkeys(wanted)))
+
+            return update_state(design, name, required)
+        case ("states", str(name), "modulates", str(old)):
+
+            def modulated(state: State) -> State:
+                has_it = any(call.alias == alias for call in state.modulates)
+                calls = (replace(call, alias=alias) if call.alias == old else call for call in state.modulates)
+                kept = tuple(call for call in state.modulates if call.alias != old)
+                return replace(state, modulates=kept if has_it else tuple(calls))
+
+            return update_state(design, name, modulated)
+        case _:
+            return _with_call(design, path[:-1], alias)
+
+
+def _with_call(design: Design, where: Path, alias: str) -> Design:
+    call = next((each.action for each in walk_actions(design) if each.path == where), None)
+    return replace_action(design, where, replace(call, alias=alias)) if isinstance(call, Call) else design
+
+
+def _without_link(design: Design, path: Path) -> Design:
+    match path:
+        case ("states", str(name), "requires", int(index)):
+            return update_state(
+                design,
+                name,
+                lambda state: replace(state, requires=state.requires[:index] + state.requires[index + 1 :]),
+            )
+        case ("states", str(name), "modulates", str(alias)):
+            return update_state(
+                design,
+                name,
+                lambda state: replace(state, modulates=tuple(call for call in state.modulates if call.alias != alias)),
+            )
+        case _:
+            return replace_action(design, path[:-1])
+
+
+def _with_parameter(design: Design, path: Path, new: str) -> Design:
+    """The argument at a path under another name, or left out where that is empty or given already."""
+    old = str(path[-1])
+
+    def changed(call: Call) -> Call:
+        given = {name for name, _text in call.arguments}
+        pairs = ((new if name == old else name, text) for name, text in call.arguments)
+        taken = not new or new in given
+        kept = tuple(pair for pair in call.arguments if pair[0] != old) if taken else tuple(pairs)
+        return replace(call, arguments=kept)
+
+    if path[2:3] == ("modulates",):
+
+        def modulated(state: State) -> State:
+            return replace(
+                state, modulates=tuple(changed(call) if call.alias == path[3] else call for call in state.modulates)
+            )
+
+        return update_state(design, str(path[1]), modulated)
+    where = path[:-2]
+    call = next((each.action for each in walk_actions(design) if each.path == where), None)
+    return replace_action(design, where, changed(call)) if isinstance(call, Call) else design
+
+
+FIXERS = {
+    "P202": fix_unknown_component,
+    "D403": fix_unknown_alias,
+    "D409": fix_unknown_parameter,
+    "D410": fix_misplaced_call,
+    "D426": fix_never_stepped,
+    "D428": fix_unused_use,
+}

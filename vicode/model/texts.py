@@ -1,0 +1,115 @@
+"""The texts of a design, all in one walk, and the one edit that puts another text in the place of any of them."""
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, replace
+from enum import StrEnum
+from typing import Any
+
+from vicode.findings import Path
+from vicode.model.design import (
+    Assign,
+    Call,
+    Code,
+    Declaration,
+    Design,
+    Group,
+    RunCode,
+    State,
+    Stay,
+    Transition,
+)
+from vicode.model.walks import walk_code, walk_decisions, walk_expressions
+
+Rewrite = Callable[[str], str]
+
+
+class TextKind(StrEnum):
+    """What a text of a design is."""
+
+    CODE = "code"
+    EXPRESSION = "expression"
+    DOC = "doc"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PlacedText:
+    """A text at its place; `language` of code, "" of anything else."""
+
+    path: Path
+    kind: TextKind
+    text: str
+    language: str = ""
+
+
+def walk_texts(design: Design) -> Iterator[PlacedText]:
+    """Every text that a person may want to search: docs, expressions, code in all its languages."""
+    for path, doc in _docs(design):
+        if doc:
+            yield PlacedText(path=path, kind=TextKind.DOC, text=doc)
+    for expression in walk_expressions(design):
+        yield PlacedText(path=expression.path, kind=TextKind.EXPRESSION, text=expression.text)
+    for placed in walk_code(design):
+        for language, text in placed.code.texts:
+            yield PlacedText(path=(*placed.path, language), kind=TextKind.CODE, text=text, language=language)
+
+
+def rewrite_text(design: Design, path: Path, rewrite: Rewrite) -> Design:
+    """The design with another text where a path of `walk_texts` leads; a path to nothing changes nothing."""
+    changed: Design = _rewrite(design, path, rewrite)
+    return changed
+
+
+def _docs(design: Design) -> Iterator[tuple[Path, str]]:
+    yield ("doc",), design.doc
+    for section, declaration in design.declarations():
+        yield (section, declaration.name, "doc"), declaration.doc
+    yield ("common", "doc"), design.common.doc
+    for state in design.states:
+        yield ("states", state.name, "doc"), state.doc
+    for located in walk_decisions(design):
+        yield (*located.path, "doc"), located.decision.doc
+
+
+# Where the words of a path are not the names of the attributes.
+_NAMED: Mapping[type, Mapping[str, str]] = {
+    Group: {"else": "otherwise"},
+    Call: {"with": "arguments"},
+    Assign: {"set": "values"},
+    Declaration: {"default": "initial"},
+}
+_BELOW_GUARD = ("when", "after", "code")
+
+
+def _rewrite(value: Any, path: Path, rewrite: Rewrite) -> Any:
+    """The value with the text below it rewritten, itself if the path leads nowhere."""
+    if not path:
+        return rewrite(value) if isinstance(value, str) else value
+    key, rest = path[0], path[1:]
+    match value:
+        case tuple():
+            return tuple(_rewrite_item(item, at, path, rewrite) for at, item in enumerate(value))
+        case Code(texts=texts):
+            return replace(value, texts=tuple((name, rewrite(text) if name == key else text) for name, text in texts))
+        case Transition() | Stay() | Group() if key in _BELOW_GUARD:
+            return replace(value, guard=_rewrite(value.guard, path, rewrite))
+    attribute = _NAMED.get(type(value), {}).get(str(key), str(key))
+    if not hasattr(value, attribute):
+        return value
+    return replace(value, **{attribute: _rewrite(getattr(value, attribute), rest, rewrite)})
+
+
+def _rewrite_item(item: Any, at: int, path: Path, rewrite: Rewrite) -> Any:
+    """An item of a list is found by its number or by its name."""
+    key, rest = path[0], path[1:]
+    match item:
+        case State(name=name) | Declaration(name=name) if isinstance(key, str):
+            return _rewrite(item, rest, rewrite) if name == key else item
+        case Call(alias=alias, arguments=arguments) if isinstance(key, str):
+            # Below `modulates` a parameter follows the alias at once.
+            return replace(item, arguments=_rewrite(arguments, rest, rewrite)) if alias == key else item
+        case (str(name), str(text)):
+            return (name, rewrite(text)) if name == key and not rest else item
+        case Transition() | Stay() | Group() | Assign() | Call() | RunCode() if at == key:
+            return _rewrite(item, rest, rewrite)
+        case _:
+            return item
