@@ -19,6 +19,20 @@ def fix_no_initial_state(case: Case) -> list[Fix]:
     return [Fix(label=f"Start in {name}", change=_starter(name)) for name in names]
 
 
+def fix_disabled_initial_state(case: Case) -> list[Fix]:
+    """D418."""
+    name = case.design.initial
+
+    def enable(design: Design) -> Design:
+        return update_state(design, name, lambda state: replace(state, disabled=False))
+
+    others = [state.name for state in case.design.states if not state.disabled][:1]
+    return [
+        Fix(label=f"Enable {name}", change=enable),
+        *(Fix(label=f"Start in {other}", change=_starter(other)) for other in others),
+    ]
+
+
 def fix_unknown_state(case: Case) -> list[Fix]:
     """D402."""
     located = case.decision()
@@ -71,6 +85,7 @@ FIXERS = {
     "D401": fix_no_initial_state,
     "D402": fix_unknown_state,
     "D411": fix_no_states,
+    "D418": fix_disabled_initial_state,
     "D421": fix_unreachable_state,
     "D422": fix_trap,
 }
