@@ -22,7 +22,7 @@ try:
     code = vicode.cli.main(sys.argv[1:])
 except SystemExit as exit:
     code = exit.code
-heavy = {"nicegui", "fastapi", "uvicorn"} & set(sys.modules)
+heavy = {"nicegui", "fastapi", "uvicorn", "reportlab", "resvg_py", "pygraphviz"} & set(sys.modules)
 sys.exit(f"imported at the door: {sorted(heavy)}" if heavy else code)
 """
 
@@ -38,6 +38,10 @@ def test_check_starts_light(tmp_path: Path) -> None:
 def test_gen_starts_light(tmp_path: Path) -> None:
     _assert_starts_light("gen", str(_write_design(tmp_path)), "--out", str(tmp_path / "out"))
     assert list((tmp_path / "out").rglob("*.py")), "nothing was generated"
+
+
+def test_export_of_text_starts_light(tmp_path: Path) -> None:
+    _assert_starts_light("export", str(_write_design(tmp_path)), "--format", "mermaid")
 
 
 def _write_design(folder: Path) -> Path:

@@ -26,6 +26,9 @@ ROOM_OF_LIBRARY = {
     "networkx": "check",
     "nicegui": "editor",
     "pygraphviz": "diagram",
+    "reportlab": "diagram",
+    "resvg_py": "diagram",
+    "send2trash": "editor",
     "starlette": "editor",
     "yaml": "store",
 }

@@ -6,7 +6,7 @@ from dataclasses import replace
 from vicode.findings import Path
 from vicode.model.design import Decision, Design, Group, Transition
 from vicode.model.edits import replace_decision
-from vicode.model.walks import decision_at
+from vicode.model.walks import Located, decision_at
 
 
 def disabled_states(design: Design) -> frozenset[str]:
@@ -38,6 +38,12 @@ def enabled_decision(decision: Decision, off: Collection[str]) -> Decision | Non
     if (then, otherwise) == (decision.then, decision.otherwise):
         return decision
     return replace(decision, then=then, otherwise=otherwise) if then or otherwise else None
+
+
+def is_working(located: Located, off: Collection[str]) -> bool:
+    """Whether a decision at its place can ever be taken, as far as disabling goes."""
+    is_inside = any(group.disabled for group, _is_then in located.groups)
+    return not is_inside and located.source not in off and enabled_decision(located.decision, off) is not None
 
 
 def disable(design: Design, states: Collection[str], paths: Collection[Path], *, flag: bool) -> Design:

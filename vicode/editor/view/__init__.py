@@ -1,7 +1,8 @@
 """From a design and its findings to the plain dicts that the canvas draws, and their difference."""
 
+from vicode.diagram.labels import guard_label, label_of
 from vicode.editor.view.difference import difference
-from vicode.editor.view.scene import Scene, guard_label, label_of, scene_of
+from vicode.editor.view.scene import Scene, scene_of
 from vicode.editor.view.selection import Selected, path_of_key, thing_of_path, transition_key
 from vicode.editor.view.wording import words_of_part, words_of_path
 

@@ -5,15 +5,15 @@ from collections.abc import Collection, Iterable
 from typing import Any
 
 from vicode.diagram import place
+from vicode.diagram.labels import kind_of, label_of, short_label
 from vicode.editor.view.selection import Selected, thing_of_path, transition_key
 from vicode.findings import Finding, Severity, worst_severity
-from vicode.model.design import COMMON, Call, Design, Group, Guard, State, Transition
-from vicode.model.enabling import disabled_states, enabled_decision
+from vicode.model.design import COMMON, Call, Design, State, Transition
+from vicode.model.enabling import disabled_states, is_working
 from vicode.model.project import Project
 from vicode.model.walks import Located, walk_transitions
 
 Scene = dict[str, Any]
-_LABEL_FITS = 16
 _Findings = dict[Selected, list[Finding]]
 
 
@@ -92,55 +92,15 @@ def _transitions(transitions: list[Located], by_thing: _Findings, off: Collectio
             "id": key,
             "source": "@common" if located.source == COMMON else located.source,
             "target": transition.to,
-            "label": _short_label(located, transition.doc),
+            "label": short_label(located),
             "order": orders[located.source],
             "of": counts[located.source],
-            "disabled": _is_off(located, off),
+            "disabled": not is_working(located, off),
             "label_at": list(transition.label_at) if transition.label_at else None,
-            "kind": "tree" if located.groups else _kind(transition.guard),
+            "kind": str(kind_of(located)),
             "doc": "\n".join(part for part in (label_of(located), transition.doc) if part),
             **_marks(by_thing, Selected(of="transitions", id=key)),
         }
-
-
-def _is_off(located: Located, off: Collection[str]) -> bool:
-    is_inside = any(group.disabled for group, _is_then in located.groups)
-    return is_inside or located.source in off or enabled_decision(located.decision, off) is None
-
-
-def _short_label(located: Located, doc: str) -> str:
-    """The guard where it fits on an arrow; a long one gives way to a short doc, and is read in the tip."""
-    label = label_of(located)
-    return doc if len(label) > _LABEL_FITS and 0 < len(doc) <= _LABEL_FITS + 14 else label
-
-
-def label_of(located: Located) -> str:
-    """The guard as it stands on the arrow, with the guards of the groups around it in front."""
-    parts = [_group_label(group, is_then=is_then) for group, is_then in located.groups]
-    parts.append(guard_label(located.decision.guard))
-    return " › ".join(part for part in parts if part)
-
-
-def guard_label(guard: Guard) -> str:
-    """A guard in a line: the expression, the timer as "5 s", the first line of code."""
-    parts = [" ".join(guard.when.split())] if guard.when else []
-    if guard.after:
-        parts.append(f"{guard.after} s")
-    if guard.code is not None:
-        parts.append("{ code }")
-    return " and ".join(parts)
-
-
-def _group_label(group: Group, *, is_then: bool) -> str:
-    return guard_label(group.guard) if is_then else "else"
-
-
-def _kind(guard: Guard) -> str:
-    if guard.is_empty:
-        return "always"
-    if guard.code is not None:
-        return "code"
-    return "guard" if guard.when else "timer"
 
 
 def _links(design: Design) -> Iterable[dict[str, str]]:

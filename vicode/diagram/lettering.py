@@ -1,0 +1,60 @@
+"""About how wide texts are in the letters of a drawing, without any font at hand.
+
+The widths are those of Helvetica, which Arial, Liberation Sans and, nearly, Roboto share.
+"""
+
+from dataclasses import dataclass
+
+# In thousandths of the letters' size, from the blank (32) to the tilde (126): Adobe's metrics of Helvetica.
+_WIDTHS = (
+    278, 278, 355, 556, 556, 889, 667, 191, 333, 333, 389, 584, 278, 333, 278, 278, 556, 556, 556, 556, 556, 556, 556,
+    556, 556, 556, 278, 278, 584, 584, 584, 556, 1015, 667, 667, 722, 722, 667, 611, 778, 722, 278, 500, 667, 556, 833,
+    722, 778, 667, 778, 722, 667, 611, 722, 667, 944, 667, 667, 611, 278, 278, 278, 469, 556, 333, 556, 556, 500, 556,
+    556, 278, 556, 556, 222, 222, 500, 222, 833, 556, 556, 556, 556, 333, 500, 278, 556, 500, 722, 500, 500, 500, 334,
+    260, 334, 584,
+)  # fmt: skip
+_SIGNS = {"…": 1000, "·": 278, "›": 333, "→": 1000, "≤": 549, "≥": 549, "°": 400}
+_OTHER, _WIDE = 600, 1000
+_WIDE_FROM = 0x2E80
+_BOLDER = 1.07
+# Nothing longer can fit into any room there is.
+_LONGEST = 120
+
+FAMILIES = ("Roboto", "Segoe UI", "Helvetica Neue", "Arial", "Liberation Sans", "DejaVu Sans", "sans-serif")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Letters:
+    """Size in pixels and weight."""
+
+    size: float
+    bold: bool = False
+
+
+NAME = Letters(size=14, bold=True)
+SMALL = Letters(size=11)
+LABEL = Letters(size=12)
+
+
+def text_width(text: str, letters: Letters) -> float:
+    """The width in pixels."""
+    thousandths = sum(_width_of(letter) for letter in text)
+    return thousandths / 1000 * letters.size * (_BOLDER if letters.bold else 1)
+
+
+def shorten(text: str, letters: Letters, room: float) -> str:
+    """The text in one line when it fits, else its beginning and an ellipsis."""
+    line = " ".join(text.split())
+    start = line[:_LONGEST]
+    if start == line and text_width(line, letters) <= room:
+        return line
+    while start and text_width(f"{start}…", letters) > room:
+        start = start[:-1]
+    return f"{start.rstrip()}…"
+
+
+def _width_of(letter: str) -> int:
+    code = ord(letter)
+    if 32 <= code <= 126:
+        return _WIDTHS[code - 32]
+    return _SIGNS.get(letter, _WIDE if code >= _WIDE_FROM else _OTHER)

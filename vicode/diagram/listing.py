@@ -1,0 +1,35 @@
+"""A design as the text forms of drawings list it: its arrows with whole labels, in the order of the tests."""
+
+from collections import Counter
+from collections.abc import Collection, Iterator
+from dataclasses import dataclass
+
+from vicode.diagram.labels import label_of
+from vicode.model.design import COMMON, Design, Transition
+from vicode.model.walks import walk_transitions
+
+EVERY_STATE = "every state"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Line:
+    """One transition; `source` is a state's name or COMMON, `label` one line of any text."""
+
+    source: str
+    target: str
+    label: str
+
+
+def list_transitions(design: Design, only: Collection[str] | None = None) -> Iterator[Line]:
+    """Every transition whose ends are there; numbered where a state has more than one."""
+    names = {state.name for state in design.states if only is None or state.name in only}
+    located = [each for each in walk_transitions(design) if each.source == COMMON or each.source in names]
+    counts = Counter(each.source for each in located)
+    orders: Counter[str] = Counter()
+    for each in located:
+        assert isinstance(each.decision, Transition)
+        orders[each.source] += 1
+        if each.decision.to not in names:
+            continue
+        number = f"{orders[each.source]}. " if counts[each.source] > 1 else ""
+        yield Line(source=each.source, target=each.decision.to, label=(number + label_of(each, spelled=True)).strip())

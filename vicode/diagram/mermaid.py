@@ -1,0 +1,42 @@
+"""A design as Mermaid (stateDiagram-v2), for READMEs and wikis."""
+
+import re
+from collections.abc import Collection
+
+from vicode.diagram.listing import EVERY_STATE, list_transitions
+from vicode.diagram.naming import identifiers
+from vicode.model.design import COMMON, Design
+
+# Words of the grammar, and names that JavaScript's objects already have.
+_RESERVED = frozenset({
+    "accdescr", "acctitle", "as", "class", "classdef", "click", "constructor", "default", "direction", "end",
+    "hasownproperty", "hide", "href", "note", "prototype", "root", "scale", "state", "statediagram", "style",
+    "tostring", "valueof",
+})  # fmt: skip
+# All else is written as a character's number, which Mermaid decodes before it reads the line.
+_PLAIN = re.compile(r"[^\w .,()=+\-*/'!?|]")
+
+
+def write_mermaid(design: Design, *, only: Collection[str] | None = None) -> str:
+    """The text of the whole design, or of some states and what goes on among them."""
+    names = [state.name for state in design.states if only is None or state.name in only]
+    lines = list(list_transitions(design, only))
+    ids = identifiers((*names, *([COMMON] if any(line.source == COMMON for line in lines) else ())), _RESERVED)
+    text = ["---", f'title: "{escape(design.component)}"', "---", "stateDiagram-v2", "    direction LR"]
+    shown = {name: EVERY_STATE if name == COMMON else name for name in ids}
+    for name in (*names, *(name for name in ids if name == COMMON)):
+        is_plain = ids[name] == shown[name]
+        text.append(f"    {ids[name]}" if is_plain else f'    state "{escape(shown[name])}" as {ids[name]}')
+    if design.initial in names:
+        text.append(f"    [*] --> {ids[design.initial]}")
+    for line in lines:
+        label = f" : {escape(line.label)}" if line.label else ""
+        text.append(f"    {ids[line.source]} --> {ids[line.target]}{label}")
+    text += [f"    {ids[state.name]} --> [*]" for state in design.states if state.final and state.name in ids]
+    return "\n".join(text) + "\n"
+
+
+def escape(text: str) -> str:
+    """One line that Mermaid shows as it is."""
+    line = "".join(letter if letter.isprintable() else "\ufffd" for letter in " ".join(text.split()))
+    return _PLAIN.sub(lambda match: f"#{ord(match.group())};", line)

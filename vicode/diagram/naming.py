@@ -1,0 +1,29 @@
+"""Ids for states in the text forms of drawings: the name itself where the form allows it."""
+
+from collections.abc import Collection, Iterable
+
+from vicode.model.names import is_state_name
+
+
+def identifiers(names: Iterable[str], reserved: Collection[str]) -> dict[str, str]:
+    """An id for every name; names that mean something to the form, or begin with a digit, get a prefix.
+
+    Args:
+        names: What things are called; the first of two equal ones counts.
+        reserved: Words that are no ids, in small letters.
+    """
+    wanted = tuple(dict.fromkeys(names))
+    plain = {name for name in wanted if _is_plain(name, reserved)}
+    ids = {name: name for name in plain}
+    taken = set(plain)
+    for number, name in enumerate(name for name in wanted if name not in plain):
+        id_ = f"s_{name}" if is_state_name(name) else f"s_{number}"
+        while id_ in taken:
+            id_ += "_"
+        ids[name] = id_
+        taken.add(id_)
+    return ids
+
+
+def _is_plain(name: str, reserved: Collection[str]) -> bool:
+    return is_state_name(name) and name[0].isalpha() and name.casefold() not in reserved

@@ -1,0 +1,66 @@
+"""The colours of drawings, light and dark: those of the canvas, which a test compares."""
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Palette:
+    """A colour for every part; the names are those of the canvas's style sheet, with underscores."""
+
+    paper: str
+    text: str
+    muted: str
+    box: str
+    box_line: str
+    faint: str
+    edge: str
+    plate: str
+    plate_line: str
+    start: str
+    component: str
+    component_line: str
+    component_text: str
+    requires: str
+    modulates: str
+    common: str
+    common_fill: str
+
+
+LIGHT = Palette(
+    paper="#f8fafc",
+    text="#18212f",
+    muted="#526075",
+    box="#ffffff",
+    box_line="#64748b",
+    faint="#e3e9f1",
+    edge="#5d6b80",
+    plate="#ffffff",
+    plate_line="#cbd5e1",
+    start="#18212f",
+    component="#eaf3ff",
+    component_line="#1f6fb8",
+    component_text="#134a80",
+    requires="#1f6fb8",
+    modulates="#0f766e",
+    common="#7c3aed",
+    common_fill="#f5f0ff",
+)
+DARK = Palette(
+    paper="#11161e",
+    text="#e6ecf5",
+    muted="#a4b1c4",
+    box="#1c2431",
+    box_line="#8797ae",
+    faint="#232c39",
+    edge="#94a3b8",
+    plate="#1a212d",
+    plate_line="#3a475b",
+    start="#e6ecf5",
+    component="#12253c",
+    component_line="#64a8ee",
+    component_text="#bcdcff",
+    requires="#64a8ee",
+    modulates="#4fd1c0",
+    common="#b794ff",
+    common_fill="#241c38",
+)

@@ -1,0 +1,41 @@
+"""A design as PlantUML, for documents that draw it themselves."""
+
+import re
+from collections.abc import Collection
+
+from vicode.diagram.listing import EVERY_STATE, list_transitions
+from vicode.diagram.naming import identifiers
+from vicode.model.design import COMMON, Design
+
+_RESERVED = frozenset({
+    "as", "choice", "class", "down", "end", "entrypoint", "exitpoint", "fork", "frame", "hide", "history", "join",
+    "json", "left", "legend", "note", "remove", "right", "scale", "show", "skinparam", "start", "state", "title",
+    "up",
+})  # fmt: skip
+# Signs of its markup and its preprocessor; the doubled ones only make text bold, slanted or struck.
+_MEANING = re.compile(r"[^\w .,()=+\-*/'!?|:]|([*/_\-'.])\1+|^[!']")
+
+
+def write_plantuml(design: Design, *, only: Collection[str] | None = None) -> str:
+    """The text of the whole design, or of some states and what goes on among them."""
+    names = [state.name for state in design.states if only is None or state.name in only]
+    lines = list(list_transitions(design, only))
+    commons = [COMMON] if any(line.source == COMMON for line in lines) else []
+    ids = identifiers((*names, *commons), _RESERVED)
+    text = ["@startuml", f"title {escape(design.component)}", "hide empty description", "left to right direction"]
+    text += [f'state "{escape(name)}" as {ids[name]}' for name in names]
+    text += [f'state "{EVERY_STATE}" as {ids[name]} #line.dashed' for name in commons]
+    if design.initial in names:
+        text.append(f"[*] --> {ids[design.initial]}")
+    for line in lines:
+        arrow = "-[dashed]->" if line.source == COMMON else "-->"
+        label = f" : {escape(line.label)}" if line.label else ""
+        text.append(f"{ids[line.source]} {arrow} {ids[line.target]}{label}")
+    text += [f"{ids[state.name]} --> [*]" for state in design.states if state.final and state.name in ids]
+    return "\n".join((*text, "@enduml")) + "\n"
+
+
+def escape(text: str) -> str:
+    """One line that PlantUML shows as it is."""
+    line = "".join(letter if letter.isprintable() else "\ufffd" for letter in " ".join(text.split()))
+    return _MEANING.sub(lambda match: "".join(f"<U+{ord(letter):04X}>" for letter in match.group()), line)
