@@ -78,6 +78,16 @@ def remove_states(design: Design, names: Collection[str]) -> Design:
     return replace(design, states=states, common=common, initial=initial)
 
 
+def reorder_state(design: Design, name: str, to_index: int) -> Design:
+    """Move a state within the list of states, which is the order of the file and of the table."""
+    state = design.state(name)
+    if state is None:
+        return design
+    rest = [each for each in design.states if each is not state]
+    rest.insert(max(0, min(to_index, len(rest))), state)
+    return replace(design, states=tuple(rest))
+
+
 def move(
     design: Design, states: Mapping[str, Point], uses: Mapping[str, Point] | None = None, common: Point | None = None
 ) -> Design:

@@ -6,9 +6,9 @@ from typing import Any, cast
 from nicegui import ui
 
 from vicode.editor.pages.actions import Actions
-from vicode.editor.pages.drawing import Drawing
 from vicode.editor.pages.keys import listen_to_keys
 from vicode.editor.pages.look import Theme, add_look
+from vicode.editor.pages.stage import Stage
 from vicode.editor.panels.code_panel import CodePanel
 from vicode.editor.panels.designs_list import DesignsList
 from vicode.editor.panels.desk import Desk
@@ -33,14 +33,15 @@ class DesignPage:
             head = ui.element("header").classes("head")
             self.designs = DesignsList(library, (workspace.key, document.design.component), _say)
             with ui.element("main").classes("stage"):
-                self.drawing = Drawing(desk)
+                self.stage = Stage(desk)
             with ui.element("section").classes("dock").props('aria-label="Findings"'):
                 self.dock = Tabs({"Findings": lambda: FindingsPanel(desk, problems)}, place="dock")
             with ui.element("aside").classes("side").props('aria-label="Inspector"'):
                 self.side = Tabs(
                     {"Inspect": lambda: Inspector(desk), "Generated code": lambda: CodePanel(desk)}, place="side"
                 )
-        commands = (*Actions(desk, self.drawing, theme).commands(), *problems.commands())
+        actions = Actions(desk, self.stage.drawing, theme)
+        commands = (*actions.commands(), *problems.commands(), *self.stage.commands())
         with head:
             self.header = Header(desk, commands)
         listen_to_keys(commands)
@@ -57,12 +58,11 @@ class DesignPage:
         self.designs.refresh()
 
     def _changed(self) -> None:
-        self.drawing.follow()
+        self.stage.follow()
         self.desk.tell()
 
     def _refresh(self) -> None:
-        self.drawing.show_selection()
-        for panel in (self.header, self.dock, self.side):
+        for panel in (self.stage, self.header, self.dock, self.side):
             panel.refresh()
 
 

@@ -9,7 +9,8 @@ Act = Callable[[], object]
 
 def icon_button(icon: str, label: str, act: Act) -> ui.button:
     """A button with only an icon; `label` is its tip and its name for screen readers."""
-    button = ui.button(icon=icon, on_click=act).props("flat dense round size=sm")
+    # Without a colour of Quasar's, which would overrule that of the place it stands in.
+    button = ui.button(icon=icon, on_click=act, color=None).props("flat dense round size=sm").classes("icon-button")
     # Set, not written into a text of props: labels hold names, and a quote in a name would begin another prop.
     button.props["aria-label"] = label
     with button:

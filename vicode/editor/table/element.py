@@ -1,0 +1,85 @@
+"""The Python side of the table: keeps what is shown, so that a page that mounts late or again gets it all."""
+
+from collections.abc import Callable, Iterable, Mapping
+from pathlib import Path
+from typing import Any
+
+from nicegui import ui
+from nicegui.dependencies import register_esm
+from nicegui.events import GenericEventArguments
+
+_SCRIPTS = Path(__file__).parent / "js"
+
+# NiceGUI lets browsers keep these files for a year under a key made of this time; a folder's own time would
+# not change when one of its files is edited.
+register_esm("vicode-table", _SCRIPTS, max_time=max(path.stat().st_mtime for path in _SCRIPTS.iterdir()))
+
+Payload = Mapping[str, Any]
+
+
+class TableGrid(ui.element, component="js/vicode_table.js"):
+    """The rows of a design (see `vicode.editor.view.table`), as a tree grid that keys alone can steer.
+
+    Args:
+        on_edit: called with every wish to change something (see `vicode.editor.session.table_edits`).
+        on_select: called with the id of the row that is worked on.
+    """
+
+    def __init__(self, on_edit: Callable[[Payload], None], on_select: Callable[[str], None]) -> None:
+        super().__init__()
+        self._on_edit, self._on_select = on_edit, on_select
+        self._table: dict[str, Any] = {"rows": [], "states": [], "uses": []}
+        self._selected: list[str] = []
+        self._is_mounted = False
+        self._wants_focus = False
+        # Handlers added after the first rendering would make NiceGUI mount the element anew.
+        self.on("edit", self._hear_edit)
+        self.on("select", self._hear_select)
+        self.on("ready", self._hear_ready)
+
+    def load(self, table: Mapping[str, Any]) -> None:
+        """Show a whole table."""
+        self._table = dict(table)
+        self._call("load", self._table)
+
+    def apply(self, table: Mapping[str, Any], changes: Mapping[str, Any]) -> None:
+        """Show another table, that differs by `changes` from the one shown."""
+        self._table = dict(table)
+        self._call("apply", dict(changes))
+
+    def select(self, rows: Iterable[str]) -> None:
+        """Mark exactly these rows, and bring the first of them into sight."""
+        self._selected = list(rows)
+        self._call("select", self._selected)
+
+    def edit_cell(self, row: str, column: str) -> None:
+        """Open a cell for typing."""
+        self._call("editCell", row, column)
+
+    def refuse(self, payload: Payload, words: str) -> None:
+        """Tell why an edit was not done; what was typed stays to be mended."""
+        self._call("refuse", dict(payload), words)
+
+    def take_focus(self) -> None:
+        """Let the keys work here."""
+        self._wants_focus = not self._is_mounted
+        self._call("takeFocus")
+
+    def _call(self, method: str, *arguments: object) -> None:
+        # Before the element is mounted a call would be lost; `_hear_ready` sends everything then.
+        if self._is_mounted:
+            self.run_method(method, *arguments)
+
+    def _hear_edit(self, event: GenericEventArguments) -> None:
+        if isinstance(event.args, dict):
+            self._on_edit(event.args)
+
+    def _hear_select(self, event: GenericEventArguments) -> None:
+        self._on_select(str(event.args))
+
+    def _hear_ready(self) -> None:
+        self._is_mounted = True
+        self._call("load", self._table)
+        self._call("select", self._selected)
+        if self._wants_focus:
+            self.take_focus()

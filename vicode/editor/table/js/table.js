@@ -1,0 +1,295 @@
+// The table itself: rows mounted where they are seen, one cell in the tab order, keys as in a spreadsheet.
+import { CellEditor, columnOf, nameOf } from "./cell_editor.js";
+import { COLUMNS, drawCell, isEditable } from "./columns.js";
+import { keyDown } from "./keys.js";
+
+const ROW = 32;
+const MARGIN = 8;
+const SELECT_MS = 120;
+
+const sheet = new CSSStyleSheet();
+sheet.replaceSync(await (await fetch(new URL("./table.css", import.meta.url))).text());
+document.adoptedStyleSheets = [...document.adoptedStyleSheets, sheet];
+
+/** Shows rows in `host` and reports what a person wishes by `emit(event, payload)`. */
+export const mountTable = (host, emit) => new Table(host, emit);
+
+class Table {
+  constructor(host, emit) {
+    this.host = host;
+    this.emit = emit;
+    this.rows = new Map();
+    this.order = [];
+    this.mounted = new Map();
+    this.selected = new Set();
+    this.lists = { states: [], uses: [] };
+    this.at = { row: null, column: 0 };
+    this.#build();
+    this.editor = new CellEditor(this);
+    this.#wire();
+  }
+
+  load({ rows, states, uses }) {
+    this.rows = new Map(rows.map((row) => [row.id, row]));
+    this.lists = { states, uses };
+    for (const element of this.mounted.values()) element.remove();
+    this.mounted.clear();
+    this.#reorder(rows.map((row) => row.id));
+    this.host.dataset.ready = "true";
+  }
+
+  apply({ upsert, remove, order, ...lists }) {
+    Object.assign(this.lists, lists);
+    for (const id of remove) this.rows.delete(id);
+    for (const row of upsert) this.rows.set(row.id, row);
+    if (this.editor.isOpen && !this.rows.has(this.editor.row)) this.editor.close(false);
+    const hadFocus = this.body.contains(document.activeElement) && !this.editor.isOpen;
+    for (const row of upsert) if (this.mounted.has(row.id)) this.#drawRow(this.mounted.get(row.id), row);
+    this.#reorder(order ?? this.order);
+    if (hadFocus) this.takeFocus();
+  }
+
+  select(ids) {
+    this.selected = new Set(ids);
+    for (const [id, element] of this.mounted) element.setAttribute("aria-selected", String(this.selected.has(id)));
+    const [first] = ids;
+    if (ids.length !== 1 || !this.rows.has(first) || first === this.at.row) return;
+    const hadFocus = this.body.contains(document.activeElement);
+    this.#goTo(first, this.at.column, { quiet: true, focus: hadFocus && !this.editor.isOpen });
+  }
+
+  editCell(id, name, options = {}) {
+    const row = this.rows.get(id);
+    const column = columnOf(name);
+    if (!row || !column) return;
+    this.#goTo(id, COLUMNS.indexOf(column), { focus: true });
+    if (isEditable(row, column) && column.kind !== "flag") this.editor.open(row, column, options);
+  }
+
+  /** An edit was not done: what was typed comes back, with the reason. */
+  refuse({ row, column, value }, words) {
+    if (value !== undefined && this.rows.has(row)) this.editCell(row, column, { text: value, refused: words });
+  }
+
+  takeFocus() {
+    if (!this.rows.has(this.at.row)) this.at = { row: this.order[0] ?? null, column: 0 };
+    if (this.at.row === null) return this.scroller.focus();
+    this.#goTo(this.at.row, this.at.column, { focus: true, quiet: true });
+  }
+
+  /** Goes on by rows and columns, as far as there are any. */
+  go(rows, columns) {
+    const last = this.order.length - 1;
+    const index = Math.max(0, Math.min(last, this.order.indexOf(this.at.row) + rows));
+    const column = Math.max(0, Math.min(COLUMNS.length - 1, this.at.column + columns));
+    if (last >= 0) this.#goTo(this.order[index], column, { focus: true });
+  }
+
+  /** To the next cell that can be edited in this row, else to the next one at all. */
+  step(by) {
+    const row = this.rows.get(this.at.row);
+    let column = this.at.column + by;
+    while (row && COLUMNS[column] && !isEditable(row, COLUMNS[column])) column += by;
+    if (COLUMNS[column]) this.go(0, column - this.at.column);
+    else this.takeFocus();
+  }
+
+  /** Rows that fit into the window. */
+  get page() {
+    return Math.max(1, Math.floor(this.scroller.clientHeight / ROW) - 2);
+  }
+
+  get here() {
+    return { row: this.rows.get(this.at.row), column: COLUMNS[this.at.column] };
+  }
+
+  /** Begins to type in the cell, or flips a flag. */
+  act(options = {}) {
+    const { row, column } = this.here;
+    if (!row || !isEditable(row, column)) return;
+    if (column.kind === "flag") this.wish({ kind: "toggle", row: row.id, column: column.name });
+    else this.editor.open(row, column, options);
+  }
+
+  /** Asks Python for something. */
+  wish(payload) {
+    this.#tellSelection();
+    this.emit("edit", payload);
+  }
+
+  cellAt(id, column) {
+    this.#mount();
+    return this.mounted.get(id)?.children[COLUMNS.indexOf(column)];
+  }
+
+  dispose() {
+    clearTimeout(this.telling);
+    this.sizes.disconnect();
+  }
+
+  #build() {
+    const make = (name, role, children = []) => {
+      const element = document.createElement("div");
+      element.className = name;
+      element.setAttribute("role", role);
+      element.append(...children);
+      return element;
+    };
+    const heads = COLUMNS.map((column, index) => {
+      const head = make(`head-cell ${column.name}`, "columnheader");
+      head.textContent = column.title;
+      head.setAttribute("aria-colindex", String(index + 1));
+      return head;
+    });
+    const headRow = make("head-row", "row", heads);
+    headRow.setAttribute("aria-rowindex", "1");
+    this.body = make("rows", "rowgroup");
+    this.grid = make("grid", "treegrid", [make("heads", "rowgroup", [headRow]), this.body]);
+    this.grid.setAttribute("aria-label", "States and transitions");
+    this.grid.setAttribute("aria-colcount", String(COLUMNS.length));
+    this.grid.setAttribute("aria-multiselectable", "true");
+    this.scroller = make("scroller", "presentation", [this.grid]);
+    this.host.append(this.scroller);
+  }
+
+  #wire() {
+    this.scroller.addEventListener("scroll", () => this.#mount(), { passive: true });
+    this.sizes = new ResizeObserver(() => this.#mount());
+    this.sizes.observe(this.scroller);
+    this.body.addEventListener("keydown", (event) => keyDown(this, event));
+    this.body.addEventListener("pointerdown", (event) => this.#pressed(event));
+    this.body.addEventListener("dblclick", (event) => this.#placeOf(event) && this.act({ byHand: true }));
+    this.body.addEventListener("focusout", () => this.#tellSelection());
+  }
+
+  /** A press selects a cell; a press on the selected one begins to type. */
+  #pressed(event) {
+    const place = this.#placeOf(event);
+    if (!place || event.button !== 0) return;
+    event.preventDefault();
+    const again = place.row === this.at.row && place.column === this.at.column && this.body.contains(document.activeElement);
+    this.#goTo(place.row, place.column, { focus: true });
+    if (again || COLUMNS[place.column].kind === "flag") this.act({ byHand: true });
+  }
+
+  #placeOf(event) {
+    const cell = event.target.closest(".cell");
+    if (!cell || event.target.closest(".field-in-cell")) return null;
+    return { row: cell.parentElement.dataset.id, column: [...cell.parentElement.children].indexOf(cell) };
+  }
+
+  #goTo(id, column, { focus = false, quiet = false }) {
+    if (this.editor.isOpen && (id !== this.editor.row || focus)) this.editor.close(true);
+    this.#tab(-1);
+    this.at = { row: id, column };
+    this.#show(this.order.indexOf(id));
+    this.#mount();
+    this.#tab(0);
+    if (focus) this.#focused()?.focus({ preventScroll: true });
+    if (focus) this.#focused()?.scrollIntoView({ block: "nearest", inline: "nearest" });
+    if (quiet) return;
+    clearTimeout(this.telling);
+    this.telling = setTimeout(() => this.#tellSelection(), SELECT_MS);
+  }
+
+  /** Tells Python which row is worked on, once the keys rest. */
+  #tellSelection() {
+    if (!this.telling) return;
+    clearTimeout(this.telling);
+    this.telling = null;
+    if (this.rows.has(this.at.row)) this.emit("select", this.at.row);
+  }
+
+  #focused() {
+    const cell = this.mounted.get(this.at.row)?.children[this.at.column];
+    return cell?.querySelector(".flag") ?? cell;
+  }
+
+  #tab(index) {
+    this.#focused()?.setAttribute("tabindex", String(index));
+  }
+
+  #show(index) {
+    const top = index * ROW;
+    const { scrollTop, clientHeight } = this.scroller;
+    if (top < scrollTop) this.scroller.scrollTop = top;
+    else if (top + 3 * ROW > scrollTop + clientHeight) this.scroller.scrollTop = top + 3 * ROW - clientHeight;
+  }
+
+  #reorder(order) {
+    this.order = order.filter((id) => this.rows.has(id));
+    this.grid.setAttribute("aria-rowcount", String(this.order.length + 1));
+    this.body.style.height = `${this.order.length * ROW}px`;
+    if (!this.rows.has(this.at.row)) this.#standNear();
+    this.#mount();
+    this.#tab(0);
+  }
+
+  /** The row that was worked on is gone: what stands in its place now takes over. */
+  #standNear() {
+    const index = Math.max(0, Math.min(this.order.length - 1, this.index ?? 0));
+    this.at = { row: this.order[index] ?? null, column: this.at.column };
+  }
+
+  /** Brings what is mounted up to what is seen; the row worked on is always there. */
+  #mount() {
+    const first = Math.max(0, Math.floor(this.scroller.scrollTop / ROW) - MARGIN);
+    const last = Math.min(this.order.length, first + Math.ceil(this.scroller.clientHeight / ROW) + 2 * MARGIN);
+    const own = this.order.indexOf(this.at.row);
+    if (own >= 0) this.index = own;
+    const wanted = [...new Set([own, ...range(first, last)])].filter((index) => index >= 0).sort((a, b) => a - b);
+    const ids = new Set(wanted.map((index) => this.order[index]));
+    for (const [id, element] of this.mounted) {
+      if (ids.has(id)) continue;
+      element.remove();
+      this.mounted.delete(id);
+    }
+    let next = this.body.firstElementChild;
+    for (const index of wanted) next = this.#place(index, next);
+  }
+
+  /** Puts a row at its place before `next`; returns what follows it. */
+  #place(index, next) {
+    const id = this.order[index];
+    const element = this.mounted.get(id) ?? this.#newRow(this.rows.get(id));
+    element.style.top = `${index * ROW}px`;
+    element.setAttribute("aria-rowindex", String(index + 2));
+    if (element === next) return element.nextElementSibling;
+    this.body.insertBefore(element, next);
+    return next;
+  }
+
+  #newRow(row) {
+    const element = document.createElement("div");
+    element.setAttribute("role", "row");
+    element.dataset.id = row.id;
+    COLUMNS.forEach((_column, index) => {
+      const cell = document.createElement("div");
+      cell.setAttribute("role", "gridcell");
+      cell.setAttribute("aria-colindex", String(index + 1));
+      element.append(cell);
+    });
+    this.mounted.set(row.id, element);
+    this.#drawRow(element, row);
+    return element;
+  }
+
+  #drawRow(element, row) {
+    element.className = `row ${row.kind}`;
+    element.style.setProperty("--level", String(row.level - 1));
+    element.setAttribute("aria-level", String(row.level));
+    element.setAttribute("aria-selected", String(this.selected.has(row.id)));
+    COLUMNS.forEach((column, index) => {
+      const cell = element.children[index];
+      const isTyped = this.editor.isOpen && this.editor.row === row.id && this.editor.column === column;
+      if (isTyped) return;
+      drawCell(cell, row, column).setAttribute("tabindex", "-1");
+      if (column.name === "name" && row.kind === "common") cell.setAttribute("aria-label", nameOf(row));
+    });
+    if (row.id === this.at.row) this.#tab(0);
+  }
+}
+
+function* range(from, to) {
+  for (let index = from; index < to; index += 1) yield index;
+}
