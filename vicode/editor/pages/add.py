@@ -1,5 +1,7 @@
 """Registers the pages of the editor for one library of designs."""
 
+import contextlib
+
 from nicegui import ui
 from starlette.responses import RedirectResponse, Response
 
@@ -27,6 +29,10 @@ def add_pages(library: Library) -> None:
     @ui.page("/design/{key}/{component}", title="vicode")
     def design(key: str, component: str) -> None:
         workspace = library.workspace(key)
+        if workspace:
+            # A design may be younger than what was read last.
+            with contextlib.suppress(OSError):
+                workspace.follow_disk()
         document = workspace.document(component) if workspace else None
         if workspace is None or document is None:
             _nothing(f"There is no design {component[:80]} here", "It may have been renamed or removed.")

@@ -24,6 +24,7 @@ from vicode.model.edits import (
     replace_decision,
     update_state,
 )
+from vicode.model.enabling import disable
 from vicode.model.walks import decision_at
 
 Payload = Mapping[str, Any]
@@ -145,19 +146,27 @@ def _set_in_decision(document: Document, key: str, column: str, value: str) -> O
 
 def _toggle(document: Document, payload: Payload) -> Outcome:
     thing, column = thing_of_row(str(payload["row"])), str(payload["column"])
-    if thing.of != "states" or document.design.state(thing.id) is None:
-        raise RefusedError("that row is gone")
-    if column == "initial":
+    _cell(document, thing, column)
+    if column == "disabled":
+        _toggle_disabled(document, thing)
+    elif column == "final":
+        document.edit("edit Final", lambda design: update_state(design, thing.id, _flip_final))
+    elif column == "initial":
         if document.design.initial == thing.id:
             raise RefusedError("a design starts somewhere: mark another state as initial")
         document.edit("edit Initial", lambda design: replace(design, initial=thing.id))
-    elif column == "final":
-
-        def flip(state: State) -> State:
-            return replace(state, final=not state.final)
-
-        document.edit("edit Final", lambda design: update_state(design, thing.id, flip))
     return Outcome()
+
+
+def _toggle_disabled(document: Document, thing: Selected) -> None:
+    states = [thing.id] if thing.of == "states" else []
+    paths = [path_of_key(thing.id)] if thing.of == "transitions" else []
+    flag = _cell(document, thing, "disabled") == "False"
+    document.edit("disable" if flag else "enable", lambda design: disable(design, states, paths, flag=flag))
+
+
+def _flip_final(state: State) -> State:
+    return replace(state, final=not state.final)
 
 
 def _add_state(document: Document, payload: Payload) -> Outcome:

@@ -84,6 +84,7 @@ def _state_row(design: Design, state: State, found: dict[Selected, list[Finding]
         "name": state.name,
         "initial": state.name == design.initial,
         "final": state.final,
+        "disabled": state.disabled,
         "requires": ", ".join(state.requires),
         "modulates": ", ".join(call.alias for call in state.modulates),
         "code": ", ".join(phase for phase in _PHASES if getattr(state, phase)),
@@ -101,6 +102,7 @@ def _decision_row(located: Located, found: dict[Selected, list[Finding]]) -> Row
     decision, guard = located.decision, located.decision.guard
     cells = {
         "name": decision.to if isinstance(decision, Transition) else "",
+        "disabled": decision.disabled,
         "when": guard.when,
         "after": guard.after,
         "code": _predicate(guard.code),

@@ -1,5 +1,5 @@
 // Typing in a cell: a field laid over it. What is typed is only proposed; Python decides, and a refusal keeps it.
-import { COLUMNS, editorOf } from "./columns.js";
+import { COLUMNS, editorOf, nameOf } from "./columns.js";
 
 export class CellEditor {
   constructor(table) {
@@ -118,4 +118,3 @@ export class CellEditor {
 }
 
 export const columnOf = (name) => COLUMNS.find((column) => column.name === name);
-export const nameOf = (row) => `${row.lead} ${row.cells.name ?? ""}`.trim();

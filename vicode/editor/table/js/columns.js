@@ -5,6 +5,7 @@ export const COLUMNS = [
   { name: "name", title: "State or target", kind: "text" },
   { name: "initial", title: "Initial", kind: "flag" },
   { name: "final", title: "Final", kind: "flag" },
+  { name: "disabled", title: "Disabled", kind: "flag" },
   { name: "when", title: "When", kind: "text", mono: true, hint: "always" },
   { name: "after", title: "After, s", kind: "text", mono: true },
   { name: "requires", title: "Requires", kind: "text", mono: true, from: "uses" },
@@ -12,6 +13,8 @@ export const COLUMNS = [
   { name: "code", title: "Code", kind: "marks" },
   { name: "doc", title: "Doc", kind: "text" },
 ];
+
+export const nameOf = (row) => `${row.lead} ${row.cells.name ?? ""}`.trim();
 
 const SIGNS = { error: "⬣", warning: "▲", note: "●" };
 
@@ -47,7 +50,7 @@ function drawFlag(cell, row, column, value) {
   const box = span("flag", "");
   box.setAttribute("role", "checkbox");
   box.setAttribute("aria-checked", String(value));
-  box.setAttribute("aria-label", `${row.cells.name}: ${column.title}`);
+  box.setAttribute("aria-label", `${nameOf(row)}: ${column.title}`);
   cell.title = column.title;
   cell.append(box);
   return box;

@@ -1,5 +1,5 @@
 // The table itself: rows mounted where they are seen, one cell in the tab order, keys as in a spreadsheet.
-import { CellEditor, columnOf, nameOf } from "./cell_editor.js";
+import { CellEditor, columnOf } from "./cell_editor.js";
 import { COLUMNS, drawCell, isEditable } from "./columns.js";
 import { keyDown } from "./keys.js";
 
@@ -275,7 +275,7 @@ class Table {
   }
 
   #drawRow(element, row) {
-    element.className = `row ${row.kind}`;
+    element.className = `row ${row.kind}${row.cells.disabled ? " disabled" : ""}`;
     element.style.setProperty("--level", String(row.level - 1));
     element.setAttribute("aria-level", String(row.level));
     element.setAttribute("aria-selected", String(this.selected.has(row.id)));
@@ -284,7 +284,6 @@ class Table {
       const isTyped = this.editor.isOpen && this.editor.row === row.id && this.editor.column === column;
       if (isTyped) return;
       drawCell(cell, row, column).setAttribute("tabindex", "-1");
-      if (column.name === "name" && row.kind === "common") cell.setAttribute("aria-label", nameOf(row));
     });
     if (row.id === this.at.row) this.#tab(0);
   }

@@ -1,0 +1,196 @@
+"""The table: its rows, what changed between two of them, and edits made in its cells."""
+
+from pathlib import Path
+from typing import Any
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from tests.strategies.designs import designs
+from vicode.editor.session import Document, Outcome
+from vicode.editor.session.table_edits import LONGEST, apply_table_edit
+from vicode.editor.view import Selected, table_difference, table_of
+from vicode.model.design import COMMON, Call, Common, Design, Group, Guard, State, Transition, Use
+from vicode.store import read_design, save_design
+
+DESIGN = Design(
+    component="Player",
+    initial="A",
+    uses=(Use(alias="head", component="Head"), Use(alias="legs", component="Legs")),
+    common=Common(transitions=(Transition(to="A", guard=Guard(when="fallen")),)),
+    states=(
+        State(
+            name="A",
+            modulates=(Call(alias="legs", arguments=(("speed", "1"),)),),
+            transitions=(
+                Transition(to="B", guard=Guard(after="5")),
+                Group(guard=Guard(when="x"), then=(Transition(to="A"),), otherwise=(Transition(to="B"),)),
+            ),
+        ),
+        State(name="B", final=True),
+    ),
+)
+
+
+@pytest.fixture
+def document() -> Document:
+    return Document(file=Path("player.yaml"), disk_text="", saved=DESIGN, check=lambda _design: ())
+
+
+def rows(document: Document) -> dict[str, dict[str, Any]]:
+    return {row["id"]: row for row in table_of(document.design, ())["rows"]}
+
+
+def write(document: Document, row: str, column: str, value: str) -> Outcome:
+    base = rows(document)[row]["cells"].get(column, "")
+    return apply_table_edit(document, {"kind": "set", "row": row, "column": column, "value": value, "base": base})
+
+
+def test_rows_stand_in_the_order_of_the_decisions(document: Document) -> None:
+    table = rows(document)
+    assert list(table) == [
+        "common/@common",
+        "transitions/@common/0",
+        "states/A",
+        "transitions/A/0",
+        "transitions/A/1",
+        "transitions/A/1/then/0",
+        "transitions/A/1/else/0",
+        "states/B",
+    ]
+    assert [row["lead"] for row in table.values()] == ["", "1 →", "", "1 →", "2 if", "1 →", "else 1 →", ""]
+    assert [row["level"] for row in table.values()] == [1, 2, 1, 2, 2, 3, 3, 1]
+    assert table["states/A"]["cells"]["modulates"] == "legs"
+    assert table["transitions/A/0"]["cells"]["after"] == "5"
+
+
+@given(old=designs, new=designs)
+def test_a_difference_makes_one_table_of_another(old: Design, new: Design) -> None:
+    before, after = table_of(old, ()), table_of(new, ())
+    changes = table_difference(before, after)
+    shown = {row["id"]: row for row in before["rows"]}
+    for key in changes["remove"]:
+        del shown[key]
+    shown.update({row["id"]: row for row in changes["upsert"]})
+    order = changes.get("order", [row["id"] for row in before["rows"]])
+    assert [shown[key] for key in order] == after["rows"]
+    assert changes.get("states", before["states"]) == after["states"]
+
+
+@pytest.mark.parametrize(
+    ("row", "column", "value"),
+    [
+        ("states/A", "doc", "looks\naround"),
+        ("states/A", "requires", "head, legs"),
+        ("states/B", "modulates", "head"),
+        ("transitions/A/0", "name", "A"),
+        ("transitions/A/0", "when", "x > 1"),
+        ("transitions/A/0", "after", "7"),
+        ("transitions/A/1/else/0", "doc", "last way"),
+        ("transitions/@common/0", "when", "up"),
+    ],
+)
+def test_a_cell_takes_a_value_and_undo_gives_it_back(document: Document, row: str, column: str, value: str) -> None:
+    assert not write(document, row, column, value).refused
+    assert rows(document)[row]["cells"][column] == value
+    document.undo()
+    assert document.design == DESIGN
+
+
+def test_modulating_another_component_keeps_the_parameters_of_the_first(document: Document) -> None:
+    write(document, "states/A", "modulates", "head legs")
+    calls = document.design.states[0].modulates
+    assert calls == (Call(alias="head"), Call(alias="legs", arguments=(("speed", "1"),)))
+
+
+def test_a_new_name_goes_where_the_old_one_was(document: Document) -> None:
+    assert write(document, "states/B", "name", "Rest").select == (Selected(of="states", id="Rest"),)
+    assert rows(document)["transitions/A/0"]["cells"]["name"] == "Rest"
+
+
+@pytest.mark.parametrize(
+    ("row", "column", "value", "words"),
+    [
+        ("states/A", "name", "B", "already a state"),
+        ("states/A", "name", "<img>", "no name"),
+        ("states/A", "requires", "nobody", "no component used here"),
+        ("transitions/A/0", "name", "C", "no state 'C'"),
+        ("transitions/A/1", "name", "B", "only a transition"),
+        ("states/A", "code", "pass", "cannot be changed"),
+        ("states/A", "final", "yes", "cannot be changed"),
+        ("states/A", "doc", "x" * (LONGEST + 1), "too long"),
+        ("common/@common", "name", "all", "inspector"),
+    ],
+)
+def test_what_cannot_be_is_refused_in_words(document: Document, row: str, column: str, value: str, words: str) -> None:
+    assert words in write(document, row, column, value).refused
+    assert document.design == DESIGN
+
+
+def test_what_another_wrote_meanwhile_is_not_written_over_silently(document: Document) -> None:
+    wish = {"kind": "set", "row": "states/A", "column": "doc", "value": "mine", "base": "before"}
+    write(document, "states/A", "doc", "theirs")
+    assert "it became 'theirs'" in apply_table_edit(document, wish).refused
+    assert document.design.states[0].doc == "theirs"
+
+
+def test_flags_flip(document: Document) -> None:
+    for row, column in (("states/A", "final"), ("states/B", "initial"), ("transitions/A/0", "disabled")):
+        apply_table_edit(document, {"kind": "toggle", "row": row, "column": column})
+        assert rows(document)[row]["cells"][column] is True
+    assert (
+        "mark another" in apply_table_edit(document, {"kind": "toggle", "row": "states/B", "column": "initial"}).refused
+    )
+
+
+def test_rows_are_added_below_and_selected(document: Document) -> None:
+    outcome = apply_table_edit(document, {"kind": "add-transition", "row": "transitions/A/0"})
+    assert outcome.select == (Selected(of="transitions", id="A/1"),)
+    assert rows(document)["transitions/A/1"]["cells"]["name"] == "B"
+    apply_table_edit(document, {"kind": "add-transition", "row": "common/@common"})
+    assert len(document.design.common.transitions) == 2
+    outcome = apply_table_edit(document, {"kind": "add-state", "row": "transitions/A/0"})
+    assert [state.name for state in document.design.states] == ["A", "State", "B"]
+    assert outcome.select == (Selected(of="states", id="State"),)
+    apply_table_edit(document, {"kind": "add-state", "row": ""})
+    assert document.design.states[-1].name == "State2"
+
+
+def test_rows_are_moved_and_removed(document: Document) -> None:
+    outcome = apply_table_edit(document, {"kind": "move", "row": "transitions/A/0", "by": 1})
+    assert outcome.select == (Selected(of="transitions", id="A/1"),)
+    apply_table_edit(document, {"kind": "move", "row": "transitions/A/1", "by": 1})
+    assert rows(document)["transitions/A/1"]["cells"]["after"] == "5"
+    apply_table_edit(document, {"kind": "move", "row": "states/B", "by": -1})
+    assert [state.name for state in document.design.states] == ["B", "A"]
+    apply_table_edit(document, {"kind": "remove", "row": "transitions/A/0"})
+    apply_table_edit(document, {"kind": "remove", "row": "states/B"})
+    assert list(rows(document)) == ["common/@common", "transitions/@common/0", "states/A"]
+
+
+def test_the_order_of_states_reaches_the_file(document: Document) -> None:
+    text = save_design(DESIGN, "")
+    apply_table_edit(document, {"kind": "move", "row": "states/B", "by": -1})
+    again = read_design(save_design(document.design, text), "player.yaml").design
+    assert again == document.design
+
+
+_WILD = st.recursive(
+    st.none() | st.booleans() | st.integers() | st.floats() | st.text(max_size=20) | st.sampled_from(list("AB")),
+    lambda inner: st.lists(inner, max_size=3) | st.dictionaries(st.text(max_size=8), inner, max_size=3),
+    max_leaves=4,
+)
+_KINDS = st.sampled_from(["set", "toggle", "add-state", "add-transition", "remove", "move"]) | st.text(max_size=9)
+_ROWS = st.sampled_from(["states/A", "transitions/A/1/then/0", "transitions/A/9", "common/@common", COMMON, ""]) | _WILD
+_COLUMNS = st.sampled_from(["name", "when", "after", "requires", "modulates", "doc", "final", "initial"]) | _WILD
+
+
+@given(kind=_KINDS, row=_ROWS, column=_COLUMNS, value=_WILD, base=_WILD, by=_WILD)
+def test_wild_payloads_never_raise_nor_break_a_design(
+    kind: str, row: object, column: object, value: object, base: object, by: object
+) -> None:
+    document = Document(file=Path("player.yaml"), disk_text="", saved=DESIGN, check=lambda _design: ())
+    payload = {"kind": kind, "row": row, "column": column, "value": value, "base": base, "by": by}
+    apply_table_edit(document, payload)
+    assert read_design(save_design(document.design, ""), "player.yaml").design is not None
