@@ -128,6 +128,7 @@ def test_a_file_changed_outside_is_not_overwritten(editor: str, page: Page, proj
     page.get_by_label("Doc").fill("mine")
     expect(page.get_by_text("Unsaved changes")).to_be_visible()
     theirs = file.read_text().replace("component: Player", "component: Player  # the striker")
+    theirs = theirs.replace("Look around until the ball is seen.", "theirs")
     file.write_text(theirs)
     page.get_by_role("button", name="Save").click()
     expect(page.get_by_text("was changed by another program")).to_be_visible()

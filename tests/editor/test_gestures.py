@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from vicode.editor.session import Document, apply_gesture
+from vicode.editor.session import Document, Sheet, apply_gesture
 from vicode.editor.view import Selected
 from vicode.model.design import COMMON, Call, Design, Group, Guard, State, Transition, Use
 from vicode.model.walks import walk_transitions
@@ -24,7 +24,7 @@ DESIGN = Design(
 
 @pytest.fixture
 def document() -> Document:
-    return Document(file=Path("player.yaml"), disk_text="", saved=DESIGN, check=lambda _design: ())
+    return Document(Sheet(file=Path("player.yaml"), disk_text="", saved=DESIGN, check=lambda _design: ()))
 
 
 def names(document: Document) -> list[str]:
@@ -114,7 +114,7 @@ def test_move_is_one_undoable_step(document: Document) -> None:
     items = [{"of": "states", "id": "A", "x": 1.2, "y": 2}, {"of": "components", "id": "head", "x": 3, "y": 4}]
     apply_gesture(document, {"kind": "move", "items": items})
     assert (document.design.states[0].at, document.design.uses[0].at) == ((1, 2), (3, 4))
-    assert document.history.undo_label == "move 2 things"
+    assert document.undo_label == "move 2 things"
     apply_gesture(document, {"kind": "undo"})
     assert document.design == DESIGN
     apply_gesture(document, {"kind": "redo"})
@@ -183,17 +183,17 @@ _NAMES = st.sampled_from(["A", "B", "State", "C", COMMON, "head", "A/0", "B/0", 
     )
 )
 def test_undoing_everything_equals_the_start(payloads: list[dict[str, object]]) -> None:
-    document = Document(file=Path("player.yaml"), disk_text="", saved=DESIGN, check=lambda _design: ())
+    document = Document(Sheet(file=Path("player.yaml"), disk_text="", saved=DESIGN, check=lambda _design: ()))
     for payload in payloads:
         apply_gesture(document, payload)
     end = document.design
-    steps = len(document.history.past)
+    steps = len(document.history.path) - 1
     for _step in range(steps):
         document.undo()
     assert document.design == DESIGN
     for _step in range(steps):
         document.redo()
-    assert document.design.states == end.states or document.history.future
+    assert document.design.states == end.states
 
 
 def test_typing_in_a_field_is_one_step(document: Document) -> None:
@@ -201,12 +201,12 @@ def test_typing_in_a_field_is_one_step(document: Document) -> None:
 
     for text in ("f", "fo", "foo"):
         document.edit("edit Doc", lambda design, text=text: replace(design, doc=text), typing_in="doc")
-    assert len(document.history.past) == 1
+    assert len(document.history.path) == 2
     document.edit("edit Doc", lambda design: replace(design, doc="bar"), typing_in="other")
-    assert len(document.history.past) == 2
+    assert len(document.history.path) == 3
     document.undo()
     document.edit("edit Doc", lambda design: replace(design, doc="food"), typing_in="doc")
-    assert len(document.history.past) == 2
+    assert len(document.history.path) == 3
 
 
 def test_watchers_hear_every_change_until_they_leave(document: Document) -> None:

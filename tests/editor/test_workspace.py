@@ -5,9 +5,10 @@ from pathlib import Path
 
 import pytest
 
-from vicode.editor.session import ChangedOnDiskError, Document, Library, Workspace, apply_gesture
+from vicode.editor.session import DISK, ChangedOnDiskError, Document, Library, Workspace, apply_gesture
 from vicode.model.design import Declaration, Guard, Transition
 from vicode.model.edits import replace_decision
+from vicode.store import read_design, save_design
 
 
 @pytest.fixture
@@ -54,20 +55,84 @@ def test_an_edit_changes_its_own_lines(workspace: Workspace) -> None:
     assert sum(line not in after for line in before) == 2
 
 
-def test_a_change_on_disk_is_told_and_can_be_kept_or_taken(workspace: Workspace) -> None:
+def with_doc(document: Document, doc: str) -> None:
+    document.edit("doc", lambda design: replace(design, doc=doc))
+
+
+def write_doc(document: Document, doc: str) -> str:
+    """Another program gives the design another doc; returns the text of the file."""
+    read = read_design(document.file.read_text(), document.file.name)
+    assert read.design is not None
+    text = save_design(replace(read.design, doc=doc), document.file.read_text())
+    document.file.write_text(text)
+    return text
+
+
+def test_what_another_program_wrote_elsewhere_in_the_file_is_merged_in(workspace: Workspace) -> None:
     document = opened(workspace, "Player")
-    document.edit("doc", lambda design: replace(design, doc="mine"))
+    with_doc(document, "mine")
     text = document.file.read_text()
     document.file.write_text(text.replace("frequency: 10", "frequency: 20  # faster"))
-    with pytest.raises(ChangedOnDiskError):
-        workspace.save(document)
-    assert workspace.reload(document) == ""
-    assert (document.design.frequency_hz, document.is_saved) == (20, True)
-    document.undo()
-    assert (document.design.doc, document.design.frequency_hz) == ("mine", 10)
-    workspace.save(document, over=True)
+    workspace.follow_disk()
+    assert (document.design.doc, document.design.frequency_hz, document.is_saved) == ("mine", 20, False)
+    assert document.history.present.label == "merge from disk"
+    assert document.history.present.person == DISK
+    workspace.save(document)
     assert "# faster" in document.file.read_text()
     assert "  mine\n" in document.file.read_text()
+    document.undo()
+    assert document.design.frequency_hz == 20
+
+
+def test_what_both_changed_is_told_and_settled_one_by_one(workspace: Workspace) -> None:
+    document = opened(workspace, "Player")
+    with_doc(document, "mine")
+    document.edit("faster", lambda design: replace(design, frequency_hz=50.0))
+    text = write_doc(document, "theirs").replace("frequency: 10", "frequency: 20  # faster")
+    document.file.write_text(text)
+    with pytest.raises(ChangedOnDiskError):
+        workspace.save(document)
+    assert document.file.read_text() == text
+    clash = document.sheet.clash
+    assert clash is not None
+    assert [conflict.path for conflict in clash.conflicts] == [("doc",), ("frequency",)]
+    workspace.settle(document, [("doc",)])
+    assert (document.design.doc, document.design.frequency_hz) == ("theirs", 50)
+    assert document.sheet.clash is None
+    beside = next(step for step in document.history.steps.values() if step.label == "as it was on disk")
+    assert (beside.design.doc, beside.design.frequency_hz) == ("theirs", 20)
+    document.undo()
+    assert (document.design.doc, document.design.frequency_hz) == ("mine", 50)
+
+
+def test_saving_over_keeps_what_does_not_touch(workspace: Workspace) -> None:
+    document = opened(workspace, "Player")
+    with_doc(document, "mine")
+    document.file.write_text(write_doc(document, "theirs").replace("frequency: 10", "frequency: 20  # faster"))
+    workspace.save(document, over=True)
+    assert "frequency: 20  # faster" in document.file.read_text()
+    assert "  mine\n" in document.file.read_text()
+
+
+def test_a_reload_takes_the_file_and_undo_brings_ours_back(workspace: Workspace) -> None:
+    document = opened(workspace, "Player")
+    with_doc(document, "mine")
+    write_doc(document, "theirs")
+    assert workspace.reload(document) == ""
+    assert (document.design.doc, document.is_saved) == ("theirs", True)
+    document.undo()
+    assert (document.design.doc, document.is_saved) == ("mine", False)
+
+
+def test_a_file_that_cannot_be_read_is_put_aside_before_it_is_written_over(workspace: Workspace) -> None:
+    document = opened(workspace, "Player")
+    with_doc(document, "mine")
+    document.file.write_text("<<<<<<< HEAD\n")
+    with pytest.raises(ChangedOnDiskError):
+        workspace.save(document)
+    workspace.save(document, over=True)
+    assert document.file.with_name("player.yaml.edited").read_text() == "<<<<<<< HEAD\n"
+    assert "mine" in document.file.read_text()
 
 
 def test_a_file_that_holds_no_design_any_more_is_not_taken(workspace: Workspace) -> None:
@@ -152,12 +217,12 @@ def test_files_that_come_change_and_go_are_followed(workspace: Workspace) -> Non
     (workspace.folder / "search_net.yaml").unlink()
     workspace.follow_disk()
     assert (player.design.frequency_hz, player.is_saved) == (12, True)
-    assert (turn.design.doc, turn.is_saved) == ("mine", False)
+    assert (turn.design.doc, turn.design.frequency_hz, turn.is_saved) == ("mine", 12, False)
     assert opened(workspace, "Wave").design.states
     assert workspace.document("SearchNet") is None
     assert {finding.rule.code for finding in player.findings} == {"P202"}
-    with pytest.raises(ChangedOnDiskError):
-        workspace.save(turn)
+    workspace.save(turn)
+    assert turn.file.read_text().endswith("# theirs\n")
 
 
 def test_a_design_whose_file_is_gone_is_kept_until_it_is_saved_again(workspace: Workspace) -> None:

@@ -21,13 +21,12 @@ class Actions:
 
     def commands(self) -> tuple[Command, ...]:
         """All of them, in the order in which they are listed."""
-        document = self.desk.document
         design, edit, view = Place.DESIGN, Place.EDIT, Place.VIEW
         return (
             Command("save", "Save", self.save, design, icon="save", keys=("Ctrl+S",), while_typing=True),
             Command("generate", "Generate", self.generate, design, icon="bolt"),
-            Command("undo", "Undo", document.undo, edit, icon="undo", keys=("Ctrl+Z",)),
-            Command("redo", "Redo", document.redo, edit, icon="redo", keys=("Ctrl+Shift+Z", "Ctrl+Y")),
+            Command("undo", "Undo", self.undo, edit, icon="undo", keys=("Ctrl+Z",)),
+            Command("redo", "Redo", self.redo, edit, icon="redo", keys=("Ctrl+Shift+Z", "Ctrl+Y")),
             Command(
                 "lay-out", "Lay out what is selected, or everything", self.lay_out, edit, icon="auto_awesome_mosaic"
             ),
@@ -50,6 +49,14 @@ class Actions:
             return False
         desk.say("Saved", "positive")
         return True
+
+    def undo(self) -> None:
+        """Take back what this person did last; says why not, if another changed it since."""
+        self._say_why_not(self.desk.document.undo())
+
+    def redo(self) -> None:
+        """Do again what undo took back."""
+        self._say_why_not(self.desk.document.redo())
 
     def generate(self) -> None:
         """Write the code, after saving."""
@@ -84,6 +91,10 @@ class Actions:
     def toggle_theme(self) -> None:
         """Go on to the next of system, dark and light."""
         self.desk.say(self.theme.toggle(), "info")
+
+    def _say_why_not(self, refused: str) -> None:
+        if refused:
+            self.desk.say(refused, "warning")
 
     async def _write_code(self) -> None:
         desk, canvas = self.desk, self.drawing.canvas

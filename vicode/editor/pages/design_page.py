@@ -3,12 +3,13 @@
 import contextlib
 from typing import Any, cast
 
-from nicegui import ui
+from nicegui import core, ui
 
 from vicode.editor.pages.actions import Actions
 from vicode.editor.pages.keys import listen_to_keys
 from vicode.editor.pages.look import Theme, add_look
 from vicode.editor.pages.stage import Stage
+from vicode.editor.pages.visitor import greet_visitor
 from vicode.editor.panels.code_panel import CodePanel
 from vicode.editor.panels.designs_list import DesignsList
 from vicode.editor.panels.desk import Desk
@@ -19,13 +20,17 @@ from vicode.editor.panels.problems import Problems
 from vicode.editor.panels.tabs import Tabs
 from vicode.editor.session import Document, Library, Workspace
 
+_BREATH_S = 0.02
+
 
 class DesignPage:
     """One window on one design; everything in it can be rebuilt from the document."""
 
     def __init__(self, library: Library, workspace: Workspace, document: Document) -> None:
         """Build the page for the browser that asks for it."""
-        self.desk = desk = Desk(workspace=workspace, document=document, say=_say)
+        person = greet_visitor(library.people)
+        hand = Document(document.sheet, person.id)
+        self.desk = desk = Desk(workspace=workspace, document=hand, say=_say)
         theme = Theme(desk.code_editors)
         problems = Problems(desk)
         add_look()
@@ -47,8 +52,8 @@ class DesignPage:
         listen_to_keys(commands)
         desk.listen(self._refresh)
         self._refresh()
-        unwatch = document.watch(lambda _document: self._changed())
-        ui.context.client.on_delete(unwatch)
+        self.is_behind = False
+        ui.context.client.on_delete(hand.watch(self._hear))
         ui.timer(1.0, self._follow_disk)
 
     def _follow_disk(self) -> None:
@@ -57,9 +62,21 @@ class DesignPage:
             self.desk.workspace.follow_disk()
         self.designs.refresh()
 
-    def _changed(self) -> None:
-        self.stage.follow()
-        self.desk.tell()
+    def _hear(self, by: Document) -> None:
+        """Follow a change: at once if it was made here, else a moment later, so that many come as one."""
+        if by is self.desk.document:
+            self._follow()
+        elif not self.is_behind and core.loop is not None:
+            self.is_behind = True
+            # Generating reads the disk beside the event loop.
+            core.loop.call_soon_threadsafe(core.loop.call_later, _BREATH_S, self._follow)
+
+    def _follow(self) -> None:
+        self.is_behind = False
+        if not self.stage.drawing.canvas.is_deleted:
+            with self.stage.drawing.canvas.client:
+                self.stage.follow()
+                self.desk.tell()
 
     def _refresh(self) -> None:
         for panel in (self.stage, self.header, self.dock, self.side):

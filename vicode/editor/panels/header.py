@@ -38,5 +38,5 @@ class Header:
         if self.saved.text != text:
             self.saved.set_text(text)
             self.saved.classes(remove="is-unsaved") if document.is_saved else self.saved.classes("is-unsaved")
-        enable(self.buttons["undo"], flag=bool(document.history.undo_label))
-        enable(self.buttons["redo"], flag=bool(document.history.redo_label))
+        enable(self.buttons["undo"], flag=bool(document.undo_label))
+        enable(self.buttons["redo"], flag=bool(document.redo_label))

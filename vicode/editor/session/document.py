@@ -1,25 +1,46 @@
-"""One open design: its history, what is wrong with it, who watches it."""
+"""One open design: the sheet that all windows share, and the hold of one person on it."""
 
+import time
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from vicode.editor.session.history import History, Step
+from vicode.editor.session.history import History, Refusal, Step
+from vicode.editor.session.people import DISK, Company, People
+from vicode.editor.session.wording import words_of_path
 from vicode.editor.view import path_of_key
 from vicode.findings import Finding
 from vicode.model.design import Design
+from vicode.model.merging import Conflict
 from vicode.model.walks import decision_at
 
 Watcher = Callable[["Document"], None]
 Checker = Callable[[Design], tuple[Finding, ...]]
 
 
-@dataclass(eq=False, kw_only=True)
-class Document:
-    """An open design. Every change goes through `edit`, `undo` or `redo`; watchers are told after each.
+@dataclass(frozen=True, slots=True, kw_only=True)
+class OnDisk:
+    """What a file holds: its text, the design in it (None when there is none), what was wrong with the text."""
 
-    `rev` counts the changes. `disk_text` is the text last read from or written to `file`, `reading` what is wrong
-    with it: keys that mean nothing are not in the design, but they are in the file.
+    text: str
+    design: Design | None
+    reading: tuple[Finding, ...] = ()
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Clash:
+    """The file was changed by another program where unsaved work was done here; `conflicts` are what both touched."""
+
+    disk: OnDisk
+    conflicts: tuple[Conflict, ...]
+
+
+@dataclass(eq=False, kw_only=True)
+class Sheet:
+    """What all windows on a design share: its history, what is wrong with it, who watches it, who is here.
+
+    `rev` counts the changes. `disk_text` is the text last read from or written to `file`, `saved` the design in it,
+    `reading` what is wrong with it: keys that mean nothing are not in the design, but they are in the file.
     """
 
     file: Path
@@ -27,91 +48,155 @@ class Document:
     saved: Design
     check: Checker
     reading: tuple[Finding, ...] = ()
+    people: People = field(default_factory=People)
+    clock: Callable[[], float] = time.time
+    company: Company = field(init=False, default_factory=Company)
     history: History = field(init=False)
     findings: tuple[Finding, ...] = field(init=False, default=())
     rev: int = field(init=False, default=0)
-    _watchers: list[Watcher] = field(init=False, default_factory=list)
-    _typing_in: str = field(init=False, default="")
+    clash: Clash | None = field(init=False, default=None)
+    watchers: list[Watcher] = field(init=False, default_factory=list)
 
     def __post_init__(self) -> None:
         """Begin with what is on disk."""
-        self.history = History(present=Step(label="open", design=self.saved))
-        self.findings = self._find(self.saved)
+        self.history = History.begin(self.saved, self.clock())
+        self.findings = self._find()
+
+    def become(self, history: History, by: "Document") -> None:
+        """Go on with another history, and tell everybody."""
+        if history is self.history:
+            return
+        self.history = history
+        self.rev += 1
+        self.findings = self._find()
+        self.tell(by)
+
+    def stands_on_disk(self, disk: OnDisk) -> None:
+        """Note what the file holds now."""
+        assert disk.design is not None
+        self.saved, self.disk_text, self.reading, self.clash = disk.design, disk.text, disk.reading, None
+        self.findings = self._find()
+
+    def check_again(self) -> None:
+        """Check once more, because another design of the project has changed."""
+        findings = self._find()
+        if findings != self.findings:
+            self.findings = findings
+            self.tell(Document(self, DISK))
+
+    def tell(self, by: "Document") -> None:
+        """Tell every watcher that `by` changed something."""
+        for watcher in tuple(self.watchers):
+            watcher(by)
+
+    def _find(self) -> tuple[Finding, ...]:
+        return tuple(dict.fromkeys((*self.reading, *self.check(self.history.present.design))))
+
+
+@dataclass(eq=False)
+class Document:
+    """An open design in the hands of one person; what others do to the sheet is seen here at once.
+
+    Every change goes through `edit`, `undo`, `redo` or `jump`; watchers are told after each.
+    """
+
+    sheet: Sheet
+    person: str = ""
 
     @property
     def design(self) -> Design:
         """The design as it is now."""
-        return self.history.present.design
+        return self.sheet.history.present.design
+
+    @property
+    def history(self) -> History:
+        """Where it has been."""
+        return self.sheet.history
+
+    @property
+    def findings(self) -> tuple[Finding, ...]:
+        """What is wrong with it."""
+        return self.sheet.findings
+
+    @property
+    def rev(self) -> int:
+        """How often it has changed."""
+        return self.sheet.rev
+
+    @property
+    def file(self) -> Path:
+        """Where it is saved."""
+        return self.sheet.file
 
     @property
     def is_saved(self) -> bool:
         """Whether the file holds the design as it is now."""
-        return self.design == self.saved
+        return self.design == self.sheet.saved
 
     def edit(self, label: str, change: Callable[[Design], Design], *, typing_in: str = "") -> None:
         """Change the design; `label` names the edit in the history.
 
-        Edits that follow each other with the same `typing_in` (a field being typed in) are one step of it.
+        A person's edits that follow each other with the same `typing_in` (a field being typed in) are one step of it.
         """
-        design = change(self.design)
-        goes_on = bool(typing_in) and typing_in == self._typing_in and design != self.design
-        self._become(self.history.replaced(design) if goes_on else self.history.then(label, design))
-        self._typing_in = typing_in
+        self._do(self._step(label, change(self.design), typing_in))
 
-    def undo(self) -> None:
-        """Take the last edit back."""
-        self._typing_in = ""
-        self._become(self.history.undone())
+    def undo(self) -> str:
+        """Take one's own last edit back; returns why not, if what it did was changed by another since."""
+        return self._take(self.history.undone(self.person, self.sheet.clock()), "taken back")
 
-    def redo(self) -> None:
-        """Do again what undo took back."""
-        self._typing_in = ""
-        self._become(self.history.redone())
+    def redo(self) -> str:
+        """Do again what undo took back; returns why not."""
+        return self._take(self.history.redone(self.person, self.sheet.clock()), "done again")
 
-    def mark_saved(self, text: str, reading: tuple[Finding, ...] = ()) -> None:
-        """Note that the design as it is now stands in the file as `text`."""
-        self.saved, self.disk_text, self.reading = self.design, text, reading
-        self.findings = self._find(self.design)
-        self._tell()
+    @property
+    def undo_label(self) -> str:
+        """What undo would take back, empty if nothing."""
+        step = self.history.undo_step(self.person)
+        return step.label if step else ""
 
-    def reload(self, design: Design, text: str, reading: tuple[Finding, ...] = ()) -> None:
-        """Take what the file holds now; the edits made here stay in the history."""
-        self.saved, self.disk_text, self.reading = design, text, reading
-        self._become(self.history.then("reload from disk", design))
-        self._tell()
+    @property
+    def redo_label(self) -> str:
+        """What redo would do again, empty if nothing."""
+        step = self.history.redo_step(self.person)
+        return step.label if step else ""
+
+    def jump(self, step: int) -> None:
+        """Go to any point of the history; what is left stays in it, one jump away."""
+        self.sheet.become(self.history.jumped(step), self)
+
+    def take_disk(self, disk: OnDisk, label: str, design: Design | None = None) -> None:
+        """Note what the file holds now, and go on with that, or with `design`; the file's own stays in the history."""
+        assert disk.design is not None
+        self.sheet.stands_on_disk(disk)
+        history = self.history
+        if design is not None and design != disk.design:
+            theirs = Step(person=DISK, label="as it was on disk", at_s=self.sheet.clock(), design=disk.design)
+            history = history.beside(theirs)
+        grown = history.then(self._step(label, design if design is not None else disk.design))
+        if grown is self.history:
+            self.sheet.tell(self)
+        else:
+            self.sheet.become(grown, self)
 
     def has_decision(self, key: str) -> bool:
         """Whether there is a decision with this canvas id."""
         return decision_at(self.design, path_of_key(key)) is not None
 
-    def check_again(self) -> None:
-        """Check once more, because another design of the project has changed."""
-        findings = self._find(self.design)
-        if findings != self.findings:
-            self.findings = findings
-            self._tell()
-
     def watch(self, watcher: Watcher) -> Callable[[], None]:
-        """Tell `watcher` after every change; what is returned ends it."""
-        self._watchers.append(watcher)
+        """Tell `watcher` after every change, and by whom; what is returned ends it."""
+        watchers = self.sheet.watchers
+        watchers.append(watcher)
+        return lambda: watchers.remove(watcher) if watcher in watchers else None
 
-        def unwatch() -> None:
-            if watcher in self._watchers:
-                self._watchers.remove(watcher)
+    def _step(self, label: str, design: Design, typing_in: str = "") -> Step:
+        return Step(person=self.person, label=label, at_s=self.sheet.clock(), typing_in=typing_in, design=design)
 
-        return unwatch
+    def _do(self, step: Step) -> None:
+        self.sheet.become(self.history.then(step), self)
 
-    def _become(self, history: History) -> None:
-        if history is self.history:
-            return
-        self.history = history
-        self.rev += 1
-        self.findings = self._find(self.design)
-        self._tell()
-
-    def _find(self, design: Design) -> tuple[Finding, ...]:
-        return tuple(dict.fromkeys((*self.reading, *self.check(design))))
-
-    def _tell(self) -> None:
-        for watcher in tuple(self._watchers):
-            watcher(self)
+    def _take(self, outcome: History | Refusal, done: str) -> str:
+        if isinstance(outcome, Refusal):
+            who, what = self.sheet.people.name_of(outcome.by.person), words_of_path(outcome.path)
+            return f"“{outcome.step.label}” cannot be {done}: {who} changed {what} since (“{outcome.by.label}”)"
+        self.sheet.become(outcome, self)
+        return ""

@@ -210,13 +210,11 @@ def _link(document: Document, payload: Payload) -> Outcome:
 
 
 def _undo(document: Document, _payload: Payload) -> Outcome:
-    document.undo()
-    return Outcome()
+    return Outcome(refused=document.undo())
 
 
 def _redo(document: Document, _payload: Payload) -> Outcome:
-    document.redo()
-    return Outcome()
+    return Outcome(refused=document.redo())
 
 
 def _with_target(transition: Transition, state: str) -> Transition:

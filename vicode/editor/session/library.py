@@ -3,6 +3,7 @@
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from vicode.editor.session.people import People
 from vicode.editor.session.workspace import Workspace
 from vicode.store import find_projects
 
@@ -12,13 +13,14 @@ class Library:
     """The projects of a folder, or the one project of a design file; `first` is what to open first."""
 
     path: Path
+    people: People = field(init=False, default_factory=People)
     workspaces: list[Workspace] = field(init=False)
 
     def __post_init__(self) -> None:
         """Read them all."""
         folder = self.path if self.path.is_dir() else self.path.parent
         found = find_projects(self.path)
-        self.workspaces = [Workspace(each, key=_key(each, folder)) for each in found]
+        self.workspaces = [Workspace(each, _key(each, folder), self.people) for each in found]
 
     def workspace(self, key: str) -> Workspace | None:
         """The project of a key."""

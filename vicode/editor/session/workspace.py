@@ -1,21 +1,25 @@
 """One open project: its designs as they are now, and their files."""
 
-from collections.abc import Mapping
+from collections.abc import Collection
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from vicode.check import check_design
-from vicode.editor.session.document import Document
+from vicode.editor.session.document import Clash, Document, OnDisk, Sheet
 from vicode.editor.session.generating import Generated, Job, generate_into
+from vicode.editor.session.people import DISK, People
 from vicode.findings import Finding
+from vicode.findings import Path as Way
 from vicode.model.design import Design, State
+from vicode.model.merging import merge
 from vicode.model.names import snake_case
 from vicode.model.project import Project
+from vicode.output import set_aside
 from vicode.store import OpenProject, design_files, open_project, read_design, save_design, write_text
 
 
 class ChangedOnDiskError(Exception):
-    """The file of a design is not what it was when it was opened or saved last."""
+    """The file of a design was changed by another program, and what it says now touches unsaved work."""
 
 
 @dataclass(eq=False)
@@ -24,6 +28,7 @@ class Workspace:
 
     folder: Path
     key: str
+    people: People = field(default_factory=People)
     project: Project = field(init=False)
     broken: tuple[str, ...] = field(init=False)
     files: dict[str, Path] = field(init=False)
@@ -37,7 +42,7 @@ class Workspace:
         self.follow_disk()
 
     def follow_disk(self) -> None:
-        """Take over what other programs wrote; designs with unsaved changes stay as they are here until they are saved.
+        """Take over what other programs wrote; where unsaved changes touch it, they stay until somebody decides.
 
         Raises:
             OSError: The folder is gone.
@@ -53,7 +58,10 @@ class Workspace:
         if component not in self._documents and design is not None:
             file, text = self.files[component], self._texts[component]
             reading = self._reading.get(component, ())
-            document = Document(file=file, disk_text=text, saved=design, check=self._check, reading=reading)
+            sheet = Sheet(
+                file=file, disk_text=text, saved=design, check=self._check, reading=reading, people=self.people
+            )
+            document = Document(sheet)
             document.watch(self._follow)
             self._documents[component] = document
         return self._documents.get(component)
@@ -78,25 +86,53 @@ class Workspace:
     def save(self, document: Document, *, over: bool = False) -> None:
         """Write a design into its file, patching the text that stands there.
 
+        What another program wrote meanwhile is merged in. With `over`, what is here wins where both touched the same.
+
         Raises:
-            ChangedOnDiskError: Another program changed the file and `over` does not say to write all the same.
+            ChangedOnDiskError: The two touch, and nobody said which shall win.
             OSError: The file cannot be written.
+            ValueError: No file can hold the design as it is now.
         """
         text = _read(document.file)
-        if text != document.disk_text and not over:
-            raise ChangedOnDiskError
+        if text != document.sheet.disk_text:
+            self._meet(document.sheet, _on_disk(document, text))
+        if document.sheet.clash is not None:
+            if not over:
+                raise ChangedOnDiskError
+            self.settle(document)
+            text = _read(document.file)
         new = save_design(document.design, text or "")
         if new != text:
             write_text(document.file, new)
-        document.mark_saved(new, read_design(new, document.file.name).findings)
+        reading = read_design(new, document.file.name).findings
+        document.take_disk(OnDisk(text=new, design=document.design, reading=reading), "save")
+
+    def settle(self, document: Document, theirs_at: Collection[Way] = ()) -> None:
+        """End a clash with the file: both sides' work is kept, and at `theirs_at` the file's where both touched.
+
+        A file that holds no design any more is put aside before it is written over.
+
+        Raises:
+            OSError: The file cannot be put aside.
+        """
+        clash = document.sheet.clash
+        if clash is None:
+            return
+        disk = clash.disk
+        if disk.design is None:
+            if disk.text:
+                set_aside(document.file)
+            document.take_disk(replace(disk, design=document.design), "save")
+            return
+        merged = merge(document.sheet.saved, document.design, disk.design, theirs_at=theirs_at)
+        document.take_disk(disk, "merge with disk", merged.design)
 
     def reload(self, document: Document) -> str:
         """Open a design as it is on disk now; returns why not, if it cannot be read."""
-        text = _read(document.file)
-        read = read_design(text or "", document.file.name)
-        if text is None or read.design is None or read.design.component != document.design.component:
+        disk = _on_disk(document, _read(document.file))
+        if disk.design is None:
             return f"{document.file.name} holds no design of {document.design.component} any more"
-        document.reload(read.design, text, read.findings)
+        document.take_disk(disk, "reload from disk")
         return ""
 
     def create(self, component: str) -> Document:
@@ -126,11 +162,11 @@ class Workspace:
             OSError: A file cannot be written.
         """
         self.follow_disk()
-        if _read(document.file) != document.disk_text:
+        if document.sheet.clash is not None:
             raise ChangedOnDiskError
-        saved = {name: each.saved for name, each in self._documents.items()}
+        saved = {name: each.sheet.saved for name, each in self._documents.items()}
         designs = tuple(saved.get(each.component, each) for each in self.project.designs)
-        reading = {**self._reading, **{name: each.reading for name, each in self._documents.items()}}
+        reading = {**self._reading, **{name: each.sheet.reading for name, each in self._documents.items()}}
         folder = (self.folder / self.project.generated).resolve()
         job = Job(project=replace(self.project, designs=designs), sources=self.sources, reading=reading)
         return generate_into(folder, job, document.design.component)
@@ -145,17 +181,35 @@ class Workspace:
             self._reading[name] = (*self._reading.get(name, ()), finding)
         read = {design.component: design for design in opened.project.designs}
         # A design whose file is gone goes on here: saving it makes the file again.
-        kept = {name: each.design for name, each in self._documents.items() if not self._is_overtaken(each, name, read)}
+        kept = {name: each.design for name, each in self._documents.items()}
         for name in kept:
             self.files.setdefault(name, self._documents[name].file)
         self.project = replace(opened.project, designs=tuple({**read, **kept}.values()))
         for name, document in self._documents.items():
-            if name not in kept:
-                document.reload(read[name], self._texts[name], self._reading[name])
-            document.check_again()
+            text = self._texts.get(name) if name in read else _read(document.file)
+            if text != document.sheet.disk_text:
+                disk = OnDisk(text=text or "", design=read.get(name), reading=self._reading.get(name, ()))
+                self._meet(document.sheet, disk)
+            else:
+                document.sheet.clash = None
+            document.sheet.check_again()
 
-    def _is_overtaken(self, document: Document, name: str, read: Mapping[str, Design]) -> bool:
-        return name in read and document.is_saved and document.disk_text != self._texts[name]
+    def _meet(self, sheet: Sheet, disk: OnDisk) -> None:
+        """Bring an open design together with what another program wrote, unless both changed the same."""
+        hand = Document(sheet, DISK)
+        if disk.design is None:
+            # The file is gone, or half written: what is here stays until somebody saves.
+            sheet.clash = Clash(disk=disk, conflicts=())
+            sheet.tell(hand)
+        elif hand.is_saved:
+            hand.take_disk(disk, "reload from disk")
+        else:
+            merged = merge(sheet.saved, hand.design, disk.design)
+            if merged.conflicts:
+                sheet.clash = Clash(disk=disk, conflicts=merged.conflicts)
+                sheet.tell(hand)
+            else:
+                hand.take_disk(disk, "merge from disk", merged.design)
 
     def _check(self, design: Design) -> tuple[Finding, ...]:
         designs = (design if each.component == design.component else each for each in self.project.designs)
@@ -164,11 +218,17 @@ class Workspace:
 
     def _follow(self, changed: Document) -> None:
         """A change of what one design shows to others may mend or break those that use it."""
+        component = changed.design.component
         for document in self._documents.values():
-            if document is not changed and any(
-                use.component == changed.design.component for use in document.design.uses
-            ):
-                document.check_again()
+            if document.sheet is not changed.sheet and any(use.component == component for use in document.design.uses):
+                document.sheet.check_again()
+
+
+def _on_disk(document: Document, text: str | None) -> OnDisk:
+    """What a text makes of the file of a document; another component in it is not this design."""
+    read = read_design(text or "", document.file.name)
+    is_same = text is not None and read.design is not None and read.design.component == document.design.component
+    return OnDisk(text=text or "", design=read.design if is_same else None, reading=read.findings)
 
 
 def _read(file: Path) -> str | None:

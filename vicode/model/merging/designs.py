@@ -12,7 +12,6 @@ from vicode.model.merging.matching import key_of, renamed_states, renamed_uses
 from vicode.model.merging.texts import merge_lines
 from vicode.model.walks import walk_actions, walk_transitions
 
-_ATOMS = {"at", "range"}
 _ORDERED = {"transitions", "then", "otherwise", "enter", "actions", "leave"}
 # The words of the file, where they are not those of the model; none for what the file has no word for.
 _STEPS: dict[str, Path] = {
@@ -128,7 +127,7 @@ class _Merger:
         for each in fields(base):
             values = [getattr(side, each.name) for side in (base, ours, theirs)]
             here = (*path, *_step(base, each.name, path))
-            if each.name not in _ATOMS and all(isinstance(value, tuple) for value in values):
+            if all(_is_list(value) for value in values):
                 merged: Any = self.items(here, *values, is_keyed=each.name not in _ORDERED)
             else:
                 merged = self.value(here, *values)
@@ -192,6 +191,11 @@ def _step(record: Any, field: str, path: Path) -> Path:
     if isinstance(record, Call) and field == "arguments":
         return () if "modulates" in path else ("with",)
     return _STEPS.get(field, (field,))
+
+
+def _is_list(value: Any) -> bool:
+    """Whether a value holds things; a point or a range is one value made of numbers."""
+    return isinstance(value, tuple) and not any(isinstance(part, int | float) for part in value)
 
 
 def _is_pair(thing: Any) -> bool:

@@ -1,0 +1,118 @@
+"""Who is here: people with a name and a colour, and what each window of theirs is at."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+from vicode.editor.view import Selected
+from vicode.findings import Path
+from vicode.model.design import Point
+
+DISK = "disk"
+"""Stands for the person where another program changed the file."""
+
+COLOURS = 8
+_LONGEST_NAME = 24
+_MOST_PEOPLE = 1000
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Person:
+    """Somebody at a browser; `colour` is the number of one of the colours that tell people apart."""
+
+    id: str
+    name: str
+    colour: int
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Presence:
+    """What somebody is at in one window: what is selected, the field being typed in, where the pointer is."""
+
+    window: str
+    person: Person
+    selected: tuple[Selected, ...] = ()
+    typing_in: Path = ()
+    pointer: Point | None = None
+
+
+@dataclass(eq=False)
+class People:
+    """Everybody who came since the editor was started; names are chosen, or "Guest 2"."""
+
+    _known: dict[str, Person] = field(default_factory=dict)
+
+    def greet(self, id_: str, name: str = "") -> Person:
+        """The person of an id, by the name given now, else the one from before."""
+        wanted = clean_name(name)
+        known = self._known.get(id_)
+        if known is None:
+            if len(self._known) >= _MOST_PEOPLE:
+                self._known.pop(next(iter(self._known)))
+            number = len(self._known) + 1
+            known = Person(id=id_, name=wanted or f"Guest {number}", colour=(number - 1) % COLOURS)
+        elif wanted:
+            known = replace(known, name=wanted)
+        self._known[id_] = known
+        return known
+
+    def name_of(self, id_: str) -> str:
+        """The name of a person in a sentence."""
+        if id_ == DISK:
+            return "another program"
+        known = self._known.get(id_)
+        return known.name if known else "somebody"
+
+    def colour_of(self, id_: str) -> int | None:
+        """The colour of a person, None for who has none."""
+        known = self._known.get(id_)
+        return known.colour if known else None
+
+
+@dataclass(eq=False)
+class Company:
+    """The windows that are open on one design; watchers are told when one comes, goes or turns to another thing."""
+
+    _here: dict[str, Presence] = field(default_factory=dict)
+    _watchers: list[Callable[[], None]] = field(default_factory=list)
+
+    def enter(self, window: str, person: Person) -> None:
+        """A window was opened."""
+        self._here[window] = Presence(window=window, person=person)
+        self._tell()
+
+    def leave(self, window: str) -> None:
+        """A window was closed."""
+        if self._here.pop(window, None) is not None:
+            self._tell()
+
+    def turn(self, window: str, **changes: Any) -> None:
+        """Somebody turned to other things: `person`, `selected`, `typing_in` or `pointer` of the presence change."""
+        before = self._here.get(window)
+        if before is not None and (now := replace(before, **changes)) != before:
+            self._here[window] = now
+            self._tell()
+
+    def others(self, window: str) -> tuple[Presence, ...]:
+        """All windows but one, those of the same person too."""
+        return tuple(each for each in self._here.values() if each.window != window)
+
+    def typing_at(self, path: Path, window: str) -> tuple[str, ...]:
+        """The names of those who type in a field in other windows."""
+        names = (each.person.name for each in self.others(window) if path and each.typing_in == path)
+        return tuple(dict.fromkeys(names))
+
+    def watch(self, watcher: Callable[[], None]) -> Callable[[], None]:
+        """Tell `watcher` after every change; what is returned ends it."""
+        self._watchers.append(watcher)
+        return lambda: self._watchers.remove(watcher) if watcher in self._watchers else None
+
+    def _tell(self) -> None:
+        for watcher in tuple(self._watchers):
+            watcher()
+
+
+def clean_name(name: str) -> str:
+    """A name as it may be shown: in one line, of letters that can be seen, not too long."""
+    seen = "".join(letter if letter.isprintable() else " " for letter in name)
+    return " ".join(seen.split())[:_LONGEST_NAME].strip()
