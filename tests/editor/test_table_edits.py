@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.strategies.designs import designs
-from vicode.editor.session import Document, Outcome
+from vicode.editor.session import Document, Sheet, Outcome
 from vicode.editor.session.table_edits import LONGEST, apply_table_edit
 from vicode.editor.view import Selected, table_difference, table_of
 from vicode.model.design import COMMON, Call, Common, Design, Group, Guard, State, Transition, Use
@@ -35,7 +35,7 @@ DESIGN = Design(
 
 @pytest.fixture
 def document() -> Document:
-    return Document(file=Path("player.yaml"), disk_text="", saved=DESIGN, check=lambda _design: ())
+    return Document(Sheet(file=Path("player.yaml"), disk_text="", saved=DESIGN, check=lambda _design: ()))
 
 
 def rows(document: Document) -> dict[str, dict[str, Any]]:
@@ -190,7 +190,7 @@ _COLUMNS = st.sampled_from(["name", "when", "after", "requires", "modulates", "d
 def test_wild_payloads_never_raise_nor_break_a_design(
     kind: str, row: object, column: object, value: object, base: object, by: object
 ) -> None:
-    document = Document(file=Path("player.yaml"), disk_text="", saved=DESIGN, check=lambda _design: ())
+    document = Document(Sheet(file=Path("player.yaml"), disk_text="", saved=DESIGN, check=lambda _design: ()))
     payload = {"kind": kind, "row": row, "column": column, "value": value, "base": base, "by": by}
     apply_table_edit(document, payload)
     assert read_design(save_design(document.design, ""), "player.yaml").design is not None
