@@ -41,7 +41,7 @@ COUNT = """() => {
     });
     const pairs = (list, test) => list.flatMap((one, n) => list.slice(n + 1).filter(other => test(one, other)));
     const through = (targets) => lines.flatMap(line => targets.filter(target =>
-        target.key !== line.key && line.points.slice(2, -2).some(point => within(target, point))));
+        target.key !== line.key && line.points.slice(4, -4).some(point => within(target, point))));
     const far = plates.filter(plate => {
         const line = lines.find(each => each.key === plate.key);
         const room = {x: plate.x - 12, y: plate.y - 12, right: plate.right + 12, bottom: plate.bottom + 12};
@@ -101,7 +101,9 @@ def random_design(seed: int) -> Design:
     chance = random.Random(seed)
     size = chance.randrange(10, 61)
     states = tuple(
-        State(name=_name(index), transitions=tuple(_lead(index, size, chance) for _ in range(chance.choice((1, 2, 2, 3)))))
+        State(
+            name=_name(index), transitions=tuple(_lead(index, size, chance) for _ in range(chance.choice((1, 2, 2, 3))))
+        )
         for index in range(size)
     )
     common = Common(transitions=(Transition(to=states[-1].name, guard=Guard(when="fallen")),)) if seed % 2 else Common()

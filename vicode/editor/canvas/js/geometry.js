@@ -41,19 +41,25 @@ export function bounds(rects) {
 }
 
 /** Where the ray from a node's centre towards (x, y) leaves its shape. */
-export function exitPoint(node, x, y) {
-  const dx = x - node.x;
-  const dy = y - node.y;
+export const exitPoint = (node, x, y) => exitFrom(node, node, { x, y });
+
+/** Where the ray from a point within a node towards another point leaves the node's shape. */
+export function exitFrom(node, from, towards) {
+  const [dx, dy] = [towards.x - from.x, towards.y - from.y];
+  const [x, y] = [from.x - node.x, from.y - node.y];
   if (dx === 0 && dy === 0) return { x: node.x, y: node.y - node.h / 2 };
-  const halfWidth = node.w / 2;
-  const halfHeight = node.h / 2;
-  let reach = Math.min(halfWidth / Math.abs(dx), halfHeight / Math.abs(dy));
+  let reach = Math.min(stretch(x, dx, node.w / 2), stretch(y, dy, node.h / 2));
   if (node.of === "components") {
-    // The slanted side of the hexagon: |x| = w/2 - slant * |y| / (h/2).
-    const slanted = halfWidth / (Math.abs(dx) + (HEX_SLANT / halfHeight) * Math.abs(dy));
-    reach = Math.min(reach, slanted);
+    // The slanted sides of the hexagon: |x| + slant * |y| / (h/2) = w/2.
+    const slope = HEX_SLANT / (node.h / 2);
+    for (const sign of [-1, 1]) reach = Math.min(reach, stretch(x + sign * slope * y, dx + sign * slope * dy, node.w / 2));
   }
-  return { x: node.x + dx * reach, y: node.y + dy * reach };
+  return { x: from.x + dx * reach, y: from.y + dy * reach };
+}
+
+/** How many steps `by` lead from a value within ±half to the border. */
+function stretch(value, by, half) {
+  return by === 0 ? Infinity : (Math.sign(by) * half - value) / by;
 }
 
 /** A cubic curve is eight numbers: start, two controls, end. A quadratic one is raised to it. */
@@ -97,4 +103,33 @@ export function distanceToCurve(curve, x, y) {
     best = Math.min(best, (point.x - x) ** 2 + (point.y - y) ** 2);
   }
   return best;
+}
+
+/** How long a curve is at most: the way over its control points. */
+export const lengthOf = (c) =>
+  Math.hypot(c[2] - c[0], c[3] - c[1]) + Math.hypot(c[4] - c[2], c[5] - c[3]) + Math.hypot(c[6] - c[4], c[7] - c[5]);
+
+/** Points along a curve, near enough to each other to stand for it. */
+export function pointsOf(curve, length) {
+  const steps = Math.min(32, Math.max(4, Math.ceil(length / 40)));
+  return Array.from({ length: steps + 1 }, (_, step) => pointAt(curve, step / steps));
+}
+
+/** Whether a line through these points touches a rectangle. */
+export function crosses(points, rect) {
+  for (let index = 1; index < points.length; index += 1) if (touches(points[index - 1], points[index], rect)) return true;
+  return false;
+}
+
+/** Liang and Barsky: the part of the segment within each pair of sides, until nothing is left of it. */
+function touches(a, b, rect) {
+  let [from, to] = [0, 1];
+  const within = (start, by, low, high) => {
+    if (by === 0) return start >= low && start <= high;
+    const [one, other] = [(low - start) / by, (high - start) / by];
+    from = Math.max(from, Math.min(one, other));
+    to = Math.min(to, Math.max(one, other));
+    return from <= to;
+  };
+  return within(a.x, b.x - a.x, rect.x, rect.x + rect.w) && within(a.y, b.y - a.y, rect.y, rect.y + rect.h);
 }

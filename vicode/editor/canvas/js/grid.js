@@ -22,12 +22,17 @@ export class Grid {
 
   /** Files a key under the cells along a straight line, so that long diagonals stay cheap. */
   putLine(key, a, b) {
+    this.putPath(key, [a, b]);
+  }
+
+  /** Files a key under the cells along a line through points. */
+  putPath(key, points) {
     this.remove(key);
-    const steps = Math.max(1, Math.ceil(Math.hypot(b.x - a.x, b.y - a.y) / (CELL / 2)));
     const cells = new Set();
-    for (let step = 0; step <= steps; step += 1) {
-      const t = step / steps;
-      cells.add(cellName(Math.floor((a.x + (b.x - a.x) * t) / CELL), Math.floor((a.y + (b.y - a.y) * t) / CELL)));
+    for (let index = 1; index < points.length; index += 1) {
+      const [a, b] = [points[index - 1], points[index]];
+      const steps = Math.max(1, Math.ceil(Math.hypot(b.x - a.x, b.y - a.y) / (CELL / 2)));
+      for (let step = 0; step <= steps; step += 1) cells.add(cellAt(a.x + ((b.x - a.x) * step) / steps, a.y + ((b.y - a.y) * step) / steps));
     }
     this.#file(key, [...cells]);
   }
@@ -48,7 +53,7 @@ export class Grid {
 
   /** The keys of the one cell a point lies in, without copying them. */
   at(x, y) {
-    return this.cells.get(cellName(Math.floor(x / CELL), Math.floor(y / CELL))) ?? NONE;
+    return this.cells.get(cellAt(x, y)) ?? NONE;
   }
 
   #file(key, cells) {
@@ -62,6 +67,8 @@ export class Grid {
 
 // One number names a cell: 2^21 cells each way are far more than any design needs.
 const cellName = (column, row) => (column + 1048576) * 2097152 + (row + 1048576);
+
+const cellAt = (x, y) => cellName(Math.floor(x / CELL), Math.floor(y / CELL));
 
 function cellsOf(rect) {
   const names = [];

@@ -9,29 +9,30 @@ const ICON = 15;
 export const BADGE = 24;
 const MOST_ROOM = 150;
 const LEAST_ROOM = 60;
-const PLACES = [0.5, 0.42, 0.58, 0.34, 0.66, 0.27, 0.73, 0.2, 0.8];
-const SHIFTS = [0, -14, 14, -26, 26];
+const CROWDED_ROOM = 100;
+const SLIPS = [0, 0, 1, -1];
+// Parts of the way along the curve, and how far beside it, the best first. 1 is just beside the line, 2 a little farther.
+const PLACES = [0.5, 0.42, 0.58, 0.34, 0.66, 0.27, 0.73, 0.2, 0.8, 0.14, 0.86].flatMap((part) =>
+  [0, 1, -1, 2, -2].map((beside) => ({ part, beside, cost: Math.abs(part - 0.5) * 2.4 + Math.abs(beside) * 0.9 })),
+);
+PLACES.sort((a, b) => a.cost - b.cost);
+const LOOP_PLACES = [0, 1, 2, 3].map((out) => ({ out, cost: out * 0.4 }));
 
-/**
- * How wide a text may be on a curve: between two boxes side by side no wider than the gap, else it would be pushed off its curve.
- * In steps of 10, so that a chip is not drawn anew at every movement.
- */
-function roomOn(curve) {
-  const [dx, dy] = [Math.abs(curve[6] - curve[0]), Math.abs(curve[7] - curve[1])];
-  if (dx < 2 * dy || dx < 30) return MOST_ROOM;
-  return Math.min(MOST_ROOM, Math.max(LEAST_ROOM, Math.floor((dx - 30) / 10) * 10));
+/** What the chip of an edge between two nodes shows and its size, or null when there is nothing to say. */
+export function chipOf(edge, from, to, beside) {
+  if (edge.of !== "transitions") return null;
+  const { order, icon, badgeWidth } = partsOf(edge.data);
+  const used = (order ? 18 : 0) + (icon ? ICON : 0) + badgeWidth;
+  return chipWith(edge, Math.max(LEAST_ROOM, roomBetween(from, to, beside) - used));
 }
 
-/** What the chip of an edge shows and its size, or null when there is nothing to say. */
-export function chipOf(edge, curve) {
-  if (edge.of !== "transitions") return null;
-  const { data } = edge;
-  const order = data.of > 1 ? String(data.order) : "";
-  const icon = ["timer", "code", "tree"].includes(data.kind);
-  const badgeWidth = data.severity ? BADGE : 0;
-  const used = (order ? 18 : 0) + (icon ? ICON : 0) + badgeWidth;
-  const isLoop = edge.source === edge.target;
-  const text = shorten(data.label ?? "", "label", isLoop ? MOST_ROOM : Math.max(LEAST_ROOM, roomOn(curve) - used));
+/** The chip with ever less of its text. */
+export const shorterChips = (edge, chip) =>
+  [90, 50].filter((room) => textWidth(chip.text, "label") > room + 10).map((room) => chipWith(edge, room));
+
+function chipWith({ data }, room) {
+  const { order, icon, badgeWidth } = partsOf(data);
+  const text = shorten(data.label ?? "", "label", room);
   if (!order && !text && !icon) return null;
   const orderWidth = order ? textWidth(text || icon ? `${order} · ` : order, "label") + 1 : 0;
   const iconWidth = icon ? ICON : 0;
@@ -39,20 +40,52 @@ export function chipOf(edge, curve) {
   return { order, text, icon: icon ? data.kind : "", orderWidth, iconWidth, badgeWidth, padding: PADDING, w, h: HEIGHT };
 }
 
-/** The first free place along the curve, beside it when there is none on it, else the least crowded. */
-export function placeLabel(curve, chip, crowd) {
-  const middle = pointAt(curve, 0.5);
-  if (!chip) return middle;
-  let best = { at: middle, cost: Infinity };
-  for (const shift of SHIFTS) {
-    for (const t of PLACES) {
-      const at = beside(curve, t, shift);
-      const cost = crowd(rectAround(at.x, at.y, chip.w, chip.h));
-      if (cost < best.cost) best = { at, cost };
-      if (cost === 0) return at;
-    }
+const partsOf = (data) => ({
+  order: data.of > 1 ? String(data.order) : "",
+  icon: ["timer", "code", "tree"].includes(data.kind),
+  badgeWidth: data.severity ? BADGE : 0,
+});
+
+/**
+ * How wide a text may be between two nodes: side by side no wider than the gap, else it would be pushed off its curve;
+ * one above the other less when there are several. In steps of 10, so that a chip is not drawn anew at every movement.
+ */
+function roomBetween(from, to, beside) {
+  const gap = Math.abs(to.x - from.x) - (from.w + to.w) / 2;
+  if (from === to) return MOST_ROOM;
+  if (gap < 30 || gap < 2 * (Math.abs(to.y - from.y) - from.h)) return beside > 2 ? CROWDED_ROOM : MOST_ROOM;
+  return Math.min(MOST_ROOM, Math.max(LEAST_ROOM, Math.floor((gap - 30) / 10) * 10));
+}
+
+/** The place `{at, cost}` where a label hides least; `crowd` says what a rectangle would hide. */
+export function placeLabel(edge, curve, chip, crowd) {
+  const isLoop = edge.source === edge.target;
+  let best = { cost: Infinity };
+  for (const place of isLoop ? LOOP_PLACES : PLACES) {
+    if (place.cost >= best.cost) break;
+    const at = isLoop ? besideLoop(curve, chip, place.out) : besideLine(curve, chip, place);
+    const cost = place.cost + crowd(rectAround(at.x, at.y, chip.w, chip.h));
+    if (cost < best.cost) best = { at, cost };
   }
-  return best.at;
+  return best;
+}
+
+/** The chip of a loop hangs on its outermost point, so that the loop itself stays visible. */
+function besideLoop(curve, chip, out) {
+  const apex = pointAt(curve, 0.5);
+  const foot = { x: (curve[0] + curve[6]) / 2, y: (curve[1] + curve[7]) / 2 };
+  const [dx, dy] = [Math.sign(apex.x - foot.x), Math.sign(apex.y - foot.y)];
+  if (Math.abs(apex.x - foot.x) < Math.abs(apex.y - foot.y)) return { x: apex.x + SLIPS[out] * chip.w * 0.4, y: apex.y + (out ? dy * 9 : 0) };
+  return { x: apex.x + dx * (chip.w / 2 - 8), y: apex.y + SLIPS[out] * 18 };
+}
+
+/** On the line, or so far beside it that the line stays visible. */
+function besideLine(curve, chip, { part, beside: side }) {
+  if (!side) return pointAt(curve, part);
+  const [behind, ahead] = [pointAt(curve, Math.max(0, part - 0.02)), pointAt(curve, Math.min(1, part + 0.02))];
+  const length = Math.hypot(ahead.x - behind.x, ahead.y - behind.y) || 1;
+  const reach = (Math.abs(ahead.y - behind.y) * chip.w + Math.abs(ahead.x - behind.x) * chip.h) / length / 2;
+  return beside(curve, part, Math.sign(side) * (reach + (Math.abs(side) === 1 ? 3 : 9)));
 }
 
 /** Where a label was put by hand: `part` of the way along the curve, `shift` to the right of who walks along it. */
