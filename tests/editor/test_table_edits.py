@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.strategies.designs import designs
-from vicode.editor.session import Document, Sheet, Outcome
+from vicode.editor.session import Document, Outcome, Sheet
 from vicode.editor.session.table_edits import LONGEST, apply_table_edit
 from vicode.editor.view import Selected, table_difference, table_of
 from vicode.model.design import COMMON, Call, Common, Design, Group, Guard, State, Transition, Use
