@@ -1,6 +1,6 @@
 """Changes that go through a whole tree of decisions."""
 
-from collections.abc import Collection
+from collections.abc import Collection, Mapping
 from dataclasses import replace
 
 from vicode.model.design import Decision, Group, Transition
@@ -8,12 +8,18 @@ from vicode.model.design import Decision, Group, Transition
 
 def retarget(items: tuple[Decision, ...], old: str, new: str) -> tuple[Decision, ...]:
     """The same decisions, leading to `new` where they led to `old`."""
+    return retarget_all(items, {old: new})
+
+
+def retarget_all(items: tuple[Decision, ...], names: Mapping[str, str]) -> tuple[Decision, ...]:
+    """The same decisions, leading to new names where they led to old ones."""
 
     def renamed(item: Decision) -> Decision:
         if isinstance(item, Group):
-            return replace(item, then=retarget(item.then, old, new), otherwise=retarget(item.otherwise, old, new))
-        if isinstance(item, Transition) and item.to == old:
-            return replace(item, to=new)
+            then, otherwise = retarget_all(item.then, names), retarget_all(item.otherwise, names)
+            return replace(item, then=then, otherwise=otherwise)
+        if isinstance(item, Transition) and item.to in names:
+            return replace(item, to=names[item.to])
         return item
 
     return tuple(renamed(item) for item in items)

@@ -9,6 +9,7 @@ from nicegui import ui
 from nicegui.dependencies import register_esm
 from nicegui.events import GenericEventArguments
 
+from vicode.editor.canvas.commands import as_plain
 from vicode.editor.canvas.gesture import Changes, Gesture, Item, Kind, OnGesture, Scene
 
 _SCRIPTS = Path(__file__).parent / "js"
@@ -28,6 +29,8 @@ class Canvas(ui.element, component="js/vicode_canvas.js"):
 
     def __init__(self, on_gesture: OnGesture) -> None:
         super().__init__()
+        # Not by a call after mounting: no key shall come too early.
+        self._props["commands"] = as_plain()
         self._on_gesture = on_gesture
         self._scene: dict[str, Any] | None = None
         self._selected: list[Item] = []
@@ -76,6 +79,14 @@ class Canvas(ui.element, component="js/vicode_canvas.js"):
     def rename_in_place(self, state: str) -> None:
         """Open the name of a state for typing, as after creating it."""
         self._call("renameInPlace", state)
+
+    def run(self, command: str) -> None:
+        """Do what a command of the canvas does, as if its key had been pressed."""
+        self._call("run", command)
+
+    def put_on_clipboard(self, text: str | None) -> None:
+        """Answer a `Copy`: with its text, or None when there is nothing to copy."""
+        self._call("putOnClipboard", text)
 
     def set_active(self, ids: Sequence[str], seq: int) -> None:
         """Highlight the states that are active in a running component.

@@ -40,6 +40,8 @@ class Move(TypedDict):
     kind: Literal["move"]
     rev: int
     items: list[Place]
+    how: str
+    """By which command: "drag", "nudge", "align-left" …"""
 
 
 class Delete(TypedDict):
@@ -121,6 +123,78 @@ class Disable(TypedDict):
     items: list[Item]
 
 
+class Copy(TypedDict):
+    """The text of these things is wanted for the clipboard; `put_on_clipboard` answers."""
+
+    kind: Literal["copy"]
+    rev: int
+    items: list[Item]
+
+
+class Paste(TypedDict):
+    """A text from the clipboard is to become part of the design, its middle at (x, y)."""
+
+    kind: Literal["paste"]
+    rev: int
+    text: str
+    x: float
+    y: float
+
+
+class Duplicate(TypedDict):
+    """The selected things are wanted once more, a little beside."""
+
+    kind: Literal["duplicate"]
+    rev: int
+    items: list[Item]
+
+
+class Reorder(TypedDict):
+    """A transition is to be tested earlier or later: `by` -1 or 1, or where the transition `onto` is tested now."""
+
+    kind: Literal["reorder"]
+    rev: int
+    id: str
+    by: NotRequired[int]
+    onto: NotRequired[str]
+
+
+class Label(TypedDict):
+    """A label was put on a part of the way (0 to 1) and pixels beside it; None: wherever there is room."""
+
+    kind: Literal["label"]
+    rev: int
+    id: str
+    at: tuple[float, float] | None
+
+
+class Mark(TypedDict):
+    """A state is to be the initial one, or final or no longer so."""
+
+    kind: Literal["mark"]
+    rev: int
+    mark: Literal["initial", "final"]
+    id: str
+
+
+class Use(TypedDict):
+    """A component is to be used at (x, y): the one a dropped link leads to, else one to be chosen."""
+
+    kind: Literal["use"]
+    rev: int
+    address: str | None
+    x: float
+    y: float
+
+
+class Ask(TypedDict):
+    """A command of the page is wanted, by its name."""
+
+    kind: Literal["command"]
+    rev: int
+    name: str
+
+
 class History(TypedDict):
     """Ctrl+Z, Ctrl+Shift+Z or Ctrl+Y were pressed on the canvas."""
 
@@ -129,5 +203,25 @@ class History(TypedDict):
     note: NotRequired[str]
 
 
-Gesture = Select | Move | Delete | Connect | Reconnect | Link | Create | Rename | Open | Disable | History
+Gesture = (
+    Select
+    | Move
+    | Delete
+    | Connect
+    | Reconnect
+    | Link
+    | Create
+    | Rename
+    | Open
+    | Disable
+    | Copy
+    | Paste
+    | Duplicate
+    | Reorder
+    | Label
+    | Mark
+    | Use
+    | Ask
+    | History
+)
 OnGesture = Callable[[Gesture], Awaitable[None] | None]

@@ -19,7 +19,8 @@ class Place(StrEnum):
 class Command:
     """What the page can do; `keys` are spelt "Ctrl+Shift+Z" (Ctrl is Cmd on a Mac).
 
-    Keys of a command that is not `while_typing` are left to text fields and to the canvas, which have their own.
+    Keys of a command that is not `while_typing` are left to text fields and to the canvas, which have their own;
+    `on_canvas`: only the canvas hears them.
     """
 
     name: str
@@ -30,3 +31,4 @@ class Command:
     icon: str = ""
     keys: tuple[str, ...] = ()
     while_typing: bool = False
+    on_canvas: bool = False

@@ -25,9 +25,11 @@ from vicode.model.edits import (
     remove_uses,
     rename_state,
     rename_use,
+    reorder_decision,
     replace_decision,
     require,
     unlink,
+    update_state,
 )
 from vicode.model.enabling import disable
 from vicode.model.names import is_name, is_state_name
@@ -35,6 +37,17 @@ from vicode.model.walks import decision_at, walk_decisions
 
 Payload = Mapping[str, Any]
 _FAR = 1_000_000.0
+_FARTHEST_LABEL = 2_000
+_HOW = {
+    "align-left": "align left sides",
+    "align-centre": "align centres",
+    "align-right": "align right sides",
+    "align-top": "align tops",
+    "align-middle": "align middles",
+    "align-bottom": "align bottoms",
+    "distribute-across": "equal gaps across",
+    "distribute-down": "equal gaps downwards",
+}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -43,13 +56,21 @@ class Outcome:
 
     select: tuple[Selected, ...] | None = None
     refused: str = ""
+    note: str = ""
+    """Words about what was done."""
     rename: str = ""
     """The new state whose name the user may type at once."""
 
 
-def apply_gesture(document: Document, payload: Payload) -> Outcome:
-    """Do what a gesture asks for. A payload of another shape than expected does nothing."""
-    handlers: dict[str, Callable[[Document, Payload], Outcome]] = {
+Handler = Callable[[Document, Payload], Outcome]
+
+
+def apply_gesture(document: Document, payload: Payload, more: Mapping[str, Handler] | None = None) -> Outcome:
+    """Do what a gesture asks for; `more` are kinds that need to know more than the document.
+
+    A payload of another shape than expected does nothing.
+    """
+    handlers: dict[str, Handler] = {
         "move": _move,
         "connect": _connect,
         "reconnect": _reconnect,
@@ -60,13 +81,17 @@ def apply_gesture(document: Document, payload: Payload) -> Outcome:
         "link": _link,
         "undo": _undo,
         "redo": _redo,
+        "reorder": _reorder,
+        "label": _label,
+        "mark": _mark,
+        **(more or {}),
     }
     handler = handlers.get(str(payload.get("kind")))
     if handler is None:
         return Outcome()
     try:
         return handler(document, payload)
-    except (KeyError, TypeError, ValueError, AttributeError):
+    except (KeyError, TypeError, ValueError, AttributeError, OverflowError):
         # Only the payload's own shape can raise these here: an old page, or somebody else's script.
         return Outcome(refused="that gesture was not understood")
 
@@ -83,6 +108,18 @@ def new_state(document: Document, at: Point, source: str = "") -> str:
     return name
 
 
+def point_of(item: Payload) -> Point:
+    """The place a payload tells.
+
+    Raises:
+        ValueError: It is none on the canvas.
+    """
+    x, y = float(item["x"]), float(item["y"])
+    if not (math.isfinite(x) and math.isfinite(y)) or max(abs(x), abs(y)) > _FAR:
+        raise ValueError("no point of the canvas")
+    return (round(x), round(y))
+
+
 def take_places(design: Design, placement: Placement, only: Collection[str] | None) -> Design:
     """The design with the places of a layout: of everything, or of some states only."""
     if only is not None:
@@ -94,11 +131,18 @@ def take_places(design: Design, placement: Placement, only: Collection[str] | No
 def _move(document: Document, payload: Payload) -> Outcome:
     moved: dict[str, dict[str, Point]] = {"states": {}, "components": {}, "common": {}}
     for item in payload["items"]:
-        moved[item["of"]][str(item["id"])] = _point(item)
+        moved[item["of"]][str(item["id"])] = point_of(item)
     common = next(iter(moved["common"].values()), None)
     count = sum(len(group) for group in moved.values())
     label = f"move {next(iter(moved['states']), 'component')}" if count == 1 else f"move {count} things"
-    document.edit(label, lambda design: move(design, moved["states"], moved["components"], common))
+    how = str(payload.get("how"))
+    # Step by step one moves a thing as one types a word: it is one edit.
+    typing_in = f"nudge {sorted((group, *ids) for group, ids in moved.items())}" if how == "nudge" else ""
+    document.edit(
+        _HOW.get(how, label),
+        lambda design: move(design, moved["states"], moved["components"], common),
+        typing_in=typing_in,
+    )
     return Outcome()
 
 
@@ -106,7 +150,7 @@ def _connect(document: Document, payload: Payload) -> Outcome:
     source = _source(document, str(payload["source"]))
     target = payload.get("target")
     if target is None:
-        name = new_state(document, _point(payload), source)
+        name = new_state(document, point_of(payload), source)
         return Outcome(select=(Selected(of="states", id=name),), rename=name)
     target = _known_state(document, str(target))
     document.edit(f"connect {source.lstrip('@')} to {target}", lambda design: add_transition(design, source, target))
@@ -132,7 +176,7 @@ def _reconnect(document: Document, payload: Payload) -> Outcome:
 
 
 def _create(document: Document, payload: Payload) -> Outcome:
-    name = new_state(document, _point(payload))
+    name = new_state(document, point_of(payload))
     return Outcome(select=(Selected(of="states", id=name),), rename=name)
 
 
@@ -209,6 +253,57 @@ def _link(document: Document, payload: Payload) -> Outcome:
     return Outcome()
 
 
+def _reorder(document: Document, payload: Payload) -> Outcome:
+    """Have a transition tested a place earlier or later, or where another of its list is tested."""
+    path = path_of_key(str(payload["id"]))
+    if decision_at(document.design, path) is None:
+        return Outcome(refused="that transition is gone")
+    index = int(path[-1]) + (1 if payload.get("by", 0) > 0 else -1)
+    if payload.get("onto") is not None:
+        onto = path_of_key(str(payload["onto"]))
+        if onto[:-1] != path[:-1]:
+            return Outcome(refused="a branch of a decision tree is ordered within its branch")
+        index = int(onto[-1])
+    last = max(int(each.path[-1]) for each in walk_decisions(document.design) if each.path[:-1] == path[:-1])
+    index = max(0, min(index, last))
+    document.edit("change the order", lambda design: reorder_decision(design, path, index))
+    return Outcome(select=(Selected(of="transitions", id=transition_key((*path[:-1], index))),))
+
+
+def _label(document: Document, payload: Payload) -> Outcome:
+    """Put a label on a part of its arrow and so many pixels beside it, or back to where there is room."""
+    key = str(payload["id"])
+    located = decision_at(document.design, path_of_key(key))
+    if located is None or not isinstance(located.decision, Transition):
+        return Outcome(refused="that transition is gone")
+    label_at: Point | None = None
+    if payload["at"] is not None:
+        part, beside = (float(value) for value in payload["at"])
+        if not (math.isfinite(part) and math.isfinite(beside)):
+            raise ValueError("no place of a label")
+        label_at = (round(max(0.0, min(part, 1.0)), 3), round(max(-_FARTHEST_LABEL, min(beside, _FARTHEST_LABEL))))
+    moved = replace(located.decision, label_at=label_at)
+    document.edit(
+        "move a label",
+        lambda design: replace_decision(design, located.path, moved),
+        typing_in=f"label {key}" if payload.get("by") == "nudge" else "",
+    )
+    return Outcome()
+
+
+def _mark(document: Document, payload: Payload) -> Outcome:
+    """Make a state the initial one, or final, or no longer final."""
+    name = _known_state(document, str(payload["id"]))
+    if payload["mark"] == "initial":
+        document.edit(f"start in {name}", lambda design: replace(design, initial=name))
+    else:
+        document.edit(
+            f"{name} is final or not",
+            lambda design: update_state(design, name, lambda state: replace(state, final=not state.final)),
+        )
+    return Outcome()
+
+
 def _undo(document: Document, _payload: Payload) -> Outcome:
     return Outcome(refused=document.undo())
 
@@ -231,13 +326,6 @@ def _with_source(design: Design, path: Path, transition: Transition, state: str)
 def _last_key(design: Design, source: str) -> str:
     where = items_path(design, source)
     return transition_key(max((at.path for at in walk_decisions(design) if at.path[:-1] == where), default=(*where, 0)))
-
-
-def _point(item: Payload) -> Point:
-    x, y = float(item["x"]), float(item["y"])
-    if not (math.isfinite(x) and math.isfinite(y)) or max(abs(x), abs(y)) > _FAR:
-        raise ValueError("no point of the canvas")
-    return (round(x), round(y))
 
 
 def _source(document: Document, name: str) -> str:

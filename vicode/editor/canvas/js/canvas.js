@@ -1,9 +1,12 @@
 // The canvas itself: puts the parts together, and is what Python's methods reach.
-import { rectOf } from "./geometry.js";
+import { Clipboard } from "./clipboard.js";
+import { Commands } from "./commands.js";
+import { bounds, rectOf } from "./geometry.js";
 import { Frame } from "./frame.js";
 import { Gestures } from "./gestures.js";
 import { Handles } from "./handles.js";
 import { Keyboard } from "./keyboard.js";
+import { Menu } from "./menu.js";
 import { Minimap } from "./minimap.js";
 import { Overview } from "./overview.js";
 import { MOST_PINNED, Painter } from "./painter.js";
@@ -23,17 +26,19 @@ const CROWD = 240;
 const LEAVING = 0.88;
 const DOT_GAP = 20;
 const DIM_MS = 120;
+const TELL_MS = 3000;
 
 const sheet = new CSSStyleSheet();
 sheet.replaceSync(await (await fetch(new URL("./canvas.css", import.meta.url))).text());
 
-/** Draws into `host` (in a shadow root) and reports gestures by `emit(event, payload)`. */
-export const mountCanvas = (host, emit) => new Canvas(host, emit);
+/** Draws into `host` (in a shadow root) and reports gestures by `emit(event, payload)`; `table` holds the commands. */
+export const mountCanvas = (host, emit, table) => new Canvas(host, emit, table);
 
 class Canvas {
-  constructor(host, emit) {
+  constructor(host, emit, table) {
     this.host = host;
     this.emit = emit;
+    this.table = table;
     this.far = false;
     this.activeSeq = -1;
     this.shownZoom = 1;
@@ -91,6 +96,16 @@ class Canvas {
     else this.viewport.centreOn(0, 0, 1);
   }
 
+  /** Shows what is selected, with the ends of its transitions. */
+  zoomToSelection() {
+    const keys = [...this.selection.keys].flatMap((key) => {
+      const edge = this.scene.edges.get(key);
+      return edge ? [edge.source, edge.target] : [key];
+    });
+    const extent = bounds(keys.map((key) => this.scene.nodes.get(key)).filter(Boolean).map(rectOf));
+    if (extent && this.viewport.measure()) this.viewport.fit(extent);
+  }
+
   /** Highlights the states a running component is in; an older picture never replaces a newer one. */
   setActive(ids, seq) {
     if (seq <= this.activeSeq) return;
@@ -116,6 +131,8 @@ class Canvas {
 
   dispose() {
     this.frame.stop();
+    this.keyboard.dispose();
+    this.clipboard.dispose();
     this.sizes.disconnect();
     this.theme.dispose();
   }
@@ -125,13 +142,23 @@ class Canvas {
     this.emit("gesture", { kind, ...payload, rev: this.scene.rev });
   }
 
+  /** Moves boxes by a command; `how` says by which, for the name of the edit. */
+  moveTo(places, how) {
+    const keys = [...places.keys()];
+    const rects = keys.map((key) => rectOf(this.scene.nodes.get(key)));
+    for (const [key, { x, y }] of places) this.scene.move(key, x, y);
+    this.painter.follow(keys);
+    this.reportMove(keys, rects, how);
+    this.afterGesture();
+  }
+
   /** Boxes were moved by hand: everything that depends on their place follows, and Python is told. */
-  reportMove(keys, oldRects) {
+  reportMove(keys, oldRects, how = "drag") {
     const nodes = keys.map((key) => this.scene.nodes.get(key));
     this.scene.reindex(keys);
     this.painter.settle([...oldRects, ...nodes.map(rectOf)]);
     this.painter.covered = null;
-    this.report("move", { items: nodes.map(({ of, id, x, y }) => ({ of, id, x, y })) });
+    this.report("move", { items: nodes.map(({ of, id, x, y }) => ({ of, id, x, y })), how });
     this.#sceneChanged();
   }
 
@@ -185,6 +212,12 @@ class Canvas {
     this.message.hidden = !text;
   }
 
+  /** Words that go by themselves. */
+  tell(text) {
+    this.say(text);
+    this.frame.afterRest("tell", TELL_MS, () => this.message.textContent === text && this.say(""));
+  }
+
   drawableEdges() {
     return [...this.scene.edges.values()].filter((edge) => this.scene.isDrawable(edge)).map((edge) => edge.key);
   }
@@ -203,14 +236,18 @@ class Canvas {
     this.selection = new Selection(this);
     this.gestures = new Gestures(this);
     this.handles = new Handles(this);
-    this.keyboard = new Keyboard(this);
+    this.clipboard = new Clipboard(this);
+    this.commands = new Commands(this, this.table);
+    this.menu = new Menu(this);
     this.rename = new Rename(this);
     this.dots = html("div", { class: "dots" });
     this.plane = html("div", { class: "plane layer" }, [this.painter.svg]);
     this.message = html("div", { class: "message", role: "status", hidden: true });
     this.empty = html("div", { class: "empty", hidden: true, text: "No states yet.\nDouble click, or press S, to add the first." });
     const corner = html("div", { class: "corner" }, [this.minimap.element, this.toolbar.element]);
-    this.stage.append(this.dots, ...this.overview.elements, this.plane, this.empty, this.message, this.rename.input, corner);
+    const above = [this.empty, this.message, this.rename.input, corner, this.menu.element];
+    this.stage.append(this.dots, ...this.overview.elements, this.plane, ...above);
+    this.keyboard = new Keyboard(this);
   }
 
   #wire() {

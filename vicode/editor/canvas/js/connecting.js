@@ -26,11 +26,17 @@ export class Connect {
     this.preview.show(this.#from(), target ?? { ...world }, !target && !this.#isSlip(world));
   }
 
+  /** The nodes that may be at the other end. */
+  fits(node) {
+    const source = this.#from();
+    return Boolean(source) && canJoin(source, node);
+  }
+
   end() {
     const target = this.world && this.#targetAt(this.world);
     const world = this.world;
     this.cancel();
-    if (target) this.connectTo(target);
+    if (target) this.joinTo(target);
     else if (world && !this.#isSlip(world)) this.#connectToNew(world);
   }
 
@@ -44,7 +50,7 @@ export class Connect {
   }
 
   /** Reports what joining these two means: a transition or a link. */
-  connectTo(target) {
+  joinTo(target) {
     const source = this.#from();
     if (!source || !canJoin(source, target)) return;
     if (source.of !== "components" && target.of === "states") {
@@ -69,7 +75,7 @@ export class Connect {
 
   #targetAt(world) {
     const target = this.canvas.scene.nodeAt(world.x, world.y, 6);
-    return target && this.#from() && canJoin(this.#from(), target) ? target : null;
+    return target && this.fits(target) ? target : null;
   }
 
   #isSlip(world) {
@@ -105,11 +111,19 @@ export class Reconnect {
     else this.preview.show(fixed, free, false);
   }
 
+  fits(node) {
+    return node.of === "states" || (node.of === "common" && this.end_ === "source");
+  }
+
   end() {
     const target = this.world && this.#targetAt(this.world);
-    const edge = this.#edge();
     this.cancel();
-    if (!target || !edge || edge[this.end_] === target.key) return;
+    if (target) this.joinTo(target);
+  }
+
+  joinTo(target) {
+    const edge = this.#edge();
+    if (!edge || edge[this.end_] === target.key) return;
     this.canvas.report("reconnect", { id: edge.id, end: this.end_, state: target.id });
   }
 
@@ -128,8 +142,7 @@ export class Reconnect {
 
   #targetAt(world) {
     const node = this.canvas.scene.nodeAt(world.x, world.y, 6);
-    const fits = node && (node.of === "states" || (node.of === "common" && this.end_ === "source"));
-    return fits ? node : null;
+    return node && this.fits(node) ? node : null;
   }
 }
 

@@ -1,5 +1,6 @@
 // What a held pointer can do to the view and to boxes: pan, select by a frame, move. Each can be called off.
-import { overlaps, pointAt, rectBetween, rectOf, snap } from "./geometry.js";
+import { bounds, overlaps, pointAt, rectBetween, rectOf, snap } from "./geometry.js";
+import { Guides } from "./guides.js";
 import { svg } from "./svg.js";
 
 // More boxes than this are moved as one outline; drawing each of them would stutter.
@@ -87,16 +88,21 @@ export class Move {
     this.from = world;
     this.places = new Map(selection.nodes().map((key) => [key, { x: scene.nodes.get(key).x, y: scene.nodes.get(key).y }]));
     this.rects = [...this.places.keys()].map((key) => rectOf(scene.nodes.get(key)));
+    this.frame = bounds(this.rects);
     this.by = { x: 0, y: 0 };
-    if (this.places.size > MOST_LIFTED) this.#raiseGhost();
-    else this.#lift();
+    if (this.places.size > MOST_LIFTED) return this.#raiseGhost();
+    this.#lift();
+    this.guides = new Guides(this.canvas, this.places);
   }
 
   move({ world, free }) {
     const start = this.places.get(this.lead);
     if (!start) return;
-    const place = (value) => (free ? Math.round(value) : snap(value));
-    this.by = { x: place(start.x + world.x - this.from.x) - start.x, y: place(start.y + world.y - this.from.y) - start.y };
+    const by = { x: world.x - this.from.x, y: world.y - this.from.y };
+    const pull = free || !this.guides ? {} : this.guides.pull(shifted(this.frame, by));
+    this.by = { x: landing(start.x, by.x, pull.x, free), y: landing(start.y, by.y, pull.y, free) };
+    if (free) this.guides?.hide();
+    else this.guides?.show(shifted(this.frame, this.by));
     if (this.ghost) this.ghost.setAttribute("transform", `translate(${this.by.x} ${this.by.y})`);
     else this.#put();
   }
@@ -143,8 +149,17 @@ export class Move {
     const { painter, stage } = this.canvas;
     painter.mark("held", []);
     stage.classList.remove("lifting");
+    this.guides?.close();
     this.ghost?.remove();
     if (this.ghost) painter.follow(this.places.keys());
     this.ghost = null;
   }
+}
+
+const shifted = (rect, by) => ({ ...rect, x: rect.x + by.x, y: rect.y + by.y });
+
+/** How far a box goes: in line with another where one pulls, else to the grid; freely, to whole pixels. */
+function landing(start, by, pull, free) {
+  const wanted = by + (pull ?? 0);
+  return free || (pull ?? null) !== null ? Math.round(start + wanted) - start : snap(start + by) - start;
 }

@@ -1,7 +1,11 @@
 // From pointer events to gestures: what is under the pointer decides, and movement is taken once per frame.
 import { Connect, Reconnect } from "./connecting.js";
 import { Marquee, Move, Pan } from "./drags.js";
+import { freeSpot } from "./arranging.js";
 import { distanceToCurve, snap } from "./geometry.js";
+import { LabelDrag } from "./label_moves.js";
+import { Tool } from "./tool.js";
+import { Touch } from "./touch.js";
 import { Wheel } from "./wheel.js";
 
 const THRESHOLD = { mouse: 4, pen: 6, touch: 9 };
@@ -13,8 +17,9 @@ export class Gestures {
     this.canvas = canvas;
     this.drag = null;
     this.tool = null;
-    this.touches = new Map();
-    this.pinch = null;
+    this.touch = new Touch(canvas, (event) => this.#holds(event));
+    this.collects = false;
+    this.menuAt = null;
     this.lastClick = { key: "", time: 0 };
     this.spaceHeld = false;
     this.pointer = null;
@@ -25,7 +30,9 @@ export class Gestures {
     listen("pointerup", (event) => this.#up(event));
     listen("pointercancel", () => this.cancel());
     listen("pointerleave", () => this.#hover(null));
-    listen("contextmenu", (event) => event.preventDefault());
+    listen("contextmenu", (event) => this.#menu(event));
+    listen("dragover", (event) => event.preventDefault());
+    listen("drop", (event) => this.#drop(event));
   }
 
   isDragging() {
@@ -39,29 +46,31 @@ export class Gestures {
     this.tool?.cancel();
     this.drag = null;
     this.tool = null;
-    this.pinch = null;
     this.lastClick = { key: "", time: 0 };
-    this.touches.clear();
+    this.touch.clear();
     this.canvas.say("");
     this.canvas.afterGesture();
     return busy;
   }
 
-  /** Starts a connection that the next click (or Enter on a focused state) ends. */
+  /** Starts a connection that the next click, or a box aimed at by keys, ends. */
   connectFrom(key) {
-    this.cancel();
-    this.tool = new Connect(this.canvas, key);
-    this.tool.begin();
-    this.canvas.say("Click the target, or Tab to it and press Enter. Esc ends.");
-    this.canvas.handles.refresh();
+    this.#take(new Connect(this.canvas, key), key, "Connect to");
   }
 
-  /** Ends a keyboard connection at a node. */
-  connectTo(key) {
+  /** The same for one end of a transition. */
+  reconnect(key, end) {
+    const edge = this.canvas.scene.edges.get(key);
+    this.#take(new Reconnect(this.canvas, key, end), edge[end], end === "target" ? "Lead to" : "Start from");
+  }
+
+  /** Enter: ends a connection at the box the keys aim at. */
+  finishTool() {
     const { tool } = this;
-    const target = this.canvas.scene.nodes.get(key);
-    this.cancel();
-    if (target) tool.connectTo(target);
+    this.tool = null;
+    tool.finish();
+    this.canvas.say("");
+    this.canvas.afterGesture();
   }
 
   sceneChanged() {
@@ -69,18 +78,36 @@ export class Gestures {
     else this.tool?.sceneChanged?.();
   }
 
-  /** Where a new thing goes: under the pointer, else in the middle. */
+  /** Where a new thing goes: where the menu was opened, under the pointer, else in the middle; there or beside, where it is free. */
   spot() {
+    const { x, y } = this.menuSpot();
+    return freeSpot(this.canvas.scene, x, y);
+  }
+
+  menuSpot() {
     const { viewport } = this.canvas;
-    const { x, y } = this.pointer ? viewport.toWorld(this.pointer) : viewport.middle();
-    return { x: snap(x), y: snap(y) };
+    const at = this.menuAt ?? this.pointer;
+    return at ? viewport.toWorld(at) : viewport.middle();
+  }
+
+  pasteSpot() {
+    this.menuAt = null;
+    return this.menuSpot();
+  }
+
+  #take(gesture, from, what) {
+    this.cancel();
+    this.tool = new Tool(this.canvas, gesture, from, what);
+    this.tool.begin();
+    this.canvas.handles.refresh();
   }
 
   #down(event) {
     const { canvas } = this;
+    this.menuAt = null;
+    canvas.menu.close();
     canvas.stage.focus({ preventScroll: true });
-    if (event.pointerType === "touch") this.touches.set(event.pointerId, canvas.viewport.local(event));
-    if (this.touches.size === 2) return this.#startPinch();
+    if (this.touch.down(event)) return this.#startPinch();
     if (this.drag || event.button === 2) return;
     event.preventDefault();
     canvas.stage.setPointerCapture(event.pointerId);
@@ -93,13 +120,19 @@ export class Gestures {
 
   #choose(event, hit) {
     const { canvas } = this;
-    const adds = event.shiftKey || event.ctrlKey || event.metaKey;
+    const adds = this.#adds(event);
     if (event.button === 1 || this.spaceHeld) return new Pan(canvas);
     if (hit.handle) return new Connect(canvas, hit.handle);
     if (hit.end) return new Reconnect(canvas, hit.edge, hit.end);
     if (canvas.scene.nodes.has(hit.key)) return new Move(canvas, hit.key);
+    if (hit.isLabel) return new LabelDrag(canvas, hit.key);
     if (hit.key) return null;
-    return event.pointerType === "touch" ? new Pan(canvas) : new Marquee(canvas, adds);
+    return event.pointerType === "touch" && !this.collects ? new Pan(canvas) : new Marquee(canvas, adds);
+  }
+
+  /** Whether a press adds to the selection; by touch there are no keys to hold, but a switch in the corner. */
+  #adds(event) {
+    return event.shiftKey || event.ctrlKey || event.metaKey || this.collects;
   }
 
   /** Selects what is pressed at once; answers whether it was selected before. */
@@ -108,21 +141,21 @@ export class Gestures {
     if (!hit.key || event.button !== 0 || this.spaceHeld) return false;
     const before = selection.keys.has(hit.key);
     if (before) return true;
-    const adds = event.shiftKey || event.ctrlKey || event.metaKey;
-    selection.set(adds ? [...selection.keys, hit.key] : [hit.key]);
+    selection.set(this.#adds(event) ? [...selection.keys, hit.key] : [hit.key]);
     return false;
   }
 
   #move(event) {
     this.pointer = this.canvas.viewport.local(event);
-    if (this.touches.has(event.pointerId)) this.touches.set(event.pointerId, this.pointer);
-    if (this.pinch) return this.canvas.frame.ask("drag", () => this.#pinchOn());
+    this.touch.move(event);
+    if (this.touch.isPinching()) return this.canvas.frame.ask("drag", () => this.touch.pinch());
     const where = this.#where(event);
     if (this.tool) return this.canvas.frame.ask("drag", () => this.tool?.move(where));
     if (!this.drag) return this.canvas.frame.ask("hover", () => this.#hover(event));
-    if (event.pointerId !== this.drag.id || !this.drag.gesture) return;
+    if (event.pointerId !== this.drag.id) return;
     this.drag.last = where;
     if (!this.drag.begun && !this.#leavesThreshold(event)) return;
+    this.touch.rest();
     this.canvas.frame.ask("drag", () => this.#dragOn());
   }
 
@@ -133,7 +166,7 @@ export class Gestures {
 
   #dragOn() {
     const { drag, canvas } = this;
-    if (!drag) return;
+    if (!drag?.gesture) return;
     if (!drag.begun) {
       drag.begun = true;
       drag.gesture.begin(drag.start);
@@ -154,8 +187,7 @@ export class Gestures {
   }
 
   #up(event) {
-    this.touches.delete(event.pointerId);
-    if (this.pinch) return this.#endPinch();
+    if (this.touch.up(event)) return this.canvas.afterGesture();
     const { drag, canvas } = this;
     if (!drag || event.pointerId !== drag.id) return;
     canvas.frame.flush();
@@ -168,7 +200,7 @@ export class Gestures {
   #click(event, { hit, before }) {
     const { selection } = this.canvas;
     if (event.button !== 0 || this.spaceHeld || hit.handle || hit.end) return;
-    const adds = event.shiftKey || event.ctrlKey || event.metaKey;
+    const adds = this.#adds(event);
     const double = hit.key === this.lastClick.key && event.timeStamp - this.lastClick.time < DOUBLE_MS;
     this.lastClick = double ? { key: "", time: 0 } : { key: hit.key, time: event.timeStamp };
     if (adds && before) selection.toggle(hit.key);
@@ -211,9 +243,10 @@ export class Gestures {
 
   #hit(event) {
     const found = this.canvas.root.elementFromPoint(event.clientX, event.clientY)?.closest("[data-key],[data-handle],[data-end]");
-    const { key = "", handle = null, end = null, edge = null } = found?.dataset ?? {};
-    if (found || !this.canvas.far) return { key, handle, end, edge };
-    return { key: this.#hitFar(this.#where(event).world), handle: null, end: null, edge: null };
+    const { key = "", handle = null, end = null, edge = null, kind = "" } = found?.dataset ?? {};
+    const isLabel = kind === "transition" && found.classList.contains("chip");
+    if (found || !this.canvas.far) return { key, handle, end, edge, isLabel };
+    return { key: this.#hitFar(this.#where(event).world), handle: null, end: null, edge: null, isLabel: false };
   }
 
   /** In the overview there are no elements to ask. */
@@ -229,26 +262,37 @@ export class Gestures {
   #startPinch() {
     if (this.drag?.begun) this.drag.gesture.cancel();
     this.drag = null;
-    this.pinch = this.#span();
   }
 
-  #pinchOn() {
-    if (!this.pinch || this.touches.size < 2) return;
-    const now = this.#span();
-    const { viewport } = this.canvas;
-    viewport.panBy(now.x - this.pinch.x, now.y - this.pinch.y);
-    viewport.zoomAt(now, now.length / this.pinch.length);
-    this.pinch = now;
+  /** A finger that is held still wants the menu, not the drag that it could have become. */
+  #holds(event) {
+    if (this.drag?.begun || this.tool) return;
+    this.drag = null;
+    this.#openMenu(event);
   }
 
-  #endPinch() {
-    if (this.touches.size) return;
-    this.pinch = null;
-    this.canvas.afterGesture();
+  #menu(event) {
+    event.preventDefault();
+    // Fingers and keys have ways of their own, of which some browsers tell in this way as well.
+    if (event.button === 2 && event.pointerType !== "touch") this.#openMenu(event);
   }
 
-  #span() {
-    const [a, b] = [...this.touches.values()];
-    return { x: (a.x + b.x) / 2, y: (a.y + b.y) / 2, length: Math.max(1, Math.hypot(a.x - b.x, a.y - b.y)) };
+  #openMenu(event) {
+    const { canvas } = this;
+    const hit = this.#hit(event);
+    const key = hit.key || hit.handle || hit.edge;
+    this.cancel();
+    if (!canvas.selection.keys.has(key)) canvas.selection.set(key ? [key] : []);
+    this.menuAt = canvas.viewport.local(event);
+    canvas.menu.open(this.menuAt);
+  }
+
+  /** A design was dragged here from the list beside: links bring their address. */
+  #drop(event) {
+    event.preventDefault();
+    const link = event.dataTransfer?.getData("text/uri-list") ?? "";
+    if (!URL.canParse(link)) return;
+    const { x, y } = this.canvas.viewport.toWorld(this.canvas.viewport.local(event));
+    this.canvas.report("use", { address: new URL(link).pathname, x: snap(x), y: snap(y) });
   }
 }

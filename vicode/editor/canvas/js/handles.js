@@ -4,6 +4,8 @@ import { svg } from "./svg.js";
 const OUT = 9;
 const RADIUS = 5;
 const REACH = 11;
+// Under a finger: 44 pixels across.
+const TOUCH_REACH = 22;
 
 export class Handles {
   constructor(canvas) {
@@ -44,8 +46,9 @@ export class Handles {
   }
 
   #disc(cx, cy, size, names) {
+    const reach = this.canvas.stage.classList.contains("touch") ? TOUCH_REACH : REACH;
     this.group.append(
-      svg("circle", { class: "handle-hit", cx, cy, r: REACH * size, ...names }),
+      svg("circle", { class: "handle-hit", cx, cy, r: reach * size, ...names }),
       svg("circle", { class: "handle", cx, cy, r: RADIUS * size }),
     );
   }

@@ -1,141 +1,75 @@
-// Everything the canvas does without a pointer. Keys it does not know go on to the page.
-import { rectOf, SNAP } from "./geometry.js";
+// Key events become chords such as "Ctrl+Shift+Z"; what they mean is in the table of commands. Others go on to the page.
 
-const ARROWS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
+const HELD_ORDER = ["Ctrl", "Alt", "Shift"];
 
 export class Keyboard {
   constructor(canvas) {
     this.canvas = canvas;
-    canvas.stage.addEventListener("keydown", (event) => this.#down(event));
-    canvas.stage.addEventListener("keyup", (event) => this.#up(event));
+    const { stage } = canvas;
+    this.onPageKey = (event) => this.#pageKey(event);
+    stage.addEventListener("keydown", (event) => this.#down(event));
+    stage.addEventListener("keyup", (event) => this.#up(event));
     // The focus is shown to those who steer by keys, and only to them.
-    canvas.stage.addEventListener("keyup", () => canvas.stage.classList.add("keys"));
-    canvas.stage.addEventListener("pointerdown", () => canvas.stage.classList.remove("keys"), { capture: true });
-    canvas.stage.addEventListener("blur", () => this.#space(false));
+    stage.addEventListener("keyup", () => stage.classList.add("keys"));
+    stage.addEventListener("pointerdown", () => stage.classList.remove("keys"), { capture: true });
+    stage.addEventListener("blur", () => this.#space(false));
+    document.addEventListener("keydown", this.onPageKey);
+    if (document.activeElement === document.body) stage.focus({ preventScroll: true });
+  }
+
+  dispose() {
+    document.removeEventListener("keydown", this.onPageKey);
+  }
+
+  /** Keys pressed while nothing on the page has the focus are meant for the drawing. */
+  #pageKey(event) {
+    if (event.target !== document.body || event.defaultPrevented || event.key === "Tab" || !this.canvas.host.offsetParent) return;
+    this.canvas.stage.focus({ preventScroll: true });
+    this.#down(event);
   }
 
   #down(event) {
-    if (event.target.closest("input, button")) return;
-    const done = event.ctrlKey || event.metaKey ? this.#command(event) : this.#plain(event);
-    if (!done) return;
+    if (event.target.closest?.("input, button, [role=menu]")) return;
+    if (!this.#take(event)) return;
     event.preventDefault();
     event.stopPropagation();
+  }
+
+  #take(event) {
+    const { gestures, commands } = this.canvas;
+    const chord = chordOf(event);
+    if (chord === "Space") return this.#space(true);
+    if (gestures.tool && /^[\p{L}\p{N}_]$/u.test(event.key) && !/Ctrl|Alt/.test(chord)) return gestures.tool.type(event.key);
+    return commands.runKeys(chord);
   }
 
   #up(event) {
     if (event.key === " ") this.#space(false);
   }
 
-  #command({ key, shiftKey }) {
-    const { canvas } = this;
-    const jobs = {
-      z: () => canvas.report(shiftKey ? "redo" : "undo", {}),
-      y: () => canvas.report("redo", {}),
-      a: () => canvas.selection.set([...canvas.scene.nodes.keys(), ...canvas.drawableEdges()]),
-    };
-    return run(jobs[key.toLowerCase()]);
-  }
-
-  #plain(event) {
-    const { canvas } = this;
-    if (event.altKey) return false;
-    if (event.key in ARROWS) return this.#nudge(ARROWS[event.key], event.shiftKey ? 1 : SNAP);
-    if (event.key === "Tab") return this.#walk(event.shiftKey ? -1 : 1);
-    const jobs = {
-      Escape: () => this.#escape(),
-      Delete: () => this.#delete(),
-      Backspace: () => this.#delete(),
-      Enter: () => this.#enter(),
-      F2: () => this.#rename(),
-      "+": () => canvas.viewport.zoomBy(1.25),
-      "=": () => canvas.viewport.zoomBy(1.25),
-      "-": () => canvas.viewport.zoomBy(0.8),
-      0: () => canvas.viewport.centreOn(canvas.viewport.middle().x, canvas.viewport.middle().y, 1),
-      1: () => canvas.fit(),
-      " ": () => this.#space(true),
-      s: () => canvas.report("create", canvas.gestures.spot()),
-      t: () => this.#connect(),
-    };
-    return run(jobs[event.key.length === 1 ? event.key.toLowerCase() : event.key]);
-  }
-
-  #escape() {
-    if (!this.canvas.gestures.cancel()) this.canvas.selection.set([]);
-  }
-
-  #delete() {
-    const items = this.canvas.selection.items();
-    if (items.length) this.canvas.report("delete", { items });
-  }
-
-  #enter() {
-    const { canvas } = this;
-    const key = canvas.selection.single();
-    if (canvas.gestures.tool) return canvas.gestures.connectTo(key);
-    const thing = key && canvas.scene.find(key);
-    if (thing?.of === "states") canvas.rename.start(key);
-    else if (thing) canvas.report("open", { of: thing.of, id: thing.id });
-    return true;
-  }
-
-  #rename() {
-    const key = this.canvas.selection.single();
-    if (["states", "components"].includes(this.canvas.scene.nodes.get(key)?.of)) this.canvas.rename.start(key);
-  }
-
-  #connect() {
-    const key = this.canvas.selection.single();
-    if (this.canvas.scene.nodes.has(key)) this.canvas.gestures.connectFrom(key);
-  }
-
-  #nudge([dx, dy], by) {
-    const { canvas } = this;
-    const keys = canvas.selection.nodes();
-    if (!keys.length) {
-      canvas.viewport.panBy(-dx * 60, -dy * 60);
-      return true;
-    }
-    const rects = keys.map((key) => rectOf(canvas.scene.nodes.get(key)));
-    for (const key of keys) {
-      const node = canvas.scene.nodes.get(key);
-      canvas.scene.move(key, node.x + dx * by, node.y + dy * by);
-    }
-    canvas.painter.follow(keys);
-    canvas.reportMove(keys, rects);
-    canvas.afterGesture();
-    return true;
-  }
-
-  /** Tab goes through the things in the order of the design; past the last it leaves the canvas. */
-  #walk(step) {
-    const { canvas } = this;
-    const things = walkOf(canvas.scene);
-    const at = things.indexOf(canvas.selection.single());
-    const next = at < 0 && step < 0 ? undefined : things[at + step];
-    if (!next) return false;
-    canvas.selection.set([next]);
-    canvas.reveal(next);
-    canvas.painter.focus(next);
-    return true;
-  }
-
   #space(held) {
     this.canvas.gestures.spaceHeld = held;
     this.canvas.stage.classList.toggle("space", held);
+    return true;
   }
 }
 
-/** Every node, each followed by what leaves it: transitions by their order, then links. */
-function walkOf(scene) {
-  return [...scene.nodes.values()].flatMap((node) => {
-    const leaving = scene.edgesOf(node.key).filter((edge) => edge.source === node.key && scene.isDrawable(edge));
-    leaving.sort((a, b) => (a.data.order ?? Infinity) - (b.data.order ?? Infinity) || 0);
-    return [node.key, ...leaving.map((edge) => edge.key)];
-  });
+/** "Ctrl+Shift+Z": Cmd counts as Ctrl; signs are named as they are printed, whatever must be held to reach them. */
+export function chordOf(event) {
+  const isLetter = /^\p{L}$/u.test(event.key);
+  const isSign = event.key.length === 1 && !isLetter && event.key !== " ";
+  const isThirdLevel = event.getModifierState?.("AltGraph") ?? false;
+  const held = {
+    Ctrl: (event.ctrlKey || event.metaKey) && !isThirdLevel,
+    Alt: event.altKey && !isThirdLevel,
+    Shift: event.shiftKey && !isSign,
+  };
+  return [...HELD_ORDER.filter((name) => held[name]), keyOf(event, held.Alt)].join("+");
 }
 
-function run(job) {
-  if (!job) return false;
-  job();
-  return true;
+/** With Alt some keyboards give other letters; then the place of the key counts. */
+function keyOf({ key, code }, alt) {
+  if (key === " ") return "Space";
+  if (alt && /^Key[A-Z]$/.test(code)) return code.slice(3);
+  return key.length === 1 ? key.toUpperCase() : key;
 }

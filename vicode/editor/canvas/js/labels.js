@@ -17,6 +17,8 @@ const PLACES = [0.5, 0.42, 0.58, 0.34, 0.66, 0.27, 0.73, 0.2, 0.8, 0.14, 0.86].f
 );
 PLACES.sort((a, b) => a.cost - b.cost);
 const LOOP_PLACES = [0, 1, 2, 3].map((out) => ({ out, cost: out * 0.4 }));
+// As fine as a pixel on all but very long curves.
+const STEPS = 500;
 
 /** What the chip of an edge between two nodes shows and its size, or null when there is nothing to say. */
 export function chipOf(edge, from, to, beside) {
@@ -94,10 +96,10 @@ export const labelAt = (curve, [part, shift]) => beside(curve, Math.min(1, Math.
 /** The `[part, shift]` that puts a label at a point, as near as can be: its foot on the curve, and how far beside. */
 export function labelPlace(curve, { x, y }) {
   let best = { t: 0.5, reach: Infinity };
-  for (let step = 0; step <= 100; step += 1) {
-    const foot = pointAt(curve, step / 100);
+  for (let step = 0; step <= STEPS; step += 1) {
+    const foot = pointAt(curve, step / STEPS);
     const reach = (foot.x - x) ** 2 + (foot.y - y) ** 2;
-    if (reach < best.reach) best = { t: step / 100, reach };
+    if (reach < best.reach) best = { t: step / STEPS, reach };
   }
   const foot = pointAt(curve, best.t);
   const right = beside(curve, best.t, 1);

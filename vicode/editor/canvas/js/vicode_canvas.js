@@ -2,9 +2,10 @@
 import { mountCanvas } from "vicode-canvas";
 
 export default {
+  props: { commands: { type: Array, default: () => [] } },
   template: `<div class="vicode-canvas"></div>`,
   mounted() {
-    this.canvas = mountCanvas(this.$el, (event, payload) => this.$emit(event, payload));
+    this.canvas = mountCanvas(this.$el, (event, payload) => this.$emit(event, payload), this.commands);
     this.$emit("ready", {});
   },
   unmounted() {
@@ -34,6 +35,12 @@ export default {
     },
     renameInPlace(id) {
       this.canvas.renameInPlace(id);
+    },
+    run(name) {
+      this.canvas.commands.run(name);
+    },
+    putOnClipboard(text) {
+      this.canvas.clipboard.put(text);
     },
   },
 };

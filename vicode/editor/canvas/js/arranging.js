@@ -1,0 +1,58 @@
+// Where boxes go when they are lined up, spread out, or put down where there is room. Pure functions.
+import { bounds, grow, overlaps, rectAround, rectOf, snap } from "./geometry.js";
+
+const NEW_STATE = { w: 120, h: 60 };
+const STEP = { x: 180, y: 120 };
+const GAP = 20;
+const MOST_TRIES = 400;
+
+const SIDES = {
+  left: (box, all) => ({ x: all.x + box.w / 2 }),
+  centre: (_box, all) => ({ x: all.x + all.w / 2 }),
+  right: (box, all) => ({ x: all.x + all.w - box.w / 2 }),
+  top: (box, all) => ({ y: all.y + box.h / 2 }),
+  middle: (_box, all) => ({ y: all.y + all.h / 2 }),
+  bottom: (box, all) => ({ y: all.y + all.h - box.h / 2 }),
+};
+
+/** New centres by key for boxes lined up at one side of the frame around them; `how` is "align-left" and so on. */
+export function align(boxes, how) {
+  const all = bounds(boxes.map(rectOf));
+  const place = SIDES[how.replace("align-", "")];
+  return new Map(boxes.map((box) => [box.key, whole({ x: box.x, y: box.y, ...place(box, all) })]));
+}
+
+/** New centres by key with the same gap between neighbours; the first and the last stay. */
+export function distribute(boxes, how) {
+  const [axis, size] = how === "distribute-across" ? ["x", "w"] : ["y", "h"];
+  const row = [...boxes].sort((a, b) => a[axis] - b[axis]);
+  const first = row[0];
+  const last = row.at(-1);
+  const inside = row.slice(1, -1).reduce((sum, box) => sum + box[size], 0);
+  const gap = (last[axis] - last[size] / 2 - (first[axis] + first[size] / 2) - inside) / (row.length - 1);
+  let edge = first[axis] + first[size] / 2;
+  const places = new Map();
+  for (const box of row.slice(1, -1)) {
+    places.set(box.key, whole({ x: box.x, y: box.y, [axis]: edge + gap + box[size] / 2 }));
+    edge += gap + box[size];
+  }
+  return places;
+}
+
+/** The nearest place to (x, y), to the right and then below, where a new state covers no box. */
+export function freeSpot(scene, x, y) {
+  for (let ring = 0, tries = 0; tries < MOST_TRIES; ring += 1) {
+    for (let column = 0; column <= ring; column += 1, tries += 1) {
+      const at = { x: snap(x + column * STEP.x), y: snap(y + (ring - column) * STEP.y) };
+      if (isFree(scene, at)) return at;
+    }
+  }
+  return { x: snap(x), y: snap(y) };
+}
+
+function isFree(scene, { x, y }) {
+  const room = grow(rectAround(x, y, NEW_STATE.w, NEW_STATE.h), GAP);
+  return ![...scene.nodeGrid.query(room)].some((key) => overlaps(rectOf(scene.nodes.get(key)), room));
+}
+
+const whole = ({ x, y }) => ({ x: Math.round(x), y: Math.round(y) });

@@ -1,0 +1,174 @@
+// What the canvas can do by name. Names, words and keys come from Python's table; here is only what happens.
+import { align, distribute, freeSpot } from "./arranging.js";
+import { SNAP } from "./geometry.js";
+import { nudgeLabel } from "./label_moves.js";
+import { nearest, walkOf } from "./walking.js";
+
+const ARROWS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
+const PAN = 60;
+
+export class Commands {
+  constructor(canvas, table) {
+    this.canvas = canvas;
+    this.jobs = { ...makingJobs(canvas), ...changingJobs(canvas), ...editingJobs(canvas), ...arrangingJobs(canvas), ...seeingJobs(canvas), ...walkingJobs(canvas) };
+    this.table = table.filter(({ name }) => name in this.jobs);
+  }
+
+  /** Runs what the keys mean just now; false when they mean nothing here. */
+  runKeys(chord) {
+    const command = this.table.find(({ name, keys }) => keys.includes(chord) && this.can(name));
+    return command ? this.run(command.name, chord) : false;
+  }
+
+  run(name, chord = "") {
+    if (!(name in this.jobs) || !this.can(name)) return false;
+    return this.jobs[name].run(chord) !== false;
+  }
+
+  can(name) {
+    return this.jobs[name].can?.() ?? true;
+  }
+
+  /** The entries of the menu for what is selected. */
+  offered() {
+    const { selection, scene } = this.canvas;
+    const single = selection.single();
+    const kind = single ? scene.find(single).of : selection.keys.size ? "several" : "nothing";
+    return this.table.filter(({ name, on }) => on.includes(kind) && this.can(name));
+  }
+}
+
+function makingJobs(canvas) {
+  const { selection, scene, gestures } = canvas;
+  const node = () => scene.nodes.get(selection.single());
+  const leaves = () => ["states", "common"].includes(node()?.of);
+  return {
+    "new-state": { run: () => canvas.report("create", gestures.spot()) },
+    use: { run: () => canvas.report("use", { address: null, ...gestures.spot() }) },
+    "new-next": { can: leaves, run: () => canvas.report("connect", { source: node().id, target: null, ...beside(scene, node()) }) },
+    connect: { can: () => Boolean(node()), run: () => gestures.connectFrom(selection.single()) },
+    finish: { can: () => Boolean(gestures.tool), run: () => gestures.finishTool() },
+  };
+}
+
+function changingJobs(canvas) {
+  const { selection, scene, gestures } = canvas;
+  const single = () => scene.find(selection.single());
+  const is = (...kinds) => () => kinds.includes(single()?.of);
+  const open = () => canvas.report("open", { of: single().of, id: single().id });
+  const reorder = (by) => canvas.report("reorder", { id: single().id, by });
+  const mark = (name) => canvas.report("mark", { mark: name, id: single().id });
+  return {
+    "open-guard": { can: is("transitions"), run: open },
+    "open-design": { can: is("components"), run: open },
+    "open-common": { can: is("common"), run: open },
+    rename: { can: is("states", "components"), run: () => canvas.rename.start(selection.single()) },
+    initial: { can: () => is("states")() && !single().data.initial, run: () => mark("initial") },
+    final: { can: is("states"), run: () => mark("final") },
+    disable: { can: () => selection.keys.size > 0, run: () => canvas.report("disable", { items: selection.items() }) },
+    "reconnect-target": { can: is("transitions"), run: () => gestures.reconnect(selection.single(), "target") },
+    "reconnect-source": { can: is("transitions"), run: () => gestures.reconnect(selection.single(), "source") },
+    earlier: { can: is("transitions"), run: () => reorder(-1) },
+    later: { can: is("transitions"), run: () => reorder(1) },
+    "free-label": { can: () => Boolean(single()?.data.label_at), run: () => canvas.report("label", { id: single().id, at: null }) },
+  };
+}
+
+function editingJobs(canvas) {
+  const { selection, scene } = canvas;
+  const some = () => selection.keys.size > 0;
+  return {
+    undo: { run: () => canvas.report("undo", {}) },
+    redo: { run: () => canvas.report("redo", {}) },
+    cut: { can: some, run: () => canvas.clipboard.copy({ cut: true }) },
+    copy: { can: some, run: () => canvas.clipboard.copy() },
+    // By keys the browser's own event brings the text; asking for it would need a permission.
+    paste: { run: (chord) => (chord ? false : canvas.clipboard.paste()) },
+    duplicate: { can: some, run: () => canvas.report("duplicate", { items: selection.items() }) },
+    delete: { can: some, run: () => canvas.report("delete", { items: selection.items() }) },
+    "select-all": { run: () => selection.set([...scene.nodes.keys(), ...canvas.drawableEdges()]) },
+  };
+}
+
+function arrangingJobs(canvas) {
+  const { selection, scene } = canvas;
+  const boxes = () => selection.nodes().map((key) => scene.nodes.get(key));
+  const arranging = (least, work, how) => ({
+    can: () => selection.nodes().length >= least,
+    run: () => canvas.moveTo(work(boxes(), how), how),
+  });
+  return {
+    ...Object.fromEntries(["left", "centre", "right", "top", "middle", "bottom"].map((side) => [`align-${side}`, arranging(2, align, `align-${side}`)])),
+    "distribute-across": arranging(3, distribute, "distribute-across"),
+    "distribute-down": arranging(3, distribute, "distribute-down"),
+    nudge: { run: (chord) => nudge(canvas, boxes(), directionOf(chord), chord.startsWith("Shift+") ? 1 : SNAP) },
+    "lay-out": { run: () => canvas.report("command", { name: "lay-out" }) },
+  };
+}
+
+function seeingJobs(canvas) {
+  const { viewport, selection } = canvas;
+  const centre = () => viewport.middle();
+  return {
+    fit: { run: () => canvas.fit() },
+    "zoom-selection": { can: () => selection.keys.size > 0, run: () => canvas.zoomToSelection() },
+    "life-size": { run: () => viewport.centreOn(centre().x, centre().y, 1) },
+    "zoom-in": { run: () => viewport.zoomBy(1.25) },
+    "zoom-out": { run: () => viewport.zoomBy(0.8) },
+    links: { run: () => canvas.report("command", { name: "links" }) },
+    help: { run: () => canvas.report("command", { name: "help" }) },
+    menu: { run: () => canvas.menu.openAtSelection() },
+  };
+}
+
+function walkingJobs(canvas) {
+  const { gestures, selection } = canvas;
+  const cancel = () => {
+    if (!gestures.cancel()) selection.set([]);
+  };
+  return {
+    next: { run: () => walk(canvas, 1) },
+    previous: { run: () => walk(canvas, -1) },
+    go: { run: (chord) => go(canvas, directionOf(chord), false) },
+    reach: { run: (chord) => go(canvas, directionOf(chord), true) },
+    cancel: { run: cancel },
+  };
+}
+
+const directionOf = (chord) => ARROWS[chord.split("+").at(-1)];
+
+const beside = (scene, node) => freeSpot(scene, node.x + node.w / 2 + 140, node.y);
+
+function nudge(canvas, boxes, [dx, dy], by) {
+  const { gestures, scene, selection, viewport } = canvas;
+  if (gestures.tool) return gestures.tool.go([dx, dy]);
+  const edge = scene.edges.get(selection.single());
+  if (edge?.of === "transitions" && scene.isDrawable(edge)) return nudgeLabel(canvas, edge, dx * by, dy * by);
+  if (!boxes.length) return viewport.panBy(-dx * PAN, -dy * PAN);
+  canvas.moveTo(new Map(boxes.map(({ key, x, y }) => [key, { x: x + dx * by, y: y + dy * by }])), "nudge");
+}
+
+/** Tab goes through the things in the order of the design; past the last it leaves the canvas. */
+function walk(canvas, step) {
+  const { gestures, scene, selection, painter } = canvas;
+  if (gestures.tool) return gestures.tool.step(step);
+  const things = walkOf(scene);
+  const at = things.indexOf(selection.single());
+  const next = at < 0 && step < 0 ? undefined : things[at + step];
+  if (!next) return false;
+  selection.set([next]);
+  canvas.reveal(next);
+  painter.focus(next);
+}
+
+/** To the nearest box in a direction: from the box that was selected last, else from the middle of the view. */
+function go(canvas, direction, keep) {
+  const { scene, selection, painter, viewport } = canvas;
+  const from = scene.nodes.get(selection.nodes().at(-1)) ?? viewport.middle();
+  const next = nearest([...scene.nodes.values()], from, direction);
+  if (!next) return;
+  const kept = keep ? [...selection.keys].filter((key) => key !== next.key) : [];
+  selection.set([...kept, next.key]);
+  canvas.reveal(next.key);
+  painter.focus(next.key);
+}

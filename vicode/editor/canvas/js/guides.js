@@ -1,0 +1,71 @@
+// Lines that show with which boxes a dragged one lines up, and the small pull towards them.
+import { grow, rectOf } from "./geometry.js";
+import { svg } from "./svg.js";
+
+const PULL = 6;
+const MOST = 400;
+const OVER = 12;
+
+const AXES = [
+  { name: "x", size: "w", across: "y", length: "h" },
+  { name: "y", size: "h", across: "x", length: "w" },
+];
+
+export class Guides {
+  /** Args: the canvas; the keys of what is dragged, which are no guides to themselves. */
+  constructor(canvas, dragged) {
+    this.canvas = canvas;
+    this.group = svg("g", { class: "guides" });
+    canvas.painter.layers.above.append(this.group);
+    const seen = canvas.viewport.rect();
+    const near = [...canvas.scene.nodeGrid.query(grow(seen, Math.max(seen.w, seen.h) / 2))].filter((key) => !dragged.has(key));
+    this.rects = near.slice(0, MOST).map((key) => rectOf(canvas.scene.nodes.get(key)));
+  }
+
+  /** How far a rectangle is to be pulled, by axis; null where nothing is near enough. */
+  pull(rect) {
+    const reach = PULL / this.canvas.viewport.k;
+    return Object.fromEntries(AXES.map((axis) => [axis.name, this.#nearest(rect, axis, reach)]));
+  }
+
+  /** Draws a line through everything that is in line with a rectangle. */
+  show(rect) {
+    this.group.replaceChildren();
+    for (const axis of AXES) {
+      for (const at of stops(rect, axis)) {
+        const inLine = this.rects.filter((each) => stops(each, axis).some((stop) => Math.abs(stop - at) < 0.5));
+        if (inLine.length) this.group.append(line(axis, at, [rect, ...inLine]));
+      }
+    }
+  }
+
+  hide() {
+    this.group.replaceChildren();
+  }
+
+  close() {
+    this.group.remove();
+  }
+
+  #nearest(rect, axis, reach) {
+    let best = null;
+    for (const other of this.rects) {
+      for (const stop of stops(other, axis)) {
+        for (const own of stops(rect, axis)) {
+          const by = stop - own;
+          if (Math.abs(by) <= reach && (best === null || Math.abs(by) < Math.abs(best))) best = by;
+        }
+      }
+    }
+    return best;
+  }
+}
+
+/** The two sides of a rectangle and its middle, along one axis. */
+const stops = (rect, { name, size }) => [rect[name], rect[name] + rect[size] / 2, rect[name] + rect[size]];
+
+function line({ name, across, length }, at, rects) {
+  const low = Math.min(...rects.map((rect) => rect[across])) - OVER;
+  const high = Math.max(...rects.map((rect) => rect[across] + rect[length])) + OVER;
+  return svg("path", { class: "guide", d: name === "x" ? `M${at} ${low}V${high}` : `M${low} ${at}H${high}` });
+}

@@ -1,0 +1,90 @@
+// The label of a transition is put elsewhere by hand: along its arrow or off it, or onto another label to be tested there.
+import { rectAround } from "./geometry.js";
+import { labelAt, labelPlace } from "./labels.js";
+import { svg } from "./svg.js";
+
+export class LabelDrag {
+  constructor(canvas, key) {
+    this.canvas = canvas;
+    this.key = key;
+  }
+
+  begin({ world }) {
+    const route = this.#route();
+    if (!route) return;
+    this.grip = { x: route.at.x - world.x, y: route.at.y - world.y };
+    this.tie = svg("path", { class: "guide" });
+    this.canvas.painter.layers.above.append(this.tie);
+    this.canvas.say("Along its arrow or off it; onto another label of this state to be tested there");
+  }
+
+  move({ world }) {
+    const route = this.#route();
+    if (!route || !this.grip) return;
+    this.at = { x: world.x + this.grip.x, y: world.y + this.grip.y };
+    this.onto = this.#siblingAt(world);
+    this.canvas.painter.mark("drop", this.onto ? [this.onto.key] : []);
+    this.canvas.painter.items.get(this.key)?.chip?.setAttribute("transform", `translate(${this.at.x} ${this.at.y})`);
+    const [part, shift] = labelPlace(route.curve, this.at);
+    const foot = labelAt(route.curve, [part, 0]);
+    this.tie.setAttribute("d", Math.abs(shift) > 14 && !this.onto ? `M${foot.x} ${foot.y}L${this.at.x} ${this.at.y}` : "");
+  }
+
+  end() {
+    const { at, onto } = this;
+    const route = this.#route();
+    this.#release();
+    if (!at || !route) return;
+    const edge = this.#edge();
+    if (onto) this.#putBack();
+    if (onto) this.canvas.report("reorder", { id: edge.id, onto: onto.id });
+    else this.canvas.report("label", { id: edge.id, at: labelPlace(route.curve, at) });
+  }
+
+  cancel() {
+    this.#release();
+    this.#putBack();
+  }
+
+  sceneChanged() {
+    if (!this.#edge()) this.canvas.gestures.cancel();
+  }
+
+  #edge() {
+    return this.canvas.scene.edges.get(this.key);
+  }
+
+  #route() {
+    const edge = this.#edge();
+    return edge && this.canvas.scene.isDrawable(edge) ? this.canvas.router.route(edge) : null;
+  }
+
+  #putBack() {
+    const route = this.#route();
+    if (route) this.canvas.painter.items.get(this.key)?.chip?.setAttribute("transform", `translate(${route.at.x} ${route.at.y})`);
+  }
+
+  #release() {
+    this.tie?.remove();
+    this.canvas.say("");
+    this.canvas.painter.mark("drop", []);
+  }
+
+  /** Another transition of the same source whose label lies under the pointer. */
+  #siblingAt({ x, y }) {
+    const { scene, router } = this.canvas;
+    const own = this.#edge();
+    return scene.edgesOf(own.source).find((edge) => {
+      if (edge === own || edge.source !== own.source || edge.of !== own.of || !scene.isDrawable(edge)) return false;
+      const { at, chip } = router.route(edge);
+      const rect = chip && rectAround(at.x, at.y, chip.w, chip.h);
+      return Boolean(rect) && x >= rect.x && x <= rect.x + rect.w && y >= rect.y && y <= rect.y + rect.h;
+    });
+  }
+}
+
+/** Arrow keys on a selected transition: its label goes a step. */
+export function nudgeLabel(canvas, edge, dx, dy) {
+  const { at, curve, chip } = canvas.router.route(edge);
+  if (chip) canvas.report("label", { id: edge.id, at: labelPlace(curve, { x: at.x + dx, y: at.y + dy }), by: "nudge" });
+}

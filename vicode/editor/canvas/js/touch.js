@@ -1,0 +1,67 @@
+// Fingers: two of them pan and pinch, one that is held still opens the menu.
+
+const HOLD_MS = 500;
+
+export class Touch {
+  constructor(canvas, onHold) {
+    this.canvas = canvas;
+    this.onHold = onHold;
+    this.fingers = new Map();
+    this.span = null;
+    this.timer = 0;
+  }
+
+  isPinching() {
+    return this.span !== null;
+  }
+
+  /** A finger came down; true when it is the second. */
+  down(event) {
+    this.canvas.stage.classList.toggle("touch", event.pointerType === "touch");
+    if (event.pointerType !== "touch") return false;
+    this.fingers.set(event.pointerId, this.canvas.viewport.local(event));
+    this.rest();
+    if (this.fingers.size === 1) this.timer = setTimeout(() => this.onHold(event), HOLD_MS);
+    if (this.fingers.size !== 2) return false;
+    this.span = this.#measure();
+    return true;
+  }
+
+  move(event) {
+    if (this.fingers.has(event.pointerId)) this.fingers.set(event.pointerId, this.canvas.viewport.local(event));
+  }
+
+  /** The finger moved or left: it is not held still. */
+  rest() {
+    clearTimeout(this.timer);
+  }
+
+  /** A finger left; true while (or until just now) there were two. */
+  up(event) {
+    this.rest();
+    this.fingers.delete(event.pointerId);
+    if (!this.span) return false;
+    if (!this.fingers.size) this.span = null;
+    return true;
+  }
+
+  pinch() {
+    if (!this.span || this.fingers.size < 2) return;
+    const now = this.#measure();
+    const { viewport } = this.canvas;
+    viewport.panBy(now.x - this.span.x, now.y - this.span.y);
+    viewport.zoomAt(now, now.length / this.span.length);
+    this.span = now;
+  }
+
+  clear() {
+    this.rest();
+    this.fingers.clear();
+    this.span = null;
+  }
+
+  #measure() {
+    const [a, b] = [...this.fingers.values()];
+    return { x: (a.x + b.x) / 2, y: (a.y + b.y) / 2, length: Math.max(1, Math.hypot(a.x - b.x, a.y - b.y)) };
+  }
+}
