@@ -84,6 +84,10 @@ class Canvas(ui.element, component="js/vicode_canvas.js"):
         """Do what a command of the canvas does, as if its key had been pressed."""
         self._call("run", command)
 
+    def focus(self) -> None:
+        """Let the keys work on the canvas."""
+        self._call("focus")
+
     def put_on_clipboard(self, text: str | None) -> None:
         """Answer a `Copy`: with its text, or None when there is nothing to copy."""
         self._call("putOnClipboard", text)

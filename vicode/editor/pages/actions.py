@@ -30,7 +30,9 @@ class Actions:
             Command(
                 "lay-out", "Lay out what is selected, or everything", self.lay_out, edit, icon="auto_awesome_mosaic"
             ),
-            Command("disable", "Disable what is selected, or enable it again", self.disable, edit, icon="block"),
+            Command(
+                "disable", "Disable what is selected, or enable it again", self.disable, edit, icon="block", keys=("D",)
+            ),
             Command("links", "Show or hide links to components", self.toggle_links, view, icon="hub"),
             Command("theme", "Light, dark, or as the system", self.toggle_theme, view, icon="contrast"),
         )

@@ -11,10 +11,12 @@ from vicode.editor.pages.look import Theme, add_look
 from vicode.editor.pages.stage import Stage
 from vicode.editor.pages.visitor import greet_visitor
 from vicode.editor.panels.code_panel import CodePanel
+from vicode.editor.panels.command import Command, Place
 from vicode.editor.panels.designs_list import DesignsList
 from vicode.editor.panels.desk import Desk
 from vicode.editor.panels.findings_panel import FindingsPanel
 from vicode.editor.panels.header import Header
+from vicode.editor.panels.help_dialog import show_help
 from vicode.editor.panels.inspector import Inspector
 from vicode.editor.panels.problems import Problems
 from vicode.editor.panels.tabs import Tabs
@@ -47,6 +49,9 @@ class DesignPage:
                 )
         actions = Actions(desk, self.stage.drawing, theme)
         commands = (*actions.commands(), *problems.commands(), *self.stage.commands())
+        help_ = Command("help", "Keys and gestures", lambda: show_help(commands), Place.VIEW, icon="help", keys=("?",))
+        commands += (help_,)
+        commands += self.stage.drawing.commands(commands)
         with head:
             self.header = Header(desk, commands)
         listen_to_keys(commands)

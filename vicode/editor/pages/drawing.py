@@ -1,18 +1,29 @@
 """The drawing of the open design in one window: the canvas, what it shows, and the gestures made on it."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
+from functools import partial
 from typing import Any, cast
 
 from nicegui import ui
 
 from vicode.editor.canvas import Canvas
+from vicode.editor.canvas.commands import CANVAS_COMMANDS, Group
 from vicode.editor.canvas.gesture import Gesture, Item
+from vicode.editor.panels.command import Command, Place
 from vicode.editor.panels.designs_list import design_url
 from vicode.editor.panels.desk import Desk
-from vicode.editor.session import apply_gesture
+from vicode.editor.panels.use_dialog import ask_for_component
+from vicode.editor.session import apply_gesture, clipboard
+from vicode.editor.session.gestures import point_of
 from vicode.editor.view import Scene, Selected, difference, scene_of
+from vicode.model.design import Point
+from vicode.model.edits import add_use
 
 _FOCUS_GUARD = 'setTimeout(() => document.querySelector(".inspector textarea")?.focus(), 200)'
+
+_PLACES = {Group.SEE: Place.VIEW, Group.WALK: Place.VIEW}
+# What the page does for the canvas, when its menu or keys ask for it.
+_OF_THE_PAGE = ("lay-out", "links", "help")
 
 
 class Drawing:
@@ -22,10 +33,33 @@ class Drawing:
         """Draw the design as it is now."""
         self.desk = desk
         desk.reveal = self.reveal
+        desk.run = self.run
+        self.page_commands: Mapping[str, Callable[[], object]] = {}
         self.canvas = Canvas(self._gesture)
         self.canvas.classes("canvas")
         self.scene: Scene = self._draw()
         self.canvas.load(self.scene)
+
+    def commands(self, known: tuple[Command, ...]) -> tuple[Command, ...]:
+        """What can be asked of the canvas, but for what the page knows already; the canvas hears the keys."""
+        self.page_commands = {each.name: each.act for each in known if each.name in _OF_THE_PAGE}
+        names = {each.name for each in known}
+        return tuple(
+            Command(
+                each.name,
+                each.label,
+                partial(self.run, each.name),
+                _PLACES.get(each.group, Place.EDIT),
+                keys=each.keys,
+                on_canvas=True,
+            )
+            for each in CANVAS_COMMANDS
+            if each.name not in names and not each.shown
+        )
+
+    def run(self, command: str) -> None:
+        """Do what a command of the canvas does."""
+        self.canvas.run(command)
 
     def follow(self) -> None:
         """Draw what changed in the design, and forget selected things that are gone."""
@@ -63,15 +97,69 @@ class Drawing:
                 self.desk.select(*things)
             case "open":
                 self._open(str(payload["of"]), str(payload["id"]))
+            case "command":
+                self.page_commands.get(str(payload["name"]), lambda: None)()
+            case "copy":
+                self._copy(payload)
+            case "use":
+                self._use(payload)
             case _:
-                outcome = apply_gesture(self.desk.document, payload)
-                if outcome.refused:
-                    self.desk.say(outcome.refused, "warning")
-                    self.canvas.load(self.scene)
-                if outcome.select is not None:
-                    self.desk.select(*outcome.select)
-                if outcome.rename:
-                    self.canvas.rename_in_place(outcome.rename)
+                self._edit(payload)
+
+    def _edit(self, payload: Mapping[str, Any]) -> None:
+        known, onto = self.desk.workspace.project.interfaces(), self.desk.selected
+        more = {
+            "duplicate": clipboard.duplicate,
+            "paste": lambda document, wish: clipboard.paste(document, wish, known, onto),
+        }
+        outcome = apply_gesture(self.desk.document, payload, more)
+        if outcome.refused:
+            self.desk.say(outcome.refused, "warning")
+            self.canvas.load(self.scene)
+        if outcome.note:
+            self.desk.say(outcome.note, "info")
+        if outcome.select is not None:
+            self.desk.select(*outcome.select)
+        if outcome.rename:
+            self.canvas.rename_in_place(outcome.rename)
+
+    def _copy(self, payload: Mapping[str, Any]) -> None:
+        try:
+            text = clipboard.copied(self.desk.design, payload["items"])
+        except (KeyError, TypeError, AttributeError):
+            # Only an old page, or somebody else's script, names things in another way.
+            text = None
+        self.canvas.put_on_clipboard(text)
+
+    def _use(self, payload: Mapping[str, Any]) -> None:
+        project = self.desk.workspace.project
+        try:
+            at = point_of(payload)
+        except (KeyError, TypeError, ValueError):
+            return
+        usable = [each for name, each in sorted(project.interfaces().items()) if name != self.desk.design.component]
+        if payload.get("address") is None:
+            ask_for_component(usable, lambda component: self._use_at(component, at))
+            return
+        dropped = (
+            each.component for each in usable if design_url(self.desk.workspace, each.component) == payload["address"]
+        )
+        component = next(dropped, None)
+        if component is None:
+            self.desk.say("Only another component of this project can be used here", "warning")
+        else:
+            self._use_at(component, at)
+
+    def _use_at(self, component: str, at: Point) -> None:
+        """Use a component at a place; one that is used already is only shown."""
+        used = next((use.alias for use in self.desk.design.uses if use.component == component), None)
+        if used is None:
+            self.desk.edit(f"use {component}", lambda design: add_use(design, component, at))
+            used = self.desk.design.uses[-1].alias
+        else:
+            self.desk.say(f"{component} is used here already, as {used}", "info")
+        self.desk.select(Selected(of="components", id=used))
+        self.canvas.focus()
 
     def _open(self, of: str, identity: str) -> None:
         if of in ("transitions", "common"):

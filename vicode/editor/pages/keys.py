@@ -11,7 +11,9 @@ from vicode.editor.panels.command import Command
 _LISTEN = """
 <script>
 document.addEventListener("keydown", (event) => {
-  const held = [["Ctrl", event.ctrlKey || event.metaKey], ["Alt", event.altKey], ["Shift", event.shiftKey]];
+  // Signs are named as they are printed, whatever must be held to reach them.
+  const isSign = event.key.length === 1 && !/[\\p{L} ]/u.test(event.key);
+  const held = [["Ctrl", event.ctrlKey || event.metaKey], ["Alt", event.altKey], ["Shift", event.shiftKey && !isSign]];
   const key = event.key.length === 1 ? event.key.toUpperCase() : event.key;
   const wish = (WISHES)[[...held.filter(([, is]) => is).map(([name]) => name), key].join("+")];
   const types = event.target.closest?.("input, textarea, [contenteditable=true], .canvas");
@@ -27,6 +29,8 @@ def listen_to_keys(commands: Sequence[Command]) -> None:
     """Do each command on its keys."""
     wishes = {}
     for command in commands:
+        if command.on_canvas:
+            continue
         for keys in command.keys:
             wishes[keys] = {"name": command.name, "typing": command.while_typing}
         if command.keys:

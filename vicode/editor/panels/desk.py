@@ -21,6 +21,8 @@ class Desk:
     """Show a short message: text, and one of positive, negative, info, warning."""
     reveal: Callable[[Selected], None] = field(default=lambda _thing: None)
     """Bring a thing into the middle of the canvas."""
+    run: Callable[[str], None] = field(default=lambda _command: None)
+    """Do what a command of the canvas does, by its name."""
     selected: tuple[Selected, ...] = ()
     code_editors: CodeEditors = field(default_factory=CodeEditors)
     _listeners: list[Listener] = field(default_factory=list)

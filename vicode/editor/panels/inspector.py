@@ -6,6 +6,7 @@ from vicode.editor.panels.decision_panel import decision_panel
 from vicode.editor.panels.design_panel import common_panel, design_panel
 from vicode.editor.panels.desk import Desk
 from vicode.editor.panels.fields import Field
+from vicode.editor.panels.several_panel import several_panel
 from vicode.editor.panels.state_panel import state_panel
 from vicode.editor.panels.use_panel import link_panel, use_panel
 from vicode.editor.session import outline
@@ -37,8 +38,7 @@ class Inspector:
     def _build(self) -> list[Field]:
         desk = self.desk
         if len(desk.selected) > 1:
-            ui.label(f"{len(desk.selected)} things selected").classes("panel-title")
-            ui.label("Drag them together, or press Delete to remove them.").classes("empty")
+            several_panel(desk)
             return []
         match desk.only:
             case Selected(of="states", id=name):

@@ -23,7 +23,7 @@ MOST_CHARACTERS = 400_000
 _HEAD = "vicode: 1\ncomponent: Part\n"
 _SECTION = re.compile(r"^(states|common|uses) *:", re.MULTILINE)
 _NOTHING = "the clipboard holds no part of a design"
-_BESIDE = 40
+_BESIDE = (40, 90)
 _GRID = 10
 
 
@@ -45,7 +45,7 @@ def duplicate(document: Document, payload: Mapping[str, Any]) -> Outcome:
     wanted = _wanted(payload["items"])
     part = _with_places(part_of(design, replace(wanted, common=False, aliases=())), design)
     if part.states:
-        joined = put_in(design, part, known=(), by=_free_shift(design, part, (_BESIDE, _BESIDE)))
+        joined = put_in(design, part, known=(), by=_free_shift(design, part, _BESIDE))
         document.edit(f"duplicate {_count(joined)}", lambda _design: joined.design)
         return _selecting(joined)
     paths = sorted((path for path in wanted.decisions if decision_at(design, path)), key=str, reverse=True)
@@ -136,7 +136,7 @@ def _free_shift(design: Design, part: Design, by: Point) -> Point:
     """A shift that hides no state exactly behind the pasted ones."""
     taken = {_rounded(at) for at in place(design).states.values()}
     while any(state.at is not None and (state.at[0] + by[0], state.at[1] + by[1]) in taken for state in part.states):
-        by = (by[0] + _BESIDE, by[1] + _BESIDE)
+        by = (by[0] + _BESIDE[0], by[1] + _BESIDE[1])
     return by
 
 

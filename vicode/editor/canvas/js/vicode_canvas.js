@@ -36,6 +36,9 @@ export default {
     renameInPlace(id) {
       this.canvas.renameInPlace(id);
     },
+    focus() {
+      this.canvas.stage.focus({ preventScroll: true });
+    },
     run(name) {
       this.canvas.commands.run(name);
     },

@@ -1,0 +1,49 @@
+"""The help: every command with its keys, and what a hand does on the canvas."""
+
+from collections.abc import Iterable, Sequence
+
+from nicegui import ui
+
+from vicode.editor.canvas.commands import BY_HAND, CANVAS_COMMANDS, Group
+from vicode.editor.panels.command import Command, Place
+
+_PAGE = {Place.DESIGN: "Design", Place.EDIT: "Edit", Place.VIEW: "View"}
+
+
+def show_help(commands: Sequence[Command]) -> None:
+    """Show it; Escape closes it."""
+    with ui.dialog() as dialog, ui.card().classes("dialog help"):
+        ui.label("Keys and gestures").classes("dialog-title")
+        with ui.element("div").classes("help-columns"):
+            for group in Group:
+                _section(f"Canvas: {group.lower()}", _canvas_rows(group))
+            for place, title in _PAGE.items():
+                _section(f"Page: {title.lower()}", _page_rows(commands, place))
+            _section("Canvas: by hand", BY_HAND)
+        with ui.row().classes("dialog-buttons"):
+            ui.button("Close", on_click=dialog.close).props("flat no-caps autofocus")
+    dialog.on("hide", dialog.delete)
+    dialog.open()
+
+
+def _canvas_rows(group: Group) -> list[tuple[str, str]]:
+    here = (each for each in CANVAS_COMMANDS if each.group is group and (each.keys or each.shown))
+    return [(each.shown or " or ".join(each.keys), each.label) for each in here]
+
+
+def _page_rows(commands: Iterable[Command], place: Place) -> list[tuple[str, str]]:
+    own = {each.name for each in CANVAS_COMMANDS}
+    here = (each for each in commands if each.place == place and each.keys and each.name not in own)
+    return [(" or ".join(each.keys), each.label) for each in here]
+
+
+def _section(title: str, rows: Iterable[tuple[str, str]]) -> None:
+    rows = list(rows)
+    if not rows:
+        return
+    with ui.element("section").classes("help-section"):
+        ui.label(title).classes("help-title").props('role="heading" aria-level="2"')
+        for keys, meaning in rows:
+            with ui.element("div").classes("help-row"):
+                ui.label(keys).classes("help-keys")
+                ui.label(meaning)

@@ -1,0 +1,57 @@
+"""Several selected things: what can be done with all of them at once."""
+
+from collections import Counter
+from functools import partial
+
+from nicegui import ui
+
+from vicode.editor.panels.desk import Desk
+from vicode.editor.panels.rows import heading, icon_button
+
+_WORDS = {
+    "states": ("state", "states"),
+    "transitions": ("transition", "transitions"),
+    "components": ("component", "components"),
+    "links": ("link", "links"),
+    "common": ("common part", "common parts"),
+}
+_ALIGN = (
+    ("align-left", "align_horizontal_left", "Align left sides (Alt+A)"),
+    ("align-centre", "align_horizontal_center", "Align centres (Alt+H)"),
+    ("align-right", "align_horizontal_right", "Align right sides (Alt+D)"),
+    ("align-top", "align_vertical_top", "Align tops (Alt+W)"),
+    ("align-middle", "align_vertical_center", "Align middles (Alt+V)"),
+    ("align-bottom", "align_vertical_bottom", "Align bottoms (Alt+S)"),
+)
+_SPREAD = (
+    ("distribute-across", "horizontal_distribute", "Equal gaps across (Alt+Shift+H)"),
+    ("distribute-down", "vertical_distribute", "Equal gaps downwards (Alt+Shift+V)"),
+)
+_EDIT = (
+    ("duplicate", "content_copy", "Duplicate (Ctrl+D)"),
+    ("disable", "block", "Disable, or enable again (D)"),
+    ("zoom-selection", "zoom_in_map", "Zoom to the selection (2)"),
+    ("delete", "delete", "Delete (Delete)"),
+)
+
+
+def several_panel(desk: Desk) -> None:
+    """Build it for what is selected."""
+    counts = Counter(thing.of for thing in desk.selected)
+    parts = [f"{counts[of]} {words[counts[of] > 1]}" for of, words in _WORDS.items() if counts[of]]
+    ui.label(", ".join(parts) + " selected").classes("panel-title")
+    boxes = sum(counts[of] for of in ("states", "components", "common"))
+    if boxes > 1:
+        heading("Line up")
+        _row(desk, _ALIGN)
+    if boxes > 2:
+        heading("Spread out")
+        _row(desk, _SPREAD)
+    heading("All of them")
+    _row(desk, _EDIT)
+
+
+def _row(desk: Desk, buttons: tuple[tuple[str, str, str], ...]) -> None:
+    with ui.row().classes("several-row"):
+        for command, icon, label in buttons:
+            icon_button(icon, label, partial(desk.run, command))
