@@ -50,9 +50,7 @@ ALL = {"Head", "Legs", "Eyes"}
 
 
 def arrows(design: Design) -> list[tuple[str, str]]:
-    return [
-        (at.source, at.decision.to) for at in walk_transitions(design) if isinstance(at.decision, Transition)
-    ]
+    return [(at.source, at.decision.to) for at in walk_transitions(design) if isinstance(at.decision, Transition)]
 
 
 def test_a_part_takes_along_the_components_it_speaks_of() -> None:

@@ -11,7 +11,11 @@ def ask_for_component(interfaces: Sequence[Interface], take: Callable[[str], Non
     """Show the components of a project; `take` is called with the name of the chosen one."""
     with ui.dialog() as dialog, ui.card().classes("dialog"):
         ui.label("Use a component").classes("dialog-title")
-        wanted = ui.input("Component", placeholder="a part of its name").props("outlined dense stack-label autofocus").classes("full")
+        wanted = (
+            ui.input("Component", placeholder="a part of its name")
+            .props("outlined dense stack-label autofocus")
+            .classes("full")
+        )
         rows = ui.element("div").classes("choices")
 
     def fitting() -> list[Interface]:
