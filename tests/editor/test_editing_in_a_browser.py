@@ -71,7 +71,7 @@ def test_what_a_person_does(editor: str, page: Page, project: Path) -> None:
     select_state(page, "Kick")
     page.get_by_label("Inspector").get_by_role("button", name="Transition").click()
     page.get_by_text("to Celebrate", exact=True).click()
-    guard = page.get_by_label("When")
+    guard = page.get_by_label("When", exact=True)
     guard.fill("perception.ball_sen")
     expect(page.get_by_label("Findings").get_by_text("did you mean 'ball_seen'?")).to_be_visible()
     guard.fill("perception.ball_seen")
@@ -103,8 +103,8 @@ def test_what_a_person_does(editor: str, page: Page, project: Path) -> None:
 def test_a_double_click_on_an_arrow_leads_to_its_guard(editor: str, page: Page) -> None:
     open_player(page, editor)
     page.locator('g[data-kind="transition"][data-id="Kick/0"] .plate').first.dblclick(force=True)
-    expect(page.get_by_label("When")).to_be_focused()
-    expect(page.get_by_label("When")).to_have_value("not kicker.busy")
+    expect(page.get_by_label("When", exact=True)).to_be_focused()
+    expect(page.get_by_label("When", exact=True)).to_have_text("not kicker.busy")
 
 
 def test_two_windows_stay_in_step(editor: str, page: Page) -> None:
@@ -145,9 +145,9 @@ def test_texts_from_strangers_stay_texts(editor: str, page: Page) -> None:
     select_state(page, "LookForBall")
     page.get_by_label("Doc").fill(evil)
     page.locator(".decision").first.click()
-    page.get_by_label("When").fill(evil)
+    page.get_by_label("When", exact=True).fill(evil)
     expect(page.get_by_label("Findings").locator(".finding").first).to_be_visible()
-    page.get_by_label("When").blur()
+    page.get_by_label("When", exact=True).blur()
     page.get_by_role("tab", name="Generated code").click()
     expect(page.locator(".preview .cm-editor")).to_be_visible()
     expect(page.locator(".code-note")).to_contain_text("No code yet")

@@ -29,6 +29,7 @@ ROOM_OF_LIBRARY = {
     "reportlab": "diagram",
     "resvg_py": "diagram",
     "send2trash": "editor",
+    "ruff": "editor",
     "starlette": "editor",
     "yaml": "store",
 }

@@ -19,6 +19,7 @@ from vicode.editor.panels.header import Header
 from vicode.editor.panels.help_dialog import show_help
 from vicode.editor.panels.inspector import Inspector
 from vicode.editor.panels.problems import Problems
+from vicode.editor.panels.side_grip import side_grip
 from vicode.editor.panels.tabs import Tabs
 from vicode.editor.session import Document, Library, Workspace
 
@@ -44,6 +45,7 @@ class DesignPage:
             with ui.element("section").classes("dock").props('aria-label="Findings"'):
                 self.dock = Tabs({"Findings": lambda: FindingsPanel(desk, problems)}, place="dock")
             with ui.element("aside").classes("side").props('aria-label="Inspector"'):
+                side_grip()
                 self.side = Tabs(
                     {"Inspect": lambda: Inspector(desk), "Generated code": lambda: CodePanel(desk)}, place="side"
                 )

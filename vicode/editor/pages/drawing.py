@@ -19,7 +19,14 @@ from vicode.editor.view import Scene, Selected, difference, scene_of
 from vicode.model.design import Point
 from vicode.model.edits import add_use
 
-_FOCUS_GUARD = 'setTimeout(() => document.querySelector(".inspector textarea")?.focus(), 200)'
+# The field is there as soon as its code editor is, which is a large script to load the first time.
+_FOCUS_GUARD = """
+(function focus(left) {
+  const field = document.querySelector(".inspector .expression-field .cm-content");
+  if (field) field.focus();
+  else if (left > 0) setTimeout(() => focus(left - 1), 50);
+})(100);
+"""
 
 _PLACES = {Group.SEE: Place.VIEW, Group.WALK: Place.VIEW}
 # What the page does for the canvas, when its menu or keys ask for it.

@@ -5,11 +5,12 @@ from dataclasses import replace
 
 from nicegui import ui
 
+from vicode.editor.panels.code_field import code_field, pairs_field
 from vicode.editor.panels.desk import Desk
-from vicode.editor.panels.fields import Bound, Field, code_field, text_field
+from vicode.editor.panels.fields import Bound, Field
 from vicode.editor.panels.rows import row_of_buttons
 from vicode.findings import Path
-from vicode.model.design import Action, Assign, Call, Code, Design, RunCode
+from vicode.model.design import Action, Assign, Call, Code, Declaration, Design, RunCode
 from vicode.model.edits import update_actions
 
 
@@ -98,22 +99,23 @@ def _action_fields(desk: Desk, path: Path, index: int, action: Action) -> list[F
                 read=lambda design: _values_of(read(design)),
                 write=write(_set_values),
             )
-            return [text_field(desk, bound, monospace=True, lines=True)]
+            return [pairs_field(desk, bound, lambda: (*desk.design.variables, *desk.design.outputs))]
         case Call():
             bound = Bound(
                 label="parameter = expression, a line each",
                 path=(*here, "with"),
                 read=lambda design: _values_of(read(design)),
                 write=write(_set_values),
-                hint=", ".join(_parameters(desk, action.alias)),
+                hint=", ".join(each.name for each in parameters_of(desk, action.alias)),
             )
-            return [text_field(desk, bound, monospace=True, lines=True)]
+            return [pairs_field(desk, bound, lambda: parameters_of(desk, action.alias))]
 
 
-def _parameters(desk: Desk, alias: str) -> list[str]:
+def parameters_of(desk: Desk, alias: str) -> tuple[Declaration, ...]:
+    """The parameters that a used component takes."""
     use = desk.design.use(alias)
     interface = desk.workspace.project.interface(use.component) if use else None
-    return [parameter.name for parameter in interface.parameters] if interface else []
+    return interface.parameters if interface else ()
 
 
 def _actions_at(design: Design, path: Path) -> tuple[Action, ...]:

@@ -3,7 +3,7 @@
 from weakref import WeakSet
 
 from nicegui import ui
-from nicegui.elements.codemirror.constants import SUPPORTED_THEMES
+from nicegui.elements.codemirror.constants import SUPPORTED_LANGUAGES, SUPPORTED_THEMES
 from nicegui.events import CodeMirrorFocusChangeEventArguments, Handler
 
 
@@ -12,18 +12,22 @@ class CodeEditors:
 
     def __init__(self) -> None:
         """Begin with light colours; the window says when it knows better."""
-        self._theme: SUPPORTED_THEMES = "basicLight"
+        self._theme: SUPPORTED_THEMES = "githubLight"
         self._made: WeakSet[ui.codemirror] = WeakSet()
 
-    def make(self, on_focus: Handler[CodeMirrorFocusChangeEventArguments] | None = None) -> ui.codemirror:
-        """An empty editor of Python code."""
-        editor = ui.codemirror(language="Python", theme=self._theme, on_focus_change=on_focus)
+    def make(
+        self,
+        on_focus: Handler[CodeMirrorFocusChangeEventArguments] | None = None,
+        language: SUPPORTED_LANGUAGES | None = "Python",
+    ) -> ui.codemirror:
+        """An empty editor of code in a language."""
+        editor = ui.codemirror(language=language, theme=self._theme, on_focus_change=on_focus)
         self._made.add(editor)
         return editor
 
     def set_dark(self, *, is_dark: bool) -> None:
         """Use dark or light colours in all of them from now on."""
-        self._theme = "basicDark" if is_dark else "basicLight"
+        self._theme = "githubDark" if is_dark else "githubLight"
         for editor in tuple(self._made):
             if not editor.is_deleted:
                 editor.set_theme(self._theme)

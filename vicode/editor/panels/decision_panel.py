@@ -7,9 +7,10 @@ from typing import Any
 from nicegui import ui
 
 from vicode.editor.panels.actions_panel import python, with_python
+from vicode.editor.panels.code_field import code_field, expression_field
 from vicode.editor.panels.decisions_list import decisions_list
 from vicode.editor.panels.desk import Desk
-from vicode.editor.panels.fields import Bound, Field, choice_field, code_field, flag_field, text_field
+from vicode.editor.panels.fields import Bound, Field, choice_field, flag_field, text_field
 from vicode.editor.panels.rows import heading
 from vicode.editor.view import Selected, path_of_key
 from vicode.findings import Path
@@ -31,7 +32,7 @@ def decision_panel(desk: Desk, key: str) -> list[Field]:
         ui.label(_kind(decision))
         ui.link(source, "#").classes("mono").on("click.prevent", _select_source(desk, located.source))
     fields = _target_field(desk, path, decision)
-    fields.append(text_field(desk, _guard_bound(path, "When", "when"), monospace=True, lines=True))
+    fields.append(expression_field(desk, _guard_bound(path, "When", "when")))
     fields.append(text_field(desk, _guard_bound(path, "After, seconds in this state", "after"), monospace=True))
     fields += _code(desk, path, decision.guard)
     fields.append(text_field(desk, _decision_bound(path, "Doc", "doc"), lines=True))

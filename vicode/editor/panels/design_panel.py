@@ -7,9 +7,10 @@ from typing import Any
 from nicegui import ui
 
 from vicode.editor.panels.actions_panel import actions_panel, with_python
+from vicode.editor.panels.code_field import code_field
 from vicode.editor.panels.decisions_list import decisions_list
 from vicode.editor.panels.desk import Desk
-from vicode.editor.panels.fields import Bound, Field, choice_field, code_field, flag_field, text_field
+from vicode.editor.panels.fields import Bound, Field, choice_field, flag_field, text_field
 from vicode.editor.panels.rows import heading, icon_button
 from vicode.editor.session import numbers
 from vicode.model.design import COMMON, Declaration, Design

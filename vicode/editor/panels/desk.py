@@ -4,6 +4,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 
 from vicode.editor.panels.code_editor import CodeEditors
+from vicode.editor.panels.lints import CodeLints
 from vicode.editor.session import Document, Workspace
 from vicode.editor.view import Selected
 from vicode.model.design import Design
@@ -25,7 +26,12 @@ class Desk:
     """Do what a command of the canvas does, by its name."""
     selected: tuple[Selected, ...] = ()
     code_editors: CodeEditors = field(default_factory=CodeEditors)
+    lints: CodeLints = field(init=False)
     _listeners: list[Listener] = field(default_factory=list)
+
+    def __post_init__(self) -> None:
+        """Be ready to ask for remarks on code."""
+        self.lints = CodeLints(self.workspace, self.document)
 
     @property
     def design(self) -> Design:
@@ -47,9 +53,15 @@ class Desk:
             self.selected = things
             self.tell()
 
-    def listen(self, listener: Listener) -> None:
-        """Call `listener` after every change of the design or the selection."""
+    def listen(self, listener: Listener) -> Callable[[], None]:
+        """Call `listener` after every change of the design or the selection; what is returned ends it."""
         self._listeners.append(listener)
+
+        def stop() -> None:
+            if listener in self._listeners:
+                self._listeners.remove(listener)
+
+        return stop
 
     def tell(self) -> None:
         """Bring every panel up to date."""

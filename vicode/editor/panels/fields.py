@@ -7,7 +7,6 @@ from typing import Any
 from nicegui import ui
 from nicegui.elements.mixins.disableable_element import DisableableElement
 from nicegui.elements.mixins.value_element import ValueElement
-from nicegui.events import CodeMirrorFocusChangeEventArguments
 
 from vicode.editor.panels.desk import Desk
 from vicode.findings import Path
@@ -121,33 +120,6 @@ def choice_field(desk: Desk, bound: Bound, options: Sequence[str], *, several: b
 def flag_field(desk: Desk, bound: Bound) -> Field:
     """Yes or no."""
     return Field(desk, bound, ui.checkbox(bound.label).props("dense"))
-
-
-def code_field(desk: Desk, bound: Bound) -> Field:
-    """Python code, highlighted."""
-    made: list[CodeField] = []
-
-    def focus(event: CodeMirrorFocusChangeEventArguments) -> None:
-        for code in made:
-            code.focus(has_focus=event.focused)
-
-    with ui.column().classes("field"):
-        ui.label(bound.label).classes("field-label")
-        editor = desk.code_editors.make(on_focus=focus)
-        editor.classes("code-field")
-        message = ui.label().classes("field-finding")
-        message.set_visibility(False)
-    made.append(CodeField(desk, bound, editor, message))
-    return made[0]
-
-
-class CodeField(Field):
-    """A code editor; it tells its focus in a way of its own."""
-
-    def __post_init__(self) -> None:
-        """Watch for typing."""
-        self.element.on_value_change(lambda event: self._typed(event.value))
-        self.refresh()
 
 
 def enable(element: DisableableElement, *, flag: bool) -> None:

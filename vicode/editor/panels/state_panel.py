@@ -5,7 +5,8 @@ from typing import Any
 
 from nicegui import ui
 
-from vicode.editor.panels.actions_panel import actions_panel, assignments, lines_of
+from vicode.editor.panels.actions_panel import actions_panel, assignments, lines_of, parameters_of
+from vicode.editor.panels.code_field import pairs_field
 from vicode.editor.panels.decisions_list import decisions_list
 from vicode.editor.panels.desk import Desk
 from vicode.editor.panels.fields import Bound, Field, choice_field, flag_field, text_field
@@ -142,13 +143,12 @@ def _parameters(desk: Desk, name: str, alias: str) -> Field:
         write=write,
         hint=parameter_hint(desk, alias),
     )
-    return text_field(desk, bound, monospace=True, lines=True)
+    return pairs_field(desk, bound, lambda: parameters_of(desk, alias))
 
 
 def parameter_hint(desk: Desk, alias: str) -> str:
     """The parameters that a used component takes, with units, for an empty field."""
-    use = desk.design.use(alias)
-    interface = desk.workspace.project.interface(use.component) if use else None
-    if interface is None or not interface.parameters:
+    parameters = parameters_of(desk, alias)
+    if not parameters:
         return "takes no parameters"
-    return ", ".join(f"{each.name}{f' [{each.unit}]' if each.unit else ''}" for each in interface.parameters)
+    return ", ".join(f"{each.name}{f' [{each.unit}]' if each.unit else ''}" for each in parameters)

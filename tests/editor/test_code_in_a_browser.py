@@ -1,0 +1,161 @@
+"""Writing guards and code on a real page: completion, mistakes at their characters, ways in and out by keyboard."""
+
+import re
+from pathlib import Path
+
+from playwright.sync_api import Locator, Page, expect
+
+from tests.editor.player_page import findings, open_player, select_state, select_transition
+
+LOOK = "LookForBall/0"
+
+
+def guard(page: Page) -> Locator:
+    """The field of the selected transition's guard."""
+    return page.get_by_label("When", exact=True)
+
+
+def options(page: Page) -> Locator:
+    """What completion offers."""
+    return page.locator(".cm-tooltip-autocomplete li")
+
+
+def accept(page: Page, label: str) -> None:
+    """Take the first option, which must be this one."""
+    expect(options(page).first).to_contain_text(label)
+    # A list that has just opened ignores Enter for 75 ms, lest it swallows a line break that was meant.
+    page.wait_for_timeout(150)
+    page.keyboard.press("Enter")
+
+
+def retype(page: Page, field: Locator, text: str) -> None:
+    """Type over what stands in a code editor, key by key."""
+    field.click()
+    page.keyboard.press("Control+a")
+    page.keyboard.type(text)
+
+
+def test_a_guard_is_completed_marked_and_left_by_keyboard(editor: str, page: Page) -> None:
+    open_player(page, editor)
+    select_transition(page, LOOK)
+    expect(guard(page)).to_have_text("perception.ball_seen")
+
+    # The names that exist here, with type, unit and doc.
+    retype(page, guard(page), "perception.ball_a")
+    expect(options(page).first).to_contain_text("float s output")
+    expect(page.locator(".cm-completionInfo")).to_be_visible()
+    accept(page, "ball_age")
+    expect(guard(page)).to_have_text("perception.ball_age")
+
+    # It is no condition yet: said in words below, and under the characters.
+    inspector = page.get_by_label("Inspector")
+    expect(page.locator(".squiggle.error")).to_have_text("perception.ball_age")
+    expect(inspector.get_by_role("button", name="expected bool, but this is float")).to_be_visible()
+    expect(guard(page)).to_have_attribute("aria-invalid", "true")
+    page.keyboard.type(" > lost_af")
+    accept(page, "lost_after")
+    expect(page.locator(".squiggle")).to_have_count(0)
+    expect(findings(page).get_by_text("the design is sound")).to_be_visible()
+
+    # Several lines; Tab leaves like any field.
+    page.keyboard.press("Enter")
+    page.keyboard.type("and sta")
+    page.keyboard.press("Control+Space")
+    expect(options(page).filter(has_text="state_time")).to_have_count(1)
+    page.keyboard.press("Escape")
+    page.keyboard.type("te_time > 1")
+    page.keyboard.press("Tab")
+    expect(guard(page)).not_to_be_focused()
+    expect(guard(page).locator(".cm-line")).to_have_count(2)
+
+
+def test_a_message_leads_to_its_characters_without_a_mouse(editor: str, page: Page) -> None:
+    open_player(page, editor)
+    select_transition(page, LOOK)
+    retype(page, guard(page), "perception.ball_seen and nobody")
+    message = page.get_by_label("Inspector").get_by_role("button", name="'nobody' is not declared")
+    message.press("Enter")
+    expect(guard(page)).to_be_focused()
+    page.keyboard.type("not ")
+    expect(guard(page)).to_have_text("perception.ball_seen and not nobody")
+
+
+def test_fast_typing_is_neither_lost_nor_reordered(editor: str, page: Page, project: Path) -> None:
+    open_player(page, editor)
+    select_transition(page, LOOK)
+    text = "perception.ball_seen and state_time > 0.25 and not kicker.busy and component_time < 1000"
+    retype(page, guard(page), text)
+    expect(guard(page)).to_have_text(text)
+    page.keyboard.press("Control+s")
+    expect(page.get_by_text("Saved", exact=True).first).to_be_visible()
+    assert text in re.sub(r"\s+", " ", (project / "forward" / "player.yaml").read_text())
+
+
+def test_the_linter_speaks_of_code_and_what_is_declared_is_known(editor: str, page: Page) -> None:
+    open_player(page, editor)
+    select_state(page, "LookForBall")
+    page.get_by_label("Inspector").get_by_role("button", name="Code", exact=True).first.click()
+    code = page.get_by_label("Python", exact=True).first
+    retype(page, code, "log.info(Side.left, wrong)")
+    expect(page.locator(".squiggle.warning")).to_have_text("wrong")
+    expect(page.get_by_label("Inspector").get_by_role("button", name="F821")).to_have_count(1)
+    retype(page, code, "self.percep")
+    accept(page, "perception")
+    page.keyboard.type(".ball_s")
+    accept(page, "ball_seen")
+    expect(code).to_have_text("self.perception.ball_seen")
+    # Tab indents here; Escape before it makes it leave.
+    page.keyboard.press("Escape")
+    page.keyboard.press("Tab")
+    expect(code).not_to_be_focused()
+
+
+def test_code_is_written_in_a_wide_editor(editor: str, page: Page) -> None:
+    open_player(page, editor)
+    select_transition(page, LOOK)
+    page.get_by_role("button", name="Enlarge: When").click()
+    large = page.get_by_role("dialog").get_by_label("When", exact=True)
+    retype(page, large, "perception.ball_seen and True")
+    expect(page.get_by_label("Inspector").get_by_label("When", exact=True)).to_have_text(
+        "perception.ball_seen and True"
+    )
+    page.get_by_role("dialog").get_by_role("button", name="Close").click()
+    expect(page.get_by_role("dialog")).to_have_count(0)
+    expect(guard(page)).to_have_text("perception.ball_seen and True")
+
+
+def test_the_side_panel_is_widened_and_stays_so(editor: str, page: Page) -> None:
+    open_player(page, editor)
+    side, grip = page.locator(".side"), page.get_by_role("separator", name="Width of the side panel")
+    box = grip.bounding_box()
+    assert box is not None
+    page.mouse.move(box["x"] + 4, 300)
+    page.mouse.down()
+    page.mouse.move(box["x"] - 96, 300, steps=4)
+    page.mouse.up()
+    expect(side).to_have_css("width", "468px")
+    grip.press("ArrowLeft")
+    expect(side).to_have_css("width", "500px")
+    page.reload()
+    expect(side).to_have_css("width", "500px")
+    grip.dblclick()
+    expect(side).to_have_css("width", "368px")
+
+
+def test_names_from_strangers_stay_texts_in_completion_and_marks(editor: str, page: Page, project: Path) -> None:
+    file = project / "forward" / "project.yaml"
+    evil = "<img src=x onerror=\"document.title='owned'\">"
+    file.write_text(file.read_text().replace("components:", f"components:\n  Zebra: {{doc: '{evil.replace(chr(39), chr(39) * 2)}', implementation: 'a:B', outputs: {{stripes: {{type: bool, doc: '<b>{evil.replace(chr(39), chr(39) * 2)}'}}}}}}", 1))  # fmt: skip  # noqa: E501
+    player = project / "forward" / "player.yaml"
+    player.write_text(player.read_text().replace("uses:", "uses:\n  zebra: Zebra", 1))
+    open_player(page, editor)
+    select_transition(page, LOOK)
+    retype(page, guard(page), "zebra.str")
+    expect(page.locator(".cm-completionInfo")).to_contain_text("<img")
+    page.keyboard.press("Escape")
+    retype(page, guard(page), evil)
+    expect(page.locator(".squiggle").first).to_be_visible()
+    page.locator(".squiggle").first.hover()
+    expect(page.locator(".squiggle-tip")).to_be_visible()
+    assert page.locator("img[src=x]").count() == 0
+    assert "owned" not in page.title()

@@ -1,0 +1,5 @@
+"""What our code editors add to NiceGUI's: completion asked of the server, marks under characters, ways by keyboard."""
+
+from vicode.editor.code.element import CodeAid
+
+__all__ = ["CodeAid"]

@@ -1,0 +1,48 @@
+// Completion that asks the server: every question has a number, and an answer that comes late is dropped.
+import * as CM from "nicegui-codemirror";
+import { toCharacters, toUnits } from "./offsets.js";
+
+const PATIENCE_MS = 5000;
+const WORD = /[A-Za-z_]\w*$/;
+
+export function makeCompletion(emit) {
+  const waiting = new Map();
+  let last = 0;
+
+  function ask(text, offset) {
+    last += 1;
+    const number = last;
+    return new Promise((resolve) => {
+      waiting.set(number, resolve);
+      setTimeout(() => settle(number, null), PATIENCE_MS);
+      emit("complete", { number, text, offset });
+    });
+  }
+
+  function settle(number, answer) {
+    waiting.get(number)?.(answer);
+    waiting.delete(number);
+  }
+
+  async function source(context) {
+    const before = context.state.sliceDoc(Math.max(0, context.pos - 200), context.pos);
+    if (!context.explicit && !WORD.test(before) && !before.endsWith(".")) return null;
+    const text = context.state.doc.toString();
+    const answer = await ask(text, toCharacters(text, context.pos));
+    if (!answer || context.aborted || answer.options.length === 0) return null;
+    return { from: toUnits(text)(answer.start), options: answer.options.map(optionFor), validFor: /^\w*$/ };
+  }
+
+  return {
+    extension: CM.EditorState.languageData.of(() => [{ autocomplete: source }]),
+    answer: settle,
+    dispose() {
+      for (const number of [...waiting.keys()]) settle(number, null);
+    },
+  };
+}
+
+// Names of this design come before the words of the language. All of it is shown as text, never as HTML.
+function optionFor({ label, kind, detail, doc }) {
+  return { label, type: kind, detail, info: doc || undefined, boost: kind === "keyword" ? -20 : 20 };
+}

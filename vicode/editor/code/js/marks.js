@@ -1,0 +1,66 @@
+// Marks under characters that follow the text while it is typed; a message when the mouse or the cursor is there.
+import * as CM from "nicegui-codemirror";
+import { toUnits } from "./offsets.js";
+
+export function makeMarks() {
+  const replace = CM.StateEffect.define();
+  const field = CM.StateField.define({
+    create: () => CM.Decoration.none,
+    update(marks, transaction) {
+      let now = marks.map(transaction.changes);
+      for (const effect of transaction.effects) if (effect.is(replace)) now = effect.value;
+      return now;
+    },
+    provide: (of) => CM.EditorView.decorations.from(of),
+  });
+  const hover = CM.hoverTooltip((view, at) => tipAt(view.state.field(field), at));
+  return {
+    extension: [field, hover],
+    show(view, text, list) {
+      const doc = view.state.doc;
+      // Typed on in the meantime: the marks of what stands there now are on their way.
+      if (doc.toString() !== text) return;
+      view.dispatch({ effects: replace.of(decorationsFor(text, list)) });
+      view.contentDOM.setAttribute("aria-invalid", String(list.some((mark) => mark.severity === "error")));
+    },
+  };
+}
+
+function decorationsFor(text, list) {
+  const unit = toUnits(text);
+  const ranges = [];
+  for (const mark of list) {
+    let from = unit(mark.start);
+    let to = unit(mark.end);
+    // What is missing at the end is shown at the last character.
+    if (from === to) from > 0 ? (from -= 1) : (to = Math.min(1, text.length));
+    if (from === to) continue;
+    const style = `squiggle ${mark.severity}`;
+    ranges.push(CM.Decoration.mark({ class: style, message: mark.message, severity: mark.severity }).range(from, to));
+  }
+  return CM.Decoration.set(ranges, true);
+}
+
+function tipAt(marks, at) {
+  const messages = [];
+  let from = at;
+  marks.between(at, at, (start, _end, mark) => {
+    messages.push(mark.spec);
+    from = Math.min(from, start);
+  });
+  if (messages.length === 0) return null;
+  return {
+    pos: from,
+    above: true,
+    create() {
+      const dom = document.createElement("div");
+      dom.className = "squiggle-tip";
+      for (const { severity, message } of messages) {
+        const line = dom.appendChild(document.createElement("div"));
+        line.className = severity;
+        line.textContent = message;
+      }
+      return { dom };
+    },
+  };
+}
