@@ -35,6 +35,7 @@ class Canvas(ui.element, component="js/vicode_canvas.js"):
         self._scene: dict[str, Any] | None = None
         self._selected: list[Item] = []
         self._links_shown = True
+        self._arrival: tuple[Kind, str] | None = None
         self._is_mounted = False
         self._active: tuple[list[str], int] = ([], -1)
         self._acknowledged = -1
@@ -71,6 +72,11 @@ class Canvas(ui.element, component="js/vicode_canvas.js"):
     def centre(self, of: Kind, identity: str) -> None:
         """Bring one thing to the middle, large enough to be read."""
         self._call("centre", of, identity)
+
+    def arrive_at(self, of: Kind, identity: str) -> None:
+        """Bring one thing into view once the page is there; where the view was kept by the browser, it stays."""
+        self._arrival = (of, identity)
+        self._call("arriveAt", of, identity)
 
     def fit(self) -> None:
         """Show everything."""
@@ -139,6 +145,9 @@ class Canvas(ui.element, component="js/vicode_canvas.js"):
             self._call("load", self._whole())
         self._call("showLinks", self._links_shown)
         self._call("select", self._selected)
+        if self._arrival:
+            self._call("arriveAt", *self._arrival)
+            self._arrival = None
         if self._active[1] >= 0:
             self._send_active()
 

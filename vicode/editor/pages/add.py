@@ -3,16 +3,21 @@
 import contextlib
 
 from nicegui import ui
+from starlette.requests import Request
 from starlette.responses import RedirectResponse, Response
 
 from vicode.editor.pages.design_page import DesignPage
+from vicode.editor.pages.going import Way
 from vicode.editor.pages.look import add_look
 from vicode.editor.panels.designs_list import design_url
 from vicode.editor.session import Library
+from vicode.editor.session.finding_things import Index
+from vicode.editor.view.address import trail_of_text
 
 
 def add_pages(library: Library) -> None:
     """Serve the designs of a library: `/` leads to the first, `/design/PROJECT/COMPONENT` edits one."""
+    index = Index(library)
 
     @ui.page("/")
     def home() -> Response | None:
@@ -27,7 +32,7 @@ def add_pages(library: Library) -> None:
         return None
 
     @ui.page("/design/{key}/{component}", title="vicode")
-    def design(key: str, component: str) -> None:
+    def design(key: str, component: str, request: Request) -> None:
         workspace = library.workspace(key)
         if workspace:
             # A design may be younger than what was read last.
@@ -38,7 +43,9 @@ def add_pages(library: Library) -> None:
             _nothing(f"There is no design {component[:80]} here", "It may have been renamed or removed.")
             return
         ui.page_title(f"{component} – vicode")
-        DesignPage(library, workspace, document)
+        query = request.query_params
+        trail = trail_of_text(query.get("from", ""), workspace.project.interfaces(), component)
+        DesignPage(library, workspace, document, Way(index=index, trail=trail, select=query.get("select", "")))
 
 
 def _nothing(title: str, hint: str) -> None:

@@ -6,6 +6,7 @@ from typing import Any, cast
 from nicegui import core, ui
 
 from vicode.editor.pages.actions import Actions
+from vicode.editor.pages.going import Going, Way
 from vicode.editor.pages.keys import listen_to_keys
 from vicode.editor.pages.look import Theme, add_look
 from vicode.editor.pages.stage import Stage
@@ -29,7 +30,7 @@ _BREATH_S = 0.02
 class DesignPage:
     """One window on one design; everything in it can be rebuilt from the document."""
 
-    def __init__(self, library: Library, workspace: Workspace, document: Document) -> None:
+    def __init__(self, library: Library, workspace: Workspace, document: Document, way: Way) -> None:
         """Build the page for the browser that asks for it."""
         person = greet_visitor(library.people)
         hand = Document(document.sheet, person.id)
@@ -50,15 +51,20 @@ class DesignPage:
                     {"Inspect": lambda: Inspector(desk), "Generated code": lambda: CodePanel(desk)}, place="side"
                 )
         actions = Actions(desk, self.stage.drawing, theme)
-        commands = (*actions.commands(), *problems.commands(), *self.stage.commands())
+        going = Going(desk, way.index, way.trail)
+        commands = (*actions.commands(), *problems.commands(), *self.stage.commands(), *going.commands())
         help_ = Command("help", "Keys and gestures", lambda: show_help(commands), Place.VIEW, icon="help", keys=("?",))
         commands += (help_,)
         commands += self.stage.drawing.commands(commands)
+        going.palette.commands = commands
         with head:
-            self.header = Header(desk, commands)
+            self.header = Header(desk, commands, way.trail)
         listen_to_keys(commands)
+        arrived = going.start(way.select)
         desk.listen(self._refresh)
         self._refresh()
+        if arrived:
+            self.stage.drawing.arrive_at(arrived)
         self.is_behind = False
         ui.context.client.on_delete(hand.watch(self._hear))
         ui.timer(1.0, self._follow_disk)

@@ -10,12 +10,12 @@ from vicode.editor.canvas import Canvas
 from vicode.editor.canvas.commands import CANVAS_COMMANDS, Group
 from vicode.editor.canvas.gesture import Gesture, Item
 from vicode.editor.panels.command import Command, Place
-from vicode.editor.panels.designs_list import design_url
 from vicode.editor.panels.desk import Desk
 from vicode.editor.panels.use_dialog import ask_for_component
 from vicode.editor.session import apply_gesture, clipboard
 from vicode.editor.session.gestures import point_of
 from vicode.editor.view import Scene, Selected, difference, scene_of
+from vicode.editor.view.address import design_address
 from vicode.model.design import Point
 from vicode.model.edits import add_use
 
@@ -39,9 +39,9 @@ class Drawing:
     def __init__(self, desk: Desk) -> None:
         """Draw the design as it is now."""
         self.desk = desk
-        desk.reveal = self.reveal
         desk.run = self.run
         self.page_commands: Mapping[str, Callable[[], object]] = {}
+        desk.reveal, desk.is_there = self.reveal, self._exists
         self.canvas = Canvas(self._gesture)
         self.canvas.classes("canvas")
         self.scene: Scene = self._draw()
@@ -85,6 +85,10 @@ class Drawing:
         if any(item["id"] == thing.id for item in self.scene.get(thing.of, ()) or () if isinstance(item, dict)):
             self.canvas.centre(cast("Any", thing.of), thing.id)
 
+    def arrive_at(self, thing: Selected) -> None:
+        """Bring the thing that the page was opened for into view."""
+        self.canvas.arrive_at(cast("Any", thing.of), thing.id)
+
     def _draw(self) -> Scene:
         desk = self.desk
         return scene_of(desk.workspace.project, desk.design, desk.document.findings, desk.document.rev)
@@ -92,7 +96,7 @@ class Drawing:
     def _exists(self, thing: Selected) -> bool:
         if thing.of in ("design", "common"):
             return True
-        return any(item["id"] == thing.id for item in self.scene[thing.of]) or (
+        return any(item["id"] == thing.id for item in self.scene.get(thing.of, ())) or (
             thing.of == "transitions" and self.desk.document.has_decision(thing.id)
         )
 
@@ -149,7 +153,9 @@ class Drawing:
             ask_for_component(usable, lambda component: self._use_at(component, at))
             return
         dropped = (
-            each.component for each in usable if design_url(self.desk.workspace, each.component) == payload["address"]
+            each.component
+            for each in usable
+            if design_address(self.desk.workspace.key, each.component) == payload["address"]
         )
         component = next(dropped, None)
         if component is None:
@@ -174,9 +180,5 @@ class Drawing:
             ui.run_javascript(_FOCUS_GUARD)
             return
         use = self.desk.design.use(identity) if of == "components" else None
-        if use is None:
-            return
-        if self.desk.workspace.project.design(use.component) is None:
-            self.desk.say(f"{use.component} is hand-written: it has no design to open", "info")
-        else:
-            ui.navigate.to(design_url(self.desk.workspace, use.component))
+        if use is not None:
+            self.desk.open(use.component)

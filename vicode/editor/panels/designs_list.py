@@ -1,12 +1,12 @@
 """The list of designs: every project of the folder with its components."""
 
 from collections.abc import Callable
-from urllib.parse import quote
 
 from nicegui import ui
 
 from vicode.editor.panels.rows import icon_button, primary_button
 from vicode.editor.session import Library, Workspace
+from vicode.editor.view.address import design_address
 from vicode.model.names import is_name
 
 Say = Callable[[str, str], None]
@@ -14,7 +14,7 @@ Say = Callable[[str, str], None]
 
 def design_url(workspace: Workspace, component: str) -> str:
     """Where a design is edited."""
-    return f"/design/{quote(workspace.key, safe='')}/{quote(component, safe='')}"
+    return design_address(workspace.key, component)
 
 
 class DesignsList:

@@ -24,6 +24,10 @@ class Desk:
     """Bring a thing into the middle of the canvas."""
     run: Callable[[str], None] = field(default=lambda _command: None)
     """Do what a command of the canvas does, by its name."""
+    open: Callable[[str], None] = field(default=lambda _component: None)
+    """Open the design of another component."""
+    is_there: Callable[[Selected], bool] = field(default=lambda _thing: True)
+    """Whether a thing is in the drawing."""
     selected: tuple[Selected, ...] = ()
     code_editors: CodeEditors = field(default_factory=CodeEditors)
     lints: CodeLints = field(init=False)

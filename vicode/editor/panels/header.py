@@ -8,28 +8,37 @@ from vicode.editor.panels.command import Command
 from vicode.editor.panels.desk import Desk
 from vicode.editor.panels.fields import enable
 from vicode.editor.panels.rows import icon_button, primary_button
+from vicode.editor.view.address import design_address
 
-_ICONS = ("undo", "redo", "lay-out", "links", "theme")
+_ICONS = ("find", "undo", "redo", "lay-out", "links", "theme")
 
 
 class Header:
     """Builds the bar; `refresh` keeps its labels true."""
 
-    def __init__(self, desk: Desk, commands: Sequence[Command]) -> None:
-        """Build it."""
+    def __init__(self, desk: Desk, commands: Sequence[Command], trail: Sequence[str] = ()) -> None:
+        """Build it; `trail` are the components one came through."""
         self.desk = desk
         named = {command.name: command for command in commands}
-        ui.label("vicode").classes("brand")
-        with ui.row().classes("crumbs").props('role="heading" aria-level="1"'):
-            ui.label(desk.workspace.project.name).classes("crumb")
-            ui.label("/").classes("crumb-sep").props('aria-hidden="true"')
-            ui.label(desk.design.component).classes("crumb here")
+        ui.link("vicode", "/").classes("brand").props('aria-label="vicode, all designs"')
+        self._crumbs(trail)
         self.saved = ui.label().classes("saved").props('role="status"')
         ui.element("div").classes("spacer")
         self.buttons = {name: icon_button(named[name].icon, named[name].label, named[name].act) for name in _ICONS}
         save, generate = named["save"], named["generate"]
         ui.button(save.label, icon=save.icon, on_click=save.act).props("flat no-caps dense").classes("head-button")
         primary_button(generate.label, generate.act, icon=generate.icon)
+
+    def _crumbs(self, trail: Sequence[str]) -> None:
+        """The way back: the project, the components one came through, and this one."""
+        key, here = self.desk.workspace.key, self.desk.design.component
+        with ui.element("nav").classes("crumbs").props('aria-label="Way here"'):
+            ui.link(self.desk.workspace.project.name, f"/#{key}").classes("crumb")
+            for at, name in enumerate(trail):
+                _separator()
+                ui.link(name, design_address(key, name, trail=trail[:at])).classes("crumb")
+            _separator()
+            ui.label(here).classes("crumb here").props('role="heading" aria-level="1"')
 
     def refresh(self) -> None:
         """Show whether it is saved and what undo and redo would do."""
@@ -40,3 +49,7 @@ class Header:
             self.saved.classes(remove="is-unsaved") if document.is_saved else self.saved.classes("is-unsaved")
         enable(self.buttons["undo"], flag=bool(document.undo_label))
         enable(self.buttons["redo"], flag=bool(document.redo_label))
+
+
+def _separator() -> None:
+    ui.label("/").classes("crumb-sep").props('aria-hidden="true"')

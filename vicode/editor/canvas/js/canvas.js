@@ -7,6 +7,7 @@ import { Gestures } from "./gestures.js";
 import { Handles } from "./handles.js";
 import { Keyboard } from "./keyboard.js";
 import { Menu } from "./menu.js";
+import { arrive, remember } from "./memory.js";
 import { Minimap } from "./minimap.js";
 import { Overview } from "./overview.js";
 import { MOST_PINNED, Painter } from "./painter.js";
@@ -64,7 +65,7 @@ class Canvas {
     this.fitPending = this.fitPending || !same;
     this.selection.keys = new Set();
     this.selection.set(kept, { quiet: true });
-    if (this.fitPending && this.viewport.measure()) this.fit();
+    if (this.fitPending && this.viewport.measure()) arrive(this);
     this.#sceneChanged();
     this.host.dataset.ready = "true";
   }
@@ -86,6 +87,11 @@ class Canvas {
     if (!thing) return;
     const { x, y } = this.scene.nodes.has(thing.key) ? thing : this.scene.isDrawable(thing) ? this.router.route(thing).at : this.viewport.middle();
     this.viewport.centreOn(x, y, Math.max(this.viewport.k, 0.6));
+  }
+
+  /** Brings a thing into view as the page opens; the view of a page that was left and is come back to stays. */
+  arriveAt(of, id) {
+    return this.recalled ? this.reveal(keyOf(of, id)) : this.centre(of, id);
   }
 
   fit() {
@@ -270,7 +276,7 @@ class Canvas {
 
   #resized() {
     if (!this.viewport.measure()) return;
-    if (this.fitPending && this.scene.nodes.size) this.fit();
+    if (this.fitPending && this.scene.nodes.size) arrive(this);
     this.viewport.set({});
   }
 
@@ -295,6 +301,7 @@ class Canvas {
   }
 
   #viewRests() {
+    remember(this.scene.component, this.viewport);
     if (this.far && !this.#tooMuch(LEAVING)) this.#setFar(false);
     this.cull();
     if (this.far) this.overview.sharpen(this.selection.keys);

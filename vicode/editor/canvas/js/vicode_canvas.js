@@ -24,6 +24,9 @@ export default {
     centre(of, id) {
       this.canvas.centre(of, id);
     },
+    arriveAt(of, id) {
+      this.canvas.arriveAt(of, id);
+    },
     fit() {
       this.canvas.fit();
     },

@@ -1,0 +1,76 @@
+// The search palette: a field and a list in a dialog of the browser's own. It holds what was found last; Python finds.
+export default {
+  template: `
+    <dialog ref="box" class="palette" aria-label="Find anything" @click="leave">
+      <div class="palette-frame">
+        <div class="palette-top">
+          <i class="q-icon material-icons" aria-hidden="true">search</i>
+          <input ref="field" class="palette-field" type="text" role="combobox" aria-expanded="true" aria-autocomplete="list"
+            autocomplete="off" spellcheck="false" aria-label="Find states, transitions, components and commands"
+            placeholder="Find states, transitions, components, commands"
+            :aria-controls="$.uid + '-list'" :aria-activedescendant="hits.length ? idOf(at) : null"
+            v-model="text" @input="ask" @keydown="press">
+        </div>
+        <ul ref="list" class="palette-list" role="listbox" :id="$.uid + '-list'" aria-label="Found">
+          <li v-for="(hit, index) in hits" :key="index" :id="idOf(index)" role="option" class="palette-hit"
+            :aria-selected="index === at" @mousemove="at = index" @click="choose(index)">
+            <i class="q-icon material-icons" aria-hidden="true">{{ hit.icon }}</i>
+            <span class="palette-title"><template v-for="part in hit.parts"><mark v-if="part.found">{{ part.text }}</mark><template v-else>{{ part.text }}</template></template></span>
+            <span class="palette-detail">{{ hit.detail }}</span>
+            <span class="palette-where">{{ hit.where }}</span>
+            <kbd v-if="hit.keys">{{ hit.keys }}</kbd>
+            <span class="palette-kind">{{ hit.kind }}</span>
+          </li>
+        </ul>
+        <div class="palette-foot"><span role="status">{{ words }}</span><span aria-hidden="true">↑ ↓ to move, Enter to go there, Esc to leave</span></div>
+      </div>
+    </dialog>`,
+  data: () => ({ text: "", hits: [], at: 0, words: "" }),
+  methods: {
+    open() {
+      if (this.$refs.box.open) return this.$refs.field.select();
+      this.text = "";
+      this.$refs.box.showModal();
+      this.$refs.field.focus();
+      this.ask();
+    },
+    /** What Python found for a text; an answer to an older text is shown until the newer comes. */
+    answer({ hits, words }) {
+      this.hits = hits;
+      this.words = words;
+      this.at = 0;
+      if (this.$refs.list) this.$refs.list.scrollTop = 0;
+    },
+    ask() {
+      this.at = 0;
+      this.$emit("ask", { text: this.text });
+    },
+    press(event) {
+      const steps = { ArrowDown: 1, ArrowUp: -1, PageDown: 8, PageUp: -8 };
+      if (event.isComposing) return;
+      if (event.key === "Enter") this.choose(this.at);
+      else if (event.key in steps) this.move(steps[event.key]);
+      else return;
+      event.preventDefault();
+    },
+    /** Single steps go round; pages stop at the ends. */
+    move(by) {
+      const count = this.hits.length;
+      if (!count) return;
+      const to = this.at + by;
+      this.at = Math.abs(by) === 1 ? (to + count) % count : Math.min(count - 1, Math.max(0, to));
+      this.$nextTick(() => document.getElementById(this.idOf(this.at))?.scrollIntoView({ block: "nearest" }));
+    },
+    choose(index) {
+      // Python finds again by the text: what is chosen may be newer than what is shown.
+      this.$refs.box.close();
+      this.$emit("choose", { text: this.text, index });
+    },
+    leave(event) {
+      if (event.target === this.$refs.box) this.$refs.box.close();
+    },
+    idOf(index) {
+      return `${this.$.uid}-hit-${index}`;
+    },
+  },
+};

@@ -1,0 +1,93 @@
+"""Fuzzy ranking: the letters of a query in the order of a text, best where words begin and letters follow each other.
+
+The scores are those of fzy (John Hawthorn, https://github.com/jhawthorn/fzy/blob/master/ALGORITHM.md).
+"""
+
+import math
+import re
+from dataclasses import dataclass
+
+_BEFORE, _INSIDE, _BEHIND = -0.005, -0.01, -0.005
+_FOLLOWS, _WORD, _CAPITAL, _DOT = 1.0, 0.8, 0.7, 0.6
+_LONGEST = 120
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Alignment:
+    """How well a query fits, and which letters of the text it took."""
+
+    score: float
+    places: tuple[int, ...]
+
+
+def subsequence(word: str) -> re.Pattern[str]:
+    """Finds the letters of a word in their order in small letters, without ever going back."""
+    letters = [re.escape(letter) for letter in word]
+    return re.compile("".join(f"[^{letter}\n]*{letter}" for letter in letters))
+
+
+def align(word: str, text: str) -> Alignment | None:
+    """The best way to find the letters of a word (in small letters) in a text; None if there is none."""
+    text = text[:_LONGEST]
+    low = text.lower()
+    if len(low) != len(text) or not subsequence(word).match(low):
+        return None
+    bonus = _bonuses(text)
+    ends: list[list[float]] = []
+    bests: list[list[float]] = []
+    for row, letter in enumerate(word):
+        gap = _BEHIND if row == len(word) - 1 else _INSIDE
+        end, best = _row(letter, low, bonus, (ends[-1], bests[-1]) if ends else None, gap=gap)
+        ends.append(end)
+        bests.append(best)
+    return Alignment(score=bests[-1][-1], places=_places(ends, bests))
+
+
+def _row(
+    letter: str, low: str, bonus: list[float], above: tuple[list[float], list[float]] | None, *, gap: float
+) -> tuple[list[float], list[float]]:
+    """For every place of the text: the best score that ends there, and the best up to there."""
+    end, best = [], []
+    running = -math.inf
+    for at, found in enumerate(low):
+        score = -math.inf
+        if found == letter:
+            if above is None:
+                score = at * _BEFORE + bonus[at]
+            elif at:
+                score = max(above[1][at - 1] + bonus[at], above[0][at - 1] + _FOLLOWS)
+        running = max(score, running + gap)
+        end.append(score)
+        best.append(running)
+    return end, best
+
+
+def _places(ends: list[list[float]], bests: list[list[float]]) -> tuple[int, ...]:
+    """Walk back from the best end, letter by letter."""
+    places: list[int] = []
+    at = len(ends[0]) - 1
+    must = False
+    for row in range(len(ends) - 1, -1, -1):
+        while not (ends[row][at] > -math.inf and (must or ends[row][at] == bests[row][at])):
+            at -= 1
+        # Whether the letter before has to stand right before this one.
+        must = row > 0 and at > 0 and bests[row][at] == ends[row - 1][at - 1] + _FOLLOWS
+        places.append(at)
+        at -= 1
+    return tuple(reversed(places))
+
+
+def _bonuses(text: str) -> list[float]:
+    before = "/"
+    bonuses = []
+    for letter in text:
+        if before in "/_- →(:":
+            bonuses.append(_WORD)
+        elif before == ".":
+            bonuses.append(_DOT)
+        elif letter.isupper() and not before.isupper():
+            bonuses.append(_CAPITAL)
+        else:
+            bonuses.append(0.0)
+        before = letter
+    return bonuses

@@ -1,0 +1,57 @@
+"""Where a design is edited, with the thing that is selected there and the way one came."""
+
+from collections.abc import Collection, Iterable, Sequence
+from urllib.parse import quote, urlencode
+
+from vicode.editor.view.selection import Selected
+
+# Names cannot hold these signs, so that nobody's state can be taken for something else.
+_BETWEEN, _NEXT = ":", ","
+_KINDS = ("components", "links")
+_LONGEST_TRAIL = 6
+
+
+def design_address(key: str, component: str, selected: Selected | None = None, trail: Sequence[str] = ()) -> str:
+    """The address of a design: project by its key, component by its name, `trail` the components one came through."""
+    query = {}
+    if selected is not None and selected.of != "design":
+        query["select"] = text_of_selected(selected)
+    if trail:
+        query["from"] = _NEXT.join(trail)
+    path = f"/design/{quote(key, safe='')}/{quote(component, safe='')}"
+    return f"{path}?{urlencode(query, safe=_SAFE)}" if query else path
+
+
+_SAFE = "/:,@"
+
+
+def text_of_selected(selected: Selected) -> str:
+    """A thing as addresses say it: "Kick", "Kick/0", "@common/1", "components:head"."""
+    if selected.of in ("states", "transitions", "common"):
+        return selected.id
+    return f"{selected.of}{_BETWEEN}{selected.id}"
+
+
+def selected_of_text(text: str) -> Selected | None:
+    """The thing an address names; None for what is none. Whether it is there is for others to see."""
+    kind, between, rest = text.partition(_BETWEEN)
+    if between:
+        return Selected(of=kind, id=rest) if kind in _KINDS else None
+    if not text:
+        return None
+    if text == "@common":
+        return Selected(of="common", id=text)
+    return Selected(of="transitions" if "/" in text else "states", id=text)
+
+
+def trail_of_text(text: str, known: Collection[str], here: str) -> tuple[str, ...]:
+    """The components one came through, as far as they exist; one that was here before starts anew from there."""
+    names = [name for name in text.split(_NEXT) if name in known]
+    if here in names:
+        names = names[: names.index(here)]
+    return tuple(dict.fromkeys(names))[-_LONGEST_TRAIL:]
+
+
+def trail_onwards(trail: Iterable[str], here: str) -> tuple[str, ...]:
+    """The trail of the component that is opened from here."""
+    return (*(name for name in trail if name != here), here)[-_LONGEST_TRAIL:]
