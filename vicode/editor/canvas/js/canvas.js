@@ -15,6 +15,7 @@ import { Rename } from "./rename.js";
 import { Router } from "./routing.js";
 import { keyOf, Scene } from "./scene.js";
 import { Selection } from "./selection.js";
+import { Snapshot } from "./snapshot.js";
 import { html } from "./svg.js";
 import { FONTS, forgetWidths } from "./text.js";
 import { Theme } from "./theme.js";
@@ -41,6 +42,7 @@ class Canvas {
     this.emit = emit;
     this.table = table;
     this.far = false;
+    this.frozen = false;
     this.activeSeq = -1;
     this.shownZoom = 1;
     this.sharpZoom = 1;
@@ -237,6 +239,7 @@ class Canvas {
     this.viewport = new Viewport(this.stage, this.frame);
     this.overview = new Overview(this.scene, this.viewport, colours);
     this.minimap = new Minimap(this.scene, this.viewport, colours);
+    this.snapshot = new Snapshot(this.painter, this.viewport, colours);
     this.theme = new Theme(this.stage, () => this.#coloursChanged());
     this.toolbar = new Toolbar(this);
     this.selection = new Selection(this);
@@ -252,13 +255,15 @@ class Canvas {
     this.empty = html("div", { class: "empty", hidden: true, text: "No states yet.\nDouble click, or press S, to add the first." });
     const corner = html("div", { class: "corner" }, [this.minimap.element, this.toolbar.element]);
     const above = [this.empty, this.message, this.rename.input, corner, this.menu.element];
-    this.stage.append(this.dots, ...this.overview.elements, this.plane, ...above);
+    this.stage.append(this.dots, ...this.overview.elements, this.snapshot.element, this.plane, ...above);
     this.keyboard = new Keyboard(this);
   }
 
   #wire() {
     this.viewport.onChange = () => this.#viewChanged();
     this.viewport.onRest = () => this.#viewRests();
+    // What is pressed must be there to be found.
+    this.stage.addEventListener("pointerdown", () => this.#thaw(), { capture: true });
     this.sizes = new ResizeObserver(() => this.#resized());
     this.sizes.observe(this.stage);
     const fonts = Object.values(FONTS).map((font) => document.fonts.load(font));
@@ -283,15 +288,41 @@ class Canvas {
   #viewChanged() {
     const { x, y, k } = this.viewport;
     const zooms = k !== this.shownZoom;
+    if (zooms) this.#freeze();
     this.shownZoom = k;
-    this.plane.style.transform = `translate(${x}px, ${y}px) scale(${k})`;
     this.#placeDots(x, y, k);
     this.toolbar.show(k);
     this.minimap.follow();
     this.rename.follow();
+    this.overview.place();
+    this.snapshot.place();
+    if (this.frozen) return;
+    this.#placePlane();
     if (!this.far && this.#tooMuch(1)) this.#setFar(true);
     else if (!this.painter.covers(this.viewport.rect())) this.#uncovered(zooms);
-    this.overview.place();
+  }
+
+  #placePlane() {
+    const { x, y, k } = this.viewport;
+    this.plane.style.transform = `translate(${x}px, ${y}px) scale(${k})`;
+  }
+
+  /** While the view zooms, a crowd of things is stood for by its picture. */
+  #freeze() {
+    const isBusy = this.far || this.gestures.isDragging() || this.plane.contains(this.root.activeElement);
+    if (this.frozen || isBusy || this.viewport.resting || !this.snapshot.isWorthIt() || !this.overview.isThere()) return;
+    this.snapshot.finish(this.shownZoom);
+    this.frozen = true;
+    this.stage.classList.add("frozen");
+    this.#showUnderlay(true);
+  }
+
+  #thaw() {
+    if (!this.frozen) return;
+    this.frozen = false;
+    this.#placePlane();
+    this.cull();
+    this.stage.classList.remove("frozen");
   }
 
   /** The view moved past what is mounted. While it zooms the coarse bitmap must do; while it pans, things are mounted. */
@@ -303,10 +334,12 @@ class Canvas {
   #viewRests() {
     remember(this.scene.component, this.viewport);
     if (this.far && !this.#tooMuch(LEAVING)) this.#setFar(false);
+    this.#thaw();
     this.cull();
     if (this.far) this.overview.sharpen(this.selection.keys);
     this.handles.refresh();
     if (this.shownZoom !== this.sharpZoom) this.#rasterAnew();
+    if (!this.far) this.snapshot.prepare(this.shownZoom);
   }
 
   /** A layer keeps the sharpness it was first drawn with; for a moment it must be none. */
@@ -350,6 +383,7 @@ class Canvas {
 
   #coloursChanged() {
     this.overview.spoil();
+    this.snapshot.forget();
     this.frame?.ask("colours", () => {
       this.minimap.draw();
       this.#redrawSoon();
@@ -361,6 +395,7 @@ class Canvas {
     this.empty.hidden = [...this.scene.nodes.values()].some((node) => node.of === "states");
     this.stage.setAttribute("aria-label", `State machine ${this.scene.component}`);
     this.overview.spoil();
+    this.#thaw();
     if (this.far && !this.#tooMuch(LEAVING)) this.#setFar(false);
     this.frame.ask("minimap", () => this.minimap.draw());
     this.frame.ask("scene", () => {

@@ -20,6 +20,9 @@ export class Painter {
     this.svg = svg("svg", { "aria-hidden": "false" }, Object.values(this.layers));
     this.covered = null;
     this.far = false;
+    // They grow with everything that changes the picture, and with what only changes colours in it.
+    this.revision = 0;
+    this.looks = 0;
   }
 
   clear() {
@@ -57,6 +60,7 @@ export class Painter {
 
   /** Lets everything that is not lit step back. This paints all anew, so it is not for moments when the hand moves. */
   dim() {
+    this.looks += 1;
     const isDim = this.marks.get("lit").size > 0;
     for (const name of ["links", "edges", "nodes", "chips"]) this.layers[name].classList.toggle("dim", isDim);
   }
@@ -82,6 +86,7 @@ export class Painter {
 
   /** Follows nodes that are being moved, with the edges at them. */
   follow(nodeKeys) {
+    this.revision += 1;
     for (const key of nodeKeys) {
       const item = this.items.get(key);
       if (item) placeNode(item.node, this.scene.nodes.get(key));
@@ -119,6 +124,7 @@ export class Painter {
   }
 
   #mount(key) {
+    this.revision += 1;
     const thing = this.scene.find(key);
     if (!thing) return;
     const item = this.scene.nodes.has(key) ? this.#mountNode(thing) : this.#mountEdge(thing);
@@ -147,6 +153,7 @@ export class Painter {
   }
 
   #unmount(key) {
+    this.revision += 1;
     const item = this.items.get(key);
     if (!item) return;
     for (const part of Object.values(item)) part?.remove();
@@ -160,6 +167,7 @@ export class Painter {
   }
 
   #placeEdge(edge) {
+    this.revision += 1;
     const item = this.items.get(edge.key);
     if (!item) return;
     if (!this.scene.isDrawable(edge)) return this.#unmount(edge.key);
@@ -171,6 +179,7 @@ export class Painter {
   }
 
   #toggle(key, name, on) {
+    this.looks += 1;
     for (const part of Object.values(this.items.get(key) ?? {})) {
       if (!part) continue;
       part.classList.toggle(name, on);

@@ -1,0 +1,177 @@
+// What is mounted, as a bitmap. A browser lays out every SVG text anew at each step of a zoom; a bitmap it only scales.
+import { html } from "./svg.js";
+
+// Fewer things than this zoom as they are, and stay sharp.
+const MANY = 250;
+const MOST_PIXELS = 4096;
+const STEP = 20;
+
+export class Snapshot {
+  constructor(painter, viewport, colours) {
+    this.painter = painter;
+    this.viewport = viewport;
+    this.colours = colours;
+    this.element = html("canvas", { class: "bitmap snapshot" });
+    this.styles = new Map();
+    this.taken = null;
+    this.drawing = null;
+  }
+
+  /** Whether zooming is smoother with a bitmap. */
+  isWorthIt() {
+    return this.painter.items.size > MANY && this.painter.covered !== null;
+  }
+
+  /** Gets ready for a zoom while nobody waits for it. */
+  prepare(zoom) {
+    const { revision, looks } = this.painter;
+    if (!this.isWorthIt() || (this.#isTrue(zoom) && this.taken.looks === looks)) return;
+    this.taken = null;
+    const drawing = this.#draw(zoom);
+    const goOn = (deadline) => {
+      if (this.drawing !== drawing || this.painter.revision !== revision) return;
+      while (deadline.timeRemaining() > 4) if (drawing.next().done) return;
+      this.#idle(goOn);
+    };
+    this.drawing = drawing;
+    this.#idle(goOn);
+  }
+
+  /** Finishes the picture, or takes a new one when boxes or lines were moved; an outdated highlight does no harm. */
+  finish(zoom) {
+    if (this.#isTrue(zoom)) return;
+    this.drawing = this.#draw(zoom);
+    while (!this.drawing.next().done);
+  }
+
+  #isTrue(zoom) {
+    const { revision, covered } = this.painter;
+    return this.taken?.revision === revision && this.taken.region === covered && this.taken.zoom === zoom;
+  }
+
+  /** The colours changed. */
+  forget() {
+    this.styles.clear();
+    this.taken = null;
+  }
+
+  place() {
+    if (!this.taken) return;
+    const { x, y, k } = this.viewport;
+    const { region, scale } = this.taken;
+    this.element.style.transform = `translate(${x + region.x * k}px, ${y + region.y * k}px) scale(${k / scale})`;
+  }
+
+  /** Draws some, and then waits to be asked for more. */
+  *#draw(zoom) {
+    const { revision, looks, covered: region } = this.painter;
+    const scale = Math.min(zoom * devicePixelRatio, MOST_PIXELS / Math.max(region.w, region.h));
+    const pen = this.#begin(region, scale);
+    const groups = [...this.painter.svg.children].flatMap((layer) => [...layer.children].map((group) => ({ layer, group })));
+    for (const [index, { layer, group }] of groups.entries()) {
+      this.#drawGroup(pen, group, `${layer.getAttribute("class")} ${group.getAttribute("class")}`);
+      // Reading a dot back makes the browser paint what it has only noted so far.
+      if (index % STEP === STEP - 1) yield pen.getImageData(0, 0, 1, 1);
+    }
+    pen.getImageData(0, 0, 1, 1);
+    this.taken = { revision, looks, region, zoom, scale };
+  }
+
+  #begin(region, scale) {
+    this.element.width = Math.round(region.w * scale);
+    this.element.height = Math.round(region.h * scale);
+    const pen = this.element.getContext("2d", { alpha: false, willReadFrequently: true });
+    pen.fillStyle = this.colours("paper");
+    pen.fillRect(0, 0, this.element.width, this.element.height);
+    pen.setTransform(scale, 0, 0, scale, -region.x * scale, -region.y * scale);
+    pen.textBaseline = "middle";
+    return pen;
+  }
+
+  #idle(job) {
+    if (window.requestIdleCallback) requestIdleCallback(job);
+    else setTimeout(() => job({ timeRemaining: () => 6 }), 30);
+  }
+
+  #drawGroup(pen, group, context) {
+    const by = offsetOf(group);
+    pen.translate(by.x, by.y);
+    for (const element of group.children) {
+      if (element.tagName === "g") this.#drawGroup(pen, element, `${context} ${element.getAttribute("class")}`);
+      else if (element.tagName !== "title") this.#drawShape(pen, element, this.#styleOf(element, context));
+    }
+    pen.translate(-by.x, -by.y);
+  }
+
+  #drawShape(pen, element, style) {
+    if (!style.fill && !style.stroke) return;
+    const by = offsetOf(element);
+    pen.translate(by.x, by.y);
+    if (element.tagName === "text") writeText(pen, element, style);
+    else drawPath(pen, pathOf(element), style);
+    pen.translate(-by.x, -by.y);
+  }
+
+  /** The style of an element; things of the same classes look the same. */
+  #styleOf(element, context) {
+    const name = `${context}|${element.tagName} ${element.getAttribute("class")}`;
+    if (!this.styles.has(name)) this.styles.set(name, readStyle(getComputedStyle(element)));
+    return this.styles.get(name);
+  }
+}
+
+function readStyle(style) {
+  const paint = (value) => (value === "none" || value === "rgba(0, 0, 0, 0)" ? null : value);
+  return {
+    fill: paint(style.fill),
+    fillOpacity: Number(style.fillOpacity),
+    stroke: paint(style.stroke),
+    strokeOpacity: Number(style.strokeOpacity),
+    width: Number.parseFloat(style.strokeWidth),
+    dashes: style.strokeDasharray === "none" ? [] : style.strokeDasharray.split(/[ ,]+/).map((part) => Number.parseFloat(part)),
+    cap: style.strokeLinecap,
+    font: `${style.fontWeight} ${style.fontSize} ${style.fontFamily}`,
+    align: { middle: "center", end: "end" }[style.textAnchor] ?? "start",
+  };
+}
+
+function drawPath(pen, path, style) {
+  if (style.fill) {
+    pen.globalAlpha = style.fillOpacity;
+    pen.fillStyle = style.fill;
+    pen.fill(path);
+  }
+  if (style.stroke) {
+    pen.globalAlpha = style.strokeOpacity;
+    pen.strokeStyle = style.stroke;
+    pen.lineWidth = style.width;
+    pen.lineCap = style.cap;
+    pen.setLineDash(style.dashes);
+    pen.stroke(path);
+  }
+}
+
+function writeText(pen, element, style) {
+  pen.globalAlpha = style.fillOpacity;
+  pen.fillStyle = style.fill;
+  pen.font = style.font;
+  pen.textAlign = style.align;
+  pen.fillText(element.textContent, numberOf(element, "x"), numberOf(element, "y"));
+}
+
+function pathOf(element) {
+  const number = (name) => numberOf(element, name);
+  if (element.tagName === "path") return new Path2D(element.getAttribute("d"));
+  if (element.tagName === "polygon") return new Path2D(`M${element.getAttribute("points")}Z`);
+  const path = new Path2D();
+  if (element.tagName === "rect") path.roundRect(number("x"), number("y"), number("width"), number("height"), number("rx"));
+  if (element.tagName === "circle") path.arc(number("cx"), number("cy"), number("r"), 0, 2 * Math.PI);
+  return path;
+}
+
+const numberOf = (element, name) => Number(element.getAttribute(name) ?? 0);
+
+function offsetOf(element) {
+  const found = element.getAttribute("transform")?.match(/^translate\(([-\d.e]+) ([-\d.e]+)\)$/);
+  return found ? { x: Number(found[1]), y: Number(found[2]) } : { x: 0, y: 0 };
+}
