@@ -10,7 +10,7 @@ from nicegui.dependencies import register_esm
 from nicegui.events import GenericEventArguments
 
 from vicode.editor.canvas.commands import as_plain
-from vicode.editor.canvas.gesture import Changes, Gesture, Item, Kind, OnGesture, Scene
+from vicode.editor.canvas.gesture import Changes, Gesture, Item, Kind, OnGesture, Place, Scene
 
 _SCRIPTS = Path(__file__).parent / "js"
 _KINDS = ("states", "transitions", "components", "links")
@@ -97,6 +97,14 @@ class Canvas(ui.element, component="js/vicode_canvas.js"):
     def put_on_clipboard(self, text: str | None) -> None:
         """Answer a `Copy`: with its text, or None when there is nothing to copy."""
         self._call("putOnClipboard", text)
+
+    def preview(self, places: Sequence[Place]) -> None:
+        """Show things at other places without taking them; Enter and Escape are reported. None of them ends it."""
+        self._call("showPlaces", list(places), False)
+
+    def end_preview(self) -> None:
+        """End a preview and keep the view, as its places were taken."""
+        self._call("showPlaces", [], True)
 
     def set_active(self, ids: Sequence[str], seq: int) -> None:
         """Highlight the states that are active in a running component.

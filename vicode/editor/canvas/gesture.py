@@ -195,6 +195,14 @@ class Ask(TypedDict):
     name: str
 
 
+class Preview(TypedDict):
+    """Enter or Escape was pressed while other places are shown: they are wanted, or not."""
+
+    kind: Literal["preview"]
+    rev: int
+    wanted: bool
+
+
 class History(TypedDict):
     """Ctrl+Z, Ctrl+Shift+Z or Ctrl+Y were pressed on the canvas."""
 
@@ -222,6 +230,7 @@ Gesture = (
     | Mark
     | Use
     | Ask
+    | Preview
     | History
 )
 OnGesture = Callable[[Gesture], Awaitable[None] | None]

@@ -2,13 +2,12 @@
 
 from nicegui import background_tasks, run
 
-from vicode.diagram.layout import lay_out
 from vicode.editor.pages.drawing import Drawing
 from vicode.editor.pages.look import Theme
 from vicode.editor.panels.command import Command, Place
 from vicode.editor.panels.desk import Desk
 from vicode.editor.panels.save_dialog import ask_about_disk
-from vicode.editor.session import ChangedOnDiskError, apply_gesture, take_places
+from vicode.editor.session import ChangedOnDiskError, apply_gesture
 
 
 class Actions:
@@ -27,9 +26,6 @@ class Actions:
             Command("generate", "Generate", self.generate, design, icon="bolt"),
             Command("undo", "Undo", self.undo, edit, icon="undo", keys=("Ctrl+Z",)),
             Command("redo", "Redo", self.redo, edit, icon="redo", keys=("Ctrl+Shift+Z", "Ctrl+Y")),
-            Command(
-                "lay-out", "Lay out what is selected, or everything", self.lay_out, edit, icon="auto_awesome_mosaic"
-            ),
             Command(
                 "disable", "Disable what is selected, or enable it again", self.disable, edit, icon="block", keys=("D",)
             ),
@@ -64,19 +60,6 @@ class Actions:
         """Write the code, after saving."""
         if self.desk.document.is_saved or self.save():
             background_tasks.create(self._write_code(), name="generate")
-
-    async def lay_out(self) -> None:
-        """Place the selected states, or all; one edit, so that undo takes it back."""
-        desk = self.desk
-        only = [thing.id for thing in desk.selected if thing.of == "states"] or None
-        # Graphviz works beside the server.
-        layout = await run.io_bound(lay_out, desk.design, only=only)
-        if layout is None or self.drawing.canvas.is_deleted:
-            return
-        desk.edit("lay out", lambda design: take_places(design, layout.placement, only))
-        if layout.note:
-            desk.say(layout.note, "info")
-        self.drawing.canvas.fit()
 
     def disable(self) -> None:
         """Disable the selected states and transitions, or enable them when all of them are disabled."""

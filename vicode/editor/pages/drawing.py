@@ -39,6 +39,7 @@ class Drawing:
     def __init__(self, desk: Desk) -> None:
         """Draw the design as it is now."""
         self.desk = desk
+        self.on_preview: Callable[..., None] = lambda **_answer: None
         desk.run = self.run
         self.page_commands: Mapping[str, Callable[[], object]] = {}
         desk.reveal, desk.is_there = self.reveal, self._exists
@@ -114,6 +115,8 @@ class Drawing:
                 self._copy(payload)
             case "use":
                 self._use(payload)
+            case "preview":
+                self.on_preview(wanted=payload["wanted"] is True)
             case _:
                 self._edit(payload)
 

@@ -3,6 +3,7 @@
 from nicegui import ui
 
 from vicode.editor.pages.drawing import Drawing
+from vicode.editor.pages.layouts import Layouts
 from vicode.editor.panels.command import Command, Place
 from vicode.editor.panels.desk import Desk
 from vicode.editor.panels.table_panel import TablePanel
@@ -22,6 +23,7 @@ class Stage:
             self._buttons = {word: self._button(word) for word in ("Drawing", "Table")}
         with ui.element("div").classes("stage-view") as self._drawing_space:
             self.drawing = Drawing(desk)
+            self.layouts = Layouts(desk, self.drawing)
         self._table_space = ui.element("div").classes("stage-view table-view")
         self._table_space.set_visibility(False)
         self._mark()
@@ -29,6 +31,7 @@ class Stage:
     def commands(self) -> tuple[Command, ...]:
         """What can be asked of it."""
         return (
+            *self.layouts.commands(),
             Command(
                 name="table",
                 label="Drawing or table",
@@ -47,6 +50,7 @@ class Stage:
     def show(self, *, table: bool) -> None:
         """Show the table or the drawing, and let the keys work there."""
         self.shows_table = table
+        self.layouts.drop()
         self._drawing_space.set_visibility(not table)
         self._table_space.set_visibility(table)
         self._mark()
@@ -60,7 +64,8 @@ class Stage:
         self.table.grid.take_focus()
 
     def follow(self) -> None:
-        """Draw what changed in the design."""
+        """Draw what changed in the design; a layout found for what it was is out of date."""
+        self.layouts.drop()
         self.drawing.follow()
 
     def refresh(self) -> None:

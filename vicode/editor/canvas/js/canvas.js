@@ -11,6 +11,7 @@ import { arrive, remember } from "./memory.js";
 import { Minimap } from "./minimap.js";
 import { Overview } from "./overview.js";
 import { MOST_PINNED, Painter } from "./painter.js";
+import { Preview } from "./preview.js";
 import { Rename } from "./rename.js";
 import { Router } from "./routing.js";
 import { keyOf, Scene } from "./scene.js";
@@ -145,6 +146,12 @@ class Canvas {
     this.theme.dispose();
   }
 
+  /** Shows other places, given as `{of, id, x, y}`, without taking them; none ends it. `stay`: the view stays too. */
+  showPlaces(items, stay) {
+    if (items.length) this.preview.show(items.map(({ of, id, x, y }) => ({ key: keyOf(of, id), x, y })));
+    else this.preview.clear({ stay });
+  }
+
   /** Sends one gesture to Python. */
   report(kind, payload) {
     this.emit("gesture", { kind, ...payload, rev: this.scene.rev });
@@ -167,6 +174,15 @@ class Canvas {
     this.painter.settle([...oldRects, ...nodes.map(rectOf)]);
     this.painter.covered = null;
     this.report("move", { items: nodes.map(({ of, id, x, y }) => ({ of, id, x, y })), how });
+    this.#sceneChanged();
+  }
+
+  /** Boxes stand elsewhere for some other reason than a hand. */
+  placesChanged(keys) {
+    this.scene.reindex(keys);
+    this.router.clear();
+    this.painter.placeAnew();
+    this.painter.covered = null;
     this.#sceneChanged();
   }
 
@@ -249,6 +265,7 @@ class Canvas {
     this.commands = new Commands(this, this.table);
     this.menu = new Menu(this);
     this.rename = new Rename(this);
+    this.preview = new Preview(this);
     this.dots = html("div", { class: "dots" });
     this.plane = html("div", { class: "plane layer" }, [this.painter.svg]);
     this.message = html("div", { class: "message", role: "status", hidden: true });

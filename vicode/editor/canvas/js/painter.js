@@ -95,6 +95,14 @@ export class Painter {
     this.#placeEdges(nodeKeys);
   }
 
+  /** Puts everything where the scene has it now. */
+  placeAnew() {
+    for (const [key, item] of [...this.items]) {
+      if (item.node) placeNode(item.node, this.scene.nodes.get(key));
+      else this.#placeEdge(this.scene.edges.get(key));
+    }
+  }
+
   /** Boxes came to rest or left: edges that pass there are routed again. */
   settle(rects) {
     const passing = new Set(rects.flatMap((rect) => this.router.passing(rect)));

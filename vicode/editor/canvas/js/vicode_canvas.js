@@ -36,6 +36,9 @@ export default {
     showLinks(flag) {
       this.canvas.showLinks(flag);
     },
+    showPlaces(items, stay) {
+      this.canvas.showPlaces(items, stay);
+    },
     renameInPlace(id) {
       this.canvas.renameInPlace(id);
     },

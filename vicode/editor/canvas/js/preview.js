@@ -1,0 +1,90 @@
+// Other places for boxes, shown before anybody decides: the drawing stands there, outlines stay where the boxes were.
+import { rectOf } from "./geometry.js";
+import { svg } from "./svg.js";
+
+const VIEW_KEYS = new Set(["+", "=", "-", "0", "1"]);
+
+export class Preview {
+  constructor(canvas) {
+    this.canvas = canvas;
+    this.keys = null;
+    this.pan = null;
+    const { stage } = canvas;
+    // Before anything else hears of them: while it is a preview one looks, and does not touch.
+    for (const [name, job] of [["pointerdown", this.#down], ["pointermove", this.#move], ["pointerup", this.#up], ["keydown", this.#key]]) {
+      stage.addEventListener(name, (event) => this.keys && job.call(this, event), { capture: true });
+    }
+  }
+
+  /** Shows nodes `{key, x, y}` elsewhere and everything in sight. */
+  show(places) {
+    this.clear();
+    const { canvas } = this;
+    const known = places.filter(({ key }) => canvas.scene.nodes.has(key));
+    if (!known.length) return;
+    const { x, y, k } = canvas.viewport;
+    canvas.gestures.cancel();
+    this.keys = known.map(({ key }) => key);
+    this.view = { x, y, k };
+    const d = this.keys.map((key) => outline(rectOf(canvas.scene.nodes.get(key)))).join("");
+    this.before = svg("path", { class: "before", d });
+    canvas.painter.layers.links.before(this.before);
+    this.#put(known);
+    canvas.fit();
+    canvas.stage.classList.add("previewing");
+    canvas.stage.focus({ preventScroll: true });
+  }
+
+  /** Back to where the scene has everything; the view goes back too unless `stay`. */
+  clear({ stay = false } = {}) {
+    if (!this.keys) return;
+    const { canvas, keys } = this;
+    this.keys = null;
+    this.before.remove();
+    canvas.stage.classList.remove("previewing");
+    const nodes = keys.map((key) => canvas.scene.nodes.get(key)).filter(Boolean);
+    this.#put(nodes.map(({ key, data }) => ({ key, x: data.x, y: data.y })));
+    if (!stay) canvas.viewport.set(this.view);
+  }
+
+  #put(places) {
+    const { scene } = this.canvas;
+    for (const { key, x, y } of places) scene.move(key, x, y);
+    this.canvas.placesChanged(places.map(({ key }) => key));
+  }
+
+  #down(event) {
+    if (event.target.closest(".corner")) return;
+    event.stopPropagation();
+    event.preventDefault();
+    this.canvas.stage.focus({ preventScroll: true });
+    this.canvas.stage.setPointerCapture(event.pointerId);
+    this.pan = this.canvas.viewport.local(event);
+  }
+
+  #move(event) {
+    if (event.target.closest(".corner")) return;
+    event.stopPropagation();
+    if (!this.pan) return;
+    const now = this.canvas.viewport.local(event);
+    this.canvas.viewport.panBy(now.x - this.pan.x, now.y - this.pan.y);
+    this.pan = now;
+  }
+
+  #up(event) {
+    if (!this.pan) return;
+    event.stopPropagation();
+    this.pan = null;
+  }
+
+  #key(event) {
+    const isPlain = !(event.ctrlKey || event.metaKey || event.altKey);
+    if (!isPlain || event.key === "Tab" || VIEW_KEYS.has(event.key) || event.target.closest("button")) return;
+    event.stopPropagation();
+    event.preventDefault();
+    if (event.key === "Enter") this.canvas.report("preview", { wanted: true });
+    if (event.key === "Escape") this.canvas.report("preview", { wanted: false });
+  }
+}
+
+const outline = ({ x, y, w, h }) => `M${x} ${y}h${w}v${h}h${-w}Z`;

@@ -1,0 +1,137 @@
+"""Automatic layout in one window: found beside the server, shown on the canvas, and taken or not."""
+
+from collections.abc import Collection, Iterator
+from dataclasses import dataclass, field
+
+from nicegui import run, ui
+
+from vicode.diagram import Placement
+from vicode.diagram.layout import LayoutService, Method
+from vicode.editor.canvas.gesture import Place as Spot
+from vicode.editor.pages.drawing import Drawing
+from vicode.editor.panels.command import Command, Place
+from vicode.editor.panels.desk import Desk
+from vicode.editor.panels.rows import primary_button
+from vicode.editor.session import take_places
+from vicode.model.design import Design
+
+# Beyond so many states Graphviz needs longer, and a person expects it.
+_MANY = 500
+_LIMIT_S, _LONG_LIMIT_S = 5.0, 15.0
+_WORDS = {Method.GRAPHVIZ: "by Graphviz", Method.LAYERS: "in layers"}
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Proposal:
+    """Places that are shown and not yet taken."""
+
+    placement: Placement
+    only: tuple[str, ...] | None
+
+
+@dataclass(eq=False)
+class Layouts:
+    """The bar over the canvas that tells of a layout under way, and asks whether its places are wanted."""
+
+    desk: Desk
+    drawing: Drawing
+    proposal: Proposal | None = None
+    service: LayoutService | None = None
+    bar: ui.element = field(init=False)
+
+    def __post_init__(self) -> None:
+        """Build the bar, which is not seen before there is something to tell."""
+        self.bar = ui.element("div").classes("layout-bar").props('role="region" aria-label="Layout"')
+        self.bar.set_visibility(False)
+        self.drawing.on_preview = self.decide
+
+    def commands(self) -> tuple[Command, ...]:
+        """What can be asked of it."""
+        label = "Lay out what is selected, or everything"
+        return (Command("lay-out", label, self.start, Place.EDIT, icon="auto_awesome_mosaic"),)
+
+    async def start(self) -> None:
+        """Find places for the selected states, or for everything, and show them."""
+        if self.service is not None:
+            return
+        self.drop()
+        design, rev = self.desk.design, self.desk.document.rev
+        only = tuple(thing.id for thing in self.desk.selected if thing.of == "states") or None
+        count = len(only or design.states)
+        limit_s = _LIMIT_S if count <= _MANY else _LONG_LIMIT_S
+        self._tell_waiting(_count(count), limit_s)
+        self.service = service = LayoutService()
+        layout = await run.io_bound(service.lay_out, design, only=only, timeout_s=limit_s)
+        is_wanted, self.service = self.service is service, None
+        await run.io_bound(service.close)
+        if layout is None or self.drawing.canvas.is_deleted or not is_wanted:
+            return
+        self.bar.set_visibility(False)
+        if self.desk.document.rev != rev:
+            self.desk.say("The design changed meanwhile: lay it out again", "info")
+            return
+        self.proposal = Proposal(placement=layout.placement, only=only)
+        self.drawing.canvas.preview(list(_spots(design, layout.placement, only)))
+        self._ask(f"{_count(count)} {_WORDS[Method(layout.method)]}", layout.note)
+
+    async def stop(self) -> None:
+        """Give up looking for places."""
+        service, self.service = self.service, None
+        self.bar.set_visibility(False)
+        if service is not None:
+            await run.io_bound(service.close)
+
+    def decide(self, *, wanted: bool) -> None:
+        """Take the places that are shown, as one edit, or leave everything as it was."""
+        if not wanted:
+            self.drop()
+            return
+        proposal, self.proposal = self.proposal, None
+        if proposal is None:
+            return
+        self.bar.set_visibility(False)
+        self.desk.edit("lay out", lambda design: take_places(design, proposal.placement, proposal.only))
+        self.drawing.canvas.end_preview()
+
+    def drop(self) -> None:
+        """End a preview: it is not wanted, or the design it was made for changed."""
+        if self.proposal is not None:
+            self.proposal = None
+            self.bar.set_visibility(False)
+            self.drawing.canvas.preview([])
+
+    def _tell_waiting(self, what: str, limit_s: float) -> None:
+        self.bar.clear()
+        with self.bar:
+            ui.label(f"Laying out {what}, {limit_s:g} s at most").classes("layout-words").props('role="status"')
+            ui.element("div").classes("layout-progress").style(f"--limit: {limit_s:g}s")
+            ui.button("Cancel", on_click=self.stop, color=None).props("flat no-caps dense")
+        self.bar.set_visibility(True)
+
+    def _ask(self, what: str, note: str) -> None:
+        self.bar.clear()
+        with self.bar:
+            with ui.element("div").classes("layout-words").props('role="status"'):
+                ui.label(f"Preview: {what}")
+                if note:
+                    ui.label(note).classes("small")
+            primary_button("Apply", lambda: self.decide(wanted=True)).tooltip("Enter")
+            ui.button("Cancel", on_click=self.drop, color=None).props("flat no-caps dense").tooltip("Escape")
+        self.bar.set_visibility(True)
+
+
+def _count(states: int) -> str:
+    return f"{states} state" + ("" if states == 1 else "s")
+
+
+def _spots(design: Design, placement: Placement, only: Collection[str] | None) -> Iterator[Spot]:
+    """The places of a layout as the canvas wants them."""
+    for name, (x, y) in placement.states.items():
+        if only is None or name in only:
+            yield {"of": "states", "id": name, "x": x, "y": y}
+    if only is not None:
+        return
+    for alias, (x, y) in placement.uses.items():
+        yield {"of": "components", "id": alias, "x": x, "y": y}
+    if design.common.transitions or design.common.actions:
+        yield {"of": "common", "id": "@common", "x": placement.common[0], "y": placement.common[1]}
