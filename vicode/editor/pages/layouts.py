@@ -3,7 +3,7 @@
 from collections.abc import Collection, Iterator
 from dataclasses import dataclass, field
 
-from nicegui import run, ui
+from nicegui import background_tasks, run, ui
 
 from vicode.diagram import Placement
 from vicode.diagram.layout import LayoutService, Method
@@ -50,29 +50,11 @@ class Layouts:
         label = "Lay out what is selected, or everything"
         return (Command("lay-out", label, self.start, Place.EDIT, icon="auto_awesome_mosaic"),)
 
-    async def start(self) -> None:
+    def start(self) -> None:
         """Find places for the selected states, or for everything, and show them."""
-        if self.service is not None:
-            return
-        self.drop()
-        design, rev = self.desk.design, self.desk.document.rev
-        only = tuple(thing.id for thing in self.desk.selected if thing.of == "states") or None
-        count = len(only or design.states)
-        limit_s = _LIMIT_S if count <= _MANY else _LONG_LIMIT_S
-        self._tell_waiting(_count(count), limit_s)
-        self.service = service = LayoutService()
-        layout = await run.io_bound(service.lay_out, design, only=only, timeout_s=limit_s)
-        is_wanted, self.service = self.service is service, None
-        await run.io_bound(service.close)
-        if layout is None or self.drawing.canvas.is_deleted or not is_wanted:
-            return
-        self.bar.set_visibility(False)
-        if self.desk.document.rev != rev:
-            self.desk.say("The design changed meanwhile: lay it out again", "info")
-            return
-        self.proposal = Proposal(placement=layout.placement, only=only)
-        self.drawing.canvas.preview(list(_spots(design, layout.placement, only)))
-        self._ask(f"{_count(count)} {_WORDS[Method(layout.method)]}", layout.note)
+        if self.service is None:
+            self.drop()
+            background_tasks.create(self._find_places(), name="lay out")
 
     async def stop(self) -> None:
         """Give up looking for places."""
@@ -99,6 +81,30 @@ class Layouts:
             self.proposal = None
             self.bar.set_visibility(False)
             self.drawing.canvas.preview([])
+
+    async def _find_places(self) -> None:
+        with self.bar.client:
+            await self._propose()
+
+    async def _propose(self) -> None:
+        design, rev = self.desk.design, self.desk.document.rev
+        only = tuple(thing.id for thing in self.desk.selected if thing.of == "states") or None
+        count = len(only or design.states)
+        limit_s = _LIMIT_S if count <= _MANY else _LONG_LIMIT_S
+        self._tell_waiting(_count(count), limit_s)
+        self.service = service = LayoutService()
+        layout = await run.io_bound(service.lay_out, design, only=only, timeout_s=limit_s)
+        is_wanted, self.service = self.service is service, None
+        await run.io_bound(service.close)
+        if layout is None or self.drawing.canvas.is_deleted or not is_wanted:
+            return
+        self.bar.set_visibility(False)
+        if self.desk.document.rev != rev:
+            self.desk.say("The design changed meanwhile: lay it out again", "info")
+            return
+        self.proposal = Proposal(placement=layout.placement, only=only)
+        self.drawing.canvas.preview(list(_spots(design, layout.placement, only)))
+        self._ask(f"{_count(count)} {_WORDS[Method(layout.method)]}", layout.note)
 
     def _tell_waiting(self, what: str, limit_s: float) -> None:
         self.bar.clear()

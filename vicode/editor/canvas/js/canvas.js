@@ -6,27 +6,22 @@ import { Frame } from "./frame.js";
 import { Gestures } from "./gestures.js";
 import { Handles } from "./handles.js";
 import { Keyboard } from "./keyboard.js";
+import { Levels } from "./levels.js";
 import { Menu } from "./menu.js";
 import { arrive, remember } from "./memory.js";
 import { Minimap } from "./minimap.js";
-import { Overview } from "./overview.js";
-import { MOST_PINNED, Painter } from "./painter.js";
+import { Painter } from "./painter.js";
 import { Preview } from "./preview.js";
 import { Rename } from "./rename.js";
 import { Router } from "./routing.js";
 import { keyOf, Scene } from "./scene.js";
 import { Selection } from "./selection.js";
-import { Snapshot } from "./snapshot.js";
 import { html } from "./svg.js";
 import { FONTS, forgetWidths } from "./text.js";
 import { Theme } from "./theme.js";
 import { Toolbar } from "./toolbar.js";
 import { Viewport } from "./viewport.js";
 
-const FAR = 0.3;
-const FAR_STATES = 150;
-const CROWD = 240;
-const LEAVING = 0.88;
 const DOT_GAP = 20;
 const DIM_MS = 120;
 const TELL_MS = 3000;
@@ -42,11 +37,7 @@ class Canvas {
     this.host = host;
     this.emit = emit;
     this.table = table;
-    this.far = false;
-    this.frozen = false;
     this.activeSeq = -1;
-    this.shownZoom = 1;
-    this.sharpZoom = 1;
     this.fitPending = true;
     this.frame = new Frame();
     this.scene = new Scene();
@@ -188,31 +179,29 @@ class Canvas {
 
   afterGesture() {
     this.handles.refresh();
-    this.frame.ask("cull", () => this.cull());
+    this.levels.cullSoon();
   }
 
   hoverChanged() {
     this.handles.refresh();
-    if (this.far) this.frame.ask("cull", () => this.cull());
+    if (this.far) this.levels.cullSoon();
   }
 
   /** The selection changed, by Python's wish (`quiet`) or by hand. */
   selectionChanged(quiet) {
     this.handles.refresh();
     if (!quiet) this.report("select", { items: this.selection.items() });
-    if (!this.far) return;
-    this.frame.ask("cull", () => this.cull());
-    // A small selection lies as SVG above the bitmap; a large one is drawn into it.
-    const inBitmap = this.selection.keys.size > MOST_PINNED;
-    if (inBitmap || this.overview.showsSelection) this.overview.spoil();
-    this.overview.showsSelection = inBitmap;
-    this.#redrawSoon();
+    this.levels.selectionChanged();
   }
 
   /** Brings the mounted part up to what is seen. */
   cull() {
-    if (!this.far && this.#tooMuch(1)) this.#setFar(true);
-    else this.#mount();
+    this.levels.cull();
+  }
+
+  /** Whether all is seen as a bitmap. */
+  get far() {
+    return this.levels.far;
   }
 
   /** Brings a thing into sight, and near enough to be read. */
@@ -253,9 +242,8 @@ class Canvas {
     this.root.append(this.stage);
     const colours = (name) => this.theme.colour(name);
     this.viewport = new Viewport(this.stage, this.frame);
-    this.overview = new Overview(this.scene, this.viewport, colours);
     this.minimap = new Minimap(this.scene, this.viewport, colours);
-    this.snapshot = new Snapshot(this.painter, this.viewport, colours);
+    this.levels = new Levels(this, html("div", { class: "plane layer" }, [this.painter.svg]), colours);
     this.theme = new Theme(this.stage, () => this.#coloursChanged());
     this.toolbar = new Toolbar(this);
     this.selection = new Selection(this);
@@ -267,20 +255,17 @@ class Canvas {
     this.rename = new Rename(this);
     this.preview = new Preview(this);
     this.dots = html("div", { class: "dots" });
-    this.plane = html("div", { class: "plane layer" }, [this.painter.svg]);
     this.message = html("div", { class: "message", role: "status", hidden: true });
     this.empty = html("div", { class: "empty", hidden: true, text: "No states yet.\nDouble click, or press S, to add the first." });
     const corner = html("div", { class: "corner" }, [this.minimap.element, this.toolbar.element]);
     const above = [this.empty, this.message, this.rename.input, corner, this.menu.element];
-    this.stage.append(this.dots, ...this.overview.elements, this.snapshot.element, this.plane, ...above);
+    this.stage.append(this.dots, ...this.levels.elements, ...above);
     this.keyboard = new Keyboard(this);
   }
 
   #wire() {
     this.viewport.onChange = () => this.#viewChanged();
     this.viewport.onRest = () => this.#viewRests();
-    // What is pressed must be there to be found.
-    this.stage.addEventListener("pointerdown", () => this.#thaw(), { capture: true });
     this.sizes = new ResizeObserver(() => this.#resized());
     this.sizes.observe(this.stage);
     const fonts = Object.values(FONTS).map((font) => document.fonts.load(font));
@@ -304,88 +289,17 @@ class Canvas {
 
   #viewChanged() {
     const { x, y, k } = this.viewport;
-    const zooms = k !== this.shownZoom;
-    if (zooms) this.#freeze();
-    this.shownZoom = k;
     this.#placeDots(x, y, k);
     this.toolbar.show(k);
     this.minimap.follow();
     this.rename.follow();
-    this.overview.place();
-    this.snapshot.place();
-    if (this.frozen) return;
-    this.#placePlane();
-    if (!this.far && this.#tooMuch(1)) this.#setFar(true);
-    else if (!this.painter.covers(this.viewport.rect())) this.#uncovered(zooms);
-  }
-
-  #placePlane() {
-    const { x, y, k } = this.viewport;
-    this.plane.style.transform = `translate(${x}px, ${y}px) scale(${k})`;
-  }
-
-  /** While the view zooms, a crowd of things is stood for by its picture. */
-  #freeze() {
-    const isBusy = this.far || this.gestures.isDragging() || this.plane.contains(this.root.activeElement);
-    if (this.frozen || isBusy || this.viewport.resting || !this.snapshot.isWorthIt() || !this.overview.isThere()) return;
-    this.snapshot.finish(this.shownZoom);
-    this.frozen = true;
-    this.stage.classList.add("frozen");
-    this.#showUnderlay(true);
-  }
-
-  #thaw() {
-    if (!this.frozen) return;
-    this.frozen = false;
-    this.#placePlane();
-    this.cull();
-    this.stage.classList.remove("frozen");
-  }
-
-  /** The view moved past what is mounted. While it zooms the coarse bitmap must do; while it pans, things are mounted. */
-  #uncovered(zooms) {
-    if (zooms && this.overview.isThere()) this.#showUnderlay(true);
-    else this.#mount();
+    this.levels.follow();
   }
 
   #viewRests() {
     remember(this.scene.component, this.viewport);
-    if (this.far && !this.#tooMuch(LEAVING)) this.#setFar(false);
-    this.#thaw();
-    this.cull();
-    if (this.far) this.overview.sharpen(this.selection.keys);
+    this.levels.rest();
     this.handles.refresh();
-    if (this.shownZoom !== this.sharpZoom) this.#rasterAnew();
-    if (!this.far) this.snapshot.prepare(this.shownZoom);
-  }
-
-  /** A layer keeps the sharpness it was first drawn with; for a moment it must be none. */
-  #rasterAnew() {
-    this.sharpZoom = this.shownZoom;
-    this.plane.classList.remove("layer");
-    requestAnimationFrame(() => requestAnimationFrame(() => this.plane.classList.add("layer")));
-  }
-
-  #mount() {
-    this.painter.cull(this.viewport.rect(), { far: this.far, zoom: this.viewport.k, moving: !this.viewport.resting });
-    this.#showUnderlay(false);
-  }
-
-  #showUnderlay(shown) {
-    this.stage.classList.toggle("under", shown);
-  }
-
-  /** Whether there is more in sight than the browser should draw piece by piece; `slack` below 1 makes leaving harder. */
-  #tooMuch(slack) {
-    if (this.scene.nodes.size <= FAR_STATES) return false;
-    return this.viewport.k < FAR / slack || this.scene.nodeGrid.query(this.viewport.rect()).size > CROWD * slack;
-  }
-
-  #setFar(far) {
-    this.far = far;
-    if (far) this.overview.prepare(this.selection.keys);
-    this.stage.classList.toggle("far", far);
-    this.#mount();
   }
 
   /** The dots are one layer that is only moved and scaled; painting them anew in each frame would cost a third of all frames. */
@@ -399,11 +313,10 @@ class Canvas {
   }
 
   #coloursChanged() {
-    this.overview.spoil();
-    this.snapshot.forget();
+    this.levels.coloursChanged();
     this.frame?.ask("colours", () => {
       this.minimap.draw();
-      this.#redrawSoon();
+      this.levels.redrawSoon();
     });
   }
 
@@ -411,24 +324,12 @@ class Canvas {
     this.host.dataset.rev = String(this.scene.rev);
     this.empty.hidden = [...this.scene.nodes.values()].some((node) => node.of === "states");
     this.stage.setAttribute("aria-label", `State machine ${this.scene.component}`);
-    this.overview.spoil();
-    this.#thaw();
-    if (this.far && !this.#tooMuch(LEAVING)) this.#setFar(false);
+    this.levels.sceneChanged();
     this.frame.ask("minimap", () => this.minimap.draw());
     this.frame.ask("scene", () => {
       this.cull();
       this.handles.refresh();
       this.rename.follow();
-    });
-    this.#redrawSoon();
-  }
-
-  /** Bitmaps follow a change when there is time: soon when they are looked at, later when they only stand by. */
-  #redrawSoon() {
-    this.frame.afterRest("overview", this.far ? 60 : 500, () => {
-      if (this.gestures.isDragging() || !this.viewport.resting) return this.#redrawSoon();
-      this.overview.prepare(this.selection.keys);
-      if (this.far) this.overview.sharpen(this.selection.keys);
     });
   }
 

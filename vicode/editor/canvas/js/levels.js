@@ -1,0 +1,152 @@
+// How much is drawn piece by piece: near everything in sight, far bitmaps of it, and while a crowd zooms its picture.
+import { MOST_PINNED } from "./painter.js";
+import { Overview } from "./overview.js";
+import { Snapshot } from "./snapshot.js";
+
+const FAR = 0.3;
+const FAR_STATES = 150;
+const CROWD = 240;
+const LEAVING = 0.88;
+
+export class Levels {
+  constructor(canvas, plane, colours) {
+    this.canvas = canvas;
+    this.plane = plane;
+    this.far = false;
+    this.frozen = false;
+    this.shownZoom = 1;
+    this.sharpZoom = 1;
+    this.overview = new Overview(canvas.scene, canvas.viewport, colours);
+    this.snapshot = new Snapshot(canvas.painter, canvas.viewport, colours);
+    this.elements = [...this.overview.elements, this.snapshot.element, plane];
+    // What is pressed must be there to be found.
+    canvas.stage.addEventListener("pointerdown", () => this.#thaw(), { capture: true });
+  }
+
+  /** The view moved: what is shown moves along. */
+  follow() {
+    const { viewport, painter } = this.canvas;
+    const zooms = viewport.k !== this.shownZoom;
+    if (zooms) this.#freeze();
+    this.shownZoom = viewport.k;
+    this.overview.place();
+    this.snapshot.place();
+    if (this.frozen) return;
+    this.#placePlane();
+    if (!this.far && this.#tooMuch(1)) this.#setFar(true);
+    else if (!painter.covers(viewport.rect())) this.#uncovered(zooms);
+  }
+
+  /** The view came to rest: what is seen is drawn as well as it can be. */
+  rest() {
+    if (this.far && !this.#tooMuch(LEAVING)) this.#setFar(false);
+    this.#thaw();
+    this.cull();
+    if (this.far) this.overview.sharpen(this.canvas.selection.keys);
+    if (this.shownZoom !== this.sharpZoom) this.#rasterAnew();
+    if (!this.far) this.snapshot.prepare(this.shownZoom);
+  }
+
+  /** Brings the mounted part up to what is seen. */
+  cull() {
+    if (!this.far && this.#tooMuch(1)) this.#setFar(true);
+    else this.#mount();
+  }
+
+  cullSoon() {
+    this.canvas.frame.ask("cull", () => this.cull());
+  }
+
+  sceneChanged() {
+    this.overview.spoil();
+    this.#thaw();
+    if (this.far && !this.#tooMuch(LEAVING)) this.#setFar(false);
+    this.redrawSoon();
+  }
+
+  coloursChanged() {
+    this.overview.spoil();
+    this.snapshot.forget();
+  }
+
+  selectionChanged() {
+    if (!this.far) return;
+    this.cullSoon();
+    // A small selection lies as SVG above the bitmap; a large one is drawn into it.
+    const inBitmap = this.canvas.selection.keys.size > MOST_PINNED;
+    if (inBitmap || this.overview.showsSelection) this.overview.spoil();
+    this.overview.showsSelection = inBitmap;
+    this.redrawSoon();
+  }
+
+  /** Bitmaps follow a change when there is time: soon when they are looked at, later when they only stand by. */
+  redrawSoon() {
+    const { frame, gestures, viewport, selection } = this.canvas;
+    frame.afterRest("overview", this.far ? 60 : 500, () => {
+      if (gestures.isDragging() || !viewport.resting) return this.redrawSoon();
+      this.overview.prepare(selection.keys);
+      if (this.far) this.overview.sharpen(selection.keys);
+    });
+  }
+
+  #placePlane() {
+    const { x, y, k } = this.canvas.viewport;
+    this.plane.style.transform = `translate(${x}px, ${y}px) scale(${k})`;
+  }
+
+  /** A browser lays out every SVG text anew at each step of a zoom: a crowd of things is stood for by its picture. */
+  #freeze() {
+    const { gestures, root, viewport } = this.canvas;
+    const isBusy = this.far || gestures.isDragging() || this.plane.contains(root.activeElement);
+    if (this.frozen || isBusy || viewport.resting || !this.snapshot.isWorthIt() || !this.overview.isThere()) return;
+    this.snapshot.finish(this.shownZoom);
+    this.frozen = true;
+    this.canvas.stage.classList.add("frozen");
+    this.#showUnderlay(true);
+  }
+
+  #thaw() {
+    if (!this.frozen) return;
+    this.frozen = false;
+    this.#placePlane();
+    this.cull();
+    this.canvas.stage.classList.remove("frozen");
+  }
+
+  /** The view moved past what is mounted. While it zooms the coarse bitmap must do; while it pans, things are mounted. */
+  #uncovered(zooms) {
+    if (zooms && this.overview.isThere()) this.#showUnderlay(true);
+    else this.#mount();
+  }
+
+  /** A layer keeps the sharpness it was first drawn with; for a moment it must be none. */
+  #rasterAnew() {
+    this.sharpZoom = this.shownZoom;
+    this.plane.classList.remove("layer");
+    requestAnimationFrame(() => requestAnimationFrame(() => this.plane.classList.add("layer")));
+  }
+
+  #mount() {
+    const { painter, viewport } = this.canvas;
+    painter.cull(viewport.rect(), { far: this.far, zoom: viewport.k, moving: !viewport.resting });
+    this.#showUnderlay(false);
+  }
+
+  #showUnderlay(shown) {
+    this.canvas.stage.classList.toggle("under", shown);
+  }
+
+  /** Whether there is more in sight than the browser should draw piece by piece; `slack` below 1 makes leaving harder. */
+  #tooMuch(slack) {
+    const { scene, viewport } = this.canvas;
+    if (scene.nodes.size <= FAR_STATES) return false;
+    return viewport.k < FAR / slack || scene.nodeGrid.query(viewport.rect()).size > CROWD * slack;
+  }
+
+  #setFar(far) {
+    this.far = far;
+    if (far) this.overview.prepare(this.canvas.selection.keys);
+    this.canvas.stage.classList.toggle("far", far);
+    this.#mount();
+  }
+}
