@@ -19,7 +19,7 @@ def open_table(page: Page, url: str, design: str = PLAYER) -> None:
 
 
 def cell(page: Page, row: str, column: str) -> Locator:
-    return page.locator(f'.vicode-table .row[data-id="{row}"] .cell.{column}')
+    return page.locator(f'.vicode-table .row[data-id="{row}"] .cell.c-{column}')
 
 
 def press(page: Page, *keys: str) -> None:

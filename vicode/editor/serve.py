@@ -61,12 +61,15 @@ def serve(path: Path, address: Address, *, open_browser: bool = True) -> None:
     add_pages(Library(path))
     hosts = ("127.0.0.1", "localhost", "::1") if not address.token else None
     app.add_middleware(Guard, hosts=hosts, token=address.token)
+    # Quasar's bar for requests under way is a landmark without a name, and says nothing here: all is one socket.
+    app.config.quasar_config["loadingBar"] = {"skipHijack": True}
     app.on_startup(lambda: background_tasks.create(_announce(path, address), name="announce"))
     ui.run(
         host=address.host,
         port=address.port,
         title="vicode",
         dark=None,
+        language="en-US",
         reload=False,
         show=address.url if open_browser else False,
         show_welcome_message=False,

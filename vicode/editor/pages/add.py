@@ -49,9 +49,8 @@ def add_pages(library: Library) -> None:
 
 
 def _nothing(title: str, hint: str) -> None:
-    ui.dark_mode(None)
     add_look()
-    with ui.column().classes("nothing"):
-        ui.label(title).classes("dialog-title")
+    with ui.element("main").classes("nothing"):
+        ui.label(title).classes("dialog-title").props("role=heading aria-level=1")
         ui.label(hint).classes("empty")
         ui.link("Show the designs", "/")

@@ -35,13 +35,13 @@ class DesignPage:
         person = greet_visitor(library.people)
         hand = Document(document.sheet, person.id)
         self.desk = desk = Desk(workspace=workspace, document=hand, say=_say)
-        theme = Theme(desk.code_editors)
+        theme = Theme(desk.code_editors, add_look())
         problems = Problems(desk)
-        add_look()
         with ui.element("div").classes("shell"):
+            skip = ui.element("a").classes("skip-link")
             head = ui.element("header").classes("head")
             self.designs = DesignsList(library, (workspace.key, document.design.component), _say)
-            with ui.element("main").classes("stage"):
+            with ui.element("main").classes("stage").props("tabindex=-1") as main:
                 self.stage = Stage(desk)
             with ui.element("section").classes("dock").props('aria-label="Findings"'):
                 self.dock = Tabs({"Findings": lambda: FindingsPanel(desk, problems)}, place="dock")
@@ -59,6 +59,8 @@ class DesignPage:
         going.palette.commands = commands
         with head:
             self.header = Header(desk, commands, way.trail)
+        with skip.props(f"href=#{main.html_id}"):
+            ui.label("Skip to the design")
         listen_to_keys(commands)
         arrived = going.start(way.select)
         desk.listen(self._refresh)

@@ -12,7 +12,7 @@ class CodeEditors:
 
     def __init__(self) -> None:
         """Begin with light colours; the window says when it knows better."""
-        self._theme: SUPPORTED_THEMES = "githubLight"
+        self._theme: SUPPORTED_THEMES = "vscodeLight"
         self._made: WeakSet[ui.codemirror] = WeakSet()
 
     def make(
@@ -27,7 +27,7 @@ class CodeEditors:
 
     def set_dark(self, *, is_dark: bool) -> None:
         """Use dark or light colours in all of them from now on."""
-        self._theme = "githubDark" if is_dark else "githubLight"
+        self._theme = "githubDark" if is_dark else "vscodeLight"
         for editor in tuple(self._made):
             if not editor.is_deleted:
                 editor.set_theme(self._theme)

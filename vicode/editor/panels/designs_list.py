@@ -4,6 +4,7 @@ from collections.abc import Callable
 
 from nicegui import ui
 
+from vicode.editor.panels.dialogs import titled_dialog
 from vicode.editor.panels.rows import icon_button, primary_button
 from vicode.editor.session import Library, Workspace
 from vicode.editor.view.address import design_address
@@ -66,8 +67,7 @@ class DesignsList:
 
 def _creator(workspace: Workspace, say: Say) -> Callable[[], None]:
     def ask() -> None:
-        with ui.dialog() as dialog, ui.card().classes("dialog"):
-            ui.label("New design").classes("dialog-title")
+        with titled_dialog("New design") as dialog:
             name = ui.input("Component", placeholder="FollowBall").props("outlined dense stack-label autofocus")
 
             def create() -> None:
@@ -84,6 +84,5 @@ def _creator(workspace: Workspace, say: Say) -> Callable[[], None]:
             with ui.row().classes("dialog-buttons"):
                 ui.button("Cancel", on_click=dialog.close).props("flat no-caps")
                 primary_button("Create", create)
-        dialog.open()
 
     return ask

@@ -37,6 +37,6 @@ def row_of_buttons(*, up: Act | None, down: Act | None, remove: Act) -> None:
 def heading(text: str, *, hint: str = "") -> None:
     """A heading inside a panel."""
     with ui.row().classes("heading"):
-        ui.label(text)
+        ui.label(text).props("role=heading aria-level=2")
         if hint:
             ui.label(hint).classes("heading-hint")

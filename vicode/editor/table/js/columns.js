@@ -35,7 +35,7 @@ export function editorOf(row, column) {
 export function drawCell(cell, row, column) {
   const value = row.cells[column.name];
   cell.replaceChildren();
-  cell.className = ["cell", column.name, column.mono ? "mono" : "", value === undefined ? "blank" : ""].join(" ").trim();
+  cell.className = ["cell", `c-${column.name}`, column.mono ? "mono" : "", value === undefined ? "blank" : ""].join(" ").trim();
   cell.setAttribute("aria-readonly", String(!isEditable(row, column)));
   if (column.kind === "flag" && value !== undefined) return drawFlag(cell, row, column, value);
   if (column.name === "name") drawLead(cell, row);

@@ -136,7 +136,7 @@ class Table {
       return element;
     };
     const heads = COLUMNS.map((column, index) => {
-      const head = make(`head-cell ${column.name}`, "columnheader");
+      const head = make(`head-cell c-${column.name}`, "columnheader");
       head.textContent = column.title;
       head.setAttribute("aria-colindex", String(index + 1));
       return head;
@@ -275,7 +275,7 @@ class Table {
   }
 
   #drawRow(element, row) {
-    element.className = `row ${row.kind}${row.cells.disabled ? " disabled" : ""}`;
+    element.className = `row ${row.kind}${row.cells.disabled ? " is-disabled" : ""}`;
     element.style.setProperty("--level", String(row.level - 1));
     element.setAttribute("aria-level", String(row.level));
     element.setAttribute("aria-selected", String(this.selected.has(row.id)));

@@ -1,0 +1,113 @@
+"""Everybody can use it: axe finds nothing on any view of the pages, and what axe cannot see is tried by hand."""
+
+from collections.abc import Iterator
+
+import pytest
+from axe_playwright_python.sync_playwright import Axe
+from playwright.sync_api import Page, expect
+
+PLAYER = "design/forward/Player"
+AXE = Axe()
+OPTIONS = {"resultTypes": ["violations"]}
+
+expect.set_options(timeout=20_000)
+
+
+def complaints(page: Page, within: str | None = None) -> list[str]:
+    """What axe finds, one line a thing."""
+    violations = AXE.run(page, context=within, options=OPTIONS).response["violations"]
+    return [f"{each['id']}: {node['target']} {node['html'][:120]}" for each in violations for node in each["nodes"]]
+
+
+def tabs(page: Page) -> Iterator[str]:
+    """Every tab of the page in turn, opened."""
+    for name in page.get_by_role("tab").all_inner_texts():
+        page.get_by_role("tab", name=name.strip(), exact=True).click()
+        expect(page.get_by_role("tab", name=name.strip(), exact=True)).to_have_attribute("aria-selected", "true")
+        yield name
+
+
+def open_player(page: Page, url: str) -> None:
+    page.set_viewport_size({"width": 1366, "height": 768})
+    page.goto(url + PLAYER)
+    expect(page.locator('g[data-kind="state"]').first).to_be_visible()
+    expect(page.get_by_label("Doc").first).to_be_visible()
+
+
+@pytest.mark.parametrize("colours", ["light", "dark"])
+def test_axe_finds_nothing(editor: str, page: Page, colours: str) -> None:
+    page.emulate_media(color_scheme="dark" if colours == "dark" else "light", reduced_motion="reduce")
+    open_player(page, editor)
+    found = {"design": complaints(page)}
+    box = page.locator('g[data-id="WatchBall"] rect.box').bounding_box()
+    assert box is not None
+    page.mouse.click(box["x"] + box["width"] / 2, box["y"] + 8)
+    expect(page.get_by_label("State", exact=True)).to_be_visible()
+    found["state"] = complaints(page)
+    page.keyboard.press("F4")
+    expect(page.get_by_role("treegrid")).to_be_visible()
+    page.locator('.row[data-id="transitions/WatchBall/1"] .c-when').click()
+    expect(page.get_by_label("When").first).to_be_visible()
+    page.keyboard.press("F2")
+    page.keyboard.type("x +")
+    page.keyboard.press("Enter")
+    expect(page.locator(".finding").first).to_be_visible()
+    found["table and transition"] = complaints(page)
+    found |= {f"tab {name}": complaints(page) for name in tabs(page)}
+    page.get_by_role("button", name="New design").first.click()
+    expect(page.get_by_role("dialog")).to_be_visible()
+    # What lies under a dialog is out of reach, and dimmed.
+    found["dialog"] = complaints(page, ".q-dialog")
+    page.goto(editor + "design/forward/Nobody")
+    expect(page.get_by_role("heading", level=1)).to_be_visible()
+    found["no such design"] = complaints(page)
+    page.goto(editor)
+    expect(page.get_by_role("heading", level=1)).to_be_visible()
+    found["home"] = complaints(page)
+    text = "\n".join(f"{where}: {line}" for where, lines in found.items() for line in lines)
+    assert not text, text
+
+
+def test_the_first_tab_leads_past_everything_to_the_design(editor: str, page: Page) -> None:
+    open_player(page, editor)
+    page.keyboard.press("Tab")
+    link = page.get_by_role("link", name="Skip to the design")
+    expect(link).to_be_focused()
+    expect(link).to_be_in_viewport()
+    page.keyboard.press("Enter")
+    page.keyboard.press("Tab")
+    expect(page.get_by_role("button", name="Drawing")).to_be_focused()
+
+
+def test_a_page_is_dark_before_anything_has_loaded(editor: str, page: Page, console_errors: list[str]) -> None:
+    page.emulate_media(color_scheme="dark")
+    for kind in ("**/*.js", "**/*.css"):
+        page.route(kind, lambda route: route.abort())
+    page.goto(editor + PLAYER, wait_until="commit")
+    page.wait_for_function("document.body !== null")
+    assert page.evaluate("getComputedStyle(document.documentElement).backgroundColor") == "rgb(17, 22, 30)"
+    assert page.evaluate("getComputedStyle(document.body).backgroundColor") == "rgba(0, 0, 0, 0)"
+    console_errors.clear()
+
+
+def test_chosen_colours_are_kept(editor: str, page: Page) -> None:
+    page.emulate_media(color_scheme="light")
+    open_player(page, editor)
+    page.get_by_role("button", name="Light, dark, or as the system").click()
+    expect(page.locator("body.body--dark")).to_be_attached()
+    page.reload()
+    expect(page.locator("body.body--dark")).to_be_attached()
+    assert page.evaluate("getComputedStyle(document.documentElement).backgroundColor") == "rgb(17, 22, 30)"
+
+
+def test_at_twice_the_size_nothing_is_out_of_reach(editor: str, page: Page) -> None:
+    open_player(page, editor)
+    # A window of 1366 × 768 at 200 %.
+    page.set_viewport_size({"width": 683, "height": 384})
+    for name in ("Save", "Generate", "Table"):
+        button = page.get_by_role("button", name=name, exact=name != "Generate").first
+        button.scroll_into_view_if_needed()
+        expect(button).to_be_in_viewport(ratio=1)
+    page.get_by_label("Doc").first.scroll_into_view_if_needed()
+    expect(page.get_by_label("Doc").first).to_be_in_viewport()
+    assert page.evaluate("document.querySelector('.shell').scrollWidth <= innerWidth")

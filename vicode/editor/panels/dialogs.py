@@ -1,0 +1,17 @@
+"""Dialogs with a title that is also their name for screen readers."""
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+from nicegui import ui
+
+
+@contextmanager
+def titled_dialog(title: str) -> Iterator[ui.dialog]:
+    """A dialog to be filled; it opens when it is left."""
+    with ui.dialog() as dialog, ui.card().classes("dialog"):
+        # Set, not written into a text of props: titles hold names.
+        dialog.props["aria-label"] = title
+        ui.label(title).classes("dialog-title").props("role=heading aria-level=2")
+        yield dialog
+    dialog.open()
