@@ -63,6 +63,7 @@ def serve(path: Path, address: Address, *, open_browser: bool = True) -> None:
     app.add_middleware(Guard, hosts=hosts, token=address.token)
     # Quasar's bar for requests under way is a landmark without a name, and says nothing here: all is one socket.
     app.config.quasar_config["loadingBar"] = {"skipHijack": True}
+    app.config.quasar_config["ripple"] = False
     app.on_startup(lambda: background_tasks.create(_announce(path, address), name="announce"))
     ui.run(
         host=address.host,
