@@ -34,6 +34,8 @@ _GRIP = """
       keep(width);
     }, { once: true });
   });
+  // The grip comes later than this script: it says its width when it is reached.
+  document.addEventListener("focusin", (event) => onGrip(event) && show(width));
   document.addEventListener("dblclick", (event) => { if (onGrip(event)) { show(usual()); keep(width); } });
   document.addEventListener("keydown", (event) => {
     const step = { ArrowLeft: 32, ArrowRight: -32, Home: most(), End: -most() }[event.key];
@@ -53,4 +55,4 @@ def side_grip() -> None:
     ui.add_body_html(_GRIP)
     grip = ui.element("div").classes("side-grip")
     grip.props('role="separator" tabindex="0" aria-orientation="vertical" aria-label="Width of the side panel"')
-    grip.props('aria-valuemin="280" aria-valuemax="1200"')
+    grip.props('aria-valuemin="280" aria-valuemax="1200" aria-valuenow="368"')
