@@ -2,6 +2,7 @@
 
 from nicegui import background_tasks, run, ui
 
+from vicode.editor.code import CodeAid
 from vicode.editor.panels.desk import Desk
 from vicode.editor.session import preview
 
@@ -18,6 +19,7 @@ class CodePanel:
             self.note = ui.label().classes("code-note mono")
             self.editor = desk.code_editors.make().classes("preview")
             self.editor.disable()
+            CodeAid(self.editor, label="Generated code")
 
     def refresh(self) -> None:
         """Generate anew if the design has changed since."""

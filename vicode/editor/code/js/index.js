@@ -50,5 +50,7 @@ function attributesFor(wishes) {
     "aria-description": wishes.asks ? hint : "",
     spellcheck: "false",
     autocapitalize: "off",
+    // One that is only read must be reached by Tab too, to be scrolled.
+    tabindex: "0",
   });
 }
