@@ -41,6 +41,12 @@ def test_changes_of_state_and_a_summary_are_printed(lamps: Path) -> None:
     assert lines[-1] == "errors: 0"
 
 
+def test_a_trace_has_values_when_they_are_asked_for(lamps: Path) -> None:
+    process = start("lamps/lamp.yaml", "--ticks", "2", "--trace", "trace", "--values")
+    process.communicate(timeout=60)
+    assert "values" in json.loads(Path("trace").read_text().splitlines()[0])["tree"][0]
+
+
 def test_the_same_seed_gives_the_same_trace(lamps: Path) -> None:
     for name in ("one", "two"):
         process = start("lamps/lamp.yaml", "--ticks", "40", "--seed", "3", "--trace", name)

@@ -1,7 +1,6 @@
 """Run a component in the world of its project, and watch it."""
 
 import argparse
-import os
 import subprocess
 import sys
 import tempfile
@@ -32,6 +31,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add("--ticks", type=options.count, metavar="N", help="stop after N iterations")
     add("--seed", type=int, default=0, metavar="N", help="seed of the world (0)")
     add("--trace", metavar="FILE", help="write one JSON line an iteration, and a summary")
+    add("--values", action="store_true", help="with outputs and variables in the trace, to simulate with it")
     add("--real-time", action="store_true", help="let real time pass; else it is simulated, as fast as it goes")
     add("--tick-ms", type=options.tick_ms, metavar="MS", help="time between two iterations (20)")
     add("--until-done", action="store_true", help="stop when the root component is done")
@@ -90,11 +90,13 @@ def _command(opened: Opened, class_path: str, folder: str, args: argparse.Namesp
     given = {"--seconds": seconds, "--ticks": args.ticks, "--tick-ms": args.tick_ms, "--trace": args.trace}
     command += [part for name, value in given.items() if value is not None for part in (name, str(value))]
     command += ["--on-error", args.on_error]
-    return command + ["--real-time"] * args.real_time + ["--until-done"] * args.until_done
+    flags = {"--values": args.values, "--real-time": args.real_time, "--until-done": args.until_done}
+    return command + [name for name, is_given in flags.items() if is_given]
 
 
 def _watch(command: list[str], *, is_plain: bool) -> int:
     from vicode.cli.watching import PlainWatcher, follow
+    from vicode.simulation.environment import fresh_environment
 
     is_live = sys.stdout.isatty() and not is_plain
     # In a session of its own the child does not get the terminal's Ctrl-C, but ours, once.
@@ -106,7 +108,7 @@ def _watch(command: list[str], *, is_plain: bool) -> int:
         text=True,
         encoding="utf-8",
         errors="replace",
-        env=_environment(),
+        env=fresh_environment(),
         start_new_session=True,
     )
     watcher: Watcher = PlainWatcher()
@@ -115,10 +117,3 @@ def _watch(command: list[str], *, is_plain: bool) -> int:
 
         watcher = LiveWatcher()
     return follow(child, watcher)
-
-
-def _environment() -> dict[str, str]:
-    """Ours, with vicode on the path even where it is not installed."""
-    home = str(Path(__file__).parents[2])
-    paths = [path for path in os.environ.get("PYTHONPATH", "").split(os.pathsep) if path]
-    return {**os.environ, "PYTHONPATH": os.pathsep.join([*paths, home]), "PYTHONIOENCODING": "utf-8"}

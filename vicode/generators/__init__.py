@@ -4,11 +4,19 @@ from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass
 
 from vicode.generators.plan import UnsoundDesignError, collect_components, plan_package, plan_project
-from vicode.generators.python import RESERVED_MODULES, class_path, generate_python, list_paths
+from vicode.generators.python import RESERVED_MODULES, class_path, generate_probes, generate_python, list_paths
 from vicode.model.project import Project
 from vicode.output import OutputFile
 
-__all__ = ["GENERATORS", "UnsoundDesignError", "collect_components", "generate", "list_outputs", "python_class"]
+__all__ = [
+    "GENERATORS",
+    "UnsoundDesignError",
+    "collect_components",
+    "generate",
+    "list_outputs",
+    "python_class",
+    "python_probes",
+]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -77,6 +85,16 @@ def python_class(project: Project, component: str) -> str:
     if project.design(component) is None:
         return interface.implementation
     return class_path(plan_package(project, RESERVED_MODULES), component)
+
+
+def python_probes(project: Project, component: str) -> OutputFile:
+    """A module that tests the guards of a design between iterations; it stands in the package beside the others.
+
+    Raises:
+        UnsoundDesignError: The design has mistakes.
+    """
+    plan = plan_project(project, {component}, {}, RESERVED_MODULES)
+    return generate_probes(plan, plan.components[0])
 
 
 def _choose(project: Project, languages: Collection[str] | None) -> list[Generator]:

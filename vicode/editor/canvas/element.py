@@ -37,7 +37,8 @@ class Canvas(ui.element, component="js/vicode_canvas.js"):
         self._links_shown = True
         self._arrival: tuple[Kind, str] | None = None
         self._is_mounted = False
-        self._active: tuple[list[str], int] = ([], -1)
+        self._active: tuple[list[str], int, list[str]] = ([], -1, [])
+        self._stops: list[Item] = []
         self._acknowledged = -1
         self._sent = -1
         # Handlers added after the first rendering would make NiceGUI mount the element anew.
@@ -106,20 +107,26 @@ class Canvas(ui.element, component="js/vicode_canvas.js"):
         """End a preview and keep the view, as its places were taken."""
         self._call("showPlaces", [], True)
 
-    def set_active(self, ids: Sequence[str], seq: int) -> None:
-        """Highlight the states that are active in a running component.
+    def set_active(self, ids: Sequence[str], seq: int, taken: Sequence[str] = ()) -> None:
+        """Highlight the states that are active in a running component, and the transitions that led there.
 
         Only the newest is shown: while a browser has not painted one, later ones wait and replace each other.
 
         Args:
             ids: the active states.
             seq: a number that grows with every call; an older one is ignored.
+            taken: the transitions taken last.
         """
         if seq <= self._active[1]:
             return
-        self._active = (list(ids), seq)
+        self._active = (list(ids), seq, list(taken))
         if self._sent == self._acknowledged:
             self._send_active()
+
+    def set_stops(self, items: Iterable[Item]) -> None:
+        """Show signs at exactly these things, where a run is to rest."""
+        self._stops = list(items)
+        self._call("setStops", self._stops)
 
     def show_links(self, flag: bool) -> None:
         """Show or hide what states require and modulate."""
@@ -136,8 +143,8 @@ class Canvas(ui.element, component="js/vicode_canvas.js"):
         return {**self._scene, **{kind: list(self._scene[kind].values()) for kind in _KINDS}}
 
     def _send_active(self) -> None:
-        ids, self._sent = self._active
-        self._call("setActive", ids, self._sent)
+        ids, self._sent, taken = self._active
+        self._call("setActive", ids, self._sent, taken)
 
     async def _hear_gesture(self, event: GenericEventArguments) -> None:
         gesture = cast("Gesture", event.args)
@@ -156,6 +163,7 @@ class Canvas(ui.element, component="js/vicode_canvas.js"):
         if self._arrival:
             self._call("arriveAt", *self._arrival)
             self._arrival = None
+        self._call("setStops", self._stops)
         if self._active[1] >= 0:
             self._send_active()
 

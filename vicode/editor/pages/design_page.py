@@ -21,6 +21,7 @@ from vicode.editor.panels.help_dialog import show_help
 from vicode.editor.panels.inspector import Inspector
 from vicode.editor.panels.problems import Problems
 from vicode.editor.panels.side_grip import side_grip
+from vicode.editor.panels.simulation import SimulationPanel, Simulator, simulation_commands
 from vicode.editor.panels.tabs import Tabs
 from vicode.editor.session import Document, Library, Workspace
 
@@ -43,8 +44,15 @@ class DesignPage:
             self.designs = DesignsList(library, (workspace.key, document.design.component), _say)
             with ui.element("main").classes("stage").props("tabindex=-1") as main:
                 self.stage = Stage(desk)
+            self.simulator = simulator = Simulator(desk, self.stage.drawing.canvas)
             with ui.element("section").classes("dock").props('aria-label="Findings"'):
-                self.dock = Tabs({"Findings": lambda: FindingsPanel(desk, problems)}, place="dock")
+                self.dock = Tabs(
+                    {
+                        "Findings": lambda: FindingsPanel(desk, problems),
+                        "Simulate": lambda: SimulationPanel(simulator),
+                    },
+                    place="dock",
+                )
             with ui.element("aside").classes("side").props('aria-label="Inspector"'):
                 side_grip()
                 self.side = Tabs(
@@ -53,6 +61,7 @@ class DesignPage:
         actions = Actions(desk, self.stage.drawing, theme)
         going = Going(desk, way.index, way.trail)
         commands = (*actions.commands(), *problems.commands(), *self.stage.commands(), *going.commands())
+        commands += simulation_commands(simulator, lambda: self.dock.show("Simulate"))
         help_ = Command("help", "Keys and gestures", lambda: show_help(commands), Place.VIEW, icon="help", keys=("?",))
         commands += (help_,)
         commands += self.stage.drawing.commands(commands)
@@ -91,6 +100,7 @@ class DesignPage:
         if not self.stage.drawing.canvas.is_deleted:
             with self.stage.drawing.canvas.client:
                 self.stage.follow()
+                self.simulator.design_changed()
                 self.desk.tell()
 
     def _refresh(self) -> None:

@@ -13,6 +13,7 @@ class Place(StrEnum):
     DESIGN = "Design"
     EDIT = "Edit"
     VIEW = "View"
+    SIMULATE = "Simulate"
 
 
 @dataclass(frozen=True, slots=True)

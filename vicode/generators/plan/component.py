@@ -196,7 +196,7 @@ class _Planner:
                 outcome = Change(state=to, transition=given_id)
             case _:
                 outcome = Keep()
-        return Alternative(conditions=conditions, outcome=outcome, doc=decision.doc)
+        return Alternative(conditions=conditions, outcome=outcome, doc=decision.doc, id=decision.id)
 
     def _plan_conditions(self, decision: Decision, source: str) -> tuple[Condition, ...]:
         guard = decision.guard

@@ -89,11 +89,12 @@ class Branch:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Alternative:
-    """If all conditions hold, tested in order (none: always), the outcome is taken."""
+    """If all conditions hold, tested in order (none: always), the outcome is taken; `id` if it was given one."""
 
     conditions: tuple[Condition, ...]
     outcome: Change | Keep | Branch
     doc: str = ""
+    id: str = ""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -43,3 +43,22 @@ class DeclarationsView:
     imports: tuple[str, ...]
     enumerations: tuple[ClassView, ...]
     constants: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class GuardView:
+    """How one guard is tested: `id` and `reads` are quoted, `conditions` and the values of `reads` are expressions."""
+
+    id: str
+    conditions: tuple[str, ...]
+    reads: tuple[tuple[str, str], ...]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ProbesView:
+    """A module that tests the guards of a component: `sources` are states, quoted, with their guards."""
+
+    docstring: str
+    imports: tuple[str, ...]
+    sources: tuple[tuple[str, tuple[GuardView, ...]], ...]
+    enumerations: tuple[tuple[str, str], ...]

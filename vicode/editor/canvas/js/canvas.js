@@ -59,6 +59,7 @@ class Canvas {
     this.fitPending = this.fitPending || !same;
     this.selection.keys = new Set();
     this.selection.set(kept, { quiet: true });
+    this.painter.mark("stop", this.stops ?? []);
     if (this.fitPending && this.viewport.measure()) arrive(this);
     this.#sceneChanged();
     this.host.dataset.ready = "true";
@@ -107,14 +108,21 @@ class Canvas {
   }
 
   /** Highlights the states a running component is in; an older picture never replaces a newer one. */
-  setActive(ids, seq) {
+  setActive(ids, seq, taken = []) {
     if (seq <= this.activeSeq) return;
     this.activeSeq = seq;
     this.frame.ask("active", () => {
       this.painter.mark("active", ids.map((id) => keyOf("states", id)));
+      this.painter.mark("taken", taken.map((id) => keyOf("transitions", id)));
       if (this.far) this.cull();
       this.emit("ack", { seq: this.activeSeq });
     });
+  }
+
+  /** Shows signs at the things where a run is to rest. */
+  setStops(items) {
+    this.stops = items.map(({ of, id }) => keyOf(of, id));
+    this.painter.mark("stop", this.stops);
   }
 
   showLinks(flag) {

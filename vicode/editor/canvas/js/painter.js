@@ -2,11 +2,12 @@
 import { drawEdge, edgeHint, placeEdge } from "./edge_art.js";
 import { covers, grow, overlaps, rectOf } from "./geometry.js";
 import { drawNode, nodeHint, placeNode } from "./node_art.js";
+import { showStop } from "./stop_sign.js";
 import { svg } from "./svg.js";
 
 // Marked things stay mounted also where the overview bitmap stands for the rest, up to this many of each mark.
 export const MOST_PINNED = 150;
-const PINNED = { selected: MOST_PINNED, active: MOST_PINNED, drop: 1, lit: 200, held: 1500 };
+const PINNED = { selected: MOST_PINNED, active: MOST_PINNED, taken: 1, drop: 1, lit: 200, held: 1500 };
 
 const MOST_MOUNTED = 2500;
 
@@ -15,7 +16,7 @@ export class Painter {
     this.scene = scene;
     this.router = router;
     this.items = new Map();
-    this.marks = new Map(["selected", "active", "drop", "held", "lit", "hover"].map((name) => [name, new Set()]));
+    this.marks = new Map(["selected", "active", "taken", "stop", "drop", "held", "lit", "hover"].map((name) => [name, new Set()]));
     this.layers = { links: svg("g"), edges: svg("g"), nodes: svg("g"), chips: svg("g"), above: svg("g") };
     this.svg = svg("svg", { "aria-hidden": "false" }, Object.values(this.layers));
     this.covered = null;
@@ -188,6 +189,7 @@ export class Painter {
 
   #toggle(key, name, on) {
     this.looks += 1;
+    if (name === "stop") showStop(this.items.get(key), this.scene.find(key), on);
     for (const part of Object.values(this.items.get(key) ?? {})) {
       if (!part) continue;
       part.classList.toggle(name, on);

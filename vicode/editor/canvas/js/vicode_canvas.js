@@ -30,8 +30,11 @@ export default {
     fit() {
       this.canvas.fit();
     },
-    setActive(ids, seq) {
-      this.canvas.setActive(ids, seq);
+    setActive(ids, seq, taken) {
+      this.canvas.setActive(ids, seq, taken);
+    },
+    setStops(items) {
+      this.canvas.setStops(items);
     },
     showLinks(flag) {
       this.canvas.showLinks(flag);

@@ -1,0 +1,167 @@
+"""User code that fails, hangs, floods or dies is told in words with its place, and nothing of it reaches the editor."""
+
+from pathlib import Path
+
+import pytest
+
+from tests.editor.simulation.lamps import simulate, stage_of, write_lamps
+from vicode.editor.session.simulation import NotReadyError, Phase, Simulation
+from vicode.editor.view.activation import mistake_of
+from vicode.simulation import Stops
+
+DESIGN = """
+vicode: 1
+component: Lamp
+initial: Dark
+states:
+  Dark:
+    enter: |
+      import os, sys, time
+      {enter}
+    transitions: [{{to: Lit, after: 0.02}}]
+  Lit:
+    actions:
+      - code: |
+          import os, sys, time
+          {code}
+"""
+
+
+def lamp(folder: Path, code: str, enter: str = "pass") -> Path:
+    return write_lamps(folder / "lamps", DESIGN.format(code=code, enter=enter))
+
+
+def failure_words(simulation: Simulation) -> str:
+    failure = simulation.failure
+    assert failure is not None
+    if failure.error is None:
+        return failure.message
+    return mistake_of(simulation.stage.design, failure.error).words
+
+
+def test_an_endless_loop_is_told_with_its_line(tmp_path: Path) -> None:
+    folder = lamp(tmp_path, "while True: pass")
+
+    async def act(simulation: Simulation) -> None:
+        assert await simulation.step(5) == ""
+        assert simulation.phase is Phase.FAILED
+        assert simulation.cursor == 1
+        words = failure_words(simulation)
+        assert words.startswith("Lamp, state Lit, Lit.actions, line 2: did not come to an end within 0.3 s")
+        # The past is still there, and a step from it meets the same end.
+        simulation.back()
+        assert await simulation.step(5) == ""
+        assert simulation.cursor == 1
+
+    simulate(stage_of(folder, limit_s=0.3), folder, act)
+
+
+def test_a_loop_that_catches_everything_is_killed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("vicode.editor.session.simulation.process._GRACE_S", 0.5)
+    code = "while True:\n              try: time.sleep(9)\n              except BaseException: pass"
+    folder = lamp(tmp_path, code)
+
+    async def act(simulation: Simulation) -> None:
+        assert await simulation.step(5) == ""
+        assert "lamp, Lit.actions, line" in failure_words(simulation)
+        assert "did not come to an end within" in failure_words(simulation)
+
+    simulate(stage_of(folder, limit_s=0.3), folder, act)
+
+
+@pytest.mark.parametrize(
+    ("code", "words"),
+    [
+        ("os._exit(3)", "left the program with exit code 3"),
+        ("sys.exit(4)", "Lamp, state Lit, Lit.actions, line 2: left the program by SystemExit: 4"),
+        ("os.kill(os.getpid(), 11)", "lamp, Lit.actions, line 2: was ended by SIGSEGV"),
+    ],
+)
+def test_a_death_is_told(tmp_path: Path, code: str, words: str) -> None:
+    folder = lamp(tmp_path, code)
+
+    async def act(simulation: Simulation) -> None:
+        assert await simulation.step(5) == ""
+        assert words in failure_words(simulation)
+
+    simulate(stage_of(folder), folder, act)
+
+
+def test_an_exception_is_told_and_the_run_goes_on(tmp_path: Path) -> None:
+    folder = lamp(tmp_path, "1 / 0")
+
+    async def act(simulation: Simulation) -> None:
+        assert await simulation.step(9, Stops(errors=True)) == "error"
+        assert simulation.moment is not None
+        mistake = mistake_of(simulation.stage.design, simulation.moment.errors[0])
+        assert mistake.words == "Lamp, state Lit, Lit.actions, line 2: ZeroDivisionError: division by zero"
+        assert mistake.thing is not None
+        assert (mistake.thing.of, mistake.thing.id) == ("states", "Lit")
+        assert await simulation.step(3) == "count"
+
+    simulate(stage_of(folder), folder, act)
+
+
+def test_a_flood_of_prints_is_bounded(tmp_path: Path) -> None:
+    folder = lamp(tmp_path, "for n in range(50000): print('x' * 50)")
+
+    async def act(simulation: Simulation) -> None:
+        await simulation.step(2)
+        assert simulation.moment is not None
+        assert (len(simulation.moment.prints), simulation.moment.unprinted) == (200, 49_800)
+
+    simulate(stage_of(folder, limit_s=20.0), folder, act)
+
+
+def test_writing_past_python_does_not_reach_the_protocol(tmp_path: Path) -> None:
+    folder = lamp(tmp_path, """os.write(1, b'{"kind":"failed"}\\n' * 5000); os.write(2, b'y' * 100000)""")
+
+    async def act(simulation: Simulation) -> None:
+        assert await simulation.step(4) == "count"
+        assert simulation.failure is None
+
+    simulate(stage_of(folder), folder, act)
+
+
+def test_memory_is_bounded(tmp_path: Path) -> None:
+    folder = lamp(tmp_path, "self.much = bytearray(2 << 30)")
+
+    async def act(simulation: Simulation) -> None:
+        await simulation.step(2)
+        assert simulation.moment is not None
+        assert simulation.moment.errors[0]["message"] == "MemoryError"
+
+    simulate(stage_of(folder, memory_bytes=300 << 20), folder, act)
+
+
+def test_what_cannot_be_loaded_is_told(tmp_path: Path) -> None:
+    folder = write_lamps(tmp_path / "lamps")
+    (folder / "hands.py").write_text("import nothing_of_this_name\n")
+
+    async def act(simulation: Simulation) -> None:
+        await simulation.begin()
+        assert simulation.phase is Phase.FAILED
+        assert "No module named 'nothing_of_this_name' [" in failure_words(simulation)
+        assert "hands.py:1]" in failure_words(simulation)
+
+    simulate(stage_of(folder, stood_in=frozenset()), folder, act)
+
+
+def test_a_design_with_mistakes_is_not_started(tmp_path: Path) -> None:
+    states = "{Dark: {transitions: [{to: Dark, when: nobody}]}}"
+    folder = write_lamps(tmp_path / "lamps", f"vicode: 1\ncomponent: Lamp\ninitial: Dark\nstates: {states}\n")
+    with pytest.raises(NotReadyError, match=r"Lamp: .*nobody.* Mend it, then start again"):
+        stage_of(folder)
+
+
+def test_code_that_reads_the_real_time_is_noticed(tmp_path: Path) -> None:
+    folder = lamp(tmp_path, "self.noise = time.time_ns()")
+
+    async def act(simulation: Simulation) -> None:
+        await simulation.step(5)
+        simulation.back()
+        simulation.cut()
+        await simulation.step()
+        assert simulation.note.startswith("Repeating the past gave something else")
+
+    simulate(stage_of(folder), folder, act)

@@ -1,0 +1,93 @@
+"""The recorded past and what is drawn of it."""
+
+import math
+from xml.etree import ElementTree as ET
+
+from vicode.editor.session.simulation import Recording
+from vicode.editor.view.activation import tree_rows
+from vicode.editor.view.plot import Curve, band_labels, plot_svg, state_runs
+from vicode.simulation import Moment
+
+
+def moment(number: int, state: str, **values: object) -> Moment:
+    tree = [{"component": "Lamp", "by": None, "values": values}]
+    transition = f"{state}/0" if number > 1 and state == "Lit" else None
+    return Moment(iteration=number, time_ns=(number - 1) * 20, state=state, transition=transition, tree=tree)
+
+
+def recorded(*states: str) -> Recording:
+    recording = Recording()
+    for number, state in enumerate(states, start=1):
+        changes = {"Eye": {"light": number}} if number % 2 else {}
+        recording.add(moment(number, state, turns=number, lit=state == "Lit", word="x"), changes)
+    return recording
+
+
+def test_moments_are_kept_whole() -> None:
+    recording = recorded("Dark", "Lit", "Lit")
+    assert recording.moment(2) == moment(2, "Lit", turns=2, lit=True, word="x")
+    assert recording.moment(0) is recording.moment(4) is None
+    assert recording.states == ["Dark", "Lit", "Lit"]
+    assert recording.latest_transition(3) == "Lit/0"
+    assert recording.latest_transition(1) == ""
+    assert recording.number_at(19) == 1
+    assert recording.number_at(20) == 2
+
+
+def test_the_way_is_told_as_runs_between_inputs() -> None:
+    recording = recorded("Dark", "Dark", "Lit", "Lit")
+    assert list(recording.runs(4)) == [({"Eye": {"light": 1}}, 2), ({"Eye": {"light": 3}}, 2)]
+    assert list(recording.runs(3)) == [({"Eye": {"light": 1}}, 2), ({"Eye": {"light": 3}}, 1)]
+    assert list(recording.runs(0)) == []
+    assert recording.inputs_at(2) == {"Eye": {"light": 1}}
+
+
+def test_what_came_after_can_be_cut() -> None:
+    recording = recorded("Dark", "Dark", "Lit", "Lit")
+    recording.cut(2)
+    assert len(recording) == 2
+    assert list(recording.column("Lamp.turns")) == [1, 2]
+    assert recording.inputs_at(9) == {"Eye": {"light": 1}}
+    recording.add(moment(3, "Off", late=1.5), {})
+    assert [value for value in recording.column("Lamp.late") if math.isfinite(value)] == [1.5]
+    assert len(recording.column("Lamp.turns")) == 3
+    assert recording.names == ("Lamp.turns", "Lamp.lit", "Lamp.late")
+
+
+def test_a_plot_is_sound_xml_whatever_the_names() -> None:
+    states = ["Dark", "<b>&\"'", "Dark"]
+    drawing = plot_svg([Curve(name="</svg>", values=[1.0, math.nan, 3.0])], states, 2)
+    root = ET.fromstring(drawing)
+    titles = [element.text for element in root.iter("title")]
+    assert titles == ["Dark", "<b>&\"'", "Dark"]
+
+
+def test_a_plot_of_many_moments_is_thinned_and_keeps_its_peaks() -> None:
+    values = [0.0] * 20_000
+    values[12_345] = 1.0
+    drawing = plot_svg([Curve(name="x", values=values)], ["Dark"] * 20_000, 20_000)
+    assert len(drawing) < 20_000
+    assert "4.0H" in drawing
+
+
+def test_states_are_drawn_as_runs() -> None:
+    assert state_runs(["A", "A", "B", "A"]) == [("A", 0, 2), ("B", 2, 3), ("A", 3, 4)]
+    assert band_labels(["A"] * 99 + ["B"]) == [("A", 0.0)]
+    assert plot_svg([], [], 0).startswith("<svg")
+
+
+def test_the_activation_tree_is_indented() -> None:
+    tree = [
+        {"component": "Lamp", "by": None, "link": "root", "state": "Lit", "worked": True},
+        {"component": "Eye", "by": "Lamp", "link": "requires"},
+        {"component": "Timer", "by": "Lamp", "link": "modulates", "parameters": {"speed": 2.0}},
+        {"component": "Eye", "by": "Timer", "link": "requires"},
+    ]
+    rows = tree_rows(tree)
+    assert [(row.depth, row.link, row.component) for row in rows] == [
+        (0, "", "Lamp"),
+        (1, "requires", "Eye"),
+        (1, "modulates", "Timer"),
+        (2, "requires", "Eye"),
+    ]
+    assert rows[2].detail == "speed 2"

@@ -1,0 +1,224 @@
+"""A simulation steps, goes back and on, and tells what holds."""
+
+import asyncio
+import os
+import time
+from pathlib import Path
+
+import pytest
+
+from tests.editor.simulation.lamps import past_of, simulate, stage_of, write_lamps
+from vicode.editor.session.simulation import Phase, Simulation
+from vicode.simulation import Stops
+
+SEEN = ("Eye", "seen")
+
+
+@pytest.fixture
+def lamps(tmp_path: Path) -> Path:
+    return write_lamps(tmp_path / "lamps")
+
+
+def test_an_input_leads_to_another_state(lamps: Path) -> None:
+    async def act(simulation: Simulation) -> None:
+        assert await simulation.step() == "count"
+        assert simulation.moment is not None
+        assert simulation.moment.state == "Dark"
+        assert await simulation.set_input(SEEN, True)
+        assert simulation.guards["Dark/0"] == {
+            "holds": True,
+            "parts": [True],
+            "reads": {"eye.seen": True, "eye.light": 0.0},
+        }
+        assert simulation.guards["Dark/1"]["parts"] == [False, True]
+        await simulation.step()
+        moment = simulation.moment
+        assert (moment.state, moment.came_from, moment.transition) == ("Lit", "Dark", "Dark/0")
+        assert moment.prints == ["lit 1"]
+        assert [(call["output"], call["arguments"]) for call in moment.asked] == [("toward", {"x": 2.0})]
+        assert [step["component"] for step in moment.tree] == ["Lamp", "Eye", "Bulb", "Timer"]
+        assert moment.tree[2]["parameters"] == {"power": 3.0}
+
+    simulate(stage_of(lamps), lamps, act)
+
+
+def test_code_is_never_run_to_look_at_it(lamps: Path) -> None:
+    async def act(simulation: Simulation) -> None:
+        await simulation.set_input(SEEN, True)
+        await simulation.step(2)
+        assert simulation.guards["Lit/0"]["holds"] is False
+        assert simulation.guards["Lit/0"]["parts"] == [False, None]
+        await simulation.set_input(SEEN, False)
+        assert simulation.guards["Lit/0"]["holds"] is None
+        await simulation.step()
+        assert simulation.guards["Lit/0"]["parts"] == [True, False]
+        assert simulation.moment is not None
+        assert simulation.moment.tree[0]["values"]["asked"] == 1
+
+    simulate(stage_of(lamps), lamps, act)
+
+
+def test_functions_of_components_that_run_themselves_are_not_called_to_look(lamps: Path) -> None:
+    async def act(simulation: Simulation) -> None:
+        await simulation.step(30)
+        assert simulation.moment is not None
+        assert simulation.moment.state == "Lit"
+        assert simulation.guards["Lit/2"]["reads"] == {"eye.toward(x=2.0)": 4.0}
+        # The design asked once, to test its guard; looking did not.
+        assert simulation.moment.prints == ["asked"]
+
+    simulate(stage_of(lamps, stood_in=frozenset({"Bulb"})), lamps, act)
+
+
+@pytest.mark.parametrize("back", [1, 7, 24])
+def test_going_back_and_on_gives_the_same_past(lamps: Path, back: int) -> None:
+    async def act(simulation: Simulation) -> None:
+        changes = {3: True, 9: False, 14: True}
+        for number in range(1, 25):
+            if number in changes:
+                await simulation.set_input(SEEN, changes[number])
+            await simulation.step()
+        before = past_of(simulation)
+        simulation.back(back)
+        assert simulation.is_past
+        assert simulation.moment == (before[23 - back] if back < 24 else None)
+        for number in range(25 - back, 25):
+            if number in changes:
+                await simulation.set_input(SEEN, changes[number])
+            await simulation.step()
+        assert past_of(simulation) == before
+        # The same once more by a new process, which repeats the way up to there.
+        simulation.back(back)
+        simulation.cut()
+        assert len(simulation.recording) == 24 - back
+        for number in range(25 - back, 25):
+            if number in changes:
+                await simulation.set_input(SEEN, changes[number])
+            await simulation.step()
+        assert past_of(simulation) == before
+        assert simulation.note == ""
+
+    simulate(stage_of(lamps), lamps, act)
+
+
+def test_an_input_in_the_past_begins_another_future(lamps: Path) -> None:
+    async def act(simulation: Simulation) -> None:
+        await simulation.step(10)
+        before = past_of(simulation)
+        simulation.go_to(4)
+        await simulation.set_input(SEEN, True)
+        assert len(simulation.recording) == 4
+        await simulation.step()
+        assert past_of(simulation)[:4] == before[:4]
+        assert simulation.moment is not None
+        assert simulation.moment.state == "Lit"
+        assert simulation.inputs["Eye"]["seen"] is True
+        simulation.back()
+        assert simulation.inputs["Eye"]["seen"] is False
+
+    simulate(stage_of(lamps), lamps, act)
+
+
+def test_runs_rest_at_breakpoints_also_in_the_past(lamps: Path) -> None:
+    async def act(simulation: Simulation) -> None:
+        await simulation.set_input(SEEN, True)
+        await simulation.set_input(("Eye", "light"), 50)
+        stops = Stops(transitions=("Dark/1",))
+        assert await simulation.step(100, stops) == "transition"
+        assert simulation.cursor == 6
+        assert await simulation.step(3) == "count"
+        simulation.go_to(0)
+        assert await simulation.step(100, Stops(states=("Lit",))) == "state"
+        assert simulation.cursor == 6
+        simulation.go_to(0)
+        assert await simulation.step(100, Stops(changes=True)) == "change"
+
+    simulate(stage_of(lamps), lamps, act)
+
+
+def test_a_final_state_is_told_once(lamps: Path) -> None:
+    async def act(simulation: Simulation) -> None:
+        await simulation.set_input(("Eye", "mood"), "Mood.angry")
+        assert await simulation.step(10) == "done"
+        assert simulation.cursor == 1
+        assert await simulation.step(3) == "count"
+
+    simulate(stage_of(lamps), lamps, act)
+
+
+def test_parameters_and_stood_in_designs_are_set(lamps: Path) -> None:
+    async def act(simulation: Simulation) -> None:
+        await simulation.set_input(SEEN, True)
+        await simulation.set_input(("", "patience"), 1.5)
+        await simulation.step(2)
+        assert simulation.moment is not None
+        assert simulation.moment.tree[0]["values"]["patience"] == 1.5
+        await simulation.set_input(("Timer", "is_done"), True)
+        await simulation.step()
+        assert simulation.moment.transition == "Lit/1"
+
+    simulate(stage_of(lamps, stood_in=frozenset({"Eye", "Bulb", "Timer"})), lamps, act)
+
+
+def test_a_function_has_values_for_some_arguments(lamps: Path) -> None:
+    async def act(simulation: Simulation) -> None:
+        await simulation.set_input(SEEN, True)
+        await simulation.step(2)
+        assert simulation.moment is not None
+        assert simulation.moment.asked == [
+            {"component": "Eye", "output": "toward", "arguments": {"x": 2.0}, "value": 0.0}
+        ]
+        assert not await simulation.set_input(("Eye", "toward"), {"value": 1, "table": [[{"x": 2.0}, "much"]]})
+        assert await simulation.set_input(("Eye", "toward"), {"value": 1, "table": [[{"x": 2.0}, 70]]})
+        assert simulation.guards["Lit/2"]["reads"] == {"eye.toward(x=2.0)": 70.0}
+        await simulation.step()
+        assert simulation.moment.state == "Broken"
+
+    simulate(stage_of(lamps), lamps, act)
+
+
+def test_values_that_are_none_are_refused(lamps: Path) -> None:
+    async def act(simulation: Simulation) -> None:
+        for key, value in [
+            (SEEN, "yes"),
+            (("Eye", "light"), float("nan")),
+            (("Eye", "light"), "12"),
+            (("Eye", "mood"), "Mood.glad"),
+            (("Eye", "nothing"), 1),
+            (("Nobody", "seen"), True),
+        ]:
+            assert not await simulation.set_input(key, value)
+
+    simulate(stage_of(lamps), lamps, act)
+
+
+def test_the_process_goes_with_the_simulation(lamps: Path) -> None:
+    async def act(simulation: Simulation) -> None:
+        await simulation.begin()
+        runner = simulation._runner
+        assert runner is not None
+        folder, pid = runner._folder, runner.pid
+        assert folder.is_dir()
+        simulation.end()
+        assert simulation.phase is Phase.ENDED
+        assert not folder.exists()
+        await simulation.gone()
+        with pytest.raises(ProcessLookupError):
+            os.kill(pid, 0)
+        assert not (lamps / "__pycache__").exists()
+
+    simulate(stage_of(lamps), lamps, act)
+
+
+def test_pausing_ends_a_long_run_early(lamps: Path) -> None:
+    async def act(simulation: Simulation) -> None:
+        await simulation.begin()
+        running = asyncio.create_task(simulation.step(20_000))
+        end = time.monotonic() + 30
+        while len(simulation.recording) < 30 and time.monotonic() < end:
+            await asyncio.sleep(0.01)
+        simulation.pause()
+        assert await running == "pause"
+        assert 30 <= len(simulation.recording) < 20_000
+
+    simulate(stage_of(lamps), lamps, act)

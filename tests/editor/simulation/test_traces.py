@@ -1,0 +1,96 @@
+"""A recorded trace is looked at, or drives the inputs."""
+
+import json
+from pathlib import Path
+
+import pytest
+
+from tests.editor.simulation.lamps import past_of, simulate, stage_of, write_lamps
+from vicode.editor.session.simulation import Simulation
+from vicode.editor.session.simulation.traces import TraceError, read_trace, script_of
+from vicode.model.design import Design
+from vicode.store import open_project
+
+
+@pytest.fixture
+def lamps(tmp_path: Path) -> Path:
+    return write_lamps(tmp_path / "lamps")
+
+
+def lamp_of(folder: Path) -> Design:
+    design = open_project(folder).project.design("Lamp")
+    assert design is not None
+    return design
+
+
+def trace_of(simulation: Simulation) -> str:
+    lines = [
+        {"iteration": moment.iteration, "time_ns": moment.time_ns, "tree": moment.tree}
+        for moment in past_of(simulation)
+    ]
+    return "\n".join(json.dumps(line) for line in lines) + '\n{"summary": {}}\n'
+
+
+def test_a_trace_drives_the_inputs_to_the_same_states(lamps: Path) -> None:
+    traces: list[str] = []
+
+    async def record(simulation: Simulation) -> None:
+        await simulation.step(4)
+        await simulation.set_input(("Eye", "seen"), True)
+        await simulation.step(6)
+        await simulation.set_input(("Eye", "mood"), "Mood.angry")
+        await simulation.step(3)
+        traces.extend([trace_of(simulation), repr(simulation.recording.states)])
+
+    stage = stage_of(lamps)
+    simulate(stage, lamps, record)
+    moments = read_trace(traces[0], lamp_of(lamps))
+    assert [moment.state for moment in moments][-1] == "Broken"
+
+    async def drive(simulation: Simulation) -> None:
+        simulation.script = script_of(moments, stage.inputs)
+        await simulation.step(13)
+        assert repr(simulation.recording.states) == traces[1]
+        assert simulation.inputs["Eye"]["mood"] == "Mood.angry"
+        simulation.go_to(2)
+        assert simulation.inputs["Eye"]["seen"] is False
+
+    simulate(stage, lamps, drive)
+
+
+def test_a_trace_is_looked_at_without_a_process(lamps: Path) -> None:
+    step = {"component": "Lamp", "state": "Lit", "changed_from": "Dark", "transition": None, "by": None}
+    first = {"component": "Lamp", "state": "Dark", "changed_from": None, "by": None}
+    text = "\n".join(
+        json.dumps({"iteration": number, "time_ns": number, "tree": [each]})
+        for number, each in enumerate([first, first, {**step, "changed_from": "Broken", "state": "Dark"}], start=1)
+    )
+    moments = read_trace(text, lamp_of(lamps))
+    assert moments[2].transition is None
+
+    async def act(simulation: Simulation) -> None:
+        looked = Simulation(stage=simulation.stage, cwd=lamps, replay=moments)
+        assert await looked.step(2) == "count"
+        assert (looked.cursor, looked.can_go_on) == (2, True)
+        assert await looked.step(5) == "end"
+        assert not looked.can_go_on
+        assert not await looked.set_input(("Eye", "seen"), True)
+        assert looked._runner is None
+
+    simulate(stage_of(lamps), lamps, act)
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("", "there is no iteration in it"),
+        ("{", "line 1 is no JSON"),
+        ("[]", "line 1 is no record"),
+        ('{"tree": []}', "line 1 is no record"),
+        ('{"iteration": 1, "time_ns": 0, "tree": [{"component": "Timer", "state": "Over"}]}', "a trace of Timer"),
+        ('{"iteration": 1, "time_ns": 0, "tree": [{"component": "Lamp", "state": 4}]}', "line 1 is no record"),
+    ],
+)
+def test_what_is_no_trace_is_refused_in_words(lamps: Path, text: str, words: str) -> None:
+    with pytest.raises(TraceError, match=words):
+        read_trace(text, lamp_of(lamps))

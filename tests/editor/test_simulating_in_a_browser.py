@@ -1,0 +1,172 @@
+"""A design is simulated as a person does it: inputs set, stepped, played, stopped, gone back in, edited meanwhile."""
+
+import json
+from pathlib import Path
+
+from playwright.sync_api import Locator, Page, expect
+
+PLAYER = "design/forward/Player"
+expect.set_options(timeout=30_000)
+
+
+def state(page: Page, name: str) -> Locator:
+    return page.locator(f'g[data-kind="state"][data-id="{name}"]')
+
+
+def active(page: Page) -> Locator:
+    return page.locator("g.node.active")
+
+
+def open_simulation(page: Page, url: str, design: str = PLAYER) -> None:
+    page.set_viewport_size({"width": 1366, "height": 768})
+    page.goto(url + design)
+    expect(page.locator('g[data-kind="state"]').first).to_be_visible()
+    page.get_by_role("tab", name="Simulate").click()
+    expect(page.get_by_text("not started")).to_be_visible()
+
+
+def where(page: Page, words: str) -> None:
+    expect(page.locator(".simulation-where")).to_contain_text(words)
+
+
+def choose(page: Page, label: str, option: str) -> None:
+    page.get_by_role("combobox", name=label).click()
+    page.get_by_role("option", name=option).click()
+
+
+def click_state(page: Page, name: str) -> None:
+    box = state(page, name).locator("rect.box").bounding_box()
+    assert box is not None
+    page.mouse.click(box["x"] + box["width"] / 2, box["y"] + box["height"] / 2)
+    expect(page.get_by_label("State", exact=True)).to_have_value(name)
+
+
+def test_an_input_is_set_and_the_state_follows(editor: str, page: Page) -> None:
+    open_simulation(page, editor)
+    page.keyboard.press("F10")
+    where(page, "0.00 s · iteration 1 · LookForBall")
+    expect(active(page)).to_have_attribute("data-id", "LookForBall")
+    guard = page.locator(".guard", has_text="→ FollowBall")
+    expect(guard).to_contain_text("false")
+
+    # A switch changes the truth of the guard at once, and the next decision follows it.
+    page.get_by_role("switch", name="Perception ball_seen").click()
+    expect(guard).to_contain_text("true")
+    expect(guard).to_contain_text("perception.ball_seen = true")
+    for _step in range(5):
+        page.get_by_role("button", name="One step (F10)").click()
+    expect(active(page)).to_have_attribute("data-id", "FollowBall")
+    expect(page.locator('g.edge.taken[data-id="LookForBall/0"]')).to_have_count(1)
+    where(page, "0.10 s · iteration 6 · FollowBall")
+    expect(page.locator("svg.plot rect.plot-state")).to_have_count(2)
+
+    # Back to the past, with its inputs, and on again.
+    page.keyboard.press("Control+Shift+F10")
+    expect(active(page)).to_have_attribute("data-id", "LookForBall")
+    expect(page.get_by_text("The past, 1 iteration before the newest.")).to_be_visible()
+    page.keyboard.press("F10")
+    expect(active(page)).to_have_attribute("data-id", "FollowBall")
+
+    # A number beside a slider, and who is active.
+    age = page.get_by_role("spinbutton", name="Perception ball_age, number")
+    age.fill("3.5")
+    expect(page.locator(".guard", has_text="→ LookForBall")).to_contain_text("ball_age = 3.5")
+    page.get_by_role("tab", name="Active components").click()
+    expect(page.locator(".tree-row", has_text="FaceBall").first).to_be_visible()
+    page.get_by_role("button", name="Run until the state changes (Shift+F6)").click()
+    expect(active(page)).to_have_attribute("data-id", "LookForBall")
+
+
+def test_breakpoints_stop_a_run(editor: str, page: Page) -> None:
+    open_simulation(page, editor)
+    click_state(page, "FollowBall")
+    page.keyboard.press("F9")
+    expect(state(page, "FollowBall").locator(".stop-sign")).to_have_count(1)
+    page.get_by_role("button", name="Play or pause (F6)").click()
+    expect(active(page)).to_have_attribute("data-id", "LookForBall")
+    page.get_by_role("switch", name="Perception ball_seen").click()
+    expect(page.get_by_text("Stopped on entering FollowBall")).to_be_visible()
+
+    # One on a transition, by the gutter of its guard.
+    page.get_by_role("button", name="Breakpoint on → LookForBall").click()
+    expect(page.locator('g.chip[data-id="FollowBall/0"] .stop-sign')).to_have_count(1)
+    page.get_by_role("spinbutton", name="Perception ball_age, number").fill("9")
+    page.keyboard.press("F6")
+    expect(page.get_by_text("Stopped at a breakpoint: the transition to LookForBall")).to_be_visible()
+    page.keyboard.press("F9")
+    expect(state(page, "FollowBall").locator(".stop-sign")).to_have_count(0)
+
+
+def test_an_edit_ends_the_run_and_offers_to_start_again(editor: str, page: Page) -> None:
+    open_simulation(page, editor)
+    page.keyboard.press("F10")
+    expect(active(page)).to_have_attribute("data-id", "LookForBall")
+    click_state(page, "LookForBall")
+    box = state(page, "LookForBall").locator("rect.box").bounding_box()
+    assert box is not None
+
+    # A move changes nothing that runs; another initial state does.
+    page.keyboard.press("ArrowRight")
+    click_state(page, "FollowBall")
+    page.keyboard.press("F10")
+    where(page, "iteration 2")
+    page.get_by_role("checkbox", name="Initial").click()
+    expect(page.get_by_text("The design has changed")).to_be_visible()
+    page.get_by_role("button", name="Start again", exact=True).click()
+    where(page, "before the first step")
+    page.keyboard.press("F10")
+    expect(active(page)).to_have_attribute("data-id", "FollowBall")
+
+
+def test_the_player_plays_in_its_own_world(editor: str, page: Page) -> None:
+    open_simulation(page, editor)
+    choose(page, "Simulate with", "All in field.world:World")
+    page.get_by_role("button", name="Run until the state changes (Shift+F6)").click()
+    expect(page.get_by_text("Entered FollowBall")).to_be_visible()
+    expect(page.get_by_text("Nothing to set: every component runs itself.")).to_be_visible()
+    page.get_by_role("button", name="Run until the state changes (Shift+F6)").click()
+    expect(page.get_by_text("Entered SearchNet")).to_be_visible()
+    time = page.get_by_role("spinbutton", name="Go to this time")
+    time.fill("1.00")
+    time.press("Enter")
+    where(page, "1.00 s · iteration 51")
+    expect(page.get_by_text("The past,")).to_be_visible()
+
+
+def test_code_that_never_ends_is_told_with_its_line(editor: str, page: Page, project: Path) -> None:
+    file = project / "forward" / "player.yaml"
+    text = file.read_text()
+    file.write_text(text.replace('log = logging.getLogger("player")', 'print("<b>loaded</b>")\n    log = None'))
+    open_simulation(page, editor)
+    page.keyboard.press("F10")
+    where(page, "iteration 1")
+    page.get_by_role("tab", name="Output").click()
+    expect(page.get_by_text("<b>loaded</b>")).to_be_visible()
+    file.write_text(text.replace("self._distances: list[float] = []", "while True: pass"))
+    expect(page.get_by_text("The design has changed")).to_be_visible()
+    click_state(page, "WatchBall")
+    page.get_by_role("checkbox", name="Initial").click()
+    page.keyboard.press("F10")
+    expect(page.locator(".simulation-message")).to_contain_text(
+        "Player, state WatchBall, WatchBall.enter, line 1: did not come to an end within 2 s"
+    )
+
+
+def test_a_recorded_trace_is_looked_at(editor: str, page: Page, tmp_path: Path) -> None:
+    trace = tmp_path / "trace.jsonl"
+    root = {"component": "Player", "by": None, "link": "root", "changed_from": None, "values": {"kicks": 0}}
+    lines = [{"iteration": 1, "time_ns": 0, "tree": [{**root, "state": "LookForBall"}]}]
+    lines.append(
+        {"iteration": 2, "time_ns": 10**8, "tree": [{**root, "state": "GetUp", "changed_from": "LookForBall"}]}
+    )
+    trace.write_text("\n".join(json.dumps(line) for line in lines))
+    open_simulation(page, editor)
+    choose(page, "Simulate with", "Look at a trace")
+    page.locator(".trace-upload input[type=file]").set_input_files(trace)
+    where(page, "before the first step")
+    page.keyboard.press("Shift+F6")
+    where(page, "0.10 s · iteration 2 · GetUp")
+    expect(active(page)).to_have_attribute("data-id", "GetUp")
+    expect(page.locator('g.edge.taken[data-id="@common/0"]')).to_have_count(1)
+    page.keyboard.press("Control+Shift+F10")
+    expect(active(page)).to_have_attribute("data-id", "LookForBall")

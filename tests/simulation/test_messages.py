@@ -1,0 +1,120 @@
+"""The protocol: what is written is read again, and junk is refused without a traceback."""
+
+import json
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from vicode.simulation import (
+    Failed,
+    Looked,
+    Moment,
+    ProtocolError,
+    Ready,
+    Request,
+    Rested,
+    Setup,
+    StandIn,
+    StandInOutput,
+    Stops,
+    decode_answer,
+    encode_request,
+    encode_setup,
+)
+from vicode.simulation.messages import LONGEST_LINE, decode_request, decode_setup, encode_answer
+from vicode.simulation.resting import reason_to_rest
+
+SETUP = Setup(
+    component="lamps.lamp:Lamp",
+    probes="lamps._probes",
+    path=("a", "b"),
+    stand_ins=(StandIn(component="Eye", outputs=(StandInOutput(name="seen", type="bool", value=False),)),),
+    functions=(("eye", ("toward",)),),
+    parameter_types=(("patience", "float"),),
+    world="w:W",
+    seed=3,
+)
+MOMENT = Moment(iteration=1, time_ns=0, state="Dark", prints=["Ä\n"], guards={"Dark/0": {"holds": None}})
+
+
+def test_setup_and_requests_are_read_as_written() -> None:
+    assert decode_setup(encode_setup(SETUP)) == SETUP
+    request = Request(do="run", count=3, inputs={"Eye": {"seen": True}}, stops=Stops(states=("Lit",), errors=True))
+    assert decode_request(encode_request(request)) == request
+
+
+@pytest.mark.parametrize(
+    "answer",
+    [
+        Ready(),
+        MOMENT,
+        Looked(guards={"a": {"holds": True}}),
+        Rested(reason="count"),
+        Failed(message="no", error={"line": 3}, prints=["x"]),
+    ],
+)
+def test_answers_are_read_as_written(answer: Ready | Moment | Looked | Rested | Failed) -> None:
+    line = encode_answer(answer)
+    assert line.count(b"\n") == 1
+    assert decode_answer(line) == answer
+
+
+def test_a_moment_too_large_to_tell_leaves_its_values_out() -> None:
+    large = Moment(iteration=2, time_ns=5, state="Lit", world="x" * LONGEST_LINE)
+    told = decode_answer(encode_answer(large))
+    assert isinstance(told, Moment)
+    assert (told.iteration, told.state, told.world) == (2, "Lit", None)
+    assert "too large" in told.prints[0]
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        b"",
+        b"\xff",
+        b"[]",
+        b'"ready"',
+        b"{}",
+        b'{"kind":"nothing"}',
+        b'{"kind":"moment"}',
+        b'{"kind":"moment","iteration":"1","time_ns":0,"state":"Dark"}',
+        b'{"kind":"rested","reason":4}',
+        b'{"kind":"ready","more":1}',
+        b"[" * 100_000,
+    ],
+)
+def test_junk_is_refused(line: bytes) -> None:
+    for decode in (decode_answer, decode_request, decode_setup):
+        with pytest.raises(ProtocolError):
+            decode(line)
+
+
+_JSON = st.recursive(
+    st.none() | st.booleans() | st.integers() | st.text(max_size=5),
+    lambda inner: st.lists(inner, max_size=3) | st.dictionaries(st.text(max_size=8), inner, max_size=4),
+    max_leaves=8,
+)
+_NAMES = st.sampled_from(
+    ["kind", "iteration", "time_ns", "state", "tree", "guards", "stops", "do", "stand_ins", "path"]
+)
+
+
+@given(st.dictionaries(_NAMES, _JSON | st.sampled_from(["ready", "moment", "failed"])))
+def test_no_line_raises_anything_else(plain: dict[str, object]) -> None:
+    line = json.dumps(plain).encode()
+    for decode in (decode_answer, decode_request, decode_setup):
+        try:
+            decode(line)
+        except ProtocolError:
+            continue
+
+
+def test_reasons_to_rest_have_an_order() -> None:
+    moment = Moment(iteration=4, time_ns=0, state="Lit", came_from="Dark", transition="Dark/0", done=True)
+    every = Stops(states=("Lit",), transitions=("Dark/0",), changes=True)
+    assert reason_to_rest(moment, every, was_done=False) == "transition"
+    assert reason_to_rest(moment, Stops(states=("Lit",), changes=True), was_done=False) == "state"
+    assert reason_to_rest(moment, Stops(changes=True), was_done=False) == "done"
+    assert reason_to_rest(moment, Stops(changes=True), was_done=True) == "change"
+    assert reason_to_rest(moment, Stops(), was_done=True) == ""

@@ -1,0 +1,123 @@
+"""The bar with which a simulation is driven, and the line that says where it is."""
+
+from nicegui import ui
+
+from vicode.editor.panels.fields import enable
+from vicode.editor.panels.rows import icon_button
+from vicode.editor.panels.simulation.simulator import SPEEDS, Simulator, describe_rest
+from vicode.editor.session.simulation import Phase, Simulation
+from vicode.editor.view.activation import mistake_of
+
+_HINT = "F10 steps, F6 plays and pauses, Shift+F6 runs to the next state, F9 sets a breakpoint on what is selected."
+
+
+class Controls:
+    """Builds the bar; `refresh` keeps it true."""
+
+    def __init__(self, simulator: Simulator) -> None:
+        """Build it."""
+        self.simulator = simulator
+        with ui.element("div").classes("simulation-bar").props('role="toolbar" aria-label="Simulation"'):
+            self.restart = icon_button("restart_alt", "Start, or start again", simulator.restart)
+            self.back = icon_button("skip_previous", "One step back (Ctrl+Shift+F10)", simulator.back)
+            self.play = icon_button("play_arrow", "Play or pause (F6)", simulator.toggle_play)
+            self.step = icon_button("skip_next", "One step (F10)", simulator.step)
+            self.change = icon_button(
+                "fast_forward", "Run until the state changes (Shift+F6)", simulator.step_to_change
+            )
+            self.stop = icon_button("stop", "End the simulation", simulator.stop)
+            self.where = ui.label().classes("simulation-where mono").props('role="status" aria-live="off"')
+            ui.element("div").classes("spacer")
+            self.time = ui.number(min=0, step=0.1, format="%.2f").props('dense outlined suffix="s" debounce=0')
+            self.time.props('aria-label="Go to this time"').classes("simulation-time mono")
+            self.time.on("keydown.enter", self._go_to_time)
+            ui.label("Speed").classes("small")
+            speeds = {speed: f"{speed:g}×" for speed in SPEEDS}
+            self.speed = ui.select(speeds, value=simulator.speed, on_change=lambda event: self._set_speed(event.value))
+            self.speed.props('dense outlined options-dense aria-label="Speed"').classes("simulation-speed")
+            errors = ui.checkbox("Stop at errors", value=simulator.pauses_on_errors).props("dense size=xs")
+            errors.on_value_change(lambda event: self._set_pauses(flag=bool(event.value)))
+        with ui.element("div").classes("simulation-message").props('role="status"') as self.message:
+            self.icon = ui.icon("info").props('aria-hidden="true"')
+            self.words = ui.label()
+            self.mend = ui.button("Start again", on_click=simulator.restart).props("flat dense no-caps size=sm")
+            self.cut = ui.button("Go on from here", on_click=self._cut).props("flat dense no-caps size=sm")
+
+    def refresh(self) -> None:
+        """Show where the simulation is, and what can be done."""
+        simulator, simulation = self.simulator, self.simulator.simulation
+        icon = "pause" if simulator.is_playing else "play_arrow"
+        if self.play.props["icon"] != icon:
+            self.play.props(f"icon={icon}")
+        enable(self.back, flag=simulation is not None and simulation.cursor > 0)
+        enable(self.stop, flag=simulation is not None)
+        for button in (self.play, self.step, self.change):
+            enable(button, flag=simulation is None or simulation.can_go_on)
+        where = _where(simulation)
+        if self.where.text != where:
+            self.where.set_text(where)
+        self._show_message()
+
+    def _show_message(self) -> None:
+        kind, words = message_of(self.simulator)
+        simulation = self.simulator.simulation
+        if self.words.text != words:
+            self.words.set_text(words)
+        icons = {"error": "error", "warning": "warning", "past": "history"}
+        self.icon.set_name(icons.get(kind, "info"))
+        self.message.classes(add=kind, remove=" ".join({"error", "warning", "past", "info"} - {kind}))
+        self.mend.set_visibility(self.simulator.is_stale or kind == "error")
+        self.cut.set_visibility(kind == "past" and simulation is not None and not simulation.replay)
+
+    def _cut(self) -> None:
+        if self.simulator.simulation is not None:
+            self.simulator.simulation.cut()
+            self.simulator.simulation.go_to(self.simulator.simulation.cursor)
+
+    async def _go_to_time(self) -> None:
+        if isinstance(self.time.value, int | float):
+            await self.simulator.run_to_time(float(self.time.value))
+
+    def _set_speed(self, value: object) -> None:
+        if value in SPEEDS:
+            self.simulator.speed = float(str(value))
+
+    def _set_pauses(self, *, flag: bool) -> None:
+        self.simulator.pauses_on_errors = flag
+
+
+def _where(simulation: Simulation | None) -> str:
+    if simulation is None:
+        return "not started"
+    moment = simulation.moment
+    if moment is None:
+        return "before the first step"
+    return f"{moment.time_ns / 1e9:.2f} s · iteration {moment.iteration} · {moment.state}"
+
+
+def message_of(simulator: Simulator) -> tuple[str, str]:
+    """What is to be said, and its kind: error, warning, past or info."""
+    simulation = simulator.simulation
+    if simulator.trouble:
+        return ("error", simulator.trouble)
+    if simulator.is_stale:
+        return (
+            ("warning", "The design has changed: what is shown is the past of what it was.")
+            if (simulation is not None and simulation.phase is Phase.ENDED)
+            else ("warning", "Start again to simulate it that way.")
+        )
+    if simulation is None:
+        return ("info", _HINT)
+    if simulation.failure is not None and not simulation.is_past:
+        record = simulation.failure.error
+        words = mistake_of(simulation.stage.design, record).words if record else simulation.failure.message
+        return ("error", words)
+    if simulation.is_past and not simulator.is_playing:
+        behind = len(simulation.recording) - simulation.cursor
+        return ("past", f"The past, {behind} iteration{'s' * (behind != 1)} before the newest.")
+    moment = simulation.moment
+    if moment is not None and moment.errors:
+        return ("error", mistake_of(simulation.stage.design, moment.errors[0]).words)
+    if simulation.note:
+        return ("warning", simulation.note)
+    return ("info", _HINT if simulator.is_playing else describe_rest(simulation.rested, simulation) or _HINT)

@@ -1,0 +1,98 @@
+"""The guards of the active state, in the order in which they are tested, with their truth."""
+
+from collections.abc import Callable
+from typing import Any
+
+from nicegui import ui
+
+from vicode.editor.panels.simulation.simulator import Simulator
+from vicode.editor.view import Selected
+from vicode.editor.view.guard_rows import GuardRow, guard_rows
+
+_ICONS = {"true": "check_circle", "false": "cancel", "unknown": "help"}
+
+
+class GuardsList:
+    """Built anew when another state is active; else only what changed is shown."""
+
+    def __init__(self, simulator: Simulator) -> None:
+        """Build the empty list."""
+        self.simulator = simulator
+        self._shape: object = None
+        self._shown: list[tuple[GuardRow, Any, Any, Any]] = []
+        with ui.row().classes("heading guards-heading"):
+            self.title = ui.label("Guards")
+            self.hint = ui.label().classes("heading-hint")
+        self.body = ui.column().classes("guards")
+
+    def refresh(self) -> None:
+        """Show the guards as they are in the moment that is shown."""
+        simulation = self.simulator.simulation
+        if simulation is None:
+            self._rebuild((), "Guards", "", None)
+            return
+        moment, design = simulation.moment, simulation.stage.design
+        state = moment.state if moment else design.initial
+        rows = guard_rows(design, state, simulation.guards)
+        seconds = moment.tree[0].get("state_time_ns", 0) / 1e9 if moment and moment.tree else 0.0
+        stops = frozenset(self.simulator.breakpoints.things)
+        shape = (state, tuple((row.key, row.text, row.outcome) for row in rows), stops)
+        self._rebuild(rows, f"Guards of {state}", f"{seconds:.2f} s in it", shape)
+        for row, (_old, icon, word, reads) in zip(rows, self._shown, strict=True):
+            _show(row, icon, word, reads)
+
+    def _rebuild(self, rows: tuple[GuardRow, ...], title: str, hint: str, shape: object) -> None:
+        if self.title.text != title:
+            self.title.set_text(title)
+        if self.hint.text != hint:
+            self.hint.set_text(hint)
+        if shape == self._shape and (rows or shape is not None):
+            return
+        self._shape = shape
+        self.body.clear()
+        with self.body:
+            if not rows:
+                words = "It has no transitions: it stays here." if shape else "They are shown while it runs."
+                ui.label(words).classes("empty")
+            self._shown = [self._row(row) for row in rows]
+
+    def _row(self, row: GuardRow) -> tuple[GuardRow, Any, Any, Any]:
+        thing = Selected(of="transitions", id=row.key)
+        is_stop = thing in self.simulator.breakpoints.things
+        with ui.element("div").classes("guard-row").style(f"padding-left: {12 * row.depth}px"):
+            self._gutter(row, thing, is_stop=is_stop)
+            with ui.element("button").classes("guard").props('type="button"').on("click", self._opener(thing)):
+                icon = ui.icon("help").props('aria-hidden="true"').classes("guard-icon")
+                word = ui.label().classes("guard-truth")
+                ui.label(row.outcome + (" (common)" if row.is_common else "")).classes("guard-outcome")
+                ui.label(row.text).classes("guard-text mono")
+                reads = ui.label().classes("guard-reads mono")
+        return row, icon, word, reads
+
+    def _gutter(self, row: GuardRow, thing: Selected, *, is_stop: bool) -> None:
+        """A button that puts a breakpoint on the transition."""
+        if not row.can_stop:
+            ui.element("span").classes("gutter")
+            return
+        words = f"{'Remove the breakpoint' if is_stop else 'Breakpoint'} on {row.outcome}"
+        gutter = ui.element("button").classes("gutter" + (" is-stop" if is_stop else ""))
+        # Names of states are letters, digits and underscores.
+        gutter.props(f'type="button" aria-label="{words}" aria-pressed="{str(is_stop).lower()}"')
+        gutter.on("click", lambda: self.simulator.toggle_breakpoints(thing))
+
+    def _opener(self, thing: Selected) -> Callable[[], None]:
+        def select() -> None:
+            self.simulator.desk.select(thing)
+            self.simulator.desk.reveal(thing)
+
+        return select
+
+
+def _show(row: GuardRow, icon: Any, word: Any, reads: Any) -> None:
+    if word.text != row.holds:
+        word.set_text(row.holds)
+        icon.set_name(_ICONS[row.holds])
+        for part in (icon, word):
+            part.classes(add=f"is-{row.holds}", remove=" ".join(f"is-{each}" for each in _ICONS if each != row.holds))
+    if reads.text != row.reads:
+        reads.set_text(row.reads)

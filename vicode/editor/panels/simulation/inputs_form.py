@@ -1,0 +1,202 @@
+"""The inputs of a simulation: a slider for a range, a switch for yes or no, a choice for an enumeration, a number."""
+
+from collections.abc import Callable
+from itertools import groupby
+from typing import Any
+
+from nicegui import background_tasks, ui
+
+from vicode.editor.panels.simulation.simulator import Simulator
+from vicode.editor.session.simulation import DONE, PARAMETERS, Input, Phase, Simulation
+from vicode.editor.view.guard_rows import guard_rows, names_read, show_value
+
+_MOST_ASKED = 8
+
+
+class InputsForm:
+    """Built anew for each simulation; shows the inputs as they were in the moment that is shown."""
+
+    def __init__(self, simulator: Simulator) -> None:
+        """Build the empty form."""
+        self.simulator = simulator
+        self._simulation: Simulation | None = None
+        self._rows: list[_Row] = []
+        self.body = ui.column().classes("inputs")
+
+    def refresh(self) -> None:
+        """Show the values."""
+        simulation = self.simulator.simulation
+        if simulation is not self._simulation or not self._rows:
+            self._simulation = simulation
+            self.body.clear()
+            with self.body:
+                self._rows = self._build(simulation)
+        if simulation is None:
+            return
+        values = simulation.inputs
+        read = self._names_read(simulation)
+        can_set = simulation.phase is not Phase.ENDED and not simulation.replay
+        for row in self._rows:
+            row.show(values.get(row.input.component, {}).get(row.input.name))
+            row.mark(is_read=(row.input.component, row.input.name) in read, can_set=can_set)
+
+    def _build(self, simulation: Simulation | None) -> list["_Row"]:
+        if simulation is None:
+            ui.label("Press F10, or the play button, to start. Inputs stand here then.").classes("empty")
+            return []
+        inputs = simulation.stage.inputs
+        if simulation.replay:
+            ui.label("A recorded trace is shown; nothing runs.").classes("empty")
+            return []
+        if not inputs:
+            ui.label("Nothing to set: every component runs itself.").classes("empty")
+        rows = []
+        for component, group in groupby(inputs, key=lambda each: each.component):
+            title = component or f"Parameters of {simulation.stage.design.component}"
+            with ui.row().classes("heading inputs-heading"):
+                ui.label(title)
+            rows += [self._row(each, simulation) for each in group]
+        return rows
+
+    def _row(self, each: Input, simulation: Simulation) -> "_Row":
+        def set_value(value: Any) -> None:
+            background_tasks.create(simulation.set_input(each.key, value), name="set input")
+
+        return _Function(each, set_value, simulation) if each.arguments is not None else _Row(each, set_value)
+
+    def _names_read(self, simulation: Simulation) -> set[tuple[str, str]]:
+        """What the guards of the active state read, by component and output."""
+        moment = simulation.moment
+        design = simulation.stage.design
+        rows = guard_rows(design, moment.state if moment else design.initial, simulation.guards)
+        components = {use.alias: use.component for use in design.uses}
+        found = set()
+        for name in names_read(rows, simulation.guards):
+            alias, _dot, output = name.partition("(")[0].rpartition(".")
+            found.add((components.get(alias, PARAMETERS), output))
+        return found
+
+
+class _Row:
+    """One input: its name, a control of its type, its unit."""
+
+    def __init__(self, each: Input, set_value: Callable[[Any], None]) -> None:
+        self.input = each
+        self._set = set_value
+        self._shown: Any = each.initial
+        label = "done" if each.name == DONE else each.name
+        tip = " ".join(part for part in (each.doc, f"in {each.unit}" if each.unit else "") if part)
+        with ui.element("div").classes("input-row") as self.element:
+            with ui.label(label).classes("input-name mono"):
+                if tip:
+                    ui.tooltip(tip)
+            self.controls = _controls(each, f"{each.component or 'Parameter'} {label}", self._changed)
+
+    def show(self, value: Any) -> None:
+        """Show a value, without reporting it."""
+        if value is None or value == self._shown:
+            return
+        self._shown = value
+        for control in self.controls:
+            control.set_value(value)
+
+    def mark(self, *, is_read: bool, can_set: bool) -> None:
+        """Mark what the guards of the active state read; grey out what cannot be set now."""
+        self.element.classes(add="is-read" if is_read else None, remove=None if is_read else "is-read")
+        for control in self.controls:
+            if control.enabled != can_set:
+                control.set_enabled(can_set)
+
+    def _changed(self, value: Any) -> None:
+        accepted = self.input.accept(value)
+        if accepted is None or accepted == self._shown:
+            return
+        self._shown = accepted
+        for control in self.controls:
+            if control.value != accepted:
+                control.set_value(accepted)
+        self._set(accepted)
+
+
+class _Function(_Row):
+    """An output with arguments: a value for all of them, and others for those it was asked with."""
+
+    def __init__(self, each: Input, set_value: Callable[[Any], None], simulation: Simulation) -> None:
+        super().__init__(each, set_value)
+        self._simulation = simulation
+        self._table: list[list[Any]] = []
+        self._asked: list[dict[str, Any]] = []
+        self._boxes: list[Any] = []
+        self.rows = ui.column().classes("input-table")
+
+    def show(self, value: Any) -> None:
+        """Show the value for all arguments, and the rows of the table."""
+        if isinstance(value, dict):
+            self._table = [list(row) for row in value.get("table", ())]
+            super().show(value.get("value"))
+        moment = self._simulation.moment
+        calls = moment.asked if moment else []
+        key = (self.input.component, self.input.name)
+        asked = [call["arguments"] for call in calls if (call.get("component"), call.get("output")) == key]
+        new = [arguments for arguments in asked if arguments not in self._asked][:_MOST_ASKED]
+        for arguments in new:
+            if len(self._asked) < _MOST_ASKED:
+                self._asked.append(arguments)
+                self._add_row(arguments)
+
+    def _changed(self, value: Any) -> None:
+        accepted = self.input.accept(value)
+        if accepted is not None and accepted != self._shown:
+            self._shown = accepted
+            self._set({"value": accepted, "table": self._table})
+
+    def _add_row(self, arguments: dict[str, Any]) -> None:
+        words = ", ".join(f"{name} = {show_value(value)}" for name, value in arguments.items())
+        with self.rows, ui.element("div").classes("input-row"):
+            ui.label(f"if {words}").classes("input-name mono")
+            _controls(self.input, f"{self.input.name} if {words}", lambda value: self._set_for(arguments, value))
+
+    def _set_for(self, arguments: dict[str, Any], value: Any) -> None:
+        accepted = self.input.accept(value)
+        if accepted is None:
+            return
+        others = [row for row in self._table if row[0] != arguments]
+        self._table = [*others, [arguments, accepted]]
+        self._set({"value": self._shown, "table": self._table})
+
+
+def _controls(each: Input, name: str, changed: Callable[[Any], None]) -> list[Any]:
+    """The controls of an input, which show the same value."""
+    if each.type == "bool":
+        switch = ui.switch(value=each.initial, on_change=lambda event: changed(event.value))
+        return [_named(switch.props("dense"), name)]
+    if each.options:
+        options = {option: option.rpartition(".")[2] for option in each.options}
+        choice = ui.select(options, value=each.initial, on_change=lambda event: changed(event.value))
+        return [_named(choice.props("dense outlined options-dense").classes("input-choice"), name)]
+    controls: list[Any] = []
+    if each.range is not None and each.range[0] < each.range[1]:
+        low, high = each.range
+        slider = ui.slider(min=low, max=high, step=_step(each), value=each.initial)
+        slider.on_value_change(lambda event: changed(event.value))
+        controls.append(_named(slider.props("dense").classes("input-slider"), name))
+    number = ui.number(value=each.initial, step=_step(each), suffix=each.unit or None)
+    number.on_value_change(lambda event: changed(event.value))
+    number.props("dense outlined debounce=150").classes("input-number mono")
+    return [*controls, _named(number, f"{name}, number" if controls else name)]
+
+
+def _named(control: Any, name: str) -> Any:
+    """Name it for screen readers; not in the text of properties, which quotes in a name would end."""
+    control.props["aria-label"] = name
+    return control
+
+
+def _step(each: Input) -> float:
+    """A hundredth of the range, in round numbers."""
+    if each.type == "int":
+        return 1
+    if each.range is None:
+        return 0.1
+    width = (each.range[1] - each.range[0]) / 100
+    return next((step for step in (0.001, 0.01, 0.1, 0.5, 1, 5, 10, 50) if step >= width / 2), 100)

@@ -1,0 +1,99 @@
+"""Values over time with the states below; the slider and a click in it lead to a recorded moment."""
+
+from html import escape
+from typing import Any
+
+from nicegui import ui
+from nicegui.events import GenericEventArguments
+
+from vicode.editor.panels.simulation.simulator import Simulator
+from vicode.editor.session.simulation import Simulation
+from vicode.editor.view.plot import Curve, band_labels, plot_svg
+
+_FIRST_SHOWN = 3
+_MOST_SHOWN = 6
+_WHERE = """(event) => {
+  const box = event.currentTarget.getBoundingClientRect();
+  emit((event.clientX - box.left) / box.width);
+}"""
+
+
+class Timeline:
+    """Drawn anew when a moment was added or another is shown."""
+
+    def __init__(self, simulator: Simulator) -> None:
+        """Build it."""
+        self.simulator = simulator
+        self._shown: object = None
+        self._names: tuple[str, ...] = ()
+        self._is_following = False
+        self.choice = ui.select([], value=[], multiple=True, label="Values to plot", on_change=self._draw)
+        self.choice.props("dense outlined options-dense stack-label").classes("field plot-choice")
+        self.slider = ui.slider(min=0, max=1, step=1, value=0, on_change=lambda event: self._go_to(event.value))
+        self.slider.props('dense aria-label="Moment that is shown"').classes("plot-slider")
+        with ui.element("div").classes("plot-frame") as frame:
+            self.names = ui.html("", sanitize=False).classes("plot-names")
+            self.drawing = ui.html("", sanitize=False)
+            self.band = ui.html("", sanitize=False).classes("plot-band")
+        frame.on("click", self._clicked, js_handler=_WHERE)
+
+    def refresh(self) -> None:
+        """Show the recording of the simulation."""
+        simulation = self.simulator.simulation
+        self._offer(simulation)
+        length, cursor = (len(simulation.recording), simulation.cursor) if simulation else (0, 0)
+        shown = (id(simulation), length, cursor)
+        if shown == self._shown:
+            return
+        self._shown = shown
+        self._is_following = True
+        self.slider.props(f"max={max(length, 1)}")
+        self.slider.set_value(cursor)
+        self._is_following = False
+        self._draw()
+
+    def _offer(self, simulation: Simulation | None) -> None:
+        """Offer the values that there are; at first those that are read or set."""
+        names = simulation.recording.names if simulation else ()
+        if names == self._names:
+            return
+        self._names = names
+        kept = [name for name in self.choice.value or [] if name in names]
+        own = f"{self.simulator.desk.design.component}."
+        first = sorted(names, key=lambda name: not name.startswith(own))[:_FIRST_SHOWN]
+        self.choice.set_options(list(names), value=kept or first)
+
+    def _draw(self) -> None:
+        simulation = self.simulator.simulation
+        if simulation is None or not len(simulation.recording):
+            self.drawing.set_content('<p class="empty">Values over time are drawn here while it runs.</p>')
+            self.names.set_content("")
+            self.band.set_content("")
+            return
+        recording = simulation.recording
+        chosen = [str(name) for name in self.choice.value or []][:_MOST_SHOWN]
+        curves = [Curve(name=name, values=recording.column(name)) for name in chosen]
+        self.drawing.set_content(plot_svg(curves, recording.states, simulation.cursor))
+        self.names.set_content("".join(_name(curve, simulation.cursor) for curve in curves))
+        labels = (
+            f'<span style="left:{left:.2f}%">{escape(name)}</span>' for name, left in band_labels(recording.states)
+        )
+        self.band.set_content("".join(labels))
+
+    def _go_to(self, value: Any) -> None:
+        simulation = self.simulator.simulation
+        if self._is_following or simulation is None or not isinstance(value, int | float):
+            return
+        self.simulator.pause()
+        simulation.go_to(round(value))
+
+    def _clicked(self, event: GenericEventArguments) -> None:
+        simulation = self.simulator.simulation
+        if simulation is not None and isinstance(event.args, int | float):
+            self._go_to(1 + int(event.args * len(simulation.recording)))
+
+
+def _name(curve: Curve, cursor: int) -> str:
+    value = curve.values[cursor - 1] if 0 < cursor <= len(curve.values) else float("nan")
+    shown = "" if value != value else f"{value:.4g}"  # noqa: PLR0124 - nan is what differs from itself
+    return f"<div><b>{escape(curve.name)}</b> {shown}</div>"

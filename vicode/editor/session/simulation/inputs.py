@@ -1,0 +1,146 @@
+"""What a person can set while a design runs: outputs of stand-ins and the design's own parameters, by their types."""
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from vicode.generators import UnsoundDesignError
+from vicode.model.design import Declaration, Design
+from vicode.model.expressions import BOOL, FLOAT, INT, Element, Minus, Number, Truth, parse_expression, scope_of
+from vicode.model.project import Project
+from vicode.simulation import StandIn, StandInOutput
+
+PARAMETERS = ""
+"""Stands where a component's name would, for the parameters of the simulated design itself."""
+DONE = "is_done"
+_FAR = 1e12
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Input:
+    """One value to set. `type` is bool, int, float or "" for an enumeration, whose literals are `options`.
+
+    `arguments` are the names a function takes: then there is a value for all arguments, and others for some.
+    """
+
+    component: str
+    name: str
+    type: str
+    initial: Any
+    unit: str = ""
+    range: tuple[float, float] | None = None
+    options: tuple[str, ...] = ()
+    arguments: tuple[str, ...] | None = None
+    doc: str = ""
+
+    @property
+    def key(self) -> tuple[str, str]:
+        """What tells it from all others."""
+        return (self.component, self.name)
+
+    def accept(self, value: Any) -> Any | None:
+        """A value from a browser as this input's own type; None if it is no such value."""
+        match self.type:
+            case "bool":
+                return value if isinstance(value, bool) else None
+            case "int" | "float":
+                return self._accept_number(value)
+            case _:
+                return value if value in self.options else None
+
+    def _accept_number(self, value: Any) -> int | float | None:
+        if isinstance(value, bool) or not isinstance(value, int | float) or not math.isfinite(value):
+            return None
+        if abs(value) > _FAR:
+            return None
+        return round(value) if self.type == INT else float(value)
+
+
+def inputs_of(project: Project, design: Design, stood_in: tuple[str, ...]) -> tuple[Input, ...]:
+    """The design's parameters, then the outputs of the components that are stood in, in their order."""
+    inputs = [_input(project, PARAMETERS, each) for each in design.parameters]
+    for component in stood_in:
+        interface = project.interface(component)
+        if interface is None:
+            continue
+        inputs += [_input(project, component, output) for output in interface.outputs]
+        own = project.design(component)
+        if own is not None and any(state.final for state in own.states):
+            doc = f"{component} is in a final state."
+            inputs.append(Input(component=component, name=DONE, type=BOOL, initial=False, doc=doc))
+    return tuple(inputs)
+
+
+def stand_in_of(component: str, inputs: tuple[Input, ...], types: Mapping[tuple[str, str], str]) -> StandIn:
+    """The stand-in of a component, as the process that runs it wants to know it."""
+    outputs = tuple(
+        StandInOutput(
+            name=each.name,
+            type=types.get(each.key, each.type),
+            value=each.initial,
+            is_function=each.arguments is not None,
+        )
+        for each in inputs
+        if each.component == component and each.name != DONE
+    )
+    return StandIn(component=component, outputs=outputs)
+
+
+def types_of(project: Project, inputs: tuple[Input, ...]) -> dict[tuple[str, str], str]:
+    """The type of each input by its key: an enumeration by its name."""
+    return {each.key: each.type or _enumeration(project, each) for each in inputs}
+
+
+def _input(project: Project, component: str, declaration: Declaration) -> Input:
+    scope = scope_of(project, None)
+    type_ = scope.type_of(declaration)
+    elements = scope.enumerations.get(type_, ())
+    options = tuple(f"{type_}.{element}" for element in elements)
+    if not options and type_ not in (BOOL, INT, FLOAT):
+        raise UnsoundDesignError(f"'{declaration.name}' has an unknown type")
+    arguments = declaration.arguments
+    return Input(
+        component=component,
+        name=declaration.name,
+        type="" if options else type_,
+        initial=_initial(project, declaration, type_, options),
+        unit=declaration.unit,
+        range=declaration.range,
+        options=options,
+        arguments=None if arguments is None else tuple(each.name for each in arguments),
+        doc=declaration.doc,
+    )
+
+
+def _initial(project: Project, declaration: Declaration, type_: str, options: tuple[str, ...]) -> Any:
+    """The declared first value where it is a literal, else one within the range, the nearest to 0."""
+    parsed = parse_expression(declaration.initial, scope_of(project, None)) if declaration.initial else None
+    value = _literal(parsed.tree) if parsed and parsed.tree and not parsed.mistakes else None
+    if options:
+        return value if value in options else options[0]
+    if type_ == BOOL:
+        return value is True
+    number = value if isinstance(value, int | float) and not isinstance(value, bool) else 0
+    if declaration.range is not None and value is None:
+        low, high = declaration.range
+        number = min(max(number, low), high)
+    return round(number) if type_ == INT else float(number)
+
+
+def _literal(node: object) -> Any:
+    match node:
+        case Number(value=value) | Truth(value=value):
+            return value
+        case Element(element=element, type=type_):
+            return f"{type_}.{element}"
+        case Minus(operand=Number(value=value)):
+            return -value
+        case _:
+            return None
+
+
+def _enumeration(project: Project, each: Input) -> str:
+    names = {enumeration.name for enumeration in project.enumerations}
+    name = each.options[0].partition(".")[0] if each.options else ""
+    return name if name in names else ""

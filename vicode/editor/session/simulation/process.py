@@ -1,0 +1,217 @@
+"""The process that runs user code, seen from the editor: started, asked, given a time limit, killed."""
+
+import asyncio
+import contextlib
+import os
+import re
+import shutil
+import signal
+import sys
+import tempfile
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+from vicode.bica.errors import find_region
+from vicode.editor.session.simulation.setup import Stage
+from vicode.output import apply, compare
+from vicode.simulation import (
+    Answer,
+    Failed,
+    Inputs,
+    Looked,
+    Moment,
+    ProtocolError,
+    Ready,
+    Request,
+    Rested,
+    decode_answer,
+    encode_request,
+    encode_setup,
+)
+from vicode.simulation.environment import fresh_environment
+from vicode.simulation.messages import LONGEST_LINE
+
+_START_LIMIT_S = 30.0
+_GRACE_S = 3.0
+_QUIET_LIMIT_S = 120.0
+_MOST_STDERR = 64_000
+_FRAME = re.compile(r'File "(?P<file>[^"\n]+)", line (?P<line>\d+) in (?P<name>\S+)')
+
+OnMoment = Callable[[Moment], None]
+
+
+class RunFailedError(Exception):
+    """The run cannot go on; `error` is the record of the place in the design, if there is one."""
+
+    def __init__(self, message: str, error: dict[str, Any] | None = None, prints: tuple[str, ...] = ()) -> None:
+        super().__init__(message)
+        self.message, self.error, self.prints = message, error, prints
+
+
+class Runner:
+    """A process that holds one component, made by `start_runner`."""
+
+    def __init__(self, process: asyncio.subprocess.Process, folder: Path, limit_s: float) -> None:
+        self._process, self._folder, self._limit_s = process, folder, limit_s
+        self._complaints = b""
+        self._is_killed = False
+        self._listening = asyncio.create_task(self._listen())
+
+    @property
+    def pid(self) -> int:
+        """The process' number."""
+        return self._process.pid
+
+    async def run(self, request: Request, on_moment: OnMoment) -> Rested:
+        """Make iterations; every one is handed to `on_moment`.
+
+        Raises:
+            RunFailedError: It cannot go on.
+        """
+        limit_s = _QUIET_LIMIT_S if request.quiet else self._limit_s + _GRACE_S
+        await self._send(encode_request(request))
+        while True:
+            answer = await self._hear(limit_s)
+            if isinstance(answer, Rested):
+                return answer
+            if isinstance(answer, Moment):
+                on_moment(answer)
+
+    async def look(self, inputs: Inputs) -> Looked:
+        """Take inputs over and test the guards, without a step.
+
+        Raises:
+            RunFailedError: It cannot go on.
+        """
+        await self._send(encode_request(Request(do="look", inputs=inputs)))
+        answer = await self._hear(self._limit_s + _GRACE_S)
+        if not isinstance(answer, Looked):
+            raise RunFailedError("The simulation answered what was not asked.")
+        return answer
+
+    async def wait_until_ready(self) -> None:
+        """Let it load the code.
+
+        Raises:
+            RunFailedError: It cannot.
+        """
+        answer = await self._hear(_START_LIMIT_S)
+        if not isinstance(answer, Ready):
+            raise RunFailedError("The simulation did not begin as it should.")
+
+    def kill(self) -> None:
+        """End it with all that it started, and remove its files."""
+        if self._is_killed:
+            return
+        self._is_killed = True
+        if self._process.stdin is not None:
+            self._process.stdin.close()
+        with contextlib.suppress(ProcessLookupError, PermissionError):
+            os.killpg(self._process.pid, signal.SIGKILL)
+        shutil.rmtree(self._folder, ignore_errors=True)
+
+    async def gone(self) -> None:
+        """Wait until a killed process has left nothing behind."""
+        with contextlib.suppress(TimeoutError):
+            await asyncio.wait_for(asyncio.gather(self._process.wait(), self._listening, self._drain()), 10)
+
+    async def _drain(self) -> None:
+        assert self._process.stdout is not None
+        while await self._process.stdout.read(1 << 16):
+            pass
+
+    async def _send(self, line: bytes) -> None:
+        assert self._process.stdin is not None
+        try:
+            self._process.stdin.write(line)
+            await self._process.stdin.drain()
+        except (BrokenPipeError, ConnectionResetError) as error:
+            raise await self._died() from error
+
+    async def _hear(self, limit_s: float) -> Answer:
+        assert self._process.stdout is not None
+        try:
+            line = await asyncio.wait_for(self._process.stdout.readline(), limit_s)
+            answer = decode_answer(line) if line else None
+        except TimeoutError:
+            raise await self._overslept(limit_s) from None
+        except (ValueError, ProtocolError) as error:
+            self.kill()
+            raise RunFailedError(f"The simulation said what nobody understands: {error}") from error
+        if answer is None:
+            raise await self._died()
+        if isinstance(answer, Failed):
+            raise RunFailedError(answer.message, answer.error, tuple(answer.prints))
+        return answer
+
+    async def _overslept(self, limit_s: float) -> RunFailedError:
+        """Kill it, but first let it say where it is."""
+        with contextlib.suppress(ProcessLookupError):
+            os.kill(self._process.pid, signal.SIGABRT)
+        with contextlib.suppress(TimeoutError):
+            await asyncio.wait_for(self._process.wait(), 1.0)
+        await asyncio.sleep(0.05)
+        error = RunFailedError(f"{self._place()}did not come to an end within {limit_s:g} s and was killed")
+        self.kill()
+        return error
+
+    async def _died(self) -> RunFailedError:
+        code = 0
+        with contextlib.suppress(TimeoutError):
+            code = await asyncio.wait_for(self._process.wait(), 2.0)
+        await asyncio.sleep(0.05)
+        words = f"was ended by {signal.Signals(-code).name}" if code < 0 else f"left the program with exit code {code}"
+        tail = self._complaints.decode(errors="replace").strip().splitlines()
+        error = RunFailedError(f"{self._place()}{words}", prints=tuple(tail[-20:]))
+        self.kill()
+        return error
+
+    def _place(self) -> str:
+        """Design, region and line of the deepest code that is not the runtime's, from the last words."""
+        for found in _FRAME.finditer(self._complaints.decode(errors="replace")):
+            file, line = found["file"], int(found["line"])
+            if "/vicode/" in file or file.startswith("<"):
+                continue
+            region, before = find_region(file, line)
+            where = f"{region}, line {line - before}" if region else f"{found['name']}, line {line}"
+            return f"{Path(file).stem}, {where}: "
+        return "The code "
+
+    async def _listen(self) -> None:
+        """Keep the end of what is written to standard error, past Python's own streams."""
+        assert self._process.stderr is not None
+        while chunk := await self._process.stderr.read(4096):
+            self._complaints = (self._complaints + chunk)[-_MOST_STDERR:]
+
+
+async def start_runner(stage: Stage, cwd: Path) -> Runner:
+    """Write the files of a stage into a private folder and start a process on them.
+
+    Raises:
+        RunFailedError: The code cannot be loaded.
+        OSError: No file can be written, or no process started.
+    """
+    folder = Path(tempfile.mkdtemp(prefix="vicode-simulation-"))
+    await asyncio.to_thread(lambda: apply(compare(stage.files, folder), folder))
+    # -P: what lies in the folder we happen to be in must not hide a module. The seed of hashes orders sets.
+    process = await asyncio.create_subprocess_exec(
+        *(sys.executable, "-P", "-m", "vicode.simulation"),
+        stdin=asyncio.subprocess.PIPE,
+        stdout=asyncio.subprocess.PIPE,
+        stderr=asyncio.subprocess.PIPE,
+        limit=2 * LONGEST_LINE,
+        cwd=cwd,
+        env=fresh_environment(PYTHONDONTWRITEBYTECODE="1", PYTHONHASHSEED="0"),
+        start_new_session=True,
+    )
+    runner = Runner(process, folder, stage.setup.limit_s)
+    try:
+        setup = replace(stage.setup, path=(str(folder / "python"), *stage.setup.path))
+        await runner._send(encode_setup(setup))
+        await runner.wait_until_ready()
+    except BaseException:
+        runner.kill()
+        raise
+    return runner

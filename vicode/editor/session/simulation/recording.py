@@ -1,0 +1,141 @@
+"""The recorded past of a run: every moment, the inputs that led to it, and the values as columns to be plotted."""
+
+import math
+import zlib
+from array import array
+from bisect import bisect_right
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+from vicode.simulation import Inputs, Moment, decode_answer
+from vicode.simulation.messages import encode_answer
+
+MOST_MOMENTS = 20_000
+_MOST_COLUMNS = 400
+
+
+class Recording:
+    """Moments 1, 2, 3 …; number 0 is the time before the first."""
+
+    def __init__(self) -> None:
+        self._packed: list[bytes] = []
+        self._changes: dict[int, Inputs] = {}
+        self._columns: dict[str, array[float]] = {}
+        self._eventful: list[int] = []
+        self.states: list[str] = []
+        self.transitions: list[str] = []
+        self.times_ns: list[int] = []
+
+    def __len__(self) -> int:
+        """How many moments there are."""
+        return len(self._packed)
+
+    @property
+    def is_full(self) -> bool:
+        """Whether there is no room for another."""
+        return len(self) >= MOST_MOMENTS
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """The values that can be plotted, as Component.name."""
+        return tuple(self._columns)
+
+    def add(self, moment: Moment, changes: Inputs) -> None:
+        """Take the next moment, and the inputs that were set before it."""
+        if any(changes.values()):
+            self._changes[len(self) + 1] = changes
+        # An iteration tells much the same as the one before, so packing leaves a fifth.
+        self._packed.append(zlib.compress(encode_answer(moment), 1))
+        self.states.append(moment.state)
+        self.transitions.append(moment.transition or "")
+        self.times_ns.append(moment.time_ns)
+        if moment.prints or moment.unprinted or moment.errors:
+            self._eventful.append(len(self))
+        self._add_values(moment)
+
+    def moment(self, number: int) -> Moment | None:
+        """A moment by its number, None for 0."""
+        if not 0 < number <= len(self):
+            return None
+        moment = decode_answer(zlib.decompress(self._packed[number - 1]))
+        assert isinstance(moment, Moment)
+        return moment
+
+    def changes_before(self, number: int) -> Inputs:
+        """The inputs that were set right before a moment."""
+        return self._changes.get(number, {})
+
+    def runs(self, end: int) -> Iterator[tuple[Inputs, int]]:
+        """The way up to a moment: inputs to set, and how many iterations to make with them."""
+        starts = sorted({1, *(number for number in self._changes if number <= end)})
+        for start, after in zip(starts, [*starts[1:], end + 1], strict=True):
+            if after > start:
+                yield self._changes.get(start, {}), after - start
+
+    def inputs_at(self, number: int) -> dict[str, dict[str, Any]]:
+        """All inputs as they were in a moment."""
+        known: dict[str, dict[str, Any]] = {}
+        for start in sorted(self._changes):
+            if start > number:
+                break
+            merge_inputs(known, self._changes[start])
+        return known
+
+    def cut(self, length: int) -> None:
+        """Forget what came after a moment."""
+        del self._packed[length:]
+        del self.states[length:]
+        del self.transitions[length:]
+        del self.times_ns[length:]
+        self._eventful = [number for number in self._eventful if number <= length]
+        for column in self._columns.values():
+            del column[length:]
+        self._changes = {number: each for number, each in self._changes.items() if number <= length}
+
+    def column(self, name: str) -> "array[float]":
+        """A value over all moments, nan where it was not there; empty for an unknown name."""
+        column = self._columns.get(name, array("d"))
+        missing = len(self) - len(column) if column else 0
+        return column + array("d", [math.nan]) * missing
+
+    def eventful(self, number: int, most: int) -> list[int]:
+        """The latest moments up to one in which something was printed or went wrong."""
+        end = bisect_right(self._eventful, number)
+        return self._eventful[max(0, end - most) : end]
+
+    def latest_transition(self, number: int) -> str:
+        """The transition that was taken last up to a moment, "" if there was none."""
+        return next((each for each in reversed(self.transitions[:number]) if each), "")
+
+    def number_at(self, time_ns: int) -> int:
+        """The last moment that is not later than a time."""
+        return bisect_right(self.times_ns, time_ns)
+
+    def _add_values(self, moment: Moment) -> None:
+        index = len(self) - 1
+        for step in moment.tree:
+            for name, value in (step.get("values") or {}).items():
+                number = _number(value)
+                if number is not None:
+                    self._put(f"{step['component']}.{name}", index, number)
+
+    def _put(self, name: str, index: int, number: float) -> None:
+        if name not in self._columns and len(self._columns) >= _MOST_COLUMNS:
+            return
+        column = self._columns.setdefault(name, array("d"))
+        if len(column) > index:
+            # Stepped twice in this iteration: the later value is the one that stays.
+            column[index] = number
+            return
+        column.extend([math.nan] * (index - len(column)))
+        column.append(number)
+
+
+def merge_inputs(known: dict[str, dict[str, Any]], changes: Mapping[str, Mapping[str, Any]]) -> None:
+    """Put changes over what is known."""
+    for component, values in changes.items():
+        known.setdefault(component, {}).update(values)
+
+
+def _number(value: object) -> float | None:
+    return float(value) if isinstance(value, bool | int | float) else None

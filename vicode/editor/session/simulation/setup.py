@@ -1,0 +1,183 @@
+"""From a design as it is now to files and a setup that a process of its own can run."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from vicode.check import check_project
+from vicode.editor.session.simulation.inputs import Input, inputs_of, stand_in_of, types_of
+from vicode.editor.view import transition_key
+from vicode.findings import Path as DesignPath
+from vicode.findings import Severity
+from vicode.generators import collect_components, generate, python_class, python_probes
+from vicode.model.design import Decision, Design, Group, State, Transition
+from vicode.model.project import Interface, Project
+from vicode.output import OutputFile
+from vicode.simulation import Setup
+from vicode.simulation.stand_ins import MODULE
+
+
+class NotReadyError(Exception):
+    """A design that cannot be simulated as it is; the message says why in words."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Wish:
+    """How to simulate: which components are stood in, in which world (seed), with how much time between iterations."""
+
+    stood_in: frozenset[str]
+    seed: int = 0
+    tick_ms: float = 20.0
+    limit_s: float = 2.0
+    memory_bytes: int = 1 << 30
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Stage:
+    """All that is needed to run: files to write into an empty folder, the setup, and what a person can set."""
+
+    design: Design
+    files: tuple[OutputFile, ...]
+    setup: Setup
+    inputs: tuple[Input, ...]
+
+
+def used_components(project: Project, design: Design) -> tuple[str, ...]:
+    """The components that a design uses, directly or not, each before what it uses itself."""
+    found: list[str] = []
+    waiting = [use.component for use in design.uses]
+    while waiting:
+        component = waiting.pop(0)
+        if component in found or component == design.component:
+            continue
+        found.append(component)
+        own = project.design(component)
+        waiting += [use.component for use in own.uses] if own else []
+    return tuple(found)
+
+
+def hand_written(project: Project, design: Design) -> frozenset[str]:
+    """Those of the used components that no design makes."""
+    return frozenset(name for name in used_components(project, design) if project.design(name) is None)
+
+
+def prepare(project: Project, design: Design, wish: Wish, sources: Mapping[str, str], folder: Path) -> Stage:
+    """Generate what runs a design; nothing is written.
+
+    Args:
+        project: What surrounds the design.
+        design: As it is now.
+        wish: How to simulate.
+        sources: The files of the designs by component.
+        folder: The project's, where hand-written code is imported from.
+
+    Raises:
+        NotReadyError: The design, or one that it uses, has mistakes.
+        UnsoundDesignError: It cannot be generated.
+    """
+    designs = tuple(design if each.component == design.component else each for each in project.designs)
+    whole = replace(project, designs=designs)
+    stood_in = tuple(name for name in used_components(whole, design) if name in wish.stood_in)
+    inputs = inputs_of(whole, design, stood_in)
+    staged = _stand_in(whole, stood_in)
+    _refuse_mistakes(whole, collect_components(staged, (design.component,)))
+    ready = replace(staged, designs=tuple(_with_ids(each) for each in staged.designs))
+    files = generate(ready, components=(design.component,), languages=("python",), sources=sources)
+    probes = python_probes(ready, design.component)
+    types = types_of(whole, inputs)
+    class_path = python_class(ready, design.component)
+    runs_by_hand = hand_written(staged, design) - set(stood_in)
+    setup = Setup(
+        component=class_path,
+        probes=f"{class_path.partition('.')[0]}._probes",
+        path=(str(folder.resolve()),),
+        stand_ins=tuple(stand_in_of(component, inputs, types) for component in stood_in),
+        functions=_functions(staged, design, stood_in),
+        parameter_types=tuple((each.name, types[each.key]) for each in inputs if not each.component),
+        world=project.world if runs_by_hand else "",
+        seed=wish.seed,
+        tick_ns=round(wish.tick_ms * 1e6),
+        limit_s=wish.limit_s,
+        memory_bytes=wish.memory_bytes,
+    )
+    return Stage(design=design, files=(*files, probes), setup=setup, inputs=inputs)
+
+
+def meaning_of(project: Project, design: Design) -> object:
+    """A value that changes exactly when a simulation of the design may go another way: places do not count."""
+    names = {design.component, *used_components(project, design)}
+    current = (design if each.component == design.component else each for each in project.designs)
+    designs = tuple(_without_places(each) for each in current if each.component in names)
+    return (designs, project.enumerations, project.constants, project.components, project.world)
+
+
+def _refuse_mistakes(project: Project, components: frozenset[str]) -> None:
+    errors = [each for each in check_project(project, components) if each.severity is Severity.ERROR]
+    if errors:
+        first = errors[0]
+        where = f"{first.thing.component}: " if first.thing and first.thing.component else ""
+        more = f" (and {len(errors) - 1} more)" if len(errors) > 1 else ""
+        raise NotReadyError(f"{where}{first.message}{more}. Mend it, then start again.")
+
+
+def _stand_in(project: Project, stood_in: tuple[str, ...]) -> Project:
+    """The project with stand-ins where the components were."""
+    replaced = []
+    for component in stood_in:
+        interface = project.interface(component) or Interface(component=component)
+        replaced.append(replace(interface, implementation=f"{MODULE}:{component}"))
+    kept = tuple(each for each in project.components if each.component not in stood_in)
+    designs = tuple(each for each in project.designs if each.component not in stood_in)
+    return replace(project, components=(*kept, *replaced), designs=designs)
+
+
+def _functions(project: Project, design: Design, stood_in: tuple[str, ...]) -> tuple[tuple[str, tuple[str, ...]], ...]:
+    """Outputs with arguments of the components that run themselves: they are not called between iterations."""
+    found = []
+    for use in design.uses:
+        interface = project.interface(use.component)
+        outputs = interface.outputs if interface and use.component not in stood_in else ()
+        names = tuple(output.name for output in outputs if output.arguments is not None)
+        found += [(use.alias, names)] if names else []
+    return tuple(found)
+
+
+def _with_ids(design: Design) -> Design:
+    """The design with every decision's canvas key as its id, so that the run can say which it was."""
+    common = _give_ids(design.common.transitions, ("common", "transitions"))
+    states = tuple(_state_with_ids(state) for state in design.states)
+    return replace(design, common=replace(design.common, transitions=common), states=states)
+
+
+def _state_with_ids(state: State) -> State:
+    return replace(state, transitions=_give_ids(state.transitions, ("states", state.name, "transitions")))
+
+
+def _give_ids(items: tuple[Decision, ...], path: DesignPath) -> tuple[Decision, ...]:
+    given: list[Decision] = []
+    for index, item in enumerate(items):
+        here = (*path, index)
+        named = replace(item, id=transition_key(here))
+        if isinstance(named, Group):
+            then, otherwise = _give_ids(named.then, (*here, "then")), _give_ids(named.otherwise, (*here, "else"))
+            named = replace(named, then=then, otherwise=otherwise)
+        given.append(named)
+    return tuple(given)
+
+
+def _without_places(design: Design) -> Design:
+    common = replace(design.common, at=None, transitions=_unplaced(design.common.transitions))
+    states = (replace(each, at=None, transitions=_unplaced(each.transitions)) for each in design.states)
+    uses = (replace(use, at=None) for use in design.uses)
+    return replace(design, uses=tuple(uses), common=common, states=tuple(states))
+
+
+def _unplaced(items: tuple[Decision, ...]) -> tuple[Decision, ...]:
+    """Decisions without the places of their labels."""
+
+    def unplaced(item: Decision) -> Decision:
+        if isinstance(item, Group):
+            return replace(item, then=_unplaced(item.then), otherwise=_unplaced(item.otherwise))
+        return replace(item, label_at=None) if isinstance(item, Transition) else item
+
+    return tuple(unplaced(item) for item in items)

@@ -1,0 +1,83 @@
+"""What happened in an iteration, in lines to read: who activated whom, and what went wrong."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from vicode.editor.view.guard_rows import show_value
+from vicode.editor.view.selection import Selected, path_of_key
+from vicode.editor.view.wording import words_of_path
+from vicode.model.design import Design
+from vicode.model.walks import decision_at
+
+_LINKS = {"requires": "requires", "modulates": "modulates"}
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class TreeRow:
+    """One step of a component; `depth` in the activation tree."""
+
+    depth: int
+    link: str
+    component: str
+    state: str
+    detail: str
+    worked: bool
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Mistake:
+    """An error of user code in words, and the thing of the design it belongs to (None: it is elsewhere)."""
+
+    words: str
+    thing: Selected | None = None
+
+
+def tree_rows(tree: Sequence[Mapping[str, Any]]) -> tuple[TreeRow, ...]:
+    """The steps of an iteration, each below the one that it was made by."""
+    depths: dict[str, int] = {}
+    rows = []
+    for step in tree:
+        component = str(step.get("component", ""))
+        depth = depths.get(str(step.get("by")), -1) + 1
+        depths[component] = depth
+        rows.append(
+            TreeRow(
+                depth=depth,
+                link=_LINKS.get(str(step.get("link")), ""),
+                component=component,
+                state=str(step.get("state", "")),
+                detail=_pairs(step.get("parameters")),
+                worked=bool(step.get("worked")),
+            )
+        )
+    return tuple(rows)
+
+
+def mistake_of(design: Design, record: Mapping[str, Any]) -> Mistake:
+    """An error record in words: component, state, body and line, without the names of generated files."""
+    component, state = str(record.get("component", "")), str(record.get("state", ""))
+    region, body, line = (str(record.get(name, "")) for name in ("region", "body", "line"))
+    decision = decision_at(design, path_of_key(region)) if region and component == design.component else None
+    where = region or body if decision is None else f"guard of {words_of_path(design, decision.path)}"
+    words = ", ".join(part for part in (component, f"state {state}" if state else "", where) if part)
+    text = f"{words}, line {line}: {record.get('message', '')}"
+    if component != design.component:
+        return Mistake(words=text)
+    if decision is not None:
+        return Mistake(words=text, thing=Selected(of="transitions", id=region))
+    return Mistake(words=text, thing=Selected(of="states", id=state) if design.state(state) else None)
+
+
+def value_rows(tree: Sequence[Mapping[str, Any]], component: str) -> tuple[tuple[str, str], ...]:
+    """The values of a component after its latest step in an iteration."""
+    found: Mapping[str, Any] = {}
+    for step in tree:
+        if step.get("component") == component:
+            found = step.get("values") or {}
+    return tuple((name, show_value(value)) for name, value in found.items())
+
+
+def _pairs(values: Any) -> str:
+    pairs = values.items() if isinstance(values, dict) else ()
+    return ", ".join(f"{name} {show_value(value)}" for name, value in pairs)

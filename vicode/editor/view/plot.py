@@ -1,0 +1,114 @@
+"""Values over time as an SVG drawing: a strip for each, the states as a band below, a line at what is shown."""
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from html import escape
+
+WIDTH, STRIP, GAP, BAND = 600, 44, 8, 18
+_MOST_POINTS = 300
+_NARROWEST_NAME = 46
+_COLOURS = 6
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Curve:
+    """One value over all moments, nan where it was not there."""
+
+    name: str
+    values: Sequence[float]
+    unit: str = ""
+
+
+def plot_svg(curves: Sequence[Curve], states: Sequence[str], cursor: int) -> str:
+    """Draw curves and states; `cursor` is the number of the moment that is shown, 0 before the first.
+
+    The drawing has a fixed width that is stretched; texts stand outside of what is stretched.
+    """
+    count = max(len(states), 1)
+    height = len(curves) * (STRIP + GAP) + BAND
+    parts = [_strip(curve, index, count) for index, curve in enumerate(curves)]
+    parts.append(_band(states, len(curves) * (STRIP + GAP), count))
+    x = WIDTH * max(cursor - 0.5, 0) / count
+    parts.append(f'<line class="plot-cursor" x1="{x:.1f}" x2="{x:.1f}" y1="0" y2="{height}"/>')
+    words = f"{len(curves)} values over {len(states)} iterations"
+    return (
+        f'<svg class="plot" viewBox="0 0 {WIDTH} {height}" preserveAspectRatio="none" '
+        f'style="height:{height}px" role="img" aria-label="{words}">{"".join(parts)}</svg>'
+    )
+
+
+def _strip(curve: Curve, index: int, count: int) -> str:
+    top = index * (STRIP + GAP)
+    known = [value for value in curve.values if math.isfinite(value)]
+    low, high = (min(known), max(known)) if known else (0.0, 1.0)
+    span = (high - low) or 1.0
+    middle = 0.5 if high == low else 0.0
+
+    def y_of(value: float) -> float:
+        return top + STRIP - 4 - (STRIP - 8) * ((value - low) / span + middle)
+
+    path = _path(curve.values, count, y_of)
+    ground = f'<rect class="plot-ground" x="0" y="{top}" width="{WIDTH}" height="{STRIP}"/>'
+    return f'{ground}<path class="plot-line c{index % _COLOURS}" d="{path}"/>'
+
+
+def _path(values: Sequence[float], count: int, y_of: Callable[[float], float]) -> str:
+    """Steps, since a value holds until the next iteration; of many moments the lowest and highest of each part."""
+    commands: list[str] = []
+    pen_down = False
+    for number, value in _thinned(values):
+        if not math.isfinite(value):
+            pen_down = False
+            continue
+        x, next_x = WIDTH * number / count, WIDTH * (number + 1) / count
+        commands.append(f"{'L' if pen_down else 'M'}{x:.1f} {y_of(value):.1f}H{next_x:.1f}")
+        pen_down = True
+    return "".join(commands)
+
+
+def _thinned(values: Sequence[float]) -> list[tuple[int, float]]:
+    if len(values) <= _MOST_POINTS:
+        return list(enumerate(values))
+    size = math.ceil(len(values) / (_MOST_POINTS / 2))
+    kept: list[tuple[int, float]] = []
+    for start in range(0, len(values), size):
+        part = [(start + index, value) for index, value in enumerate(values[start : start + size])]
+        finite = [pair for pair in part if math.isfinite(pair[1])] or part[:1]
+        ends = {min(finite, key=lambda pair: pair[1]), max(finite, key=lambda pair: pair[1])}
+        kept += sorted(ends)
+    return kept
+
+
+def state_runs(states: Sequence[str]) -> list[tuple[str, int, int]]:
+    """Stretches of the same state: its name, the first moment's index and the one after the last."""
+    runs: list[tuple[str, int, int]] = []
+    for index, state in enumerate(states):
+        if runs and runs[-1][0] == state:
+            runs[-1] = (state, runs[-1][1], index + 1)
+        else:
+            runs.append((state, index, index + 1))
+    return runs
+
+
+def _band(states: Sequence[str], top: int, count: int) -> str:
+    order = list(dict.fromkeys(states))
+    parts = []
+    for state, start, end in state_runs(states):
+        x, width = WIDTH * start / count, WIDTH * (end - start) / count
+        colour = order.index(state) % _COLOURS
+        parts.append(
+            f'<rect class="plot-state c{colour}" x="{x:.1f}" y="{top}" width="{width:.1f}" height="{BAND}">'
+            f"<title>{escape(state)}</title></rect>"
+        )
+    return "".join(parts)
+
+
+def band_labels(states: Sequence[str]) -> list[tuple[str, float]]:
+    """Names for the band where there is room, each with its left end in percent."""
+    count = max(len(states), 1)
+    return [
+        (state, 100 * start / count)
+        for state, start, end in state_runs(states)
+        if WIDTH * (end - start) / count >= _NARROWEST_NAME
+    ]
