@@ -50,7 +50,7 @@ def test_user_text_stays_text(show: Show) -> None:
     hand.press("Escape")
     for kind, identity in (("states", "GetUp"), ("transitions", "LookForBall/1"), ("components", HOSTILE)):
         page.mouse.move(*hand.at(kind, identity))
-        expect(page.locator("g.item.hover title").first).to_contain_text(HOSTILE[:20])
+        expect(page.locator(".peek")).to_contain_text(HOSTILE[:20])
     assert page.locator(".vicode-canvas img").count() == 0
     assert page.locator("body").get_attribute("data-hacked") is None
 

@@ -1,6 +1,6 @@
 """The Python side of the canvas: keeps what is shown, so that a page that mounts late or again gets it all."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from inspect import isawaitable
 from pathlib import Path
 from typing import Any, cast
@@ -98,6 +98,10 @@ class Canvas(ui.element, component="js/vicode_canvas.js"):
     def put_on_clipboard(self, text: str | None) -> None:
         """Answer a `Copy`: with its text, or None when there is nothing to copy."""
         self._call("putOnClipboard", text)
+
+    def tell_peek(self, of: str, identity: str, sections: Sequence[Mapping[str, str]]) -> None:
+        """Answer a `Peek`: sections of a name and a text, shown if the card is still there."""
+        self._call("tellPeek", {"of": of, "id": identity, "sections": list(sections)})
 
     def preview(self, places: Sequence[Place]) -> None:
         """Show things at other places without taking them; Enter and Escape are reported. None of them ends it."""

@@ -195,6 +195,15 @@ class Ask(TypedDict):
     name: str
 
 
+class Peek(TypedDict):
+    """The pointer or the keys rest on a thing: its card is shown, and `tell_peek` may tell more of it."""
+
+    kind: Literal["peek"]
+    rev: int
+    of: Kind
+    id: str
+
+
 class Preview(TypedDict):
     """Enter or Escape was pressed while other places are shown: they are wanted, or not."""
 
@@ -230,6 +239,7 @@ Gesture = (
     | Mark
     | Use
     | Ask
+    | Peek
     | Preview
     | History
 )

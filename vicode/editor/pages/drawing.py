@@ -14,7 +14,7 @@ from vicode.editor.panels.desk import Desk
 from vicode.editor.panels.use_dialog import ask_for_component
 from vicode.editor.session import apply_gesture, clipboard
 from vicode.editor.session.gestures import point_of
-from vicode.editor.view import Scene, Selected, difference, scene_of
+from vicode.editor.view import Scene, Selected, difference, peek_of, scene_of
 from vicode.editor.view.address import design_address
 from vicode.model.design import Point
 from vicode.model.edits import add_use
@@ -115,10 +115,21 @@ class Drawing:
                 self._copy(payload)
             case "use":
                 self._use(payload)
+            case "peek":
+                self._peek(str(payload["of"]), str(payload["id"]))
             case "preview":
                 self.on_preview(wanted=payload["wanted"] is True)
             case _:
                 self._edit(payload)
+
+    def _peek(self, of: str, identity: str) -> None:
+        languages = self.desk.workspace.project.languages
+        try:
+            sections = peek_of(self.desk.design, Selected(of=of, id=identity), languages)
+        except ValueError:
+            # A key that no page of ours sends.
+            return
+        self.canvas.tell_peek(of, identity, sections)
 
     def _edit(self, payload: Mapping[str, Any]) -> None:
         known, onto = self.desk.workspace.project.interfaces(), self.desk.selected

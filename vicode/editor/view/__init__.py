@@ -2,6 +2,7 @@
 
 from vicode.diagram.labels import guard_label, label_of
 from vicode.editor.view.difference import difference
+from vicode.editor.view.peek import peek_of
 from vicode.editor.view.scene import Scene, scene_of
 from vicode.editor.view.selection import Selected, path_of_key, thing_of_path, transition_key
 from vicode.editor.view.table import Table, row_of, table_difference, table_of, thing_of_row
@@ -15,6 +16,7 @@ __all__ = [
     "guard_label",
     "label_of",
     "path_of_key",
+    "peek_of",
     "row_of",
     "scene_of",
     "table_difference",

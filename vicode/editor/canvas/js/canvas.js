@@ -11,6 +11,7 @@ import { Menu } from "./menu.js";
 import { arrive, remember } from "./memory.js";
 import { Minimap } from "./minimap.js";
 import { Painter } from "./painter.js";
+import { Peek } from "./peek.js";
 import { Preview } from "./preview.js";
 import { Rename } from "./rename.js";
 import { Router } from "./routing.js";
@@ -191,6 +192,7 @@ class Canvas {
   }
 
   hoverChanged() {
+    this.peek.want(this.selection.hovered);
     this.handles.refresh();
     if (this.far) this.levels.cullSoon();
   }
@@ -262,11 +264,12 @@ class Canvas {
     this.menu = new Menu(this);
     this.rename = new Rename(this);
     this.preview = new Preview(this);
+    this.peek = new Peek(this);
     this.dots = html("div", { class: "dots" });
     this.message = html("div", { class: "message", role: "status", hidden: true });
     this.empty = html("div", { class: "empty", hidden: true, text: "No states yet.\nDouble click, or press S, to add the first." });
     const corner = html("div", { class: "corner" }, [this.minimap.element, this.toolbar.element]);
-    const above = [this.empty, this.message, this.rename.input, corner, this.menu.element];
+    const above = [this.empty, this.message, this.rename.input, corner, this.peek.element, this.menu.element];
     this.stage.append(this.dots, ...this.levels.elements, ...above);
     this.keyboard = new Keyboard(this);
   }

@@ -5,6 +5,7 @@ import { svg } from "./svg.js";
 
 const HEAD = 10;
 const ICONS = {
+  off: "M0 0a5 5 0 1 0 10 0a5 5 0 1 0 -10 0M1.6 3.4L8.4 -3.4",
   timer: "M0 0a5 5 0 1 0 10 0a5 5 0 1 0 -10 0M5 -2.6V0.3L7 1.6",
   code: "M3 -3.5L-0.2 0L3 3.5M7 -3.5L10.2 0L7 3.5",
   tree: "M1.5 -4.5V0C1.5 2.5 3 3 5.5 3H8.5M1.5 -1C1.5 -3 4 -3 8.5 -3",
@@ -73,14 +74,14 @@ export function edgeHint(edge, { source, target }) {
   const { data } = edge;
   if (edge.of === "links") return data.kind === "requires" ? `${data.state} requires ${data.component}` : `${data.state} modulates ${data.component}`;
   const order = data.of > 1 ? ` (${data.order} of ${data.of})` : "";
-  return [`${source} → ${target}${order}`, data.label, data.doc, ...findings(data)].filter(Boolean).join("\n");
+  return [`${source} → ${target}${order}`, data.disabled && "disabled", data.doc || data.label, ...findings(data)].filter(Boolean).join("\n");
 }
 
 function describe(edge, { source, target }) {
   const { data } = edge;
   if (edge.of === "links") return edgeHint(edge, { source, target });
   const label = data.label ? `: ${data.label}` : "";
-  return [`Transition ${data.order} of ${data.of} from ${source} to ${target}${label}`, ...findings(data)].join(", ");
+  return [`Transition ${data.order} of ${data.of} from ${source} to ${target}${label}`, ...(data.disabled ? ["disabled"] : []), ...findings(data)].join(", ");
 }
 
 const round = (value) => Math.round(value * 10) / 10;

@@ -39,12 +39,12 @@ function chipWith({ data }, room) {
   const orderWidth = order ? textWidth(text || icon ? `${order} · ` : order, "label") + 1 : 0;
   const iconWidth = icon ? ICON : 0;
   const w = Math.ceil(2 * PADDING + orderWidth + iconWidth + (text ? textWidth(text, "label") : 0)) + badgeWidth;
-  return { order, text, icon: icon ? data.kind : "", orderWidth, iconWidth, badgeWidth, padding: PADDING, w, h: HEIGHT };
+  return { order, text, icon, orderWidth, iconWidth, badgeWidth, padding: PADDING, w, h: HEIGHT };
 }
 
 const partsOf = (data) => ({
   order: data.of > 1 ? String(data.order) : "",
-  icon: ["timer", "code", "tree"].includes(data.kind),
+  icon: data.disabled ? "off" : ["timer", "code", "tree"].includes(data.kind) ? data.kind : "",
   badgeWidth: data.severity ? BADGE : 0,
 });
 

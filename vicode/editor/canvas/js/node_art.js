@@ -13,6 +13,8 @@ const MARKS = {
   modulates: { w: 10, d: "M2.5 -4H7.5L10 0L7.5 4H2.5L0 0Z" },
 };
 
+const OFF = "M0 0a5 5 0 1 0 10 0a5 5 0 1 0 -10 0M1.6 3.4L8.4 -3.4";
+
 const WORDS = { error: "error", warning: "warning", note: "note" };
 
 export function drawNode(node) {
@@ -44,6 +46,7 @@ function drawState(node) {
   if (data.initial) parts.push(...initialMark(w, h));
   parts.push(svg("text", { class: "name", y: marks.length ? NAME_RISE : 0, text: node.label }));
   if (marks.length) parts.push(markRow(marks, MARK_ROW));
+  if (data.disabled) parts.push(svg("path", { class: "off", d: OFF, transform: `translate(${-w / 2 + 9} ${-h / 2 + 14})` }));
   if (data.severity) parts.push(badge(data, w / 2 - 4, -h / 2 + 2));
   return parts;
 }
@@ -120,7 +123,7 @@ export function nodeHint(node) {
   const { data } = node;
   const title = node.of === "common" ? "Common transitions, tested before those of every state" : data.name;
   const second = node.of === "components" && data.name !== data.id ? `as ${data.id}` : "";
-  return [title, second, data.doc, ...findings(data)].filter(Boolean).join("\n");
+  return [title, second, data.disabled && "disabled", data.doc, ...findings(data)].filter(Boolean).join("\n");
 }
 
 function describe(node) {

@@ -1,7 +1,7 @@
 // Keeps in the DOM what is near enough to be seen, and nothing else; knows the marks on every thing.
-import { drawEdge, edgeHint, placeEdge } from "./edge_art.js";
+import { drawEdge, placeEdge } from "./edge_art.js";
 import { covers, grow, overlaps, rectOf } from "./geometry.js";
-import { drawNode, nodeHint, placeNode } from "./node_art.js";
+import { drawNode, placeNode } from "./node_art.js";
 import { showStop } from "./stop_sign.js";
 import { svg } from "./svg.js";
 
@@ -18,7 +18,7 @@ export class Painter {
     this.items = new Map();
     this.marks = new Map(["selected", "active", "taken", "stop", "drop", "held", "lit", "hover"].map((name) => [name, new Set()]));
     this.layers = { links: svg("g"), edges: svg("g"), nodes: svg("g"), chips: svg("g"), above: svg("g") };
-    this.svg = svg("svg", { "aria-hidden": "false" }, Object.values(this.layers));
+    this.svg = svg("svg", { "aria-hidden": "false" }, [hatching(), ...Object.values(this.layers)]);
     this.covered = null;
     this.far = false;
     // They grow with everything that changes the picture, and with what only changes colours in it.
@@ -193,17 +193,16 @@ export class Painter {
     for (const part of Object.values(this.items.get(key) ?? {})) {
       if (!part) continue;
       part.classList.toggle(name, on);
-      if (on && name === "hover") this.#giveHint(part, key);
       if (on && name === "lit" && part.nextSibling) bringForward(part);
     }
   }
+}
 
-  /** Tooltips are made when they are first wanted; few ever are. */
-  #giveHint(part, key) {
-    if (part.querySelector("title")) return;
-    const thing = this.scene.find(key);
-    part.append(svg("title", { text: this.scene.nodes.has(key) ? nodeHint(thing) : edgeHint(thing, this.#endsOf(thing)) }));
-  }
+/** The lines across a disabled box. */
+function hatching() {
+  const names = { id: "hatch", width: 8, height: 8, patternUnits: "userSpaceOnUse", patternTransform: "rotate(45)" };
+  const parts = [svg("rect", { class: "hatch-ground", width: 8, height: 8 }), svg("path", { class: "hatch-line", d: "M0 0V8" })];
+  return svg("defs", {}, [svg("pattern", names, parts)]);
 }
 
 /** Moving an element takes the focus away from it; it is given back. */

@@ -67,7 +67,7 @@ export class Snapshot {
     const { revision, looks, covered: region } = this.painter;
     const scale = Math.min(zoom * devicePixelRatio, MOST_PIXELS / Math.max(region.w, region.h));
     const pen = this.#begin(region, scale);
-    const groups = [...this.painter.svg.children].flatMap((layer) => [...layer.children].map((group) => ({ layer, group })));
+    const groups = Object.values(this.painter.layers).flatMap((layer) => [...layer.children].map((group) => ({ layer, group })));
     for (const [index, { layer, group }] of groups.entries()) {
       this.#drawGroup(pen, group, `${layer.getAttribute("class")} ${group.getAttribute("class")}`);
       // Reading a dot back makes the browser paint what it has only noted so far.
@@ -115,13 +115,15 @@ export class Snapshot {
   /** The style of an element; things of the same classes look the same. */
   #styleOf(element, context) {
     const name = `${context}|${element.tagName} ${element.getAttribute("class")}`;
-    if (!this.styles.has(name)) this.styles.set(name, readStyle(getComputedStyle(element)));
+    if (!this.styles.has(name)) this.styles.set(name, readStyle(getComputedStyle(element), this.colours));
     return this.styles.get(name);
   }
 }
 
-function readStyle(style) {
-  const paint = (value) => (value === "none" || value === "rgba(0, 0, 0, 0)" ? null : value);
+function readStyle(style, colours) {
+  // The one pattern there is hatches boxes; its ground must do.
+  const plain = (value) => (value.startsWith("url(") ? colours("faint") : value);
+  const paint = (value) => (value === "none" || value === "rgba(0, 0, 0, 0)" ? null : plain(value));
   return {
     fill: paint(style.fill),
     fillOpacity: Number(style.fillOpacity),

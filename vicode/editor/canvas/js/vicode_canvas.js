@@ -39,6 +39,9 @@ export default {
     showLinks(flag) {
       this.canvas.showLinks(flag);
     },
+    tellPeek(answer) {
+      this.canvas.peek.tell(answer);
+    },
     showPlaces(items, stay) {
       this.canvas.showPlaces(items, stay);
     },

@@ -1,0 +1,56 @@
+"""What is told of a thing that the pointer rests on, beyond what its drawing says."""
+
+from collections.abc import Iterable, Sequence
+
+from vicode.editor.view.selection import Selected, path_of_key
+from vicode.model.design import Action, Assign, Call, Code, Design, RunCode
+from vicode.model.walks import decision_at
+
+Sections = list[dict[str, str]]
+_MOST_LINES = 12
+_LONGEST_LINE = 90
+
+
+def peek_of(design: Design, thing: Selected, languages: Sequence[str]) -> Sections:
+    """The code of a state, a transition or the common part: sections {"name", "text"} no longer than a card."""
+    if thing.of == "transitions":
+        return _guard(design, thing.id, languages)
+    texts = ((name, "\n".join(_lines(actions, languages))) for name, actions in _phases(design, thing))
+    return [{"name": name, "text": _cut(text)} for name, text in texts if text]
+
+
+def _phases(design: Design, thing: Selected) -> tuple[tuple[str, tuple[Action, ...]], ...]:
+    state = design.state(thing.id) if thing.of == "states" else None
+    if state is not None:
+        return (("enter", state.enter), ("do", state.all_actions), ("leave", state.leave))
+    return (("do", design.common.actions),) if thing.of == "common" else ()
+
+
+def _guard(design: Design, key: str, languages: Sequence[str]) -> Sections:
+    located = decision_at(design, path_of_key(key))
+    code = located.decision.guard.code if located else None
+    return [{"name": "holds when", "text": _cut(_text(code, languages))}] if code else []
+
+
+def _lines(actions: Iterable[Action], languages: Sequence[str]) -> Iterable[str]:
+    for action in actions:
+        match action:
+            case Assign(values=values):
+                yield from (f"{name} = {text}" for name, text in values)
+            case Call(alias=alias, arguments=arguments):
+                yield f"{alias}({', '.join(f'{name}={text}' for name, text in arguments)})"
+            case RunCode(code=code):
+                yield _text(code, languages)
+
+
+def _text(code: Code, languages: Sequence[str]) -> str:
+    """In the first language there is a text for."""
+    written = (code.in_language(language) for language in languages)
+    return next((text for text in written if text), "").strip("\n")
+
+
+def _cut(text: str) -> str:
+    lines = [line if len(line) <= _LONGEST_LINE else line[: _LONGEST_LINE - 1] + "…" for line in text.splitlines()]
+    if len(lines) <= _MOST_LINES:
+        return "\n".join(lines)
+    return "\n".join([*lines[: _MOST_LINES - 1], f"… {len(lines) - _MOST_LINES + 1} more lines"])
