@@ -45,10 +45,8 @@ def test_the_players_layout_is_read_on_a_screen() -> None:
 
 def test_any_text_can_be_a_name() -> None:
     names = HOSTILE_NAMES
-    states = tuple(
-        State(name=name, transitions=(Transition(to=to),))
-        for name, to in zip(names, names[1:] + names[:1], strict=True)
-    )
+    leads = (names[(2 * index + 1) % len(names)] for index in range(len(names)))
+    states = tuple(State(name=name, transitions=(Transition(to=to),)) for name, to in zip(names, leads, strict=True))
     layout = lay_out(Design(component="D", initial=names[0], states=states), timeout_s=PATIENCE_S)
     assert (layout.method, layout.note) == (Method.GRAPHVIZ, "")
     assert set(layout.placement.states) == set(names)

@@ -1,10 +1,14 @@
 """Places without Graphviz: instant, nothing overlaps, and what has a place keeps it."""
 
+import itertools
+import math
+
 from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.diagram.drawn_designs import find_overlaps, list_boxes, ring_design, shipped_designs
 from vicode.diagram import place
+from vicode.diagram.settling import screens_of
 from vicode.model.design import Common, Design, Point, State, Transition, Use
 
 _coordinates = st.integers(-500, 2500).map(float) | st.sampled_from([0.0, 120.0, 1e9, -1e300, 1e300])
@@ -45,6 +49,16 @@ def test_three_thousand_states_are_about_as_wide_as_a_screen() -> None:
     assert len(set(states)) == 3000
     wide, high = (max(point[axis] for point in states) - min(point[axis] for point in states) for axis in (0, 1))
     assert 1 < wide / high < 3
+
+
+def test_a_chain_is_folded_and_stays_together() -> None:
+    design = ring_design(300, chords=0)
+    states = place(design).states
+    assert screens_of(states.values()) < 5
+    assert not find_overlaps(list_boxes(design, place(design)))
+    places = [states[f"State{index}"] for index in range(300)]
+    steps = [math.dist(one, other) for one, other in itertools.pairwise(places)]
+    assert max(steps) < 300
 
 
 def _given(design: Design) -> dict[str, Point]:

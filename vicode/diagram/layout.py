@@ -27,8 +27,8 @@ WORKER: Command = (sys.executable, "-P", "-m", "vicode.diagram.worker")
 _GRACE_S = 1.0
 
 # Graphviz orders better than layers do, and is worth some room: it is given up only for a picture that must be
-# shrunk below a half on a screen, and so many times further than layers.
-_ROOMY_SCREENS, _FAR_LARGER = 2.0, 1.8
+# shrunk below four tenths on a screen, and so many times further than layers.
+_ROOMY_SCREENS, _FAR_LARGER = 2.5, 1.8
 
 
 class Method(StrEnum):

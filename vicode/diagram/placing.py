@@ -1,7 +1,7 @@
 """Places for what a design gives no place to: a simple layering, so that every design can be drawn at once."""
 
 import math
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import count
 
@@ -51,20 +51,30 @@ def place(design: Design) -> Placement:
 
 
 def _place_states(design: Design, ground: Ground, given: Iterable[str]) -> dict[str, Point]:
-    """Each layer is a column, or several when it is higher than a screen would be."""
+    """Each layer is a column, or several when it is higher than a screen would be; a long row of them is folded."""
     known = set(given)
     rows = max(_FEWEST_ROWS, math.ceil(math.sqrt(len(design.states) * COLUMN / ROW / _SCREEN_RATIO)))
+    columns = [names[start : start + rows] for names in _columns(design) for start in range(0, len(names), rows)]
     states: dict[str, Point] = {}
-    left = ORIGIN[0] - NARROWEST / 2
-    for names in _columns(design):
-        for start in range(0, len(names), rows):
-            column = names[start : start + rows]
-            width = max(size_of_state(name).width for name in column)
-            downwards = _down((left + width / 2, ORIGIN[1]))
-            free = {name: size_of_state(name) for name in column if name not in known}
-            states |= {name: ground.find_free(downwards, size) for name, size in free.items()}
-            left += width + _BETWEEN_COLUMNS
+    for column, (middle, top) in zip(columns, _fold(columns), strict=True):
+        free = {name: size_of_state(name) for name in column if name not in known}
+        states |= {name: ground.find_free(_down((middle, top)), size) for name, size in free.items()}
     return states
+
+
+def _fold(columns: Sequence[Sequence[str]]) -> Iterator[Point]:
+    """The middle and the top of every column: in bands to and fro, so that what follows each other stays together."""
+    widths = [max(size_of_state(name).width for name in column) + _BETWEEN_COLUMNS for column in columns]
+    highest = max((len(column) for column in columns), default=1) * ROW
+    bands = max(1, round(math.sqrt(sum(widths) / (_SCREEN_RATIO * highest))))
+    widest = max(sum(widths) / bands, max(widths, default=0.0))
+    left, top, height, is_back = 0.0, ORIGIN[1], 0.0, False
+    for column, width in zip(columns, widths, strict=True):
+        if left + width > widest + 1 and left > 0 and bands > 1:
+            left, top, height, is_back = 0.0, top + height + ROW / 2, 0.0, not is_back
+        middle = widest - left - width / 2 if is_back else left + width / 2
+        yield ORIGIN[0] - NARROWEST / 2 - _BETWEEN_COLUMNS / 2 + middle, top
+        left, height = left + width, max(height, len(column) * ROW)
 
 
 def _place_uses(design: Design, ground: Ground, below: float) -> dict[str, Point]:

@@ -91,8 +91,8 @@ class Canvas {
   }
 
   fit() {
-    const extent = this.scene.extent();
     if (!this.viewport.measure()) return;
+    const extent = bounds([this.scene.extent(), this.router.extent()].filter(Boolean));
     this.fitPending = false;
     if (extent) this.viewport.fit(extent);
     else this.viewport.centreOn(0, 0, 1);

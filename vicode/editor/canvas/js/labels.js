@@ -13,7 +13,7 @@ const CROWDED_ROOM = 100;
 const SLIPS = [0, 0, 1, -1];
 // Parts of the way along the curve, and how far beside it, the best first. 1 is just beside the line, 2 a little farther.
 const PLACES = [0.5, 0.42, 0.58, 0.34, 0.66, 0.27, 0.73, 0.2, 0.8, 0.14, 0.86].flatMap((part) =>
-  [0, 1, -1, 2, -2].map((beside) => ({ part, beside, cost: Math.abs(part - 0.5) * 2.4 + Math.abs(beside) * 0.9 })),
+  [0, 1, -1, 2, -2].map((beside) => ({ part, beside, cost: Math.abs(part - 0.5) * 2.4 + Math.abs(beside) * 1.2 })),
 );
 PLACES.sort((a, b) => a.cost - b.cost);
 const LOOP_PLACES = [0, 1, 2, 3].map((out) => ({ out, cost: out * 0.4 }));

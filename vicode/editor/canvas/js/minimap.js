@@ -4,6 +4,7 @@ import { html } from "./svg.js";
 
 const WIDTH = 180;
 const HEIGHT = 116;
+const MOST_LINES = 400;
 
 export class Minimap {
   constructor(scene, viewport, colours) {
@@ -30,14 +31,30 @@ export class Minimap {
     const scale = Math.min(WIDTH / area.w, HEIGHT / area.h);
     this.map = { scale, x: (WIDTH - area.w * scale) / 2 - area.x * scale, y: (HEIGHT - area.h * scale) / 2 - area.y * scale };
     pen.setTransform(2 * scale, 0, 0, 2 * scale, 2 * this.map.x, 2 * this.map.y);
+    this.#drawEdges(pen, scale);
     const colourOf = (node) => node.data.severity ?? { states: "box-line", components: "component-line", common: "common" }[node.of];
     for (const [colour, nodes] of Map.groupBy([...this.scene.nodes.values()], colourOf)) {
       pen.fillStyle = this.colours(colour);
       pen.beginPath();
-      for (const { x, y, w, h } of nodes.map(rectOf)) pen.rect(x, y, Math.max(w, 2 / scale), Math.max(h, 1.5 / scale));
+      for (const { x, y, w, h } of nodes.map(rectOf)) pen.rect(x, y, Math.max(w, 2.5 / scale), Math.max(h, 2 / scale));
       pen.fill();
     }
     this.follow();
+  }
+
+  /** Where the lines run tells more than boxes alone; thousands of them would only be grey. */
+  #drawEdges(pen, scale) {
+    if (this.scene.edges.size > MOST_LINES) return;
+    pen.strokeStyle = this.colours("plate-line");
+    pen.lineWidth = 0.75 / scale;
+    pen.beginPath();
+    for (const edge of this.scene.edges.values()) {
+      if (!this.scene.isDrawable(edge) || edge.of === "links") continue;
+      const [source, target] = [edge.source, edge.target].map((key) => this.scene.nodes.get(key));
+      pen.moveTo(source.x, source.y);
+      pen.lineTo(target.x, target.y);
+    }
+    pen.stroke();
   }
 
   /** Shows which part of the map is seen; when that is all of it, the map is only in the way. */

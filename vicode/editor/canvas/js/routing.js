@@ -2,11 +2,11 @@
 import { Grid } from "./grid.js";
 import { bounds, crosses, curveBounds, grow, lengthOf, overlaps, pointAt, pointsOf, rectAround, rectOf } from "./geometry.js";
 import { chipOf, labelAt, placeLabel, shorterChips } from "./labels.js";
-import { pairOf } from "./scene.js";
+import { LINKS, pairOf } from "./scene.js";
 import { fan, loops, readingOrder } from "./ways.js";
 
 // What a label would hide, dearer first. A place farther along its line costs less than hiding a line.
-const COST = { box: 12, label: 8, line: 1.2 };
+const COST = { box: 12, label: 8, line: 1.4, link: 0.7 };
 // In a scene of more edges a label looks only at ways and labels that are known already: those of what is in sight.
 const MOST_PLANNED = 600;
 
@@ -35,6 +35,15 @@ export class Router {
   way(edge) {
     if (!this.ways.has(edge.key)) this.#routePair(pairOf(edge));
     return this.ways.get(edge.key);
+  }
+
+  /** What all curves and labels cover, or null; in a large scene they stray little from the boxes. */
+  extent() {
+    if (this.scene.edges.size > MOST_PLANNED) return null;
+    const edges = [...this.scene.edges.values()].filter((edge) => this.scene.isDrawable(edge));
+    for (const edge of edges) this.route(edge);
+    const points = edges.flatMap(({ key }) => this.ways.get(key).points);
+    return bounds([...points.map(({ x, y }) => ({ x, y, w: 0, h: 0 })), ...this.labelRects.values()]);
   }
 
   forget(edge) {
@@ -137,7 +146,7 @@ export class Router {
       if (key !== own && overlaps(grow(this.labelRects.get(key), 2), rect)) sum += COST.label;
     }
     for (const key of this.lines.query(rect)) {
-      if (key !== own && crosses(this.ways.get(key).points, rect)) sum += COST.line;
+      if (key !== own && crosses(this.ways.get(key).points, rect)) sum += key.startsWith(LINKS) ? COST.link : COST.line;
     }
     return sum;
   }

@@ -3,7 +3,9 @@ import { Grid } from "./grid.js";
 import { bounds, rectOf } from "./geometry.js";
 import { shorten, textWidth } from "./text.js";
 
-const KINDS = { states: "s:", components: "c:", transitions: "t:", links: "l:", common: "common" };
+/** How the keys of links begin. */
+export const LINKS = "l:";
+const KINDS = { states: "s:", components: "c:", transitions: "t:", links: LINKS, common: "common" };
 const NODE_HEIGHT = 60;
 const COMMON_ID = "@common";
 
