@@ -5,6 +5,7 @@ from collections.abc import Callable
 from nicegui import ui
 
 from vicode.editor.panels.desk import Desk
+from vicode.editor.panels.row_dragging import RowDragging
 from vicode.editor.panels.rows import row_of_buttons
 from vicode.editor.view import Selected, guard_label, transition_key
 from vicode.findings import Path
@@ -27,11 +28,13 @@ def decisions_list(desk: Desk, source: str, path: Path, items: tuple[Decision, .
 
 
 def _rows(desk: Desk, path: Path, items: tuple[Decision, ...]) -> None:
+    dragging = RowDragging(lambda held, onto: _mover(desk, (*path, held), onto)())
     for index, item in enumerate(items):
         here = (*path, index)
         thing = Selected(of="transitions", id=transition_key(here))
         marks = (" is-selected" if desk.only == thing else "") + (" is-disabled" if item.disabled else "")
-        with ui.row().classes("decision-row" + marks):
+        with ui.row().classes("decision-row" + marks) as row:
+            dragging.add(row, index)
             with ui.element("button").classes("decision").props('type="button"').on("click", _opener(desk, thing)):
                 ui.label(f"{index + 1}").classes("order")
                 ui.label(_target(item) + (" (disabled)" if item.disabled else "")).classes("decision-target")

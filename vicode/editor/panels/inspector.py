@@ -12,6 +12,12 @@ from vicode.editor.panels.use_panel import link_panel, use_panel
 from vicode.editor.session import outline
 from vicode.editor.view import Selected
 
+# Who went into a field by keys gets back by one. A list that is open, or a completion, takes Escape for itself.
+_BACK_TO_CANVAS = """(event) => {
+  if (event.defaultPrevented || event.target.getAttribute("aria-expanded") === "true") return;
+  document.querySelector(".canvas")?.shadowRoot?.querySelector(".stage")?.focus();
+}"""
+
 
 class Inspector:
     """Builds a form when another thing is selected or its outline changed, else only refreshes the fields."""
@@ -22,6 +28,7 @@ class Inspector:
         self.shape: object = None
         self.fields: list[Field] = []
         self.body = ui.column().classes("inspector")
+        self.body.on("keydown.escape", js_handler=_BACK_TO_CANVAS)
 
     def refresh(self) -> None:
         """Show the selected thing as it is now."""
