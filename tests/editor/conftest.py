@@ -6,6 +6,7 @@ import shutil
 import subprocess
 import sys
 from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
@@ -24,10 +25,17 @@ def project(tmp_path: Path) -> Path:
 @pytest.fixture
 def editor(project: Path, tmp_path: Path) -> Iterator[str]:
     """The URL of an editor started as a user would start it."""
+    with started_editor(project, tmp_path / "storage") as url:
+        yield url
+
+
+@contextmanager
+def started_editor(folder: Path, storage: Path) -> Iterator[str]:
+    """An editor on a folder of projects; its URL."""
     # NiceGUI behaves differently when it thinks that a test runs it.
     environment = {key: value for key, value in os.environ.items() if not key.startswith(("PYTEST", "NICEGUI"))}
-    environment["NICEGUI_STORAGE_PATH"] = str(tmp_path / "storage")
-    command = [sys.executable, "-m", "vicode", "edit", str(project), "--no-open", "--port", "0"]
+    environment["NICEGUI_STORAGE_PATH"] = str(storage)
+    command = [sys.executable, "-m", "vicode", "edit", str(folder), "--no-open", "--port", "0"]
     with subprocess.Popen(
         command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, env=environment, cwd=ROOT
     ) as process:

@@ -67,7 +67,11 @@ class Canvas(ui.element, component="js/vicode_canvas.js"):
 
     def select(self, items: Iterable[Item]) -> None:
         """Select exactly these things; no gesture is reported for it."""
-        self._selected = list(items)
+        wanted = list(items)
+        if wanted == self._selected:
+            # The hand may be a selection ahead by now: what it told is not told back to it.
+            return
+        self._selected = wanted
         self._call("select", self._selected)
 
     def centre(self, of: Kind, identity: str) -> None:

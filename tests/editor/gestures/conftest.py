@@ -1,0 +1,228 @@
+"""A hand at the real page of the editor, each test on a small design of its own."""
+
+import json
+import shutil
+from collections.abc import Callable, Iterator
+from itertools import count
+from pathlib import Path
+from typing import Any
+
+import pytest
+from playwright.sync_api import Browser, BrowserContext, Locator, Page, expect
+
+from tests.editor.conftest import ROOT, started_editor
+
+Point = tuple[float, float]
+MANY = 60
+WAIT_MS = 20_000
+DESIGN = """\
+vicode: 1
+component: Sketch{number}
+uses:
+  walk: {{component: Walk, at: [760, 320]}}
+initial: Start
+states:
+  Start:
+    at: [120, 100]
+    transitions:
+      - {{to: Go, when: state_time > 1}}
+      - {{to: Stop, after: 3}}
+      - {{to: Rest, when: state_time > 9}}
+  Go: {{at: [440, 100]}}
+  Stop: {{at: [440, 320]}}
+  Rest: {{at: [120, 320]}}
+"""
+
+# A busy machine takes its time; what never comes still fails.
+expect.set_options(timeout=WAIT_MS)
+
+
+class Sketch:
+    """One page on one small design, and what a person does there with mouse and keys."""
+
+    def __init__(self, page: Page, address: str, number: int) -> None:
+        self.page, self.address, self.number = page, address, number
+        page.goto(f"{address}design/forward/Sketch{number}")
+        page.wait_for_selector(".vicode-canvas[data-ready]")
+        expect(page.get_by_text("Saved", exact=True)).to_be_visible()
+        self.wait_for("vicode.view().resting && Object.keys(vicode.positions()).length === 5")
+        self.start = self.vicode("positions()")
+        page.mouse.move(1000, 20)
+
+    def at(self, of: str, identity: str, right: float = 0, down: float = 0) -> Point:
+        """Where the middle of a thing is on the screen, or a point beside it."""
+        spot = self.vicode(f"screen({json.dumps(of)}, {json.dumps(identity)})")
+        return spot["x"] + right, spot["y"] + down
+
+    def state(self, name: str, right: float = 0, down: float = 0) -> Point:
+        return self.at("states", name, right, down)
+
+    def empty(self) -> Point:
+        """A point where nothing is."""
+        x, y = self.at("states", "Rest")
+        return x + 10, y + 160
+
+    def click(self, spot: Point, *held: Any, right: bool = False, double: bool = False) -> None:
+        for key in held:
+            self.page.keyboard.down(key)
+        self.page.mouse.click(*spot, button="right" if right else "left", click_count=2 if double else 1)
+        for key in held:
+            self.page.keyboard.up(key)
+
+    def grip(self, start: Point, *on: Point, button: Any = "left") -> None:
+        """Press and move, without letting go."""
+        self.page.mouse.move(*start)
+        self.page.mouse.down(button=button)
+        for spot in on:
+            self.page.mouse.move(*spot, steps=4)
+
+    def drag(self, start: Point, *on: Point, button: Any = "left") -> None:
+        self.grip(start, *on, button=button)
+        self.page.mouse.up(button=button)
+
+    def handle(self, name: str, index: int) -> Point:
+        """Where a disc at the border of a hovered state is: 0 above, then clockwise."""
+        self.page.mouse.move(*self.state(name))
+        return middle(self.page.locator(f'circle.handle-hit[data-handle="s:{name}"]').nth(index))
+
+    def press(self, *keys: str) -> None:
+        for key in keys:
+            self.page.keyboard.press(key)
+
+    def select(self, *names: str) -> None:
+        """Select states by clicks."""
+        for index, name in enumerate(names):
+            self.click(self.state(name), *(["Shift"] if index else []))
+        self.selects(*(f"states/{name}" for name in names))
+
+    def selects(self, *things: str) -> None:
+        """Wait until exactly these are selected."""
+        wanted = json.dumps(sorted(things), separators=(",", ":"))
+        self.wait_for(f"JSON.stringify(vicode.selection().map(i => i.of + '/' + i.id).sort()) === {json.dumps(wanted)}")
+
+    def selection(self) -> set[str]:
+        return {f"{item['of']}/{item['id']}" for item in self.vicode("selection()")}
+
+    def place(self, name: str) -> Point:
+        """Where a node is in the design: `place("states/Go")`."""
+        node = self.vicode("positions()")[name]
+        return node["x"], node["y"]
+
+    def stands(self, name: str, x: float, y: float) -> None:
+        """Wait until a node is there, also in the design."""
+        self.wait_for(f"vicode.positions()['{name}']?.x === {x} && vicode.positions()['{name}'].y === {y}")
+
+    def view(self) -> dict[str, Any]:
+        self.wait_for("vicode.view().resting")
+        return dict(self.vicode("view()"))
+
+    def thing(self, kind: str, identity: str) -> Locator:
+        return self.page.locator(f'g.item:not(.chip)[data-kind="{kind}"][data-id={json.dumps(identity)}]')
+
+    def arrow(self, identity: str) -> Locator:
+        return self.thing("transition", identity)
+
+    def tells(self, words: str) -> None:
+        """Wait for words of the page."""
+        expect(self.page.get_by_text(words).first).to_be_visible()
+
+    def menu(self) -> Locator:
+        return self.page.get_by_role("menu", name="Menu")
+
+    def choose(self, entry: str) -> None:
+        self.menu().get_by_role("menuitem", name=entry).click()
+
+    def rename_to(self, name: str) -> None:
+        field = self.page.locator("input.rename")
+        expect(field).to_be_focused()
+        field.fill(name)
+        field.press("Enter")
+        expect(self.thing("state", name)).to_be_visible()
+
+    def undone(self, steps: int = 1) -> None:
+        """Take edits back; the design is then what is in the file, and not one step earlier."""
+        expect(self.page.get_by_text("Unsaved changes")).to_be_visible()
+        self.press("Escape", "Escape")
+        for step in range(steps):
+            self.press("Control+z")
+            if step < steps - 1:
+                expect(self.page.get_by_text("Unsaved changes")).to_be_visible()
+        expect(self.page.get_by_text("Saved", exact=True)).to_be_visible()
+        # The drawing may follow a moment later than the words.
+        self.wait_for(
+            f"JSON.stringify(vicode.positions()) === {json.dumps(json.dumps(self.start, separators=(',', ':')))}"
+        )
+
+    def vicode(self, call: str) -> Any:
+        return self.page.evaluate(f"document.querySelector('.vicode-canvas').vicode.{call}")
+
+    def wait_for(self, claim: str) -> None:
+        self.page.wait_for_function(
+            f"() => {{ const {{vicode}} = document.querySelector('.vicode-canvas'); return {claim}; }}", timeout=WAIT_MS
+        )
+
+
+def middle(locator: Locator) -> Point:
+    locator.wait_for()
+    box = locator.bounding_box()
+    assert box is not None
+    return box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+
+
+@pytest.fixture(scope="session")
+def sketches(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
+    """An editor on many small designs: a new one for each test."""
+    folder = tmp_path_factory.mktemp("sketches")
+    shutil.copytree(ROOT / "designs" / "forward", folder / "designs" / "forward")
+    for number in range(MANY):
+        file = folder / "designs" / "forward" / f"sketch{number}.yaml"
+        file.write_text(DESIGN.format(number=number), encoding="utf-8")
+    with started_editor(folder / "designs", folder / "storage") as url:
+        yield url
+
+
+@pytest.fixture(scope="session")
+def numbers() -> Iterator[int]:
+    return count()
+
+
+@pytest.fixture(scope="module")
+def window(chromium: Browser) -> Iterator[BrowserContext]:
+    """A window with a clipboard; one for the module, as opening it anew for each test would take most of the time."""
+    context = chromium.new_context(
+        viewport={"width": 1366, "height": 768}, permissions=["clipboard-read", "clipboard-write"]
+    )
+    context.set_default_timeout(WAIT_MS)
+    yield context
+    context.close()
+
+
+@pytest.fixture(scope="module")
+def first_page(window: BrowserContext) -> Page:
+    return window.new_page()
+
+
+@pytest.fixture
+def open_sketch(sketches: str, numbers: Iterator[int]) -> Callable[[Page], Sketch]:
+    """Opens a fresh design in a page."""
+    return lambda page: Sketch(page, sketches, next(numbers))
+
+
+@pytest.fixture
+def sketch(open_sketch: Callable[[Page], Sketch], first_page: Page) -> Iterator[Sketch]:
+    """A hand at a fresh design; errors in the console fail the test."""
+    errors: list[str] = []
+
+    def on_console(message: Any) -> None:
+        if message.type == "error":
+            errors.append(message.text)
+
+    def on_error(error: Any) -> None:
+        errors.append(str(error))
+
+    first_page.on("console", on_console)
+    first_page.on("pageerror", on_error)
+    yield open_sketch(first_page)
+    first_page.remove_listener("console", on_console)
+    first_page.remove_listener("pageerror", on_error)
+    assert not errors, "the browser reported errors:\n" + "\n".join(errors)

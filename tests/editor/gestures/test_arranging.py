@@ -1,0 +1,144 @@
+"""Boxes: selected together, lined up, spread out, nudged, guided while they are dragged; each as one edit."""
+
+import pytest
+from playwright.sync_api import expect
+
+from tests.editor.gestures.conftest import Sketch
+
+ALL = ("Start", "Go", "Stop", "Rest")
+
+
+def test_a_frame_selects_and_clicks_add_or_take_away(sketch: Sketch) -> None:
+    sketch.drag(sketch.state("Start", -90, -50), sketch.state("Go", 70, 40))
+    assert {"states/Start", "states/Go"} <= sketch.selection()
+    assert "states/Stop" not in sketch.selection()
+    sketch.click(sketch.state("Go"), "Control")
+    assert "states/Go" not in sketch.selection()
+    sketch.click(sketch.state("Stop"), "Shift")
+    assert "states/Stop" in sketch.selection()
+    sketch.page.keyboard.down("Shift")
+    sketch.drag(sketch.state("Rest", -90, 45), sketch.state("Rest", 80, -35))
+    sketch.page.keyboard.up("Shift")
+    assert {"states/Start", "states/Stop", "states/Rest"} <= sketch.selection()
+    sketch.click(sketch.empty())
+    sketch.selects()
+
+
+def test_a_selection_is_moved_and_deleted_in_one_edit(sketch: Sketch) -> None:
+    sketch.select("Go", "Stop")
+    start = sketch.state("Go")
+    sketch.drag(start, (start[0] + 60, start[1] + 37))
+    sketch.wait_for("vicode.positions()['states/Go'].x > 470 && vicode.positions()['states/Stop'].x > 470")
+    sketch.undone()
+    sketch.stands("states/Go", 440, 100)
+    sketch.select("Go", "Stop")
+    sketch.press("Delete")
+    expect(sketch.thing("state", "Stop")).to_have_count(0)
+    sketch.undone()
+    expect(sketch.thing("state", "Stop")).to_be_visible()
+
+
+@pytest.mark.parametrize(
+    ("button", "keys", "places"),
+    [
+        ("Align left sides", "Alt+a", {"Go": (120, 100), "Stop": (120, 320)}),
+        ("Align centres", "Alt+h", {"Start": (280, 100), "Stop": (280, 320)}),
+        ("Align right sides", "Alt+d", {"Start": (440, 100), "Stop": (440, 320)}),
+        ("Align tops", "Alt+w", {"Start": (120, 100), "Stop": (440, 100)}),
+        ("Align middles", "Alt+v", {"Start": (120, 210), "Stop": (440, 210)}),
+        ("Align bottoms", "Alt+s", {"Start": (120, 320), "Go": (440, 320)}),
+    ],
+)
+def test_lining_up_by_keys_and_by_buttons(
+    sketch: Sketch, button: str, keys: str, places: dict[str, tuple[int, int]]
+) -> None:
+    sketch.select("Start", "Go", "Stop")
+    sketch.press(keys)
+    for name, (x, y) in places.items():
+        sketch.stands(f"states/{name}", x, y)
+    sketch.undone()
+    sketch.select("Start", "Go", "Stop")
+    sketch.page.get_by_role("button", name=button).click()
+    for name, (x, y) in places.items():
+        sketch.stands(f"states/{name}", x, y)
+
+
+def test_three_are_needed_to_be_spread_out(sketch: Sketch) -> None:
+    start = sketch.state("Go")
+    sketch.drag(start, (start[0] - 120, start[1] + 33))
+    sketch.wait_for("vicode.positions()['states/Go'].x < 400")
+    expect(sketch.page.get_by_text("Unsaved changes")).to_be_visible()
+    sketch.select("Start", "Stop")
+    sketch.click(sketch.state("Stop"), right=True)
+    expect(sketch.menu().get_by_role("menuitem", name="Align tops")).to_be_visible()
+    expect(sketch.menu().get_by_role("menuitem", name="Equal gaps across")).to_have_count(0)
+    sketch.press("Escape")
+    sketch.select("Start", "Go", "Stop")
+    sketch.press("Alt+Shift+H")
+    sketch.wait_for("vicode.positions()['states/Go'].x === 280")
+    sketch.press("Alt+Shift+V")
+    sketch.stands("states/Go", 280, 210)
+    sketch.undone(3)
+
+
+def test_a_dragged_box_lines_up_with_others_and_shows_it(sketch: Sketch) -> None:
+    k = sketch.view()["k"]
+    x, y = sketch.state("Rest")
+    # Freely to a place off the grid, so that lining up can be told from it.
+    sketch.page.keyboard.down("Alt")
+    sketch.drag((x, y), (x + 23 * k, y + 41 * k))
+    sketch.page.keyboard.up("Alt")
+    sketch.wait_for("vicode.positions()['states/Rest'].x !== 120 && vicode.positions()['states/Rest'].x % 10 !== 0")
+    rest = sketch.place("states/Rest")
+    sketch.press("Escape")
+    x, y = sketch.state("Stop")
+    sketch.grip((x, y), (x - 60 * k, y + 70 * k), sketch.state("Rest", 260, 4 * k))
+    guides = sketch.page.locator("path.guide")
+    expect(guides).not_to_have_count(0)
+    sketch.page.mouse.up()
+    expect(guides).to_have_count(0)
+    sketch.wait_for(f"vicode.positions()['states/Stop'].y === {rest[1]}")
+    sketch.undone(2)
+
+
+def test_arrow_keys_nudge_as_one_edit(sketch: Sketch) -> None:
+    sketch.select("Go", "Stop")
+    sketch.press("ArrowRight", "ArrowRight", "Shift+ArrowDown")
+    sketch.stands("states/Go", 460, 101)
+    sketch.stands("states/Stop", 460, 321)
+    sketch.undone()
+    sketch.stands("states/Go", 440, 100)
+
+
+def test_the_view_pans_and_zooms_by_every_way(sketch: Sketch) -> None:
+    before, spot = sketch.view(), sketch.state("Go")
+    sketch.page.keyboard.down(" ")
+    sketch.drag(sketch.empty(), (sketch.empty()[0] + 50, sketch.empty()[1] - 40))
+    sketch.page.keyboard.up(" ")
+    sketch.drag(sketch.state("Go"), sketch.state("Go", 30, 10), button="middle")
+    sketch.page.mouse.wheel(-7, 13)
+    sketch.wait_for(f"Math.abs(vicode.view().x - {before['x'] + 87}) < 2")
+    assert sketch.state("Go") == pytest.approx((spot[0] + 87, spot[1] - 43), abs=2)
+    spot = sketch.state("Stop")
+    sketch.page.mouse.move(*spot)
+    # What turns at once after a touchpad is taken for the touchpad.
+    sketch.page.wait_for_timeout(300)
+    sketch.page.mouse.wheel(0, -200)
+    sketch.wait_for(f"vicode.view().k > {before['k']}")
+    assert sketch.state("Stop") == pytest.approx(spot, abs=2)
+    sketch.press("0")
+    sketch.wait_for("vicode.view().k === 1")
+    sketch.press("-")
+    sketch.wait_for("vicode.view().k < 1")
+    sketch.select("Go", "Stop")
+    sketch.press("2")
+    box = sketch.page.locator(".vicode-canvas").bounding_box()
+    assert box is not None
+    sketch.view()
+    (x1, y1), (x2, y2) = sketch.state("Go"), sketch.state("Stop")
+    assert ((x1 + x2) / 2, (y1 + y2) / 2) == pytest.approx(
+        (box["x"] + box["width"] / 2, box["y"] + box["height"] / 2), abs=2
+    )
+    sketch.press("1")
+    sketch.wait_for(f"Math.abs(vicode.view().x - {before['x']}) < 1")
+    expect(sketch.page.get_by_text("Saved", exact=True)).to_be_visible()

@@ -1,0 +1,130 @@
+"""Copy, cut, paste and duplicate through the clipboard of the system, within a design, between designs and windows."""
+
+from collections.abc import Callable
+
+from playwright.sync_api import Page, expect
+
+from tests.editor.gestures.conftest import Sketch
+
+
+def clipboard(sketch: Sketch) -> str:
+    return str(sketch.page.evaluate("navigator.clipboard.readText()"))
+
+
+def put_on_clipboard(sketch: Sketch, text: str) -> None:
+    sketch.page.evaluate("text => navigator.clipboard.writeText(text)", text)
+
+
+def copy(sketch: Sketch, keys: str = "Control+c") -> None:
+    sketch.press(keys)
+    expect(sketch.page.locator(".message")).to_have_text("Cut" if keys == "Control+x" else "Copied")
+
+
+def test_copied_states_are_readable_text_and_paste_under_the_hand(sketch: Sketch) -> None:
+    sketch.select("Start", "Go")
+    copy(sketch)
+    text = clipboard(sketch)
+    assert text.startswith("vicode: 1\ncomponent: Sketch")
+    assert "  Start:\n    at: [120, 100]\n    transitions:\n      - {to: Go, when: state_time > 1}\n" in text
+    assert "Rest:" not in text
+    spot = sketch.empty()
+    sketch.page.mouse.move(*spot)
+    sketch.press("Control+v")
+    sketch.selects("states/Start2", "states/Go2")
+    expect(sketch.arrow("Start2/0")).to_have_attribute(
+        "aria-label", "Transition 1 of 3 from Start2 to Go2: state_time > 1"
+    )
+    expect(sketch.arrow("Start2/1")).to_have_attribute("aria-label", "Transition 2 of 3 from Start2 to Stop: 3 s")
+    (left, y), (right, _y) = sketch.state("Start2"), sketch.state("Go2")
+    assert abs((left + right) / 2 - spot[0]) < 12
+    assert abs(y - spot[1]) < 12
+    sketch.undone()
+
+
+def test_cut_takes_away_what_paste_brings_back(sketch: Sketch) -> None:
+    sketch.select("Go")
+    copy(sketch, "Control+x")
+    expect(sketch.thing("state", "Go")).to_have_count(0)
+    assert "Go:" in clipboard(sketch)
+    sketch.press("Control+v")
+    expect(sketch.thing("state", "Go")).to_be_visible()
+    sketch.undone(2)
+
+
+def test_duplicate_keeps_what_leads_between_and_out(sketch: Sketch) -> None:
+    sketch.select("Start", "Go")
+    sketch.press("Control+d")
+    sketch.selects("states/Start2", "states/Go2")
+    sketch.stands("states/Start2", 160, 190)
+    expect(sketch.arrow("Start2/2")).to_have_attribute(
+        "aria-label", "Transition 3 of 3 from Start2 to Rest: state_time > 9"
+    )
+    sketch.undone()
+    sketch.click(sketch.at("transitions", "Start/1"))
+    sketch.press("Control+d")
+    sketch.selects("transitions/Start/2")
+    expect(sketch.arrow("Start/2")).to_have_attribute("aria-label", "Transition 3 of 4 from Start to Stop: 3 s")
+    sketch.undone()
+
+
+def test_parts_travel_between_designs_and_windows_with_what_they_use(
+    sketch: Sketch, open_sketch: Callable[[Page], Sketch]
+) -> None:
+    page = sketch.page.context.new_page()
+    page.goto(f"{sketch.address}design/forward/Player")
+    player = page.locator('g[data-kind="state"][data-id="LookForBall"] rect.box')
+    player.click(force=True)
+    page.keyboard.press("Control+c")
+    expect(page.locator(".message")).to_have_text("Copied")
+    sketch.page.bring_to_front()
+    sketch.page.mouse.move(*sketch.empty())
+    sketch.press("Control+v")
+    sketch.selects("states/LookForBall")
+    for alias in ("perception", "search_ball"):
+        expect(sketch.thing("component", alias)).to_be_visible()
+    expect(sketch.thing("link", "requires/LookForBall/perception")).to_have_count(1)
+    # It led to a state that this design does not have.
+    expect(sketch.arrow("LookForBall/0")).to_have_count(0)
+    sketch.undone()
+    page.close()
+
+
+def test_transitions_go_to_the_selected_states(sketch: Sketch) -> None:
+    sketch.click(sketch.at("transitions", "Start/1"))
+    copy(sketch)
+    sketch.press("Escape", "Control+v")
+    sketch.tells("select the states that shall get these transitions")
+    sketch.select("Go", "Rest")
+    sketch.press("Control+v")
+    for name in ("Go", "Rest"):
+        expect(sketch.arrow(f"{name}/0")).to_have_attribute("aria-label", f"Transition 1 of 1 from {name} to Stop: 3 s")
+    sketch.undone()
+
+
+def test_any_text_gets_words_and_changes_nothing(sketch: Sketch) -> None:
+    for text, words in (
+        ("just a letter", "the clipboard holds no part of a design"),
+        ("states: {A: !!python/object/apply:os.system [ls]}", "the clipboard holds no part of a design: "),
+        ("states: {'<img src=x onerror=alert(1)>': {}}", "is no name"),
+        ("states: {}\n" + "# much\n" * 80_000, "too much text"),
+        ("   ", "The clipboard holds no text"),
+    ):
+        put_on_clipboard(sketch, text)
+        sketch.page.locator(".stage").last.focus()
+        sketch.press("Control+v")
+        sketch.tells(words)
+    expect(sketch.page.get_by_text("Saved", exact=True)).to_be_visible()
+    assert sketch.page.locator("img[src=x]").count() == 0
+
+
+def test_menus_copy_and_paste_as_well(sketch: Sketch) -> None:
+    sketch.click(sketch.state("Rest"), right=True)
+    sketch.choose("Copy")
+    expect(sketch.page.locator(".message")).to_have_text("Copied")
+    spot = sketch.empty()
+    sketch.click(spot, right=True)
+    sketch.choose("Paste")
+    sketch.selects("states/Rest2")
+    x, y = sketch.state("Rest2")
+    assert abs(x - spot[0]) + abs(y - spot[1]) < 20
+    sketch.undone()
