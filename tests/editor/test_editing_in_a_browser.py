@@ -90,6 +90,7 @@ def test_what_a_person_does(editor: str, page: Page, project: Path) -> None:
     expect(page.locator(".preview").get_by_text("class Player").first).to_be_visible()
     page.get_by_role("button", name="Generate").click()
     expect(page.get_by_text("Saved", exact=True).first).to_be_visible()
+    page.get_by_role("dialog").get_by_role("button", name="Write").click()
     written = page.get_by_text("player.py", exact=False).last
     expect(written).to_be_visible()
     page.reload()

@@ -3,7 +3,6 @@
 import ast
 import re
 import textwrap
-import warnings
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import lru_cache
@@ -11,6 +10,7 @@ from functools import lru_cache
 from vicode import regions
 from vicode.check.context import Context
 from vicode.findings import Finding, Span, did_you_mean
+from vicode.model.parsing import compile_check, parse_module
 from vicode.model.project import LANGUAGES
 
 # The line above a piece of code, by its role: what parses below it, indented if it opens a block, parses in its place.
@@ -72,10 +72,8 @@ def python_problem(text: str, role: str) -> tuple[str, Span] | None:
         return "this contains a mark of generated files", (0, len(text))
     copy = _Copy.of(text, _ABOVE.get(role, "pass"))
     try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")
-            tree = ast.parse(copy.source)
-            compile(tree, "<code>", "exec", dont_inherit=True)
+        tree = parse_module(copy.source)
+        compile_check(tree)
     except SyntaxError as error:
         return _reworded(error.msg), copy.span(error.lineno or 1, (error.offset or 1) - 1)
     except (ValueError, RecursionError, MemoryError, OverflowError) as error:

@@ -3,17 +3,33 @@
 from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass
 
-from vicode.generators.plan import UnsoundDesignError, collect_components, plan_package, plan_project
-from vicode.generators.python import RESERVED_MODULES, class_path, generate_probes, generate_python, list_paths
+from vicode.generators.origins import Origin, in_whole_design
+from vicode.generators.plan import (
+    ComponentPlan,
+    UnsoundDesignError,
+    collect_components,
+    plan_package,
+    plan_project,
+)
+from vicode.generators.python import (
+    RESERVED_MODULES,
+    class_path,
+    find_origins,
+    generate_probes,
+    generate_python,
+    list_paths,
+)
 from vicode.model.project import Project
 from vicode.output import OutputFile
 
 __all__ = [
     "GENERATORS",
+    "Origin",
     "UnsoundDesignError",
     "collect_components",
     "generate",
     "list_outputs",
+    "origins_of",
     "python_class",
     "python_probes",
 ]
@@ -21,15 +37,21 @@ __all__ = [
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Generator:
-    """A language: what it writes for a plan, and all paths it may write for a project."""
+    """A language: what it writes for a plan, and all paths it may write for a project.
+
+    `find_origins` tells which lines of a component's text come from which thing of its design.
+    """
 
     write: Callable[..., tuple[OutputFile, ...]]
     list_paths: Callable[..., tuple[str, ...]]
     reserved_modules: frozenset[str]
+    find_origins: Callable[[ComponentPlan, str], tuple[Origin, ...]] = lambda _plan, _text: ()
 
 
 GENERATORS: Mapping[str, Generator] = {
-    "python": Generator(write=generate_python, list_paths=list_paths, reserved_modules=RESERVED_MODULES),
+    "python": Generator(
+        write=generate_python, list_paths=list_paths, reserved_modules=RESERVED_MODULES, find_origins=find_origins
+    ),
 }
 
 
@@ -61,6 +83,19 @@ def generate(
         plan = plan_project(project, wanted, sources or {}, generator.reserved_modules)
         files += generator.write(plan, standalone=standalone)
     return tuple(sorted(files, key=lambda file: file.path))
+
+
+def origins_of(project: Project, component: str, language: str, text: str) -> tuple[Origin, ...]:
+    """Which lines of a text that `generate` wrote for a component come from which thing of its design.
+
+    Raises:
+        UnsoundDesignError: The design has mistakes.
+    """
+    design, generator = project.design(component), GENERATORS[language]
+    if design is None:
+        return ()
+    (plan,) = plan_project(project, {component}, {}, generator.reserved_modules).components
+    return in_whole_design(design, generator.find_origins(plan, text))
 
 
 def list_outputs(

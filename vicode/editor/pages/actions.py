@@ -1,13 +1,20 @@
 """What the commands of the design page do."""
 
+from collections.abc import Callable
+from functools import partial
+from typing import TypeVar
+
 from nicegui import background_tasks, run
 
 from vicode.editor.pages.drawing import Drawing
 from vicode.editor.pages.look import Theme
 from vicode.editor.panels.command import Command, Place
 from vicode.editor.panels.desk import Desk
+from vicode.editor.panels.generate_dialog import ask_before_writing, is_unasked
 from vicode.editor.panels.save_dialog import ask_about_disk
-from vicode.editor.session import ChangedOnDiskError, apply_gesture
+from vicode.editor.session import ChangedOnDiskError, Document, apply_gesture
+
+T = TypeVar("T")
 
 
 class Actions:
@@ -57,7 +64,7 @@ class Actions:
         self._say_why_not(self.desk.document.redo())
 
     def generate(self) -> None:
-        """Write the code, after saving."""
+        """Write the code, after saving, and after showing what would change."""
         if self.desk.document.is_saved or self.save():
             background_tasks.create(self._write_code(), name="generate")
 
@@ -82,18 +89,36 @@ class Actions:
             self.desk.say(refused, "warning")
 
     async def _write_code(self) -> None:
+        """Show what would change, unless nothing would or the person does not want to be asked."""
         desk, canvas = self.desk, self.drawing.canvas
-        try:
-            outcome = await run.io_bound(desk.workspace.generate, desk.document)
-        except ChangedOnDiskError:
-            with canvas.client:
-                ask_about_disk(desk)
-            return
-        except OSError as error:
-            with canvas.client:
-                desk.say(f"Not generated: {error}", "negative")
-            return
-        if outcome is None or canvas.is_deleted:
-            return
         with canvas.client:
-            desk.say(outcome.words, "positive" if outcome.is_sound else "negative")
+            prepared = await self._try(desk.workspace.prepare)
+            if prepared is None:
+                return
+            if prepared.changes and (prepared.edits or not await is_unasked()):
+                ask_before_writing(prepared, self._write_answered)
+            else:
+                await self._write(is_forced=False)
+
+    def _write_answered(self, is_forced: bool) -> None:
+        background_tasks.create(self._write(is_forced=is_forced), name="write code")
+
+    async def _write(self, *, is_forced: bool) -> None:
+        desk, canvas = self.desk, self.drawing.canvas
+        with canvas.client:
+            outcome = await self._try(partial(desk.workspace.generate, is_forced=is_forced))
+            if outcome is not None:
+                desk.say(outcome.words, "positive" if outcome.is_sound else "negative")
+
+    async def _try(self, work: Callable[[Document], T]) -> T | None:
+        """Do something with the open design beside the event loop; None if it could not be done, which was said."""
+        desk = self.desk
+        try:
+            done = await run.io_bound(work, desk.document)
+        except ChangedOnDiskError:
+            ask_about_disk(desk)
+            return None
+        except OSError as error:
+            desk.say(f"Not generated: {error}", "negative")
+            return None
+        return None if self.drawing.canvas.is_deleted else done

@@ -1,4 +1,4 @@
-"""What the button Generate does: checks, generates, guards what was edited by hand, writes."""
+"""What the button Generate does: checks, generates, shows what would change, guards what was edited by hand, writes."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -8,9 +8,9 @@ from vicode.check import check_project
 from vicode.findings import Finding, Severity
 from vicode.generators import collect_components, generate, list_outputs
 from vicode.model.project import Project
-from vicode.output import apply, compare
+from vicode.output import Difference, Status, apply, compare, set_aside
 from vicode.regions import is_sealed
-from vicode.sync import find_hand_edits
+from vicode.sync import find_edits_by_file
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -31,11 +31,26 @@ class Job:
     reading: Mapping[str, tuple[Finding, ...]]
 
 
-def generate_into(folder: Path, job: Job, component: str) -> Generated:
-    """Write the code of a component and of all it uses into a folder; nothing is written if anything is wrong.
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Prepared:
+    """What would be written into a folder; `refused` says why nothing would, `edits` what a person edited there."""
+
+    folder: Path
+    refused: str = ""
+    differences: tuple[Difference, ...] = ()
+    edits: Mapping[str, tuple[Finding, ...]]
+
+    @property
+    def changes(self) -> tuple[Difference, ...]:
+        """The files that are not yet as they should be."""
+        return tuple(each for each in self.differences if each.status is not Status.UNCHANGED)
+
+
+def prepare(folder: Path, job: Job, component: str) -> Prepared:
+    """Find out what generating a component, and all it uses, would write into a folder; nothing is written.
 
     Raises:
-        OSError: A file cannot be written.
+        OSError: A file cannot be read.
     """
     project = job.project
     wanted = collect_components(project, (component,))
@@ -45,14 +60,27 @@ def generate_into(folder: Path, job: Job, component: str) -> Generated:
         first = errors[0]
         where = f"{first.thing.component}: " if first.thing and first.thing.component != component else ""
         more = f" (and {len(errors) - 1} more)" if len(errors) > 1 else ""
-        return Generated(words=f"Nothing generated. {where}{first.message}{more}", is_sound=False)
+        return Prepared(folder=folder, refused=f"Nothing generated. {where}{first.message}{more}", edits={})
     files = generate(project, components=(component,), sources=job.sources)
     differences = compare(files, folder, keep=list_outputs(project), is_ours=is_sealed)
-    edits = find_hand_edits(differences)
-    if edits:
-        return Generated(words=f"Nothing generated. {edits[0].message}: {edits[0].mend}", is_sound=False)
-    touched = apply(differences, folder)
+    return Prepared(folder=folder, differences=differences, edits=find_edits_by_file(differences))
+
+
+def write(prepared: Prepared, *, is_forced: bool = False) -> Generated:
+    """Write all of it, or nothing if a person's edits would be lost; with force those are set aside first.
+
+    Raises:
+        OSError: A file cannot be written.
+    """
+    if prepared.refused:
+        return Generated(words=prepared.refused, is_sound=False)
+    if prepared.edits and not is_forced:
+        first = next(iter(prepared.edits.values()))[0]
+        return Generated(words=f"Nothing generated. {first.message}: {first.mend}", is_sound=False)
+    for path in prepared.edits:
+        set_aside(prepared.folder / path)
+    touched = apply(prepared.differences, prepared.folder)
     if not touched:
-        return Generated(words=f"Generated code in {folder.name} is up to date", is_sound=True)
+        return Generated(words=f"Generated code in {prepared.folder.name} is up to date", is_sound=True)
     names = ", ".join(path.name for path in touched[:4]) + (", …" if len(touched) > 4 else "")
     return Generated(words=f"Generated {names} in {touched[0].parent}", is_sound=True, files=touched)

@@ -1,38 +1,104 @@
-"""The generated code of a design that may still have mistakes."""
+"""The generated code of a design that may still have mistakes: every file, and what its lines come from."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
+from pathlib import Path
 
-from vicode.generators import UnsoundDesignError, generate, python_class
+from vicode.editor.view import Selected, thing_of_path
+from vicode.generators import GENERATORS, Origin, UnsoundDesignError, generate, origins_of
 from vicode.model.design import Design
 from vicode.model.project import Project
+from vicode.output import OutputFile
+from vicode.regions import checksum_of, find, is_edited, is_sealed
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PreviewFile:
+    """A file as it would be written; `edited` are the regions that were edited by hand in the one on disk."""
+
+    path: str
+    language: str
+    text: str
+    origins: tuple[Origin, ...] = ()
+    edited: tuple[str, ...] = ()
+
+    def lines_of(self, thing: Selected) -> tuple[int, int]:
+        """First and last line of what a thing of the drawing became, (0, 0) if it is not in here."""
+        found = [origin for origin in self.origins if thing_of_path(origin.path) == thing]
+        # A state's lines hold those of its code; a transition has its own.
+        return (found[0].first, found[0].last) if found else (0, 0)
+
+    def thing_at(self, line: int) -> Selected | None:
+        """The smallest thing of the drawing that a line comes from."""
+        around = [origin for origin in self.origins if origin.first <= line <= origin.last]
+        smallest = min(around, key=lambda origin: origin.last - origin.first, default=None)
+        return thing_of_path(smallest.path) if smallest else None
+
+    def edited_lines(self) -> tuple[int, ...]:
+        """The lines of the regions that are another text on disk."""
+        regions = (region for region in find(self.text).regions if region.id in self.edited)
+        return tuple(line for region in regions for line in range(region.line, region.end_line + 1))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Preview:
-    """The text to show and a line above it."""
+    """The files to choose from, the component's own first; `note` says why there are none."""
 
-    note: str
-    text: str
+    note: str = ""
+    files: tuple[PreviewFile, ...] = field(default=())
 
 
-def preview_of(project: Project, design: Design, sources: Mapping[str, str]) -> Preview:
-    """The Python module of a design as `vicode gen` would write it; no file is touched.
+def preview_of(project: Project, design: Design, sources: Mapping[str, str], folder: Path | None = None) -> Preview:
+    """What `vicode gen` would write for a design; no file is written.
 
     Args:
         project: What surrounds the design.
         design: As it is now, in place of the one of its name in the project.
         sources: The files of the designs by component, as the generated text names them.
+        folder: Where generated code stands, to tell what was edited there; None: nobody wants to know.
     """
     designs = tuple(design if each.component == design.component else each for each in project.designs)
     whole = replace(project, designs=designs)
+    languages = [language for language in GENERATORS if language in project.languages]
+    if not languages:
+        return Preview(note=f"No code: this project generates {', '.join(project.languages) or 'nothing'}")
     try:
-        files = generate(whole, components=(design.component,), languages=("python",), sources=sources)
-        module = python_class(whole, design.component).partition(":")[0]
+        files = [file for language in languages for file in _files(whole, design.component, language, sources)]
     except UnsoundDesignError as error:
-        return Preview(note=f"No code yet: {error}", text="")
-    wanted = f"{module.replace('.', '/')}.py"
-    for file in files:
-        if file.path.endswith(wanted):
-            return Preview(note=file.path, text=file.text)
-    return Preview(note="No code: this project does not generate Python", text="")
+        return Preview(note=f"No code yet: {error}")
+    return Preview(files=tuple(replace(file, edited=_edited(file, folder)) if folder else file for file in files))
+
+
+def _files(project: Project, component: str, language: str, sources: Mapping[str, str]) -> list[PreviewFile]:
+    """The files of a component in a language, then those that all components share."""
+    others = {each.component for each in project.designs} - {component}
+
+    def write(without: set[str]) -> tuple[OutputFile, ...]:
+        return generate(project, components=(component,), leave_out=without, languages=(language,), sources=sources)
+
+    files, shared = write(others), {file.path for file in write({component, *others})}
+    return [
+        PreviewFile(
+            path=file.path,
+            language=language,
+            text=file.text,
+            origins=() if file.path in shared else origins_of(project, component, language, file.text),
+        )
+        for file in sorted(files, key=lambda file: file.path in shared)
+    ]
+
+
+def _edited(file: PreviewFile, folder: Path) -> tuple[str, ...]:
+    """The regions of the file on disk that hold other code than was generated, and than the design has."""
+    try:
+        old = (folder / file.path).read_bytes().decode("utf-8")
+    except (OSError, UnicodeDecodeError):
+        return ()
+    if not is_sealed(old):
+        return ()
+    fresh = {region.id: checksum_of(region.body) for region in find(file.text).regions}
+    return tuple(
+        region.id
+        for region in find(old).regions
+        if is_edited(region) and checksum_of(region.body) != fresh.get(region.id)
+    )

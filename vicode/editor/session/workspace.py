@@ -5,8 +5,9 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from vicode.check import check_design
+from vicode.editor.session import generating
 from vicode.editor.session.document import Clash, Document, OnDisk, Sheet
-from vicode.editor.session.generating import Generated, Job, generate_into
+from vicode.editor.session.generating import Generated, Job, Prepared
 from vicode.editor.session.people import DISK, People
 from vicode.findings import Finding
 from vicode.findings import Path as Way
@@ -154,12 +155,17 @@ class Workspace:
         assert document is not None
         return document
 
-    def generate(self, document: Document) -> Generated:
-        """Write the code of a design, and of all it uses as they were saved, into the project's output folder.
+    @property
+    def output_folder(self) -> Path:
+        """Where generated code is written."""
+        return (self.folder / self.project.generated).resolve()
+
+    def prepare(self, document: Document) -> Prepared:
+        """Find out what generating a design, and all it uses as they were saved, would write.
 
         Raises:
             ChangedOnDiskError: Another program changed the file of the design.
-            OSError: A file cannot be written.
+            OSError: A file cannot be read.
         """
         self.follow_disk()
         if document.sheet.clash is not None:
@@ -167,9 +173,17 @@ class Workspace:
         saved = {name: each.sheet.saved for name, each in self._documents.items()}
         designs = tuple(saved.get(each.component, each) for each in self.project.designs)
         reading = {**self._reading, **{name: each.sheet.reading for name, each in self._documents.items()}}
-        folder = (self.folder / self.project.generated).resolve()
         job = Job(project=replace(self.project, designs=designs), sources=self.sources, reading=reading)
-        return generate_into(folder, job, document.design.component)
+        return generating.prepare(self.output_folder, job, document.design.component)
+
+    def generate(self, document: Document, *, is_forced: bool = False) -> Generated:
+        """Write that code; with force files that a person edited are set aside first, else nothing is written then.
+
+        Raises:
+            ChangedOnDiskError: Another program changed the file of the design.
+            OSError: A file cannot be written.
+        """
+        return generating.write(self.prepare(document), is_forced=is_forced)
 
     def _take(self, opened: OpenProject) -> None:
         """Make a project as read the one that is worked on."""

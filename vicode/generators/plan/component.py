@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping
 
+from vicode.findings import Path
 from vicode.generators.plan.bodies import Bodies
 from vicode.generators.plan.expressions import (
     UnsoundDesignError,
@@ -81,7 +82,7 @@ def plan_component(project: Project, design: Design, modules: Mapping[str, str],
         variables=plan_values(design.variables, planner.scope),
         module_code=planner.bodies.whole("module", design.module),
         members=planner.bodies.whole("members", design.members),
-        decide_first=planner.plan_decisions(design.common.transitions, COMMON),
+        decide_first=planner.plan_decisions(design.common.transitions, COMMON, ("common", "transitions")),
         act_first=planner.plan_steps(design.common.actions, COMMON, "actions"),
         states=tuple(planner.plan_state(state, stems.give(stem_of(state.name))) for state in states),
     )
@@ -128,7 +129,7 @@ class _Planner:
             final=state.final,
             requires=state.requires,
             enter=self.plan_steps(state.enter, state.name, "enter"),
-            decisions=self.plan_decisions(state.transitions, state.name),
+            decisions=self.plan_decisions(state.transitions, state.name, ("states", state.name, "transitions")),
             act=self.plan_steps(state.all_actions, state.name, "actions"),
             leave=self.plan_steps(state.leave, state.name, "leave"),
         )
@@ -170,10 +171,10 @@ class _Planner:
         left_out = (each for each in interface.parameters if each.name not in given)
         return tuple((each.name, initial_of(each, scope)) for each in left_out)
 
-    def plan_decisions(self, decisions: tuple[Decision, ...], source: str) -> tuple[Alternative, ...]:
+    def plan_decisions(self, decisions: tuple[Decision, ...], source: str, path: Path) -> tuple[Alternative, ...]:
         planned: list[Alternative] = []
-        for decision in decisions:
-            alternative = self._plan_decision(decision, source)
+        for index, decision in enumerate(decisions):
+            alternative = self._plan_decision(decision, source, (*path, index))
             if isinstance(alternative.outcome, Branch) and not alternative.conditions:
                 planned += alternative.outcome.then
             else:
@@ -183,20 +184,20 @@ class _Planner:
                 break
         return tuple(planned)
 
-    def _plan_decision(self, decision: Decision, source: str) -> Alternative:
+    def _plan_decision(self, decision: Decision, source: str, path: Path) -> Alternative:
         conditions = self._plan_conditions(decision, source)
         match decision:
             case Group(then=then, otherwise=otherwise):
                 outcome: Change | Keep | Branch = Branch(
-                    then=self.plan_decisions(then, source),
-                    otherwise=self.plan_decisions(otherwise, source),
+                    then=self.plan_decisions(then, source, (*path, "then")),
+                    otherwise=self.plan_decisions(otherwise, source, (*path, "else")),
                     then_ends=any(always_holds(item) for item in then),
                 )
             case Transition(to=to, id=given_id) if to != source:
                 outcome = Change(state=to, transition=given_id)
             case _:
                 outcome = Keep()
-        return Alternative(conditions=conditions, outcome=outcome, doc=decision.doc, id=decision.id)
+        return Alternative(conditions=conditions, outcome=outcome, doc=decision.doc, id=decision.id, path=path)
 
     def _plan_conditions(self, decision: Decision, source: str) -> tuple[Condition, ...]:
         guard = decision.guard

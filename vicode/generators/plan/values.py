@@ -3,6 +3,7 @@
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+from vicode.findings import Path
 from vicode.model.design import Code
 from vicode.model.expressions import Node
 from vicode.model.project import Enumeration
@@ -89,12 +90,16 @@ class Branch:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Alternative:
-    """If all conditions hold, tested in order (none: always), the outcome is taken; `id` if it was given one."""
+    """If all conditions hold, tested in order (none: always), the outcome is taken.
+
+    `id` if it was given one; `path` leads to the decision in the design as it works, which has nothing disabled in it.
+    """
 
     conditions: tuple[Condition, ...]
     outcome: Change | Keep | Branch
     doc: str = ""
     id: str = ""
+    path: Path = ()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -7,13 +7,22 @@ from vicode.generators.plan import PackagePlan, ProjectPlan
 from vicode.generators.python.component import ComponentWriter
 from vicode.generators.python.declarations import declarations_view
 from vicode.generators.python.names import RESERVED_MODULES, name_class, name_globals
+from vicode.generators.python.origins import find_origins
 from vicode.generators.python.probes import PROBES, generate_probes
 from vicode.generators.python.text import docstring
 from vicode.output import OutputFile
 from vicode.regions import seal
 from vicode.templating import render
 
-__all__ = ["PROBES", "RESERVED_MODULES", "class_path", "generate_probes", "generate_python", "list_paths"]
+__all__ = [
+    "PROBES",
+    "RESERVED_MODULES",
+    "class_path",
+    "find_origins",
+    "generate_probes",
+    "generate_python",
+    "list_paths",
+]
 
 LANGUAGE = "python"
 

@@ -4,10 +4,10 @@ import ast
 import keyword
 import re
 import textwrap
-import warnings
 from collections.abc import Iterable
 
 from vicode.generators.plan import ProjectPlan
+from vicode.model.parsing import parse_module
 
 RESERVED_MODULES = frozenset({*keyword.kwlist, *keyword.softkwlist, "__init__", "bica", "declarations"})
 """What no module of a package may be called."""
@@ -92,8 +92,6 @@ def _words_in(text: str) -> set[str]:
 
 def _parse(text: str) -> ast.Module | None:
     try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")
-            return ast.parse(textwrap.dedent(text.replace("\r\n", "\n").strip("\n")))
+        return parse_module(textwrap.dedent(text.replace("\r\n", "\n").strip("\n")))
     except (SyntaxError, ValueError, RecursionError, MemoryError):
         return None

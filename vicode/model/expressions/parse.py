@@ -4,7 +4,6 @@ Python's own parser reads the syntax; only a closed part of it is then let throu
 """
 
 import ast
-import warnings
 from dataclasses import dataclass
 from functools import lru_cache
 
@@ -12,6 +11,7 @@ from vicode.findings import Rule, Span, rule
 from vicode.model.expressions.scope import Scope
 from vicode.model.expressions.tree import Node
 from vicode.model.expressions.typing import Binder
+from vicode.model.parsing import parse_single_expression
 
 MAXIMUM_LENGTH = 10_000
 MAXIMUM_DEPTH = 60
@@ -69,9 +69,7 @@ def _syntax_of(text: str) -> tuple[ast.expr | None, Mistake | None]:
     copy = "".join(" " if char.isspace() else char for char in text)
     lead = len(copy) - len(copy.lstrip())
     try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")
-            parsed = ast.parse(copy.strip(), mode="eval").body
+        parsed = parse_single_expression(copy.strip())
     except SyntaxError as error:
         start = lead + max(0, min((error.offset or 1) - 1, len(text) - lead - 1))
         return None, _not_an_expression(_reworded(error.msg), (start, min(start + 1, len(text))))

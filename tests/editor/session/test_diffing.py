@@ -1,0 +1,35 @@
+"""Two texts side by side: both can be read back, long equal parts are left out."""
+
+from hypothesis import given
+from hypothesis import strategies as st
+
+from vicode.editor.session.diffing import Change, side_by_side
+
+lines = st.lists(st.sampled_from("abcde"), max_size=12)
+
+
+def test_a_changed_line_stands_beside_its_new_text() -> None:
+    old, new = "\n".join("abcdefghij"), "\n".join("abcdXfghij")
+    rows = side_by_side(old, new, context=1)
+    assert [(row.change, row.old, row.new) for row in rows] == [
+        (Change.GAP, "3 unchanged lines", ""),
+        (Change.SAME, "d", "d"),
+        (Change.CHANGED, "e", "X"),
+        (Change.SAME, "f", "f"),
+        (Change.GAP, "4 unchanged lines", ""),
+    ]
+    assert (rows[2].old_number, rows[2].new_number) == (5, 5)
+
+
+def test_equal_texts_have_no_rows_and_new_files_only_added_ones() -> None:
+    assert side_by_side("a\nb", "a\nb") == ()
+    assert {row.change for row in side_by_side("", "a\nb")} == {Change.ADDED}
+    assert {row.change for row in side_by_side("a\nb", "")} == {Change.REMOVED}
+
+
+@given(lines, lines)
+def test_both_texts_can_be_read_back(olds: list[str], news: list[str]) -> None:
+    rows = side_by_side("\n".join(olds), "\n".join(news), context=99)
+    if olds != news:
+        assert [row.old for row in rows if row.old_number] == olds
+        assert [row.new for row in rows if row.new_number] == news

@@ -1,0 +1,56 @@
+"""Every file of a design as it would be written, with the lines of each thing and what was edited on disk."""
+
+from dataclasses import replace
+from pathlib import Path
+
+from vicode.editor.session.preview import preview_of
+from vicode.editor.view import Selected
+from vicode.generators import generate
+from vicode.output import apply, compare
+from vicode.store import open_project
+
+ROOT = Path(__file__).parents[3]
+PROJECT = open_project(ROOT / "designs" / "forward").project
+PLAYER = next(design for design in PROJECT.designs if design.component == "Player")
+
+
+def test_the_component_comes_first_then_what_is_shared() -> None:
+    shown = preview_of(PROJECT, PLAYER, {})
+    assert [file.path for file in shown.files] == [
+        "python/forward/player.py",
+        "python/forward/__init__.py",
+        "python/forward/declarations.py",
+    ]
+    assert shown.files[0].text == next(each.text for each in generate(PROJECT) if each.path.endswith("player.py"))
+    assert shown.files[1].origins == ()
+
+
+def test_lines_and_things_lead_to_each_other() -> None:
+    file = preview_of(PROJECT, PLAYER, {}).files[0]
+    for thing in (
+        Selected(of="states", id="Kick"),
+        Selected(of="transitions", id="Kick/0"),
+        Selected(of="transitions", id="@common/0"),
+    ):
+        first, last = file.lines_of(thing)
+        assert 0 < first <= last
+    first, _last = file.lines_of(Selected(of="transitions", id="Kick/0"))
+    assert file.thing_at(first) == Selected(of="transitions", id="Kick/0")
+    assert file.thing_at(1) is None
+    assert file.lines_of(Selected(of="states", id="Nobody")) == (0, 0)
+
+
+def test_a_design_with_mistakes_or_without_a_language_says_so() -> None:
+    assert preview_of(PROJECT, replace(PLAYER, initial="Nowhere"), {}).note.startswith("No code yet")
+    assert "klingon" in preview_of(replace(PROJECT, languages=("klingon",)), PLAYER, {}).note
+
+
+def test_regions_edited_on_disk_are_told(tmp_path: Path) -> None:
+    apply(compare(generate(PROJECT), tmp_path), tmp_path)
+    assert preview_of(PROJECT, PLAYER, {}, tmp_path).files[0].edited == ()
+    file = tmp_path / "python" / "forward" / "player.py"
+    file.write_text(file.read_text().replace("import logging\n", "import logging\nimport math\n"))
+    shown = preview_of(PROJECT, PLAYER, {}, tmp_path).files[0]
+    assert shown.edited == ("module",)
+    lines = shown.text.split("\n")
+    assert {lines[at - 1] for at in shown.edited_lines()} >= {"import logging"}

@@ -1,0 +1,86 @@
+"""Before code is written: which files are new, changed or edited by hand, each with its differences."""
+
+from collections.abc import Callable
+
+from nicegui import ui
+
+from vicode.editor.panels.diff_view import diff_view
+from vicode.editor.panels.rows import primary_button
+from vicode.editor.session.generating import Prepared
+from vicode.output import Difference, Status
+
+_ICONS = {Status.NEW: "add_circle", Status.CHANGED: "change_circle", Status.STALE: "remove_circle"}
+_WORDS = {Status.NEW: "new", Status.CHANGED: "changed", Status.STALE: "no longer generated"}
+_KEY = "vicode-generate-unasked"
+
+
+async def is_unasked() -> bool:
+    """Whether the person chose, in this browser, not to be asked before code is written."""
+    try:
+        return bool(await ui.run_javascript(f'localStorage.getItem("{_KEY}") === "yes"', timeout=3.0))
+    except TimeoutError:
+        return False
+
+
+def ask_before_writing(prepared: Prepared, write: Callable[[bool], None]) -> None:
+    """Show what would change; `write` is called with whether edited files are to be set aside, or not at all."""
+    changes = prepared.changes
+    unchanged = len(prepared.differences) - len(changes)
+    with ui.dialog(value=True).props('aria-label="Generate"') as dialog, ui.card().classes("dialog generate-dialog"):
+        ui.label("Write the generated code?").classes("dialog-title")
+        rest = f"; {unchanged} more {'is' if unchanged == 1 else 'are'} up to date" if unchanged else ""
+        ui.label(f"{_count(len(changes))} in {prepared.folder.name}/{rest}.").classes("small")
+        with ui.element("div").classes("generate-files"):
+            _files(prepared, changes)
+        for path, findings in prepared.edits.items():
+            for finding in findings[:3]:
+                ui.label(f"{path}: {finding.message}").classes("field-finding")
+        unasked = ui.checkbox("Do not ask again in this browser").props("dense")
+
+        def answer() -> None:
+            if unasked.value:
+                ui.run_javascript(f'localStorage.setItem("{_KEY}", "yes")')
+            dialog.close()
+            write(bool(prepared.edits))
+
+        with ui.row().classes("dialog-buttons"):
+            ui.button("Cancel", on_click=dialog.close).props("flat no-caps")
+            label = "Keep the edits as .edited, and write" if prepared.edits else "Write"
+            primary_button(label, answer).props("autofocus")
+    dialog.on("hide", dialog.delete)
+
+
+def _files(prepared: Prepared, changes: tuple[Difference, ...]) -> None:
+    """The list of files to the left, the differences of the chosen one to the right."""
+    listed = ui.column().classes("generate-list").props('role="list"')
+    shown = ui.element("div").classes("generate-diff")
+    buttons: list[ui.element] = []
+
+    def show(at: int) -> None:
+        shown.clear()
+        with shown:
+            diff_view(changes[at].old, changes[at].new)
+        for index, button in enumerate(buttons):
+            button.props(f'aria-pressed="{str(index == at).lower()}"')
+
+    with listed:
+        for at, change in enumerate(changes):
+            buttons.append(_file(change, is_edited=change.path in prepared.edits))
+            buttons[-1].on("click", lambda at=at: show(at))
+    show(0)
+
+
+def _file(change: Difference, *, is_edited: bool) -> ui.element:
+    with ui.element("div").props('role="listitem"'):
+        button = ui.element("button").classes("generate-file").props('type="button"')
+        with button:
+            ui.icon("edit" if is_edited else _ICONS[change.status]).props('aria-hidden="true"')
+            with ui.element("span"):
+                ui.label(change.path.rpartition("/")[2]).classes("mono")
+                words = _WORDS[change.status] + (", edited by hand" if is_edited else "")
+                ui.label(words).classes("small")
+    return button
+
+
+def _count(number: int) -> str:
+    return f"{number} file{'s' * (number != 1)} would change"

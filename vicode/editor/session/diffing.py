@@ -1,0 +1,71 @@
+"""Two texts side by side, line by line, with long equal parts left out."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from difflib import SequenceMatcher
+from enum import StrEnum
+
+
+class Change(StrEnum):
+    """What became of a line."""
+
+    SAME = "same"
+    CHANGED = "changed"
+    ADDED = "added"
+    REMOVED = "removed"
+    GAP = "gap"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Row:
+    """A line of the old text beside one of the new; a number is 0 where there is no line.
+
+    A gap says in `old` how many lines are left out.
+    """
+
+    change: Change
+    old_number: int = 0
+    old: str = ""
+    new_number: int = 0
+    new: str = ""
+
+
+def side_by_side(old: str, new: str, context: int = 3) -> tuple[Row, ...]:
+    """The changed lines with some unchanged ones around; nothing for equal texts."""
+    olds, news = old.splitlines(), new.splitlines()
+    # Without its guesses about frequent lines: generated code is full of them.
+    matcher = SequenceMatcher(None, olds, news, autojunk=False)
+    rows: list[Row] = []
+    before = 0
+    for group in matcher.get_grouped_opcodes(context):
+        first = group[0][1]
+        if first > before:
+            rows.append(_gap(first - before))
+        rows += [row for part in group for row in _rows(olds, news, part)]
+        before = group[-1][2]
+    if rows and len(olds) > before:
+        rows.append(_gap(len(olds) - before))
+    return tuple(rows)
+
+
+def _gap(count: int) -> Row:
+    return Row(change=Change.GAP, old=f"{count} unchanged line{'s' * (count != 1)}")
+
+
+def _rows(olds: list[str], news: list[str], part: tuple[str, int, int, int, int]) -> Iterator[Row]:
+    tag, old_from, old_to, new_from, new_to = part
+    for at in range(max(old_to - old_from, new_to - new_from)):
+        has_old, has_new = old_from + at < old_to, new_from + at < new_to
+        if tag == "equal":
+            change = Change.SAME
+        elif has_old and has_new:
+            change = Change.CHANGED
+        else:
+            change = Change.REMOVED if has_old else Change.ADDED
+        yield Row(
+            change=change,
+            old_number=old_from + at + 1 if has_old else 0,
+            old=olds[old_from + at] if has_old else "",
+            new_number=new_from + at + 1 if has_new else 0,
+            new=news[new_from + at] if has_new else "",
+        )

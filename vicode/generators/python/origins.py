@@ -1,0 +1,135 @@
+"""Finds in a generated module which lines come from which state, transition and piece of code.
+
+The plan and the writer agree on names and order: every method is called after its state, and the outcomes in it
+stand in the order of the decisions.
+"""
+
+import ast
+from collections.abc import Iterable, Iterator, Sequence
+
+from vicode import regions
+from vicode.findings import Path
+from vicode.generators.origins import Origin
+from vicode.generators.plan import Alternative, Branch, ComponentPlan, Predicate
+from vicode.model.parsing import parse_module
+
+_OUTCOMES = ("_change_to", "_stay")
+_COMMON: Path = ("common", "transitions")
+
+
+def find_origins(plan: ComponentPlan, text: str) -> tuple[Origin, ...]:
+    """The origins in the module of a component, the wider before those inside them; none in any other text."""
+    try:
+        tree = parse_module(text)
+    except SyntaxError:
+        return ()
+    lines = text.split("\n")
+    classes = [node for node in tree.body if isinstance(node, ast.ClassDef)]
+    methods = [node for each in classes for node in each.body if isinstance(node, ast.FunctionDef)]
+    found = [*_whole(text), *_states(plan, methods, lines), *_methods(plan, methods, lines)]
+    return tuple(sorted(found, key=lambda origin: (origin.first, -origin.last)))
+
+
+def _whole(text: str) -> Iterator[Origin]:
+    for region in regions.find(text).regions:
+        if region.id in ("module", "members"):
+            yield Origin(first=region.line, last=region.end_line, path=(region.id,))
+
+
+def _states(plan: ComponentPlan, methods: Sequence[ast.FunctionDef], lines: Sequence[str]) -> Iterator[Origin]:
+    """All methods of a state, from the first to the one before another state's."""
+    by_name = {f"_in_{state.stem}": state.name for state in plan.states}
+    own = [at for at, method in enumerate(methods) if method.name in by_name]
+    for at, following in zip(own, [*own[1:], len(methods)], strict=True):
+        last = [method for method in methods[at:following] if method.name.startswith("_")][-1]
+        path = ("states", by_name[methods[at].name])
+        yield Origin(first=methods[at].lineno, last=_end_of(last, lines), path=path)
+
+
+def _methods(plan: ComponentPlan, methods: Sequence[ast.FunctionDef], lines: Sequence[str]) -> Iterator[Origin]:
+    """What is inside the methods of each state, and of those that are common to all."""
+    by_stem = {state.stem: state for state in plan.states}
+    predicates = iter(_predicates(plan.decide_first))
+    owner: Path = ("common",)
+    for method in methods:
+        kind, stem = _parts_of(method.name)
+        state = by_stem.get(stem)
+        if method.name == "_decide_common":
+            yield Origin(first=method.lineno, last=_end(method), path=_COMMON)
+            yield from _decisions(method, plan.decide_first, lines)
+        elif method.name == "_act_common":
+            yield Origin(first=method.lineno, last=_end(method), path=("common", "actions"))
+        elif kind == "in" and state is not None:
+            owner, predicates = ("states", state.name), iter(_predicates(state.decisions))
+            yield from _decisions(method, state.decisions, lines)
+        elif kind in ("enter", "leave") and state is not None:
+            yield Origin(first=method.lineno, last=_end_of(method, lines), path=("states", state.name, kind))
+        elif kind == "when" and (path := next(predicates, None)):
+            yield Origin(first=method.lineno, last=_end_of(method, lines), path=(*path, "code"))
+        elif kind == "do":
+            yield Origin(first=method.lineno, last=_end_of(method, lines), path=(*owner, "actions"))
+
+
+def _parts_of(name: str) -> tuple[str, str]:
+    kind, _underscore, stem = name.removeprefix("_").partition("_")
+    return (kind, stem)
+
+
+def _predicates(alternatives: Iterable[Alternative]) -> Iterator[Path]:
+    """The decisions with a predicate of their own, in the order of its methods."""
+    for alternative in alternatives:
+        if any(isinstance(condition, Predicate) for condition in alternative.conditions):
+            yield alternative.path
+        if isinstance(alternative.outcome, Branch):
+            yield from _predicates((*alternative.outcome.then, *alternative.outcome.otherwise))
+
+
+def _leaves(alternatives: Iterable[Alternative]) -> Iterator[Path]:
+    for alternative in alternatives:
+        if isinstance(alternative.outcome, Branch):
+            yield from _leaves((*alternative.outcome.then, *alternative.outcome.otherwise))
+        else:
+            yield alternative.path
+
+
+def _decisions(method: ast.FunctionDef, alternatives: Iterable[Alternative], lines: Sequence[str]) -> Iterator[Origin]:
+    for (first, last), path in zip(_outcomes(method.body, None), _leaves(alternatives), strict=False):
+        start = first
+        # A remark above the test speaks of it.
+        while start > 1 and lines[start - 2].strip().startswith("# ") and "vicode>" not in lines[start - 2]:
+            start -= 1
+        yield Origin(first=start, last=last, path=path)
+
+
+def _outcomes(body: Sequence[ast.stmt], test: ast.If | None) -> Iterator[tuple[int, int]]:
+    """First and last line of every outcome in order, from its test if it has one of its own."""
+    for at, statement in enumerate(body):
+        if isinstance(statement, ast.If):
+            yield from _outcomes(statement.body, statement)
+            yield from _outcomes(statement.orelse, None)
+        elif _is_outcome(statement):
+            first = test.lineno if test is not None and at == 0 else statement.lineno
+            following = body[at + 1 : at + 2]
+            yield first, _end(following[0] if following and isinstance(following[0], ast.Return) else statement)
+
+
+def _is_outcome(statement: ast.stmt) -> bool:
+    match statement:
+        case ast.Expr(value=ast.Call(func=ast.Attribute(value=ast.Name(id="self"), attr=name))):
+            return name in _OUTCOMES
+        case _:
+            return False
+
+
+def _end_of(method: ast.FunctionDef, lines: Sequence[str]) -> int:
+    """The last line of a method, which is the end mark if it ends in a region."""
+    end = _end(method)
+    while end < len(lines) and (not lines[end].strip() or lines[end].strip().startswith("# ")):
+        end += 1
+        if lines[end - 1].strip() == "# </vicode>":
+            return end
+    return _end(method)
+
+
+def _end(node: ast.stmt) -> int:
+    return node.end_lineno or node.lineno
