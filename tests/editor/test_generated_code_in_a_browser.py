@@ -90,6 +90,7 @@ def test_code_edited_by_hand_is_shown_and_kept(editor: str, page: Page, project:
     page.get_by_role("button", name="Generate", exact=True).click()
     dialog.get_by_role("button", name="Write").click()
     expect(page.get_by_text(re.compile("Generated .*in "))).not_to_have_count(0)
+    expect(dialog).to_have_count(0)
     file = code(project)
     file.write_text(file.read_text().replace("import logging\n", "import logging\nimport math\n"))
     select_state(page, "LookForBall")
