@@ -1,5 +1,6 @@
 """The Python side of the canvas: keeps what is shown, so that a page that mounts late or again gets it all."""
 
+import math
 from collections.abc import Iterable, Mapping, Sequence
 from inspect import isawaitable
 from pathlib import Path
@@ -10,7 +11,7 @@ from nicegui.dependencies import register_esm
 from nicegui.events import GenericEventArguments
 
 from vicode.editor.canvas.commands import as_plain
-from vicode.editor.canvas.gesture import Changes, Gesture, Item, Kind, OnGesture, Place, Scene
+from vicode.editor.canvas.gesture import Changes, Gesture, Item, Kind, OnGesture, OnPointer, Other, Place, Scene
 
 _SCRIPTS = Path(__file__).parent / "js"
 _KINDS = ("states", "transitions", "components", "links")
@@ -25,13 +26,16 @@ class Canvas(ui.element, component="js/vicode_canvas.js"):
 
     Args:
         on_gesture: called with every gesture (see `vicode.editor.canvas.gesture`); it may be a coroutine function.
+        on_pointer: called with where the pointer is (None: not here), while other people are shown.
     """
 
-    def __init__(self, on_gesture: OnGesture) -> None:
+    def __init__(self, on_gesture: OnGesture, on_pointer: OnPointer = lambda _at: None) -> None:
         super().__init__()
         # Not by a call after mounting: no key shall come too early.
         self._props["commands"] = as_plain()
-        self._on_gesture = on_gesture
+        self._on_gesture, self._on_pointer = on_gesture, on_pointer
+        self._people: list[Other] = []
+        self._people_seen = self._people_due = True
         self._scene: dict[str, Any] | None = None
         self._selected: list[Item] = []
         self._links_shown = True
@@ -45,6 +49,8 @@ class Canvas(ui.element, component="js/vicode_canvas.js"):
         self.on("gesture", self._hear_gesture)
         self.on("ready", self._hear_ready)
         self.on("ack", self._hear_ack)
+        self.on("pointer", self._hear_pointer)
+        self.on("seen", self._hear_seen)
 
     def load(self, view: Scene) -> None:
         """Show a whole scene; the view is kept when it is the same component as before, else all is fitted in."""
@@ -136,6 +142,12 @@ class Canvas(ui.element, component="js/vicode_canvas.js"):
         self._stops = list(items)
         self._call("setStops", self._stops)
 
+    def show_people(self, others: Sequence[Other]) -> None:
+        """Show what other people have selected, and their pointers; only the newest, once the last was painted."""
+        self._people, self._people_due = list(others), True
+        if self._people_seen:
+            self._send_people()
+
     def show_links(self, flag: bool) -> None:
         """Show or hide what states require and modulate."""
         self._links_shown = flag
@@ -153,6 +165,22 @@ class Canvas(ui.element, component="js/vicode_canvas.js"):
     def _send_active(self) -> None:
         ids, self._sent, taken = self._active
         self._call("setActive", ids, self._sent, taken)
+
+    def _send_people(self) -> None:
+        if self._is_mounted:
+            self._people_seen = self._people_due = False
+            self._call("showPeople", self._people)
+
+    def _hear_pointer(self, event: GenericEventArguments) -> None:
+        at = event.args["at"]
+        point = (float(at["x"]), float(at["y"])) if at else None
+        if point is None or all(math.isfinite(number) for number in point):
+            self._on_pointer(point)
+
+    def _hear_seen(self) -> None:
+        self._people_seen = True
+        if self._people_due:
+            self._send_people()
 
     async def _hear_gesture(self, event: GenericEventArguments) -> None:
         gesture = cast("Gesture", event.args)
@@ -172,6 +200,7 @@ class Canvas(ui.element, component="js/vicode_canvas.js"):
             self._call("arriveAt", *self._arrival)
             self._arrival = None
         self._call("setStops", self._stops)
+        self._send_people()
         if self._active[1] >= 0:
             self._send_active()
 

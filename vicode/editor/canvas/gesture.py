@@ -17,6 +17,15 @@ class Item(TypedDict):
     id: str
 
 
+class Other(TypedDict):
+    """Another person: the number of a colour, what is selected there, where the pointer is (None: nowhere here)."""
+
+    name: str
+    colour: int
+    items: list[Item]
+    pointer: dict[str, float] | None
+
+
 class Place(TypedDict):
     """A node and the centre it was moved to, in world units."""
 
@@ -244,3 +253,4 @@ Gesture = (
     | History
 )
 OnGesture = Callable[[Gesture], Awaitable[None] | None]
+OnPointer = Callable[[tuple[float, float] | None], None]

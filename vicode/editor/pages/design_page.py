@@ -9,6 +9,7 @@ from vicode.editor.pages.actions import Actions
 from vicode.editor.pages.going import Going, Way
 from vicode.editor.pages.keys import listen_to_keys
 from vicode.editor.pages.look import Theme, add_look
+from vicode.editor.pages.meeting import Meeting
 from vicode.editor.pages.stage import Stage
 from vicode.editor.pages.visitor import greet_visitor
 from vicode.editor.panels.code_panel import CodePanel
@@ -35,7 +36,7 @@ class DesignPage:
         """Build the page for the browser that asks for it."""
         person = greet_visitor(library.people)
         hand = Document(document.sheet, person.id)
-        self.desk = desk = Desk(workspace=workspace, document=hand, say=_say)
+        self.desk = desk = Desk(workspace=workspace, document=hand, say=_say, window=ui.context.client.id)
         theme = Theme(desk.code_editors, add_look())
         problems = Problems(desk)
         with ui.element("div").classes("shell"):
@@ -70,6 +71,7 @@ class DesignPage:
             self.header = Header(desk, commands, way.trail)
         with skip.props(f"href=#{main.html_id}"):
             ui.label("Skip to the design")
+        Meeting(desk, person, self.stage.drawing.canvas, self.header.people)
         listen_to_keys(commands)
         arrived = going.start(way.select)
         desk.listen(self._refresh)

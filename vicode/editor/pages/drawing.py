@@ -12,7 +12,7 @@ from vicode.editor.canvas.gesture import Gesture, Item
 from vicode.editor.panels.command import Command, Place
 from vicode.editor.panels.desk import Desk
 from vicode.editor.panels.use_dialog import ask_for_component
-from vicode.editor.session import apply_gesture, clipboard
+from vicode.editor.session import apply_gesture, clipboard, follow, follow_gesture
 from vicode.editor.session.gestures import point_of
 from vicode.editor.view import Scene, Selected, difference, peek_of, scene_of
 from vicode.editor.view.address import design_address
@@ -43,8 +43,9 @@ class Drawing:
         desk.run = self.run
         self.page_commands: Mapping[str, Callable[[], object]] = {}
         desk.reveal, desk.is_there = self.reveal, self._exists
-        self.canvas = Canvas(self._gesture)
+        self.canvas = Canvas(self._gesture, self._point)
         self.canvas.classes("canvas")
+        self.design = desk.design
         self.scene: Scene = self._draw()
         self.canvas.load(self.scene)
 
@@ -74,7 +75,9 @@ class Drawing:
         scene = self._draw()
         self.canvas.apply(difference(self.scene, scene))
         self.scene = scene
-        self.desk.selected = tuple(thing for thing in self.desk.selected if self._exists(thing))
+        followed = [follow(thing, self.design, self.desk.design) for thing in self.desk.selected]
+        self.design = self.desk.design
+        self.desk.selected = tuple(thing for thing in followed if thing is not None and self._exists(thing))
 
     def show_selection(self) -> None:
         """Select on the canvas what is selected on the desk."""
@@ -131,7 +134,12 @@ class Drawing:
             return
         self.canvas.tell_peek(of, identity, sections)
 
-    def _edit(self, payload: Mapping[str, Any]) -> None:
+    def _edit(self, gesture: Mapping[str, Any]) -> None:
+        payload = self._brought_up_to_date(gesture)
+        if payload is None:
+            self.desk.say("That is gone by now", "warning")
+            self.canvas.load(self.scene)
+            return
         known, onto = self.desk.workspace.project.interfaces(), self.desk.selected
         more = {
             "duplicate": clipboard.duplicate,
@@ -187,6 +195,15 @@ class Drawing:
             self.desk.say(f"{component} is used here already, as {used}", "info")
         self.desk.select(Selected(of="components", id=used))
         self.canvas.focus()
+
+    def _brought_up_to_date(self, payload: Mapping[str, Any]) -> Mapping[str, Any] | None:
+        """A gesture as it is meant in the design as it is now; None when what it was made on is gone."""
+        document, rev = self.desk.document, payload.get("rev")
+        shown = document.sheet.design_at(rev if isinstance(rev, int) else document.rev)
+        return follow_gesture(payload, shown, document.design)
+
+    def _point(self, at: Point | None) -> None:
+        self.desk.company.turn(self.desk.window, pointer=at)
 
     def _open(self, of: str, identity: str) -> None:
         if of in ("transitions", "common"):

@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 
 from vicode.editor.panels.code_editor import CodeEditors
 from vicode.editor.panels.lints import CodeLints
-from vicode.editor.session import Document, Workspace
+from vicode.editor.session import Company, Document, Workspace
 from vicode.editor.view import Selected
 from vicode.model.design import Design
 
@@ -29,6 +29,8 @@ class Desk:
     is_there: Callable[[Selected], bool] = field(default=lambda _thing: True)
     """Whether a thing is in the drawing."""
     selected: tuple[Selected, ...] = ()
+    window: str = ""
+    """The id of this window among those on the design."""
     code_editors: CodeEditors = field(default_factory=CodeEditors)
     lints: CodeLints = field(init=False)
     _listeners: list[Listener] = field(default_factory=list)
@@ -41,6 +43,11 @@ class Desk:
     def design(self) -> Design:
         """The design as it is now."""
         return self.document.design
+
+    @property
+    def company(self) -> Company:
+        """Who else has the design open."""
+        return self.document.sheet.company
 
     @property
     def only(self) -> Selected | None:

@@ -9,6 +9,8 @@ from nicegui.elements.mixins.disableable_element import DisableableElement
 from nicegui.elements.mixins.value_element import ValueElement
 
 from vicode.editor.panels.desk import Desk
+from vicode.editor.session.keystrokes import Keystrokes
+from vicode.editor.session.outline import order_around
 from vicode.findings import Path
 from vicode.model.design import Design
 
@@ -44,6 +46,8 @@ class Field:
     refused: str = ""
     """Why what stands in the field is not in the design."""
     _refused_beside: Any = None
+    _keystrokes: Keystrokes = field(default_factory=Keystrokes)
+    _order: object = None
 
     def __post_init__(self) -> None:
         """Watch for typing."""
@@ -58,25 +62,38 @@ class Field:
         # What was refused stays to be mended, until the design itself has another value.
         if self.refused and value != self._refused_beside:
             self.refused = ""
-        if not self.has_focus and not self.refused and self.element.value != value:
-            self.element.set_value(value)
+        if not self.has_focus and not self.refused:
+            self._keystrokes.show(value)
+            self._order = order_around(self.desk.design, self.bound.path)
+            if self.element.value != value:
+                self.element.set_value(value)
         if self.message is not None:
             self._show_findings(self.message)
 
     def focus(self, *, has_focus: bool) -> None:
-        """Note whether somebody is typing here."""
+        """Note whether somebody is typing here, and let the others know."""
         self.has_focus = has_focus
+        self.desk.company.turn(self.desk.window, typing_in=self.bound.path if has_focus else ())
         if not has_focus:
             self.refresh()
+
+    def leads_there(self) -> bool:
+        """Whether the path still leads to what the field was made for: nothing was put before it, or taken away."""
+        return self._order == order_around(self.desk.design, self.bound.path)
 
     def _typed(self, value: Any) -> None:
         now = self.bound.read(self.desk.design)
         self.refused, self._refused_beside = self.bound.refuse(value), now
         if self.refused or value == now:
+            if value == now:
+                self._keystrokes.show(now)
             self.refresh()
             return
+        wanted = self._keystrokes.bring_in(value, now)
         write, key = self.bound.write, "/".join(map(str, self.bound.path)) + self.bound.label
-        self.desk.edit(f"edit {self.bound.label}", lambda design: write(design, value), typing_in=key)
+        # Noted before the edit is told to all fields, this one among them.
+        self._keystrokes.sent(value, self.bound.read(write(self.desk.design, wanted)))
+        self.desk.edit(f"edit {self.bound.label}", lambda design: write(design, wanted), typing_in=key)
 
     def _show_findings(self, message: ui.label) -> None:
         path = self.bound.path
@@ -86,11 +103,15 @@ class Field:
             if path and finding.thing is not None and finding.thing.path[: len(path)] == path
         ]
         words = [f"{each.message}{f' ({each.mend})' if each.mend else ''}" for each in found]
-        text = " · ".join([self.refused] if self.refused else words)
+        names = self.desk.company.typing_at(path, self.desk.window)
+        others = [f"{' and '.join(names)} {'types' if len(names) == 1 else 'type'} here too"] if names else []
+        text = " · ".join(([self.refused] if self.refused else words) + others)
         if message.text != text:
             message.set_text(text)
             message.set_visibility(bool(text))
-        self.element.classes(add="has-finding" if text else None, remove=None if text else "has-finding")
+        is_wrong = bool(self.refused or words)
+        self.element.classes(add="has-finding" if is_wrong else None, remove=None if is_wrong else "has-finding")
+        message.classes(add=None if is_wrong else "is-news", remove="is-news" if is_wrong else None)
 
 
 def text_field(desk: Desk, bound: Bound, *, monospace: bool = False, lines: bool = False) -> Field:

@@ -7,6 +7,7 @@ from nicegui import ui
 from vicode.editor.panels.command import Command
 from vicode.editor.panels.desk import Desk
 from vicode.editor.panels.fields import enable
+from vicode.editor.panels.people_chips import PeopleChips
 from vicode.editor.panels.rows import icon_button, primary_button
 from vicode.editor.view.address import design_address
 
@@ -24,6 +25,7 @@ class Header:
         self._crumbs(trail)
         self.saved = ui.label().classes("saved").props('role="status"')
         ui.element("div").classes("spacer")
+        self.people = PeopleChips(desk)
         self.buttons = {name: icon_button(named[name].icon, named[name].label, named[name].act) for name in _ICONS}
         save, generate = named["save"], named["generate"]
         ui.button(save.label, icon=save.icon, on_click=save.act).props("flat no-caps dense").classes("head-button")

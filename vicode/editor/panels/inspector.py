@@ -17,6 +17,7 @@ _BACK_TO_CANVAS = """(event) => {
   if (event.defaultPrevented || event.target.getAttribute("aria-expanded") === "true") return;
   document.querySelector(".canvas")?.shadowRoot?.querySelector(".stage")?.focus();
 }"""
+_LATER_S = 0.4
 
 
 class Inspector:
@@ -27,20 +28,35 @@ class Inspector:
         self.desk = desk
         self.shape: object = None
         self.fields: list[Field] = []
+        self.selected: tuple[Selected, ...] | None = None
         self.body = ui.column().classes("inspector")
         self.body.on("keydown.escape", js_handler=_BACK_TO_CANVAS)
+        self.later = ui.timer(_LATER_S, self.refresh, active=False)
 
     def refresh(self) -> None:
         """Show the selected thing as it is now."""
         shape = (self.desk.selected, outline.outline_of(self.desk.design, self.desk.only))
         if shape == self.shape:
-            for field in self.fields:
-                field.refresh()
-            return
-        self.shape = shape
-        self.body.clear()
-        with self.body:
-            self.fields = self._build()
+            self._refresh_fields()
+        elif self._is_typed_in():
+            # Somebody else changed the form: who types here goes on, and gets the new one afterwards.
+            self._refresh_fields()
+            self.later.activate()
+        else:
+            self.shape, self.selected = shape, self.desk.selected
+            self.later.deactivate()
+            self.body.clear()
+            with self.body:
+                self.fields = self._build()
+
+    def _refresh_fields(self) -> None:
+        for field in self.fields:
+            field.refresh()
+
+    def _is_typed_in(self) -> bool:
+        """Whether a field has the focus that still leads where it did."""
+        is_same = self.selected == self.desk.selected
+        return is_same and any(field.has_focus and field.leads_there() for field in self.fields)
 
     def _build(self) -> list[Field]:
         desk = self.desk

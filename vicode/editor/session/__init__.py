@@ -1,6 +1,7 @@
 """Open designs: history, edits by gesture, saving and generating. Knows no NiceGUI."""
 
 from vicode.editor.session.document import Clash, Document, Sheet
+from vicode.editor.session.following import follow, follow_gesture
 from vicode.editor.session.gestures import Outcome, apply_gesture, take_places
 from vicode.editor.session.history import History, Step
 from vicode.editor.session.library import Library
@@ -23,5 +24,7 @@ __all__ = [
     "Step",
     "Workspace",
     "apply_gesture",
+    "follow",
+    "follow_gesture",
     "take_places",
 ]

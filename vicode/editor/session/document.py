@@ -16,6 +16,7 @@ from vicode.model.walks import decision_at
 
 Watcher = Callable[["Document"], None]
 Checker = Callable[[Design], tuple[Finding, ...]]
+_RECENT = 60
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -56,6 +57,7 @@ class Sheet:
     rev: int = field(init=False, default=0)
     clash: Clash | None = field(init=False, default=None)
     watchers: list[Watcher] = field(init=False, default_factory=list)
+    _recent: dict[int, Design] = field(init=False, default_factory=dict)
 
     def __post_init__(self) -> None:
         """Begin with what is on disk."""
@@ -66,10 +68,16 @@ class Sheet:
         """Go on with another history, and tell everybody."""
         if history is self.history:
             return
+        self._recent[self.rev] = self.history.present.design
+        self._recent.pop(self.rev - _RECENT, None)
         self.history = history
         self.rev += 1
         self.findings = self._find()
         self.tell(by)
+
+    def design_at(self, rev: int) -> Design:
+        """The design as it was at a recent `rev`, as it is now for any other."""
+        return self._recent.get(rev, self.history.present.design)
 
     def stands_on_disk(self, disk: OnDisk) -> None:
         """Note what the file holds now."""

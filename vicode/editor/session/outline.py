@@ -3,8 +3,9 @@
 from collections.abc import Iterable
 
 from vicode.editor.view import Selected, path_of_key
+from vicode.findings import Path
 from vicode.model.design import Action, Call, Decision, Design, Group
-from vicode.model.walks import decision_at
+from vicode.model.walks import decision_at, walk_decisions
 
 
 def outline_of(design: Design, thing: Selected | None) -> object:
@@ -28,6 +29,23 @@ def outline_of(design: Design, thing: Selected | None) -> object:
             return (uses, names, _actions(design.common.actions), design.common.transitions)
         case _:
             return (uses, names, _declarations(design), _actions(design.common.actions), design.common.transitions)
+
+
+def order_around(design: Design, path: Path) -> object:
+    """What the numbers in a path count: a value that changes when things come, go or move where it leads."""
+    match path:
+        case (("parameters" | "outputs" | "variables") as section, *_):
+            return tuple(each.name for each in getattr(design, section))
+        case ("states", name, ("enter" | "actions" | "leave") as phase, *_):
+            state = design.state(str(name))
+            return state and _actions(getattr(state, phase))
+        case ("common", "actions", *_):
+            return _actions(design.common.actions)
+        case ("states" | "common", *_):
+            located = ((at.path, type(at.decision), getattr(at.decision, "to", "")) for at in walk_decisions(design))
+            return tuple(each for each in located if each[0][:2] == path[:2])
+        case _:
+            return None
 
 
 def _actions(actions: Iterable[Action]) -> tuple[tuple[type, str], ...]:

@@ -93,6 +93,11 @@ class Company:
             self._here[window] = now
             self._tell()
 
+    @property
+    def all(self) -> tuple[Presence, ...]:
+        """Every window, in the order in which they came."""
+        return tuple(self._here.values())
+
     def others(self, window: str) -> tuple[Presence, ...]:
         """All windows but one, those of the same person too."""
         return tuple(each for each in self._here.values() if each.window != window)

@@ -2,6 +2,8 @@
 
 from dataclasses import fields, is_dataclass
 
+from vicode.editor.session.people import Presence
+from vicode.editor.view import Selected, path_of_key
 from vicode.findings import Path
 
 _KINDS = {
@@ -27,12 +29,33 @@ def words_of_path(path: Path) -> str:
     return _within(list(path), "the design")
 
 
+def words_of_presence(presence: Presence) -> str:
+    """What somebody is at: the field being typed in, else what is selected; nothing if neither."""
+    if presence.typing_in:
+        return f"types {words_of_path(presence.typing_in)}"
+    if len(presence.selected) > 1:
+        return f"{len(presence.selected)} things"
+    return next((_words_of_thing(thing) for thing in presence.selected), "")
+
+
 def words_of_value(value: object) -> str:
     """A value as a short text; of a thing only what is said of it."""
     if value is None:
         return "(removed)"
     text = _text(value)
     return text if len(text) <= _LONGEST else f"{text[:_LONGEST]} …"
+
+
+def _words_of_thing(thing: Selected) -> str:
+    match thing.of:
+        case "states":
+            return f"state {thing.id}"
+        case "components":
+            return f"component {thing.id}"
+        case "transitions":
+            return words_of_path(path_of_key(thing.id))
+        case _:
+            return ""
 
 
 def _within(steps: list[str | int], thing: str) -> str:
@@ -51,8 +74,9 @@ def _attribute(step: str | int) -> str:
 
 def _text(value: object) -> str:
     if is_dataclass(value) and not isinstance(value, type):
-        said = ((each.name, getattr(value, each.name)) for each in fields(value))
-        return "\n".join(f"{name}: {_text(part)}" for name, part in said if part not in ("", (), None, False))
+        parts = ((each.name, getattr(value, each.name)) for each in fields(value))
+        said = ((name, _text(part)) for name, part in parts if part not in ("", (), None, False))
+        return "\n".join(f"{name}: {text}" for name, text in said if text)
     if isinstance(value, tuple):
         if value and all(isinstance(part, int | float) for part in value):
             return ", ".join(f"{part:g}" for part in value)

@@ -12,6 +12,7 @@ import { arrive, remember } from "./memory.js";
 import { Minimap } from "./minimap.js";
 import { Painter } from "./painter.js";
 import { Peek } from "./peek.js";
+import { People } from "./people.js";
 import { Preview } from "./preview.js";
 import { Rename } from "./rename.js";
 import { Router } from "./routing.js";
@@ -142,6 +143,7 @@ class Canvas {
     this.frame.stop();
     this.keyboard.dispose();
     this.clipboard.dispose();
+    this.people.dispose();
     this.sizes.disconnect();
     this.theme.dispose();
   }
@@ -265,12 +267,13 @@ class Canvas {
     this.rename = new Rename(this);
     this.preview = new Preview(this);
     this.peek = new Peek(this);
+    this.people = new People(this);
     this.dots = html("div", { class: "dots" });
     this.message = html("div", { class: "message", role: "status", hidden: true });
     this.empty = html("div", { class: "empty", hidden: true, text: "No states yet.\nDouble click, or press S, to add the first." });
     const corner = html("div", { class: "corner" }, [this.minimap.element, this.toolbar.element]);
     const above = [this.empty, this.message, this.rename.input, corner, this.peek.element, this.menu.element];
-    this.stage.append(this.dots, ...this.levels.elements, ...above);
+    this.stage.append(this.dots, ...this.levels.elements, ...this.people.elements, ...above);
     this.keyboard = new Keyboard(this);
   }
 
@@ -304,6 +307,7 @@ class Canvas {
     this.toolbar.show(k);
     this.minimap.follow();
     this.rename.follow();
+    this.people.follow();
     this.levels.follow();
   }
 
@@ -341,6 +345,7 @@ class Canvas {
       this.cull();
       this.handles.refresh();
       this.rename.follow();
+      this.people.draw();
     });
   }
 

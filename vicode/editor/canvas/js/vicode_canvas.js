@@ -45,6 +45,9 @@ export default {
     showPlaces(items, stay) {
       this.canvas.showPlaces(items, stay);
     },
+    showPeople(others) {
+      this.canvas.people.show(others);
+    },
     renameInPlace(id) {
       this.canvas.renameInPlace(id);
     },

@@ -1,0 +1,149 @@
+"""Two people on one design, each in a browser of their own: seen by the other, never undone by the other."""
+
+from collections.abc import Iterator
+
+import pytest
+from playwright.sync_api import Page, expect
+
+from tests.editor.test_editing_in_a_browser import create_state, open_player, select_state, state
+
+expect.set_options(timeout=20_000)
+
+
+@pytest.fixture
+def other(page: Page) -> Iterator[Page]:
+    """The page of another person."""
+    browser = page.context.browser
+    assert browser is not None
+    context = browser.new_context(viewport={"width": 1366, "height": 768})
+    yield context.new_page()
+    context.close()
+
+
+def take_name(page: Page, name: str) -> None:
+    page.get_by_role("button", name="change your name").click()
+    page.get_by_role("dialog").get_by_label("Name").fill(name)
+    page.get_by_role("button", name="Use this name").click()
+    expect(page.get_by_role("button", name=f"You are {name}")).to_be_visible()
+
+
+def test_people_see_each_other(editor: str, page: Page, other: Page) -> None:
+    open_player(page, editor)
+    open_player(other, editor)
+    expect(page.get_by_role("img", name="Guest 2")).to_be_visible()
+    take_name(other, "Ben <b>")
+    expect(page.get_by_role("img", name="Ben <b>")).to_be_visible()
+
+    # What the other selects is outlined, with the name beside it; what is typed into is said at the field.
+    select_state(other, "Kick")
+    expect(page.locator('.outline[data-at="s:Kick"]')).to_be_visible()
+    expect(page.locator(".tag").get_by_text("Ben <b>")).to_be_visible()
+    expect(page.get_by_role("img", name="Ben <b>: state Kick")).to_be_visible()
+    select_state(page, "Kick")
+    other.get_by_role("textbox", name="Doc").click()
+    expect(page.get_by_text("Ben <b> types here too")).to_be_visible()
+    other.get_by_role("textbox", name="Doc").blur()
+    expect(page.get_by_text("types here too")).to_have_count(0)
+
+    # Pointers are shown while they are over the drawing.
+    other.mouse.move(700, 300)
+    other.mouse.move(720, 310)
+    expect(page.locator(".pointer").get_by_text("Ben <b>")).to_be_visible()
+
+    # A chosen name outlives a reload; who leaves is gone.
+    other.reload()
+    expect(other.get_by_role("button", name="You are Ben <b>")).to_be_visible()
+    other.goto("about:blank")
+    expect(page.get_by_role("img", name="Ben <b>")).to_have_count(0)
+    expect(page.locator(".outline")).to_have_count(0)
+
+
+def test_undo_takes_back_ones_own_work_only(editor: str, page: Page, other: Page) -> None:
+    open_player(page, editor)
+    open_player(other, editor)
+    take_name(other, "Ben")
+    stage = page.locator("main.stage").bounding_box()
+    assert stage is not None
+    create_state(page, stage["x"] + 30, stage["y"] + stage["height"] - 40, "Pause")
+    expect(state(other, "Pause")).to_be_visible()
+    expect(other.get_by_role("button", name="Undo")).to_be_disabled()
+    select_state(other, "LookForBall")
+    other.get_by_role("textbox", name="Doc").fill("theirs")
+    other.get_by_role("textbox", name="Doc").blur()
+    expect(page.locator('.outline[data-at="s:LookForBall"]')).to_be_visible()
+    select_state(page, "LookForBall")
+    expect(page.get_by_role("textbox", name="Doc")).to_have_value("theirs")
+
+    # Ben's edit came last: this undo takes the name, then the state, out below it.
+    page.get_by_role("button", name="Undo").click()
+    page.get_by_role("button", name="Undo").click()
+    expect(state(other, "Pause")).to_have_count(0)
+    expect(page.get_by_role("textbox", name="Doc")).to_have_value("theirs")
+    page.get_by_role("button", name="Redo").click()
+    expect(state(other, "State")).to_be_visible()
+
+    # What Ben changed since is not undone, and it is said.
+    page.get_by_role("textbox", name="Doc").fill("mine")
+    page.get_by_role("textbox", name="Doc").blur()
+    expect(other.get_by_role("textbox", name="Doc")).to_have_value("mine")
+    other.get_by_role("textbox", name="Doc").fill("changed again")
+    other.get_by_role("textbox", name="Doc").blur()
+    expect(page.get_by_role("textbox", name="Doc")).to_have_value("changed again")
+    page.get_by_role("button", name="Undo").click()
+    expect(page.get_by_text("Ben changed doc of state LookForBall since")).to_be_visible()
+    expect(page.get_by_role("textbox", name="Doc")).to_have_value("changed again")
+
+
+def test_two_people_type_into_one_field(editor: str, page: Page, other: Page) -> None:
+    open_player(page, editor)
+    open_player(other, editor)
+    for each in (page, other):
+        select_state(each, "Kick")
+    page.get_by_role("textbox", name="Doc").fill("kick the ball")
+    page.get_by_role("textbox", name="Doc").blur()
+    expect(other.get_by_role("textbox", name="Doc")).to_have_value("kick the ball")
+
+    mine, theirs = page.get_by_role("textbox", name="Doc"), other.get_by_role("textbox", name="Doc")
+    mine.click()
+    mine.press("End")
+    theirs.click()
+    theirs.press("Home")
+    for here, there in zip(" hard", "then ", strict=True):
+        mine.press_sequentially(here)
+        theirs.press_sequentially(there)
+    # Who types is not disturbed; once both rest, both see both.
+    expect(mine).to_have_value("kick the ball hard")
+    expect(theirs).to_have_value("then kick the ball")
+    expect(mine).to_be_focused()
+    mine.blur()
+    theirs.blur()
+    for each in (mine, theirs):
+        expect(each).to_have_value("then kick the ball hard")
+
+
+def test_typing_goes_on_while_the_form_around_it_changes(editor: str, page: Page, other: Page) -> None:
+    open_player(page, editor)
+    open_player(other, editor)
+    select_state(page, "Kick")
+    field = page.get_by_role("textbox", name="Doc")
+    field.fill("first")
+    stage = other.locator("main.stage").bounding_box()
+    assert stage is not None
+    create_state(other, stage["x"] + 30, stage["y"] + stage["height"] - 40, "Pause")
+    expect(state(page, "Pause")).to_be_visible()
+    expect(field).to_be_focused()
+    field.press_sequentially(" and second")
+    field.blur()
+    expect(field).to_have_value("first and second")
+    other.get_by_text("Kick", exact=True).first.click()
+    expect(other.get_by_role("textbox", name="Doc")).to_have_value("first and second")
+
+
+def test_a_selection_follows_what_others_rename(editor: str, page: Page, other: Page) -> None:
+    open_player(page, editor)
+    open_player(other, editor)
+    select_state(page, "Kick")
+    select_state(other, "Kick")
+    other.get_by_label("State", exact=True).fill("Shoot")
+    other.get_by_label("State", exact=True).press("Enter")
+    expect(page.get_by_label("State", exact=True)).to_have_value("Shoot")
