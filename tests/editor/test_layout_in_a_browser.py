@@ -82,3 +82,14 @@ def test_a_layout_that_takes_long_is_called_off(editor: str, page: Page, project
     assert page.evaluate(PLACES) == before
     expect(state(page, "State0")).to_have_count(0)
     expect(page.get_by_text("Saved", exact=True)).to_be_visible()
+
+
+def test_among_many_states_a_target_is_found_by_typing(editor: str, page: Page, project: Path) -> None:
+    write_text(project / "forward" / "ring.yaml", save_design(ring_design(80, chords=0), ""))
+    page.goto(editor + "design/forward/Ring")
+    find = page.get_by_label("Transition to")
+    find.click()
+    find.press_sequentially("State77")
+    page.get_by_role("option", name="State77", exact=True).click()
+    expect(page.get_by_text("Unsaved changes")).to_be_visible()
+    expect(page.locator('g.edge[data-id="@common/0"]')).to_have_count(1)

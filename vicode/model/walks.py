@@ -99,7 +99,13 @@ def _walk_items(
 
 def decision_at(design: Design, path: Path) -> Located | None:
     """The decision a path leads to."""
-    return next((located for located in walk_decisions(design) if located.path == path), None)
+    match path:
+        case ("states", str(name), "transitions", *_):
+            near = (located for state in design.states if state.name == name for located in walk_decisions_of(state))
+        case _:
+            common = design.common.transitions
+            near = (located for located in _walk_items(common, COMMON, ("common", "transitions"), ()))
+    return next((located for located in near if located.path == path), None)
 
 
 def walk_actions(design: Design) -> Iterator[PlacedAction]:

@@ -12,6 +12,8 @@ from vicode.findings import Path
 from vicode.model.design import Decision, Group, Guard, Stay, Transition
 from vicode.model.edits import add_transition, items_path, remove_decisions, reorder_decision, update_items
 
+_MANY_TARGETS = 60
+
 
 def decisions_list(desk: Desk, source: str, path: Path, items: tuple[Decision, ...]) -> None:
     """Show the decisions a path leads to, with buttons to add, move and remove."""
@@ -19,12 +21,22 @@ def decisions_list(desk: Desk, source: str, path: Path, items: tuple[Decision, .
         ui.label("None yet: it stays here.").classes("empty")
     _rows(desk, path, items)
     with ui.row().classes("adders"):
-        targets = [state.name for state in desk.design.states]
-        with ui.button("Transition", icon="add").props("flat dense no-caps size=sm"), ui.menu().props("auto-close"):
-            for target in targets:
-                ui.menu_item(f"to {target}", on_click=_connector(desk, source, target)).classes("mono")
+        _offer_targets(desk, source)
         _adder(desk, path, "Stay", Stay)
         _adder(desk, path, "Group", lambda: Group(guard=Guard(when="True"), then=(Stay(),)))
+
+
+def _offer_targets(desk: Desk, source: str) -> None:
+    """A new transition to a state: from a menu, or by typing when there are more states than anybody would scroll."""
+    targets = [state.name for state in desk.design.states]
+    if len(targets) > _MANY_TARGETS:
+        find = ui.select(targets, label="Transition to", with_input=True, clearable=True)
+        find.on_value_change(lambda event: _connector(desk, source, event.value)() if event.value else None)
+        find.props("dense outlined options-dense").classes("mono")
+        return
+    with ui.button("Transition", icon="add").props("flat dense no-caps size=sm"), ui.menu().props("auto-close"):
+        for target in targets:
+            ui.menu_item(f"to {target}", on_click=_connector(desk, source, target)).classes("mono")
 
 
 def _rows(desk: Desk, path: Path, items: tuple[Decision, ...]) -> None:

@@ -57,7 +57,9 @@ def _at(point: tuple[float, float]) -> dict[str, float]:
 
 
 def _marks(by_thing: _Findings, thing: Selected) -> dict[str, Any]:
-    found = by_thing.get(thing, ())
+    found = by_thing.get(thing)
+    if found is None:
+        return {"severity": None, "messages": []}
     severity: Severity | None = worst_severity(found)
     return {"severity": str(severity) if severity else None, "messages": [finding.message for finding in found]}
 
