@@ -44,10 +44,12 @@ def main() -> None:
     parser.add_argument("--rounds", type=int, default=5)
     rounds = parser.parse_args().rounds
     commands = {
-        "hello": ([sys.executable, "-c", HELLO.replace("PORT", "8499")], '[data-id="hello"]'),
+        "hello": ([sys.executable, "-c", HELLO.replace("PORT", "8499")], '[data-id="hello"]', ""),
         "vicode edit": (
             [sys.executable, "-m", "vicode", "edit", "designs", "--no-open", "--port", "8498"],
             '[data-id="Kick"]',
+            # Where the browser is sent that `vicode edit` opens.
+            "design/forward/Player",
         ),
     }
     times: dict[str, list[tuple[float, float]]] = {name: [] for name in commands}
@@ -55,8 +57,8 @@ def main() -> None:
         path = shutil.which("chromium") or shutil.which("google-chrome")
         browser = playwright.chromium.launch(executable_path=path, args=["--no-sandbox", "--disable-dev-shm-usage"])
         for _round in range(rounds + 1):
-            for name, (command, sign) in commands.items():
-                times[name].append(open_once(browser, command, sign))
+            for name, (command, sign, path) in commands.items():
+                times[name].append(open_once(browser, command, sign, path))
     print(f"{'seconds':14} {'listening':>10} {'drawn':>10}")
     for name, all_measured in times.items():
         # The first round fills the disk's cache.
@@ -66,14 +68,14 @@ def main() -> None:
     print(f"{'ratio':14} {'':10} {median(ratios):10.2f}")
 
 
-def open_once(browser: Browser, command: list[str], sign: str) -> tuple[float, float]:
-    """Seconds from starting a server until it answers, and until what `sign` selects is drawn."""
+def open_once(browser: Browser, command: list[str], sign: str, path: str) -> tuple[float, float]:
+    """Seconds from starting a server until it answers, and until what `sign` selects is drawn at `path`."""
     start = time.perf_counter()
     with started(command) as url:
         listening = time.perf_counter() - start
         context = browser.new_context(viewport={"width": 1366, "height": 768})
         page = context.new_page()
-        page.goto(url, wait_until="commit")
+        page.goto(url + path, wait_until="commit")
         page.locator(sign).first.wait_for()
         drawn = time.perf_counter() - start
         context.close()

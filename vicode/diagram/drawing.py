@@ -8,12 +8,14 @@ from vicode.diagram.figure import Arrow, Figure, Node, figure_of
 from vicode.diagram.labels import Kind
 from vicode.diagram.lettering import LABEL, NAME, SMALL, Letters, text_width
 from vicode.diagram.palettes import LIGHT, Palette
-from vicode.diagram.routes import HEX_SLANT, Curve, Route, routes_of
+from vicode.diagram.routes import HEX_SLANT, Curve, Route, point_at, routes_of
 from vicode.diagram.shapes import Drawing, Group, Path, Text, box, curve, disc, line, lines
 from vicode.model.design import Design, Point
 
 _MARGIN = 24.0
 _HEAD = 10.0
+# So many points of a curve tell how far it bows, within a pixel or two.
+_SAMPLES = 8
 _MARK_ROW, _NAME_RISE, _MARK_GAP = 16.0, -8.0, 9.0
 _HEXAGON = (((2.5, -4.0), (7.5, -4.0), (10.0, 0.0), (7.5, 4.0), (2.5, 4.0), (0.0, 0.0), (2.5, -4.0)),)
 _MARKS: dict[str, tuple[float, tuple[tuple[Point, ...], ...]]] = {
@@ -42,6 +44,11 @@ def draw(
         palette: The colours.
     """
     figure = figure_of(design, only=only, links=links)
+    return draw_figure(figure, title=design.component, doc=design.doc, palette=palette)
+
+
+def draw_figure(figure: Figure, *, title: str, doc: str = "", palette: Palette = LIGHT) -> Drawing:
+    """The drawing of a figure: links below transitions, labels above all."""
     routes = routes_of(figure)
     artist = _Artist(palette)
     groups = (
@@ -52,8 +59,8 @@ def draw(
     )
     left, top, right, bottom = _extent(figure, routes)
     return Drawing(
-        title=design.component,
-        doc=design.doc,
+        title=title,
+        doc=doc,
         left=left - _MARGIN,
         top=top - _MARGIN,
         width=right - left + 2 * _MARGIN,
@@ -72,7 +79,7 @@ class _Artist:
     def node(self, node: Node) -> Group:
         """A state, a used component or the badge of common transitions."""
         drawers = {"state": self._state, "component": self._component, "common": self._common}
-        return Group(title=node.title, kind=node.of, shapes=tuple(drawers[node.of](node)))
+        return Group(title=node.title, kind=node.of, shapes=tuple(drawers[node.of](node)), href=node.href)
 
     def arrow(self, route: Route) -> Group:
         """A curve with its head."""
@@ -119,7 +126,9 @@ class _Artist:
             yield Path(steps=box(node.at, size.width - 8, size.height - 8, 8), stroke=pal.box_line)
         if node.initial:
             yield from self._initial(node)
-        yield _name(node, pal.muted if node.disabled else pal.text, rise=_NAME_RISE if node.marks else 0)
+        yield _name(node, pal.muted if node.disabled else pal.text, rise=_NAME_RISE if node.marks or node.second else 0)
+        if node.second:
+            yield _second(node, pal.muted)
         if node.marks:
             yield from self._marks(node.marks, (x, y + _MARK_ROW))
 
@@ -157,7 +166,7 @@ class _Artist:
         yield Path(steps=steps, fill=pal.component, stroke=pal.component_line, dash=(6, 3))
         yield _name(node, pal.component_text, rise=_NAME_RISE if node.second else 0)
         if node.second:
-            yield Text(x=x, y=y + 12, text=node.second, fill=pal.muted, letters=SMALL, is_centred=True)
+            yield _second(node, pal.muted)
 
     def _common(self, node: Node) -> Iterable[Path | Text]:
         pal, (x, y), size = self.palette, node.at, node.size
@@ -178,6 +187,10 @@ def _name(node: Node, colour: str, *, rise: float) -> Text:
         is_centred=True,
         is_struck=node.disabled,
     )
+
+
+def _second(node: Node, colour: str) -> Text:
+    return Text(x=node.at[0], y=node.at[1] + 12, text=node.second, fill=colour, letters=SMALL, is_centred=True)
 
 
 def _dash(arrow: Arrow) -> tuple[float, ...]:
@@ -218,9 +231,10 @@ def _extent(figure: Figure, routes: Iterable[Route]) -> tuple[float, float, floa
         xs += [node.at[0] - node.size.width / 2 - room, node.at[0] + node.size.width / 2]
         ys += [node.at[1] - node.size.height / 2 - room - 6 * bool(room), node.at[1] + node.size.height / 2]
     for route in routes:
-        bend = route.curve
-        xs += bend[::2]
-        ys += bend[1::2]
+        for step in range(_SAMPLES + 1):
+            x, y = point_at(route.curve, step / _SAMPLES)
+            xs.append(x)
+            ys.append(y)
         if route.chip:
             half = route.chip.size.width / 2
             xs += [route.at[0] - half, route.at[0] + half]

@@ -17,7 +17,10 @@ _NAME_ROOM, _SECOND_ROOM = 230.0, 200.0
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Node:
-    """A box: `of` is state, component or common; `marks` are words and counts for the row below the name."""
+    """A box: `of` is state, component or common; `marks` are words and counts for the row below the name.
+
+    `href` is where a click leads, nothing for nowhere.
+    """
 
     key: str
     of: str
@@ -30,6 +33,7 @@ class Node:
     final: bool = False
     disabled: bool = False
     marks: tuple[tuple[str, int], ...] = ()
+    href: str = ""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

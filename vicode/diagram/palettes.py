@@ -26,6 +26,11 @@ class Palette:
     common_fill: str
 
 
+def from_properties() -> Palette:
+    """Colours left to the style sheet of the page that a drawing becomes part of."""
+    return Palette(**{name: f"var(--drawn-{name.replace('_', '-')})" for name in Palette.__dataclass_fields__})
+
+
 LIGHT = Palette(
     paper="#f8fafc",
     text="#18212f",

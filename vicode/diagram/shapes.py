@@ -39,11 +39,12 @@ class Text:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Group:
-    """Shapes that are one thing; `title` is its tip and its name for screen readers."""
+    """Shapes that are one thing; `title` is its tip and its name for screen readers, `href` where a click leads."""
 
     title: str
     kind: str
     shapes: tuple[Path | Text, ...]
+    href: str = ""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -30,7 +30,10 @@ def write_svg(drawing: Drawing) -> str:
 
 def _group(group: Group) -> list[str]:
     shapes = [_path(shape) if isinstance(shape, Path) else _line_of_text(shape) for shape in group.shapes]
-    return [f'<g class="{group.kind}">', f"<title>{_text(group.title)}</title>", *shapes, "</g>"]
+    inner = [f"<title>{_text(group.title)}</title>", *shapes]
+    if group.href:
+        return [f'<a class="{group.kind}" href={quoteattr(_NOT_XML.sub("", group.href))}>', *inner, "</a>"]
+    return [f'<g class="{group.kind}">', *inner, "</g>"]
 
 
 def _path(path: Path) -> str:

@@ -7,6 +7,10 @@ import socket
 import tempfile
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from vicode.editor.session import Library
 
 STORAGE = "NICEGUI_STORAGE_PATH"
 
@@ -26,9 +30,13 @@ class Address:
 
     @property
     def url(self) -> str:
-        """What to open in a browser."""
+        """The home of what is served."""
+        return self.url_of("/")
+
+    def url_of(self, path: str) -> str:
+        """What to open in a browser to see a page."""
         shown = f"[{self.local_host}]" if ":" in self.local_host else self.local_host
-        return f"http://{shown}:{self.port}/" + (f"?token={self.token}" if self.token else "")
+        return f"http://{shown}:{self.port}{path}" + (f"?token={self.token}" if self.token else "")
 
 
 def choose_address(host: str, port: int | None) -> Address:
@@ -58,13 +66,17 @@ def serve(path: Path, address: Address, *, open_browser: bool = True) -> None:
     from vicode.editor.pages.add import add_pages  # noqa: PLC0415
     from vicode.editor.session import Library  # noqa: PLC0415
 
-    add_pages(Library(path))
+    library = Library(path)
+    add_pages(library)
     hosts = ("127.0.0.1", "localhost", "::1") if not address.token else None
+    start = address.url_of(_first_page(library))
+    # A folder's home is printed, so that it can be given to others; who names a file wants its design.
+    shown = address.url if path.is_dir() else start
     app.add_middleware(Guard, hosts=hosts, token=address.token)
     # Quasar's bar for requests under way is a landmark without a name, and says nothing here: all is one socket.
     app.config.quasar_config["loadingBar"] = {"skipHijack": True}
     app.config.quasar_config["ripple"] = False
-    app.on_startup(lambda: background_tasks.create(_announce(path, address), name="announce"))
+    app.on_startup(lambda: background_tasks.create(_announce(path, shown, address), name="announce"))
     ui.run(
         host=address.host,
         port=address.port,
@@ -72,7 +84,7 @@ def serve(path: Path, address: Address, *, open_browser: bool = True) -> None:
         dark=None,
         language="en-US",
         reload=False,
-        show=address.url if open_browser else False,
+        show=start if open_browser else False,
         show_welcome_message=False,
         tailwind=False,
         reconnect_timeout=60,
@@ -81,7 +93,15 @@ def serve(path: Path, address: Address, *, open_browser: bool = True) -> None:
     )
 
 
-async def _announce(path: Path, address: Address) -> None:
+def _first_page(library: "Library") -> str:
+    """What people come to work on: the design of the file, the first agent's root; home where nothing is."""
+    from vicode.editor.view.address import design_address  # noqa: PLC0415
+
+    first = library.first
+    return design_address(first[0].key, first[1]) if first else "/"
+
+
+async def _announce(path: Path, url: str, address: Address) -> None:
     """Print the address once the server answers there: it is told that it starts before it listens."""
     for _attempt in range(500):
         try:
@@ -90,7 +110,7 @@ async def _announce(path: Path, address: Address) -> None:
             await asyncio.sleep(0.02)
         else:
             writer.close()
-            print(f"vicode edits {path} at {address.url}  (Ctrl-C ends it)", flush=True)  # noqa: T201
+            print(f"vicode edits {path} at {url}  (Ctrl-C ends it)", flush=True)  # noqa: T201
             return
 
 

@@ -2,7 +2,7 @@
 
 from vicode.store.documents import ReadDesign, ReadProject, read_design, read_project_file
 from vicode.store.locating import locate, place_of
-from vicode.store.projects import OpenProject, design_files, find_projects, open_project
+from vicode.store.projects import OpenProject, design_files, find_projects, open_project, project_file_in
 from vicode.store.saving import save_design, save_project_file
 from vicode.store.schema import design_schema, project_schema
 from vicode.store.sources import SourceMap
@@ -19,6 +19,7 @@ __all__ = [
     "locate",
     "open_project",
     "place_of",
+    "project_file_in",
     "project_schema",
     "read_design",
     "read_project_file",

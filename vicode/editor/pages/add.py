@@ -4,32 +4,26 @@ import contextlib
 
 from nicegui import ui
 from starlette.requests import Request
-from starlette.responses import RedirectResponse, Response
 
 from vicode.editor.pages.design_page import DesignPage
 from vicode.editor.pages.going import Way
+from vicode.editor.pages.home import HomePage
 from vicode.editor.pages.look import add_look
-from vicode.editor.panels.designs_list import design_url
+from vicode.editor.panels.thumbnails import serve_thumbnails
 from vicode.editor.session import Library
 from vicode.editor.session.finding_things import Index
 from vicode.editor.view.address import trail_of_text
 
 
 def add_pages(library: Library) -> None:
-    """Serve the designs of a library: `/` leads to the first, `/design/PROJECT/COMPONENT` edits one."""
+    """Serve the designs of a library: `/` is their home, `/design/PROJECT/COMPONENT` edits one."""
     index = Index(library)
 
-    @ui.page("/")
-    def home() -> Response | None:
-        first = library.first
-        if first is not None:
-            workspace, component = first
-            return RedirectResponse(design_url(workspace, component))
-        _nothing(
-            "No designs here yet",
-            f"Write one into {library.path.name}/: ten lines are enough.",
-        )
-        return None
+    serve_thumbnails(library)
+
+    @ui.page("/", title="vicode")
+    def home() -> None:
+        HomePage(library, index)
 
     @ui.page("/design/{key}/{component}", title="vicode")
     def design(key: str, component: str, request: Request) -> None:

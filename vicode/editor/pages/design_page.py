@@ -1,12 +1,11 @@
 """The page that edits a design: canvas in the middle, designs to the left, inspector to the right, findings below."""
 
 import contextlib
-from typing import Any, cast
 
 from nicegui import core, ui
 
 from vicode.editor.pages.actions import Actions
-from vicode.editor.pages.going import Going, Way
+from vicode.editor.pages.going import HOME, Going, Way
 from vicode.editor.pages.keys import listen_to_keys
 from vicode.editor.pages.look import Theme, add_look
 from vicode.editor.pages.meeting import Meeting
@@ -14,17 +13,21 @@ from vicode.editor.pages.stage import Stage
 from vicode.editor.pages.visitor import greet_visitor
 from vicode.editor.panels.code_panel import CodePanel
 from vicode.editor.panels.command import Command, Place
+from vicode.editor.panels.design_dialogs import DesignDialogs
 from vicode.editor.panels.designs_list import DesignsList
 from vicode.editor.panels.desk import Desk
 from vicode.editor.panels.findings_panel import FindingsPanel
 from vicode.editor.panels.header import Header
 from vicode.editor.panels.help_dialog import show_help
 from vicode.editor.panels.inspector import Inspector
+from vicode.editor.panels.messages import say
 from vicode.editor.panels.problems import Problems
 from vicode.editor.panels.side_grip import side_grip
 from vicode.editor.panels.simulation import SimulationPanel, Simulator, simulation_commands
 from vicode.editor.panels.tabs import Tabs
+from vicode.editor.panels.undo_bar import UndoBar
 from vicode.editor.session import Document, Library, Workspace
+from vicode.editor.view.address import design_address
 
 _BREATH_S = 0.02
 
@@ -36,13 +39,14 @@ class DesignPage:
         """Build the page for the browser that asks for it."""
         person = greet_visitor(library.people)
         hand = Document(document.sheet, person.id)
-        self.desk = desk = Desk(workspace=workspace, document=hand, say=_say, window=ui.context.client.id)
+        self.desk = desk = Desk(workspace=workspace, document=hand, say=say, window=ui.context.client.id)
         theme = Theme(desk.code_editors, add_look())
         problems = Problems(desk)
         with ui.element("div").classes("shell"):
             skip = ui.element("a").classes("skip-link")
+            dialogs = DesignDialogs(say=say, offer_undo=UndoBar().offer)
             head = ui.element("header").classes("head")
-            self.designs = DesignsList(library, (workspace.key, document.design.component), _say)
+            self.designs = DesignsList(library, (workspace.key, document.design.component), dialogs)
             with ui.element("main").classes("stage").props("tabindex=-1") as main:
                 self.stage = Stage(desk)
             self.simulator = simulator = Simulator(desk, self.stage.drawing.canvas)
@@ -87,6 +91,10 @@ class DesignPage:
         with contextlib.suppress(OSError):
             self.desk.workspace.follow_disk()
         self.designs.refresh()
+        became = self.desk.workspace.gone.get(self.desk.design.component)
+        if became is not None:
+            key = self.desk.workspace.key
+            ui.navigate.to(design_address(key, became) if became else HOME)
 
     def _hear(self, by: Document) -> None:
         """Follow a change: at once if it was made here, else a moment later, so that many come as one."""
@@ -108,7 +116,3 @@ class DesignPage:
     def _refresh(self) -> None:
         for panel in (self.stage, self.header, self.dock, self.side):
             panel.refresh()
-
-
-def _say(text: str, kind: str) -> None:
-    ui.notify(text, type=cast("Any", kind), position="bottom", timeout=3500 if kind != "negative" else 8000)

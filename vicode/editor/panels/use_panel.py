@@ -2,7 +2,6 @@
 
 from nicegui import ui
 
-from vicode.editor.panels.designs_list import design_url
 from vicode.editor.panels.desk import Desk
 from vicode.editor.panels.fields import Field
 from vicode.editor.panels.rows import heading
@@ -26,7 +25,9 @@ def use_panel(desk: Desk, alias: str) -> list[Field]:
         return []
     ui.label(interface.doc).classes("doc")
     if project.design(use.component) is not None:
-        ui.link("Open its design", design_url(desk.workspace, use.component))
+        ui.button("Open its design", icon="open_in_new", on_click=lambda: desk.open(use.component)).props(
+            "flat no-caps dense"
+        )
     else:
         ui.label(f"Hand-written: {interface.implementation}").classes("mono small")
     heading(f"Outputs, read as {alias}.…")

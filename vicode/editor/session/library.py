@@ -18,13 +18,23 @@ class Library:
 
     def __post_init__(self) -> None:
         """Read them all."""
-        folder = self.path if self.path.is_dir() else self.path.parent
         found = find_projects(self.path)
-        self.workspaces = [Workspace(each, _key(each, folder), self.people) for each in found]
+        self.workspaces = [Workspace(each, _key(each, self.folder), self.people) for each in found]
 
     def workspace(self, key: str) -> Workspace | None:
         """The project of a key."""
         return next((each for each in self.workspaces if each.key == key), None)
+
+    def begin(self) -> Workspace:
+        """The project of a folder that holds none yet."""
+        if not self.workspaces:
+            self.workspaces.append(Workspace(self.folder, _key(self.folder, self.folder), self.people))
+        return self.workspaces[0]
+
+    @property
+    def folder(self) -> Path:
+        """The folder that was opened, or that holds the file that was."""
+        return self.path if self.path.is_dir() else self.path.parent
 
     @property
     def first(self) -> tuple[Workspace, str] | None:

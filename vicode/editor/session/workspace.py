@@ -1,6 +1,6 @@
 """One open project: its designs as they are now, and their files."""
 
-from collections.abc import Collection
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
@@ -33,6 +33,7 @@ class Workspace:
     project: Project = field(init=False)
     broken: tuple[str, ...] = field(init=False)
     files: dict[str, Path] = field(init=False)
+    gone: dict[str, str] = field(init=False, default_factory=dict)
     _texts: dict[str, str] = field(init=False)
     _reading: dict[str, tuple[Finding, ...]] = field(init=False)
     _seen: frozenset[tuple[str, int, int]] = field(init=False, default=frozenset())
@@ -76,6 +77,11 @@ class Workspace:
     def unsaved(self) -> tuple[str, ...]:
         """The components whose designs have changes that no file holds."""
         return tuple(name for name, document in self._documents.items() if not document.is_saved)
+
+    @property
+    def reading(self) -> Mapping[str, tuple[Finding, ...]]:
+        """What was wrong with the files when they were read, by component; "" is what belongs to none."""
+        return self._reading
 
     @property
     def sources(self) -> dict[str, str]:
@@ -136,8 +142,8 @@ class Workspace:
         document.take_disk(disk, "reload from disk")
         return ""
 
-    def create(self, component: str) -> Document:
-        """Make a new design with one state and a file of its own.
+    def create(self, component: str, text: str = "") -> Document:
+        """Make a new design with a file of its own: of a text that holds it, else with one state.
 
         Raises:
             FileExistsError: There is already a file of its name.
@@ -147,13 +153,26 @@ class Workspace:
         if file.exists():
             raise FileExistsError(file)
         design = Design(component=component, initial="Start", states=(State(name="Start", at=(160, 120)),))
-        text = save_design(design, "")
+        if text:
+            design = read_design(text, file.name).design or design
+        text = text or save_design(design, "")
         write_text(file, text)
         self.files[component], self._texts[component] = file, text
         self.project = replace(self.project, designs=(*self.project.designs, design))
         document = self.document(component)
         assert document is not None
         return document
+
+    def forget(self, component: str, became: str = "") -> None:
+        """Let go of a design whose file is gone; its windows are told where it went, "" for nowhere."""
+        self._documents.pop(component, None)
+        self.gone[component] = became
+
+    def is_as_read(self, component: str) -> bool:
+        """Whether the file of a design still holds what was read from it or written to it last."""
+        document = self._documents.get(component)
+        known = document.sheet.disk_text if document else self._texts.get(component)
+        return _read(self.files[component]) == known
 
     @property
     def output_folder(self) -> Path:
@@ -188,6 +207,7 @@ class Workspace:
     def _take(self, opened: OpenProject) -> None:
         """Make a project as read the one that is worked on."""
         self._texts, self.files = dict(opened.texts), dict(opened.files)
+        self.gone = {name: new for name, new in self.gone.items() if opened.project.design(name) is None}
         self.broken = tuple(file.name for file in opened.broken)
         self._reading = dict.fromkeys(opened.texts, ())
         for finding in opened.findings:

@@ -1,0 +1,177 @@
+"""Whole designs: renamed with all their uses, copied, thrown away, put back, made from templates."""
+
+import shutil
+from pathlib import Path
+
+import pytest
+
+from vicode.check import check_project
+from vicode.editor.session import Library, Workspace, renaming, templates, trash
+from vicode.editor.session.overview import Overview
+from vicode.findings import Severity
+from vicode.store import open_project
+
+DESIGNS = Path(__file__).parents[3] / "designs"
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Path:
+    shutil.copytree(DESIGNS / "forward", tmp_path / "forward", ignore=shutil.ignore_patterns("__pycache__"))
+    return tmp_path / "forward"
+
+
+@pytest.fixture
+def workspace(folder: Path) -> Workspace:
+    return Library(folder.parent).workspaces[0]
+
+
+def texts_of(folder: Path) -> dict[str, str]:
+    return {file.name: file.read_text() for file in sorted(folder.glob("*.yaml"))}
+
+
+def assert_sound(folder: Path) -> None:
+    opened = open_project(folder)
+    findings = [*opened.findings, *check_project(opened.project)]
+    assert [each for each in findings if each.severity is Severity.ERROR] == []
+
+
+def test_a_renaming_changes_every_name_and_nothing_else(workspace: Workspace, folder: Path) -> None:
+    before = texts_of(folder)
+    plan = renaming.plan_renaming(workspace, "Player", "Striker")
+    assert texts_of(folder) == before
+    assert [change.file.name for change in plan.changes] == ["striker.yaml", "project.yaml"]
+    assert renaming.rename_component(workspace, plan) == ""
+    after = texts_of(folder)
+    assert after["striker.yaml"] == before["player.yaml"].replace("component: Player", "component: Striker")
+    assert after["project.yaml"] == before["project.yaml"].replace("root: Player", "root: Striker")
+    assert workspace.project.design("Striker") is not None
+    assert workspace.project.design("Player") is None
+    assert workspace.gone == {"Player": "Striker"}
+    assert_sound(folder)
+
+
+def test_a_renaming_can_be_taken_back(workspace: Workspace, folder: Path) -> None:
+    before = texts_of(folder)
+    assert workspace.document("Player") is not None
+    for old, new in (("FaceBall", "LookAtBall"), ("LookAtBall", "FaceBall")):
+        plan = renaming.plan_renaming(workspace, old, new)
+        assert {change.file.name for change in plan.changes} >= {"player.yaml", "follow_ball.yaml"}
+        assert renaming.rename_component(workspace, plan) == ""
+        assert_sound(folder)
+    assert texts_of(folder) == before
+    player = workspace.document("Player")
+    assert player is not None
+    assert player.is_saved
+    assert {use.component for use in player.design.uses} >= {"FaceBall"}
+
+
+def test_whoever_is_killed_in_the_middle_leaves_a_sound_project(workspace: Workspace, folder: Path) -> None:
+    plan = renaming.plan_renaming(workspace, "FaceBall", "LookAtBall")
+    for change in plan.changes:
+        change.file.write_text(change.new)
+        assert_sound(folder)
+        assert (folder / "face_ball.yaml").exists()
+
+
+@pytest.mark.parametrize(
+    ("new", "words"),
+    [
+        ("Turn", "already a component Turn"),
+        ("Perception", "already a component Perception"),
+        ("1st", "letters, digits"),
+        ("../x", "letters, digits"),
+        ("FaceBall", "its name already"),
+        ("Taken", "already a file taken.yaml"),
+    ],
+)
+def test_a_renaming_is_refused_in_words(workspace: Workspace, folder: Path, new: str, words: str) -> None:
+    (folder / "taken.yaml").write_text("nothing: of ours\n")
+    before = texts_of(folder)
+    plan = renaming.plan_renaming(workspace, "FaceBall", new)
+    assert words in plan.refused
+    assert plan.changes == ()
+    assert texts_of(folder) == before
+
+
+def test_unsaved_work_and_other_programs_come_first(workspace: Workspace, folder: Path) -> None:
+    player = workspace.document("Player")
+    assert player is not None
+    player.edit("doc", lambda design: design.__class__(component="Player", doc="mine"))
+    player.undo()
+    plan = renaming.plan_renaming(workspace, "FaceBall", "LookAtBall")
+    assert plan.refused == ""
+    file = folder / "follow_ball.yaml"
+    file.write_text(file.read_text() + "# theirs\n")
+    assert "just changed by another program" in renaming.rename_component(workspace, plan)
+    assert (folder / "face_ball.yaml").exists()
+    player.edit("add", lambda design: design.__class__(component="Player", uses=design.uses, states=design.states))
+    assert "Player has unsaved changes" in renaming.plan_renaming(workspace, "FaceBall", "LookAtBall").refused
+
+
+def test_a_copy_keeps_comments(workspace: Workspace, folder: Path) -> None:
+    name = trash.name_for_copy(workspace, "Player")
+    trash.duplicate(workspace, "Player", name)
+    assert name == "Player2"
+    text = (folder / "player2.yaml").read_text()
+    assert text == (folder / "player.yaml").read_text().replace("component: Player", "component: Player2")
+    assert_sound(folder)
+
+
+def test_what_is_thrown_away_can_be_put_back(
+    workspace: Workspace, folder: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    # Where desktops of Linux keep their trash; elsewhere the system's own is used and not looked into.
+    monkeypatch.setenv("XDG_DATA_HOME", str(tmp_path / "data"))
+    before = (folder / "turn.yaml").read_bytes()
+    assert trash.users_of(workspace, "Turn") == ("Body",)
+    thrown = trash.throw_away(workspace, "Turn")
+    assert not (folder / "turn.yaml").exists()
+    assert workspace.project.design("Turn") is None
+    assert workspace.gone == {"Turn": ""}
+    assert trash.put_back(workspace, thrown) == ""
+    assert (folder / "turn.yaml").read_bytes() == before
+    assert workspace.project.design("Turn") is not None
+    assert workspace.gone == {}
+    assert "another turn.yaml" in trash.put_back(workspace, thrown)
+
+
+def test_unsaved_work_is_not_thrown_away(workspace: Workspace) -> None:
+    turn = workspace.document("Turn")
+    assert turn is not None
+    turn.edit("doc", lambda design: design.__class__(component="Turn"))
+    assert "unsaved changes" in trash.refuse_throwing_away(workspace, "Turn")
+
+
+@pytest.mark.parametrize("template", templates.list_templates(), ids=lambda template: template.name)
+def test_every_template_makes_a_sound_design(workspace: Workspace, folder: Path, template: templates.Template) -> None:
+    text = templates.text_from_template(template, "Fresh", workspace.project)
+    workspace.create("Fresh", text)
+    assert (folder / "fresh.yaml").read_text() == text
+    assert_sound(folder)
+    assert workspace.project.design("Fresh") is not None
+
+
+def test_a_template_follows_what_the_project_can_see(workspace: Workspace) -> None:
+    template = next(each for each in templates.list_templates() if each.name == "follow_what_is_seen")
+    text = templates.text_from_template(template, "Fresh", workspace.project)
+    assert "perception.ball_seen" in text
+    assert "sense" not in text
+
+
+def test_the_overview_counts_findings_and_names_what_is_broken(folder: Path) -> None:
+    (folder / "wobbly.yaml").write_text("vicode: 1\ncomponent: Wobbly\nstates: {A: {transitions: [{to: B}]}}\n")
+    (folder / "broken.yaml").write_text("vicode: 1\ncomponent: Broken\nstates: [\n")
+    workspace = Library(folder).workspaces[0]
+    overview = Overview(workspace)
+    cards = {card.component: card for card in overview.cards()}
+    assert cards["Wobbly"].counts[Severity.ERROR] >= 1
+    assert cards["Player"].counts == {}
+    assert cards["Player"].is_root
+    (broken,) = overview.broken()
+    assert (broken.file, broken.line) == ("broken.yaml", 3)
+    kicker = next(each for each in overview.hand_written() if each.component == "Kicker")
+    assert kicker.used_by == ("Player",)
+    document = workspace.document("Wobbly")
+    assert document is not None
+    document.edit("states", lambda design: design.__class__(component="Wobbly"))
+    assert {card.component for card in overview.cards() if card.is_unsaved} == {"Wobbly"}

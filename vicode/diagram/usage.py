@@ -1,0 +1,144 @@
+"""Who uses whom in a project: components in columns by how deep they are used, as a figure to draw."""
+
+from collections import defaultdict
+from collections.abc import Callable, Iterator, Mapping
+
+from vicode.diagram.boxes import size_of_use
+from vicode.diagram.figure import Arrow, Figure, Node
+from vicode.diagram.lettering import NAME, shorten
+from vicode.model.design import Call, Design, Point
+from vicode.model.project import Project
+
+_BETWEEN_COLUMNS, _ROW = 110.0, 90.0
+_NAME_ROOM = 230.0
+_SWEEPS = 4
+
+Uses = Mapping[str, Mapping[str, frozenset[str]]]
+"""By user and used component: "requires", "modulates", neither or both."""
+
+
+def usage_figure(project: Project, address_of: Callable[[str], str] = lambda _component: "") -> Figure:
+    """The figure of all components that use others or are used; `address_of` says where a click on a design leads."""
+    uses = _uses(project)
+    shown = [name for name in project.interfaces() if name in uses or any(name in used for used in uses.values())]
+    shown += [design.component for design in project.designs if design.component not in shown]
+    places = _places(shown, uses)
+    roots = {agent.root for agent in project.agents}
+    return Figure(
+        nodes=tuple(_node(project, name, places[name], address_of, is_root=name in roots) for name in shown),
+        arrows=tuple(_arrows(uses, set(shown))),
+    )
+
+
+def _uses(project: Project) -> Uses:
+    return {design.component: found for design in project.designs if (found := _uses_of(design))}
+
+
+def _uses_of(design: Design) -> Mapping[str, frozenset[str]]:
+    components = {use.alias: use.component for use in design.uses}
+    kinds: dict[str, set[str]] = {component: set() for component in components.values()}
+    actions = [*design.common.actions, *(action for state in design.states for action in state.all_actions)]
+    for state in design.states:
+        for alias in state.requires:
+            kinds.get(components.get(alias, ""), set()).add("requires")
+    for action in actions:
+        if isinstance(action, Call):
+            kinds.get(components.get(action.alias, ""), set()).add("modulates")
+    return {component: frozenset(found) for component, found in kinds.items()}
+
+
+def _node(project: Project, name: str, at: Point, address_of: Callable[[str], str], *, is_root: bool) -> Node:
+    design = project.design(name)
+    interface = project.interface(name)
+    count = len(design.states) if design else 0
+    second = f"{count} state{'s' * (count != 1)}" if design else "hand-written"
+    doc = " ".join(interface.doc.split()) if interface else ""
+    return Node(
+        key=name,
+        of="state" if design else "component",
+        at=at,
+        size=size_of_use(name, second),
+        label=shorten(name, NAME, _NAME_ROOM),
+        second=second,
+        title="\n".join(part for part in (name, doc) if part),
+        initial=is_root,
+        href=address_of(name) if design else "",
+    )
+
+
+def _arrows(uses: Uses, shown: set[str]) -> Iterator[Arrow]:
+    for user, found in uses.items():
+        for used, kinds in found.items():
+            if used not in shown:
+                continue
+            for kind in sorted(kinds) or ["uses"]:
+                # As in a design: what is required comes to its user, what is modulated is steered by it.
+                source, target = (used, user) if kind == "requires" else (user, used)
+                of = "transition" if kind == "uses" else kind
+                yield Arrow(
+                    key=f"{kind}/{user}/{used}", of=of, source=source, target=target, title=f"{user} {kind} {used}"
+                )
+
+
+def _places(names: list[str], uses: Uses) -> dict[str, Point]:
+    """Columns by depth, rows so that users and used stand near each other."""
+    depths = _depths(names, uses)
+    columns: dict[int, list[str]] = defaultdict(list)
+    for name in names:
+        columns[depths[name]].append(name)
+    neighbours = _neighbours(uses)
+    for _sweep in range(_SWEEPS):
+        for depth in sorted(columns):
+            rows = {name: row - len(column) / 2 for column in columns.values() for row, name in enumerate(column)}
+            columns[depth].sort(key=lambda name: _middle(rows, name, neighbours[name]))
+    places: dict[str, Point] = {}
+    left = 0.0
+    for depth in sorted(columns):
+        width = max(size_of_use(name, "hand-written").width for name in columns[depth])
+        for row, name in enumerate(columns[depth]):
+            places[name] = (left + width / 2, (row - (len(columns[depth]) - 1) / 2) * _ROW)
+        left += width + _BETWEEN_COLUMNS
+    return places
+
+
+def _depths(names: list[str], uses: Uses) -> dict[str, int]:
+    """The longest way from a component that nobody uses; a circle is cut at the arrow that closes it."""
+    used_by_others = {used for user, found in uses.items() for used in found if used != user}
+    onwards: dict[str, list[str]] = defaultdict(list)
+    seen, is_open, order = set[str](), set[str](), list[str]()
+    for start in sorted(names, key=lambda name: name in used_by_others):
+        waiting = [(start, iter(uses.get(start, ())))] if start not in seen else []
+        seen.add(start)
+        is_open.add(start)
+        while waiting:
+            name, rest = waiting[-1]
+            used = next(rest, None)
+            if used is None:
+                order.append(name)
+                is_open.discard(name)
+                waiting.pop()
+            elif used not in is_open:
+                onwards[name].append(used)
+                if used not in seen:
+                    seen.add(used)
+                    is_open.add(used)
+                    waiting.append((used, iter(uses.get(used, ()))))
+    depths = dict.fromkeys(order, 0)
+    for name in reversed(order):
+        for used in onwards[name]:
+            depths[used] = max(depths[used], depths[name] + 1)
+    return depths
+
+
+def _neighbours(uses: Uses) -> Mapping[str, set[str]]:
+    neighbours: dict[str, set[str]] = defaultdict(set)
+    for user, found in uses.items():
+        for used in found:
+            neighbours[user].add(used)
+            neighbours[used].add(user)
+    return neighbours
+
+
+def _middle(rows: Mapping[str, float], name: str, neighbours: set[str]) -> float:
+    found = [rows[each] for each in neighbours if each in rows]
+    return sum(found) / len(found) if found else rows[name]

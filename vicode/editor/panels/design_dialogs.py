@@ -1,0 +1,170 @@
+"""Asks what is to become of a design: a new one, another name, a copy, the trash; undo is offered afterwards."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from nicegui import ui
+
+from vicode.editor.panels.dialogs import titled_dialog
+from vicode.editor.panels.rows import primary_button
+from vicode.editor.session import Workspace, renaming, templates, trash
+from vicode.editor.view.address import design_address
+
+Say = Callable[[str, str], None]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class DesignDialogs:
+    """The dialogs of one page; `offer_undo` shows words with a button that takes back what was done."""
+
+    say: Say
+    offer_undo: Callable[[str, Callable[[], object]], None]
+
+    def ask_new(self, workspace: Workspace) -> None:
+        """A new design, from a template."""
+        choices = templates.list_templates()
+        titles = {each.name: f"{each.title}: {each.doc}" for each in choices}
+        with titled_dialog("New design") as dialog:
+            name = _name_field("Component", "", "FollowBall")
+            ui.label("Begin with").classes("field-label")
+            begin = ui.radio(titles, value=choices[0].name).classes("template-choice")
+
+            def create() -> None:
+                wanted = name.value.strip()
+                template = next(each for each in choices if each.name == begin.value)
+                refused = trash.refuse_name(workspace, wanted)
+                if refused or not self._does(lambda: workspace.create(wanted, _text_of(template, wanted, workspace))):
+                    self._refuse(refused)
+                    return
+                dialog.close()
+                ui.navigate.to(design_address(workspace.key, wanted))
+
+            _buttons(dialog, "Create", create, name)
+
+    def ask_copy(self, workspace: Workspace, component: str) -> None:
+        """A copy under another name."""
+        with titled_dialog(f"Duplicate {component}") as dialog:
+            name = _name_field("Name of the copy", trash.name_for_copy(workspace, component), "")
+
+            def copy() -> None:
+                wanted = name.value.strip()
+                refused = trash.refuse_name(workspace, wanted)
+                if refused or not self._does(lambda: trash.duplicate(workspace, component, wanted)):
+                    self._refuse(refused)
+                    return
+                dialog.close()
+                self.say(f"{wanted} is a copy of {component}", "positive")
+
+            _buttons(dialog, "Duplicate", copy, name)
+
+    def ask_name(self, workspace: Workspace, component: str) -> None:
+        """Another name, with all that changes listed while it is typed."""
+        with titled_dialog(f"Rename {component}") as dialog:
+            name = _name_field("New name", component, "")
+            ui.label("What changes").classes("field-label")
+            listed = ui.column().classes("change-list").props('aria-live="polite"')
+
+            def plan() -> renaming.Renaming:
+                return renaming.plan_renaming(workspace, component, name.value.strip())
+
+            def show() -> None:
+                planned = plan()
+                listed.clear()
+                with listed:
+                    for change in planned.changes:
+                        ui.label(change.file.name).classes("mono")
+                        ui.label(change.words)
+                    if planned.refused:
+                        ui.label(f"Not possible: {planned.refused}").classes("empty")
+
+            def rename() -> None:
+                planned = plan()
+                if planned.refused or not self._rename(workspace, planned):
+                    self._refuse(planned.refused)
+                    return
+                dialog.close()
+
+            name.on_value_change(show)
+            show()
+            _buttons(dialog, "Rename everywhere", rename, name)
+
+    def ask_removal(self, workspace: Workspace, component: str) -> None:
+        """Move a design to the trash."""
+        refused = trash.refuse_throwing_away(workspace, component)
+        if refused:
+            self.say(_sentence(refused), "warning")
+            return
+        users = trash.users_of(workspace, component)
+        with titled_dialog(f"Move {component} to the trash?") as dialog:
+            ui.label(f"{workspace.files[component].name} goes to the trash of this computer; Undo puts it back.")
+            if users:
+                ui.label(f"Still used by {', '.join(users)}: these get findings until they use something else.")
+
+            def remove() -> None:
+                dialog.close()
+                self._does(lambda: self._throw_away(workspace, component))
+
+            _buttons(dialog, "Move to trash", remove, None)
+
+    def _throw_away(self, workspace: Workspace, component: str) -> None:
+        thrown = trash.throw_away(workspace, component)
+
+        def undo() -> None:
+            refused = trash.put_back(workspace, thrown)
+            self.say(_sentence(refused) or f"{component} is back", "warning" if refused else "positive")
+
+        self.offer_undo(f"{component} is in the trash", undo)
+
+    def _rename(self, workspace: Workspace, planned: renaming.Renaming) -> bool:
+        def rename() -> None:
+            refused = renaming.rename_component(workspace, planned)
+            if refused:
+                self._refuse(refused)
+                return
+            back = renaming.plan_renaming(workspace, planned.new, planned.old)
+            self.offer_undo(f"{planned.old} is {planned.new} now", lambda: self._rename_back(workspace, back))
+
+        return self._does(rename)
+
+    def _rename_back(self, workspace: Workspace, planned: renaming.Renaming) -> None:
+        again = renaming.plan_renaming(workspace, planned.old, planned.new)
+        refused = again.refused
+        if refused or not self._does(lambda: renaming.rename_component(workspace, again)):
+            self._refuse(refused)
+            return
+        self.say(f"It is {planned.new} again", "positive")
+
+    def _refuse(self, refused: str) -> None:
+        if refused:
+            self.say(_sentence(refused), "warning")
+
+    def _does(self, act: Callable[[], object]) -> bool:
+        """Do something to files; what the system has against it is told."""
+        try:
+            act()
+        except OSError as error:
+            self.say(f"Not done: {error}", "negative")
+            return False
+        return True
+
+
+def _text_of(template: templates.Template, component: str, workspace: Workspace) -> str:
+    return templates.text_from_template(template, component, workspace.project)
+
+
+def _name_field(label: str, value: str, example: str) -> ui.input:
+    field = ui.input(label, value=value, placeholder=example).classes("dialog-field")
+    field.props("outlined dense stack-label autofocus maxlength=80")
+    return field
+
+
+def _buttons(dialog: ui.dialog, label: str, act: Callable[[], object], field: ui.input | None) -> None:
+    if field is not None:
+        field.on("keydown.enter", act)
+    with ui.row().classes("dialog-buttons"):
+        ui.button("Cancel", on_click=dialog.close).props("flat no-caps")
+        primary_button(label, act)
+
+
+def _sentence(words: str) -> str:
+    return words[:1].upper() + words[1:]

@@ -1,0 +1,13 @@
+"""Short messages at the foot of a page."""
+
+from typing import Any, cast
+
+from nicegui import ui
+
+_SHORT_MS, _LONG_MS = 3500, 8000
+
+
+def say(text: str, kind: str) -> None:
+    """Show a message for a while; `kind` is positive, negative, info or warning."""
+    timeout = _LONG_MS if kind == "negative" else _SHORT_MS
+    ui.notify(text, type=cast("Any", kind), position="bottom", timeout=timeout)

@@ -1,0 +1,33 @@
+"""A bar at the foot of the page that says what was done, with a button that takes it back."""
+
+from collections.abc import Callable
+
+from nicegui import ui
+
+from vicode.editor.panels.rows import icon_button
+
+
+class UndoBar:
+    """Shows the newest offer until it is taken, dismissed, or another one comes."""
+
+    def __init__(self) -> None:
+        """Build it hidden."""
+        self._act: Callable[[], object] = lambda: None
+        with ui.element("div").classes("undo-bar").props('role="status"') as self._bar:
+            self._words = ui.label()
+            ui.button("Undo", on_click=self._undo).props("flat no-caps dense")
+            icon_button("close", "Dismiss", self._hide)
+        self._hide()
+
+    def offer(self, words: str, act: Callable[[], object]) -> None:
+        """Say what was done; `act` takes it back."""
+        self._act = act
+        self._words.set_text(words)
+        self._bar.set_visibility(True)
+
+    def _undo(self) -> None:
+        self._hide()
+        self._act()
+
+    def _hide(self) -> None:
+        self._bar.set_visibility(False)

@@ -1,0 +1,133 @@
+"""Renames a component with everything in its project that names it; planned first, then written file by file."""
+
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from vicode.editor.session.workspace import Workspace
+from vicode.model.design import Design
+from vicode.model.names import is_name, snake_case
+from vicode.model.project import Project
+from vicode.store import project_file_in, read_project_file, save_design, save_project_file, write_text
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Change:
+    """A file that is written, `old` its text now (None: it is new), `new` its text then; `words` say what changes."""
+
+    file: Path
+    old: str | None
+    new: str
+    words: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Renaming:
+    """A plan. `refused` says in words why it cannot be done; else `changes` in the order in which they are written.
+
+    The new file comes first and the old one goes last: whoever is killed in the middle leaves a project in which
+    every name still means something, and can rename again.
+    """
+
+    old: str
+    new: str
+    changes: tuple[Change, ...] = ()
+    removed: Path | None = None
+    refused: str = ""
+
+
+def plan_renaming(workspace: Workspace, old: str, new: str) -> Renaming:
+    """What renaming a component would change; nothing is touched."""
+    project = workspace.project
+    refused = _refuse(workspace, old, new)
+    file = workspace.files.get(old)
+    design = project.design(old)
+    if refused or file is None or design is None:
+        return Renaming(old=old, new=new, refused=refused or f"there is no design of {old}")
+    target = file.with_name(f"{snake_case(new)}{file.suffix}")
+    is_moved = target.resolve() != file.resolve()
+    if is_moved and target.exists():
+        return Renaming(old=old, new=new, refused=f"there is already a file {target.name}")
+    own = _own_change(design, file, target if is_moved else file, (old, new))
+    users = [
+        _user_change(each, workspace.files[each.component], (old, new))
+        for each in project.designs
+        if each.component != old and any(use.component == old for use in each.uses)
+    ]
+    of_project = _project_change(workspace.folder, (old, new))
+    changes = (own, *users, *([of_project] if of_project else []))
+    return Renaming(old=old, new=new, changes=changes, removed=file if is_moved else None)
+
+
+def rename_component(workspace: Workspace, plan: Renaming) -> str:
+    """Carry a plan out; returns why not, in words, if the files are no longer what it was made for.
+
+    Raises:
+        OSError: A file cannot be written; what was written before stays, and the old design too.
+    """
+    again = plan_renaming(workspace, plan.old, plan.new)
+    if again != plan:
+        return again.refused or "a file has changed meanwhile: look at the list once more"
+    for change in plan.changes:
+        write_text(change.file, change.new)
+    if plan.removed is not None:
+        plan.removed.unlink()
+    workspace.forget(plan.old, became=plan.new)
+    workspace.follow_disk()
+    return ""
+
+
+def _refuse(workspace: Workspace, old: str, new: str) -> str:
+    """Why a renaming cannot be done, in words; empty if it can."""
+    if not is_name(new):
+        return "a component is named in letters, digits and underscores, such as FollowBall"
+    if new == old:
+        return "that is its name already"
+    if workspace.project.interface(new) is not None:
+        return f"there is already a component {new}"
+    touched = {old, *(each.component for each in workspace.project.designs if _uses(each, old))}
+    unsaved = sorted(touched & set(workspace.unsaved))
+    if unsaved:
+        return f"{', '.join(unsaved)} {'has' if len(unsaved) == 1 else 'have'} unsaved changes: save or undo them first"
+    stale = [name for name in sorted(touched) if not workspace.is_as_read(name)]
+    return f"{workspace.files[stale[0]].name} was just changed by another program: look again" if stale else ""
+
+
+def _uses(design: Design, component: str) -> bool:
+    return any(use.component == component for use in design.uses)
+
+
+def _own_change(design: Design, file: Path, target: Path, names: tuple[str, str]) -> Change:
+    text = _read(file)
+    new = save_design(replace(design, component=names[1]), text)
+    words = f"component {names[0]} → {names[1]}"
+    if target == file:
+        return Change(file=file, old=text, new=new, words=words)
+    return Change(file=target, old=None, new=new, words=f"{words}; {file.name} becomes {target.name}")
+
+
+def _user_change(design: Design, file: Path, names: tuple[str, str]) -> Change:
+    old, new = names
+    aliases = [use.alias for use in design.uses if use.component == old]
+    uses = tuple(replace(use, component=new) if use.component == old else use for use in design.uses)
+    text = _read(file)
+    words = f"{design.component} uses {new} as {', '.join(aliases)}"
+    return Change(file=file, old=text, new=save_design(replace(design, uses=uses), text), words=words)
+
+
+def _project_change(folder: Path, names: tuple[str, str]) -> Change | None:
+    file = project_file_in(folder)
+    if file is None:
+        return None
+    old, new = names
+    text = _read(file)
+    project: Project | None = read_project_file(text, str(file)).project
+    agents = [agent.name for agent in project.agents if agent.root == old] if project else []
+    if project is None or not agents:
+        return None
+    renamed = tuple(replace(agent, root=new) if agent.root == old else agent for agent in project.agents)
+    changed = save_project_file(replace(project, agents=renamed), text)
+    return Change(file=file, old=text, new=changed, words=f"agent {', '.join(agents)} begins with {new}")
+
+
+def _read(file: Path) -> str:
+    return file.read_bytes().decode("utf-8")

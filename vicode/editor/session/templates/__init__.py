@@ -1,0 +1,69 @@
+"""Designs to begin with: files beside this one, which the reader of designs reads."""
+
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from vicode.model.design import Design
+from vicode.model.edits import rename_use
+from vicode.model.names import snake_case
+from vicode.model.project import Interface, Project
+from vicode.model.texts import TextKind, rewrite_text, walk_texts
+from vicode.store import read_design, save_design
+
+_FOLDER = Path(__file__).parent
+_NAMES = ("empty", "two_states", "timer_and_retry", "follow_what_is_seen")
+# What the template that follows something calls the component that sees, and its output.
+_SENSE, _SEEN = "sense", "seen"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Template:
+    """A design to begin with; `title` and `doc` are for the one who chooses."""
+
+    name: str
+    title: str
+    doc: str
+    text: str
+    design: Design
+
+
+def list_templates() -> tuple[Template, ...]:
+    """All of them, the simplest first."""
+    return tuple(_template(name) for name in _NAMES)
+
+
+def text_from_template(template: Template, component: str, project: Project) -> str:
+    """The text of a new design of that name: the template's, with its comments and order."""
+    design = replace(template.design, component=component)
+    if design.use(_SENSE) is not None:
+        design = _with_senses_of(design, project)
+    return save_design(design, template.text)
+
+
+def _template(name: str) -> Template:
+    text = (_FOLDER / f"{name}.yaml").read_text(encoding="utf-8")
+    design = read_design(text, f"{name}.yaml").design
+    assert design is not None, "the templates of the package can be read"
+    title = name.replace("_", " ").capitalize()
+    return Template(name=name, title=title, doc=design.doc, text=text, design=design)
+
+
+def _with_senses_of(design: Design, project: Project) -> Design:
+    """The design on the first component of the project that tells whether something holds; as it is without one."""
+    found = next(((each, seen) for each in project.interfaces().values() if (seen := _flag_of(each))), None)
+    if found is None:
+        return design
+    interface, seen = found
+    uses = tuple(replace(use, component=interface.component) for use in design.uses)
+    design = replace(design, uses=uses)
+    for placed in walk_texts(design):
+        if placed.kind is TextKind.EXPRESSION:
+            design = rewrite_text(
+                design, placed.path, lambda text: text.replace(f"{_SENSE}.{_SEEN}", f"{_SENSE}.{seen}")
+            )
+    return rename_use(design, _SENSE, snake_case(interface.component))
+
+
+def _flag_of(interface: Interface) -> str:
+    """The first output that is true or false and asks for nothing, empty if there is none."""
+    return next((each.name for each in interface.outputs if each.type == "bool" and not each.arguments), "")
