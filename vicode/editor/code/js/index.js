@@ -36,11 +36,20 @@ export async function aidEditor(id, wishes, emit) {
 // The editor of an element; it may be mounted a moment after its aid. Null if its page is gone.
 async function editorOf(id) {
   for (let attempt = 0; attempt < 600; attempt += 1) {
-    const view = window.getElement?.(id)?.editor;
+    const view = foundEditor(id);
     if (view) return view;
     await new Promise((resolve) => setTimeout(resolve, attempt < 20 ? 10 : 50));
   }
   return null;
+}
+
+function foundEditor(id) {
+  try {
+    return window.getElement?.(id)?.editor;
+  } catch {
+    // The page itself is being mounted: an address may open it on a transition.
+    return null;
+  }
 }
 
 function attributesFor(wishes) {
