@@ -35,6 +35,7 @@ def started_editor(folder: Path, storage: Path) -> Iterator[str]:
     # NiceGUI behaves differently when it thinks that a test runs it.
     environment = {key: value for key, value in os.environ.items() if not key.startswith(("PYTEST", "NICEGUI"))}
     environment["NICEGUI_STORAGE_PATH"] = str(storage)
+    environment["VICODE_STATE"] = str(storage / "state")
     command = [sys.executable, "-m", "vicode", "edit", str(folder), "--no-open", "--port", "0"]
     with subprocess.Popen(
         command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, env=environment, cwd=ROOT

@@ -65,9 +65,11 @@ def serve(path: Path, address: Address, *, open_browser: bool = True) -> None:
     from vicode.editor.guard import Guard  # noqa: PLC0415
     from vicode.editor.pages.add import add_pages  # noqa: PLC0415
     from vicode.editor.session import Library  # noqa: PLC0415
+    from vicode.editor.session.keeper import Keeper  # noqa: PLC0415
+    from vicode.editor.session.recovery import open_recovery  # noqa: PLC0415
 
     library = Library(path)
-    add_pages(library)
+    add_pages(library, Keeper(library, open_recovery()))
     hosts = ("127.0.0.1", "localhost", "::1") if not address.token else None
     start = address.url_of(_first_page(library))
     # A folder's home is printed, so that it can be given to others; who names a file wants its design.

@@ -8,16 +8,20 @@ from starlette.requests import Request
 from vicode.editor.pages.design_page import DesignPage
 from vicode.editor.pages.going import Way
 from vicode.editor.pages.home import HomePage
+from vicode.editor.pages.keeping import keep_all
 from vicode.editor.pages.look import add_look
 from vicode.editor.panels.thumbnails import serve_thumbnails
 from vicode.editor.session import Library
 from vicode.editor.session.finding_things import Index
+from vicode.editor.session.keeper import Keeper
 from vicode.editor.view.address import trail_of_text
 
 
-def add_pages(library: Library) -> None:
+def add_pages(library: Library, keeper: Keeper | None = None) -> None:
     """Serve the designs of a library: `/` is their home, `/design/PROJECT/COMPONENT` edits one."""
     index = Index(library)
+    if keeper is not None:
+        keep_all(keeper)
 
     serve_thumbnails(library)
 
@@ -39,7 +43,8 @@ def add_pages(library: Library) -> None:
         ui.page_title(f"{component} – vicode")
         query = request.query_params
         trail = trail_of_text(query.get("from", ""), workspace.project.interfaces(), component)
-        DesignPage(library, workspace, document, Way(index=index, trail=trail, select=query.get("select", "")))
+        way = Way(index=index, trail=trail, select=query.get("select", ""))
+        DesignPage(library, workspace, document, way, keeper)
 
 
 def _nothing(title: str, hint: str) -> None:

@@ -6,6 +6,7 @@ from nicegui import core, ui
 
 from vicode.editor.pages.actions import Actions
 from vicode.editor.pages.going import HOME, Going, Way
+from vicode.editor.pages.keeping import Keeping
 from vicode.editor.pages.keys import listen_to_keys
 from vicode.editor.pages.look import Theme, add_look
 from vicode.editor.pages.meeting import Meeting
@@ -19,6 +20,7 @@ from vicode.editor.panels.desk import Desk
 from vicode.editor.panels.findings_panel import FindingsPanel
 from vicode.editor.panels.header import Header
 from vicode.editor.panels.help_dialog import show_help
+from vicode.editor.panels.history_panel import HistoryPanel
 from vicode.editor.panels.inspector import Inspector
 from vicode.editor.panels.messages import say
 from vicode.editor.panels.problems import Problems
@@ -27,6 +29,7 @@ from vicode.editor.panels.simulation import SimulationPanel, Simulator, simulati
 from vicode.editor.panels.tabs import Tabs
 from vicode.editor.panels.undo_bar import UndoBar
 from vicode.editor.session import Document, Library, Workspace
+from vicode.editor.session.keeper import Keeper
 from vicode.editor.view.address import design_address
 
 _BREATH_S = 0.02
@@ -35,7 +38,9 @@ _BREATH_S = 0.02
 class DesignPage:
     """One window on one design; everything in it can be rebuilt from the document."""
 
-    def __init__(self, library: Library, workspace: Workspace, document: Document, way: Way) -> None:
+    def __init__(
+        self, library: Library, workspace: Workspace, document: Document, way: Way, keeper: Keeper | None
+    ) -> None:
         """Build the page for the browser that asks for it."""
         person = greet_visitor(library.people)
         hand = Document(document.sheet, person.id)
@@ -50,22 +55,13 @@ class DesignPage:
             with ui.element("main").classes("stage").props("tabindex=-1") as main:
                 self.stage = Stage(desk)
             self.simulator = simulator = Simulator(desk, self.stage.drawing.canvas)
-            with ui.element("section").classes("dock").props('aria-label="Findings"'):
-                self.dock = Tabs(
-                    {
-                        "Findings": lambda: FindingsPanel(desk, problems),
-                        "Simulate": lambda: SimulationPanel(simulator),
-                    },
-                    place="dock",
-                )
-            with ui.element("aside").classes("side").props('aria-label="Inspector"'):
-                side_grip()
-                self.side = Tabs(
-                    {"Inspect": lambda: Inspector(desk), "Generated code": lambda: CodePanel(desk)}, place="side"
-                )
+            self.dock = self._build_dock(problems)
+            self.side = self._build_side()
         actions = Actions(desk, self.stage.drawing, theme)
         going = Going(desk, way.index, way.trail)
         commands = (*actions.commands(), *problems.commands(), *self.stage.commands(), *going.commands())
+        self.keeping = Keeping(desk, keeper)
+        commands += self.keeping.commands()
         commands += simulation_commands(simulator, lambda: self.dock.show("Simulate"))
         help_ = Command("help", "Keys and gestures", lambda: show_help(commands), Place.VIEW, icon="help", keys=("?",))
         commands += (help_,)
@@ -85,6 +81,24 @@ class DesignPage:
         self.is_behind = False
         ui.context.client.on_delete(hand.watch(self._hear))
         ui.timer(1.0, self._follow_disk)
+
+    def _build_dock(self, problems: Problems) -> Tabs:
+        desk, simulator = self.desk, self.simulator
+        with ui.element("section").classes("dock").props('aria-label="Findings"'):
+            return Tabs(
+                {
+                    "Findings": lambda: FindingsPanel(desk, problems),
+                    "History": lambda: HistoryPanel(desk),
+                    "Simulate": lambda: SimulationPanel(simulator),
+                },
+                place="dock",
+            )
+
+    def _build_side(self) -> Tabs:
+        desk = self.desk
+        with ui.element("aside").classes("side").props('aria-label="Inspector"'):
+            side_grip()
+            return Tabs({"Inspect": lambda: Inspector(desk), "Generated code": lambda: CodePanel(desk)}, place="side")
 
     def _follow_disk(self) -> None:
         # The folder itself may go while the editor is open; what is open here stays, and can be saved elsewhere.
@@ -114,5 +128,5 @@ class DesignPage:
                 self.desk.tell()
 
     def _refresh(self) -> None:
-        for panel in (self.stage, self.header, self.dock, self.side):
+        for panel in (self.stage, self.header, self.dock, self.side, self.keeping):
             panel.refresh()

@@ -9,6 +9,7 @@ from vicode.editor.panels.desk import Desk
 from vicode.editor.panels.fields import enable
 from vicode.editor.panels.people_chips import PeopleChips
 from vicode.editor.panels.rows import icon_button, primary_button
+from vicode.editor.panels.save_dialog import ask_about_disk
 from vicode.editor.view.address import design_address
 
 _ICONS = ("find", "undo", "redo", "lay-out", "links", "theme")
@@ -24,6 +25,7 @@ class Header:
         ui.link("vicode", "/").classes("brand").props('aria-label="vicode, all designs"')
         self._crumbs(trail)
         self.saved = ui.label().classes("saved").props('role="status"')
+        self.clash = ui.button("Choose …", on_click=lambda: ask_about_disk(desk)).props("flat dense no-caps")
         ui.element("div").classes("spacer")
         self.people = PeopleChips(desk)
         self.buttons = {name: icon_button(named[name].icon, named[name].label, named[name].act) for name in _ICONS}
@@ -42,13 +44,21 @@ class Header:
             _separator()
             ui.label(here).classes("crumb here").props('role="heading" aria-level="1"')
 
+    def _state_of_file(self) -> tuple[str, str]:
+        document = self.desk.document
+        if document.sheet.clash is not None:
+            return "Changed on disk, too", "is-clashing"
+        autosave = " · saves by itself" if self.desk.workspace.autosave else ""
+        return (f"Saved{autosave}", "") if document.is_saved else (f"Unsaved changes{autosave}", "is-unsaved")
+
     def refresh(self) -> None:
         """Show whether it is saved and what undo and redo would do."""
         document = self.desk.document
-        text = "Saved" if document.is_saved else "Unsaved changes"
+        text, kind = self._state_of_file()
         if self.saved.text != text:
             self.saved.set_text(text)
-            self.saved.classes(remove="is-unsaved") if document.is_saved else self.saved.classes("is-unsaved")
+            self.saved.classes(add=kind, remove=" ".join({"is-unsaved", "is-clashing"} - {kind}))
+        self.clash.set_visibility(document.sheet.clash is not None)
         enable(self.buttons["undo"], flag=bool(document.undo_label))
         enable(self.buttons["redo"], flag=bool(document.redo_label))
 

@@ -1,31 +1,106 @@
-"""What to do when the file changed on disk while its design was open."""
+"""What to do when the file was changed on disk where unsaved work was done: one choice for each place, or for all."""
+
+from collections.abc import Callable
 
 from nicegui import ui
 
 from vicode.editor.panels.desk import Desk
 from vicode.editor.panels.rows import primary_button
+from vicode.editor.session import ChangedOnDiskError
+from vicode.editor.session.wording import words_of_path, words_of_value
+from vicode.findings import Path
+from vicode.model.merging import Conflict
+
+_SIDES = (("mine", "Yours"), ("theirs", "On disk"))
 
 
 def ask_about_disk(desk: Desk) -> None:
-    """Ask; nothing is lost either way: what is taken over stays one undo away, what is written patches the new text."""
-    name = desk.document.file.name
-    with ui.dialog() as dialog, ui.card().classes("dialog"):
-        ui.label(f"{name} was changed by another program").classes("dialog-title")
-        ui.label("Keep yours: your design is written into the file as it is now on disk, comments there stay.")
-        ui.label("Take theirs: the file's design is opened; undo brings yours back.")
-
-        def keep() -> None:
-            desk.workspace.save(desk.document, over=True)
-            desk.say("Saved over the change on disk", "positive")
-            dialog.close()
-
-        def take() -> None:
-            refused = desk.workspace.reload(desk.document)
-            desk.say(refused or "Opened as it is on disk", "negative" if refused else "positive")
-            dialog.close()
-
-        with ui.row().classes("dialog-buttons"):
-            ui.button("Cancel", on_click=dialog.close).props("flat no-caps")
-            ui.button("Take theirs", on_click=take).props("flat no-caps")
-            primary_button("Keep yours", keep)
+    """Ask; nothing is lost either way: what is not taken stays in the history, on both sides."""
+    clash = desk.document.sheet.clash
+    if clash is None:
+        return
+    with ui.dialog() as dialog, ui.card().classes("dialog clash"):
+        if clash.disk.design is None:
+            _ask_to_write(desk, dialog, is_gone=not clash.disk.text)
+        else:
+            _ask_for_choices(desk, dialog, clash.conflicts)
     dialog.open()
+
+
+def _ask_to_write(desk: Desk, dialog: ui.dialog, *, is_gone: bool) -> None:
+    name = desk.document.file.name
+    what = "was deleted by another program" if is_gone else "holds no design any more"
+    ui.label(f"{name} {what}").classes("dialog-title")
+    aside = "" if is_gone else f" What it holds now is put aside as {name}.edited."
+    ui.label(f"Your design is here. Saving writes the file anew.{aside}")
+    with ui.row().classes("dialog-buttons"):
+        ui.button("Cancel", on_click=dialog.close).props("flat no-caps")
+        primary_button("Write the file", lambda: _settle(desk, dialog, (), "Saved"))
+
+
+def _ask_for_choices(desk: Desk, dialog: ui.dialog, conflicts: tuple[Conflict, ...]) -> None:
+    chosen: dict[Path, str] = {conflict.path: "mine" for conflict in conflicts}
+    count = "one place" if len(conflicts) == 1 else f"{len(conflicts)} places"
+    ui.label(f"{desk.document.file.name} was changed by another program").classes("dialog-title")
+    ui.label(f"It touches your unsaved work in {count}; all other changes of both come together.").classes("small")
+    with ui.column().classes("clash-list"):
+        for conflict in conflicts:
+            _conflict(conflict, chosen)
+
+    def settle(side: str, said: str) -> Callable[[], None]:
+        def act() -> None:
+            taken = [path for path, choice in chosen.items() if (side or choice) == "theirs"]
+            _settle(desk, dialog, taken, said)
+
+        return act
+
+    with ui.row().classes("dialog-buttons"):
+        ui.button("Cancel", on_click=dialog.close).props("flat no-caps")
+        ui.button("Take theirs", on_click=settle("theirs", "Opened as it is on disk")).props("flat no-caps")
+        keep = settle("mine", "Saved over the change on disk")
+        if len(conflicts) == 1:
+            primary_button("Keep yours", keep)
+        else:
+            ui.button("Keep yours", on_click=keep).props("flat no-caps")
+            primary_button("Save as chosen", settle("", "Saved as chosen"))
+
+
+def _conflict(conflict: Conflict, chosen: dict[Path, str]) -> None:
+    """One place with what stands there on both sides; the side that is pressed is taken."""
+    texts = {"mine": words_of_value(conflict.ours), "theirs": words_of_value(conflict.theirs)}
+    ui.label(words_of_path(conflict.path)).classes("clash-place")
+    buttons: dict[str, ui.element] = {}
+
+    def choose(side: str) -> Callable[[], None]:
+        def act() -> None:
+            chosen[conflict.path] = side
+            for name, button in buttons.items():
+                button.props(f'aria-pressed="{str(name == side).lower()}"')
+
+        return act
+
+    with ui.element("div").classes("clash-sides"):
+        for side, title in _SIDES:
+            other = set(texts["theirs" if side == "mine" else "mine"].splitlines())
+            with ui.element("button").classes("clash-side").props('type="button"') as button:
+                ui.label(title).classes("clash-title")
+                for line in texts[side].splitlines():
+                    ui.label(line or " ").classes("clash-line mono" + ("" if line in other else " differs"))
+            buttons[side] = button.on("click", choose(side))
+    choose("mine")()
+
+
+def _settle(desk: Desk, dialog: ui.dialog, theirs_at: list[Path] | tuple[()], said: str) -> None:
+    try:
+        desk.workspace.settle(desk.document, theirs_at)
+        desk.workspace.save(desk.document)
+    except (OSError, ValueError) as error:
+        desk.say(f"Not saved: {error}", "negative")
+        return
+    except ChangedOnDiskError:
+        # It was changed once more while the dialog was open.
+        dialog.close()
+        ask_about_disk(desk)
+        return
+    desk.say(said, "positive")
+    dialog.close()

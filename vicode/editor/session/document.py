@@ -36,6 +36,15 @@ class Clash:
     conflicts: tuple[Conflict, ...]
 
 
+@dataclass(frozen=True, slots=True)
+class News:
+    """What somebody did to the whole design, to be told to the others."""
+
+    text: str = ""
+    person: str = ""
+    rev: int = 0
+
+
 @dataclass(eq=False, kw_only=True)
 class Sheet:
     """What all windows on a design share: its history, what is wrong with it, who watches it, who is here.
@@ -56,6 +65,7 @@ class Sheet:
     findings: tuple[Finding, ...] = field(init=False, default=())
     rev: int = field(init=False, default=0)
     clash: Clash | None = field(init=False, default=None)
+    news: News = field(init=False, default=News())
     watchers: list[Watcher] = field(init=False, default_factory=list)
     _recent: dict[int, Design] = field(init=False, default_factory=dict)
 
@@ -170,6 +180,7 @@ class Document:
 
     def jump(self, step: int) -> None:
         """Go to any point of the history; what is left stays in it, one jump away."""
+        self._announce(f"{self.sheet.people.name_of(self.person)} went to “{self.history.jumped(step).present.label}”")
         self.sheet.become(self.history.jumped(step), self)
 
     def take_disk(self, disk: OnDisk, label: str, design: Design | None = None) -> None:
@@ -180,6 +191,7 @@ class Document:
         if design is not None and design != disk.design:
             theirs = Step(person=DISK, label="as it was on disk", at_s=self.sheet.clock(), design=disk.design)
             history = history.beside(theirs)
+            self._announce(f"Merged with what another program wrote into {self.file.name}")
         grown = history.then(self._step(label, design if design is not None else disk.design))
         if grown is self.history:
             self.sheet.tell(self)
@@ -198,6 +210,9 @@ class Document:
 
     def _step(self, label: str, design: Design, typing_in: str = "") -> Step:
         return Step(person=self.person, label=label, at_s=self.sheet.clock(), typing_in=typing_in, design=design)
+
+    def _announce(self, text: str) -> None:
+        self.sheet.news = News(text, self.person, self.sheet.rev)
 
     def _do(self, step: Step) -> None:
         self.sheet.become(self.history.then(step), self)

@@ -30,6 +30,8 @@ class Workspace:
     folder: Path
     key: str
     people: People = field(default_factory=People)
+    autosave: bool = False
+    """Whether designs are saved by themselves, a second after they were touched."""
     project: Project = field(init=False)
     broken: tuple[str, ...] = field(init=False)
     files: dict[str, Path] = field(init=False)
@@ -67,6 +69,11 @@ class Workspace:
             document.watch(self._follow)
             self._documents[component] = document
         return self._documents.get(component)
+
+    @property
+    def documents(self) -> tuple[Document, ...]:
+        """The designs that are open."""
+        return tuple(self._documents.values())
 
     def component_of_file(self, path: Path) -> str | None:
         """The component whose design a file holds."""

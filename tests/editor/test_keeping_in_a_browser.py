@@ -1,0 +1,129 @@
+"""Nothing is lost: a killed server, a file changed under unsaved work, saving by itself, and the history as a list."""
+
+from pathlib import Path
+
+from playwright.sync_api import Page, expect
+
+from tests.editor.conftest import started_editor
+from tests.editor.test_editing_in_a_browser import open_player, select_state
+
+expect.set_options(timeout=20_000)
+
+
+def type_doc(page: Page, text: str) -> None:
+    page.get_by_role("textbox", name="Doc").fill(text)
+    page.get_by_role("textbox", name="Doc").blur()
+
+
+def test_unsaved_work_survives_a_killed_server(
+    page: Page, project: Path, tmp_path: Path, console_errors: list[str]
+) -> None:
+    # Leaving a started editor kills it without a word.
+    with started_editor(project, tmp_path / "storage") as url:
+        open_player(page, url)
+        select_state(page, "Kick")
+        type_doc(page, "worth keeping")
+        expect(page.get_by_text("Unsaved changes")).to_be_visible()
+        _wait_for_journal(page, tmp_path / "storage" / "state", "worth keeping")
+    page.goto("about:blank")
+    console_errors.clear()
+    with started_editor(project, tmp_path / "storage") as url:
+        open_player(page, url)
+        expect(page.get_by_text("Recover the unsaved changes of Player")).to_be_visible()
+        page.get_by_text("See the differences").click()
+        expect(page.locator(".diff-line.added").get_by_text("worth keeping")).to_be_visible()
+        page.get_by_role("button", name="Recover").click()
+        expect(page.get_by_text("Recovered the changes of Player")).to_be_visible()
+        expect(page.get_by_role("dialog")).to_have_count(0)
+        select_state(page, "Kick")
+        expect(page.get_by_role("textbox", name="Doc")).to_have_value("worth keeping")
+        page.reload()
+        expect(page.get_by_text("Unsaved changes")).to_be_visible()
+        expect(page.get_by_text("Recover the unsaved changes")).to_have_count(0)
+
+
+def _wait_for_journal(page: Page, state: Path, text: str) -> None:
+    for _attempt in range(200):
+        if any(text in file.read_text() for file in state.glob("unsaved/*/*.json")):
+            return
+        page.wait_for_timeout(50)
+    raise AssertionError("no journal was written")
+
+
+def test_a_clash_with_the_file_is_settled_place_by_place(editor: str, page: Page, project: Path) -> None:
+    file = project / "forward" / "player.yaml"
+    open_player(page, editor)
+    select_state(page, "LookForBall")
+    type_doc(page, "mine of LookForBall")
+    select_state(page, "Kick")
+    type_doc(page, "mine of Kick")
+    text = file.read_text().replace("Look around until the ball is seen.", "theirs of LookForBall")
+    text = text.replace("frequency: 10", "frequency: 20  # faster")
+    file.write_text(text.replace("Kick, with the eyes on the ball.", "theirs of Kick"))
+
+    # It is said at once, and nothing is taken before somebody chooses.
+    expect(page.get_by_text("Changed on disk, too")).to_be_visible()
+    page.get_by_role("button", name="Choose …").click()
+    dialog = page.get_by_role("dialog")
+    expect(dialog.get_by_text("doc of state LookForBall")).to_be_visible()
+    dialog.get_by_role("button", name="On disk").nth(1).click()
+    dialog.get_by_role("button", name="Save as chosen").click()
+    expect(page.get_by_text("Saved", exact=True).first).to_be_visible()
+    after = file.read_text()
+    assert "mine of LookForBall" in after
+    assert "theirs of Kick" in after
+    assert "frequency: 20  # faster" in after
+
+    # What was not taken is in the history.
+    page.get_by_role("tab", name="History").click()
+    expect(page.get_by_role("listitem").get_by_text("as it was on disk")).to_be_visible()
+
+
+def test_what_does_not_touch_is_merged_and_said(editor: str, page: Page, project: Path) -> None:
+    file = project / "forward" / "player.yaml"
+    open_player(page, editor)
+    select_state(page, "Kick")
+    type_doc(page, "mine")
+    expect(page.get_by_text("Unsaved changes")).to_be_visible()
+    file.write_text(file.read_text().replace("WatchBall", "Rest"))
+    expect(page.get_by_text("Merged with what another program wrote")).to_be_visible()
+    expect(page.locator('g[data-kind="state"][data-id="Rest"]')).to_be_visible()
+    expect(page.get_by_role("textbox", name="Doc")).to_have_value("mine")
+    expect(page.get_by_text("Unsaved changes")).to_be_visible()
+
+
+def test_a_project_saves_by_itself_when_asked_to(editor: str, page: Page, project: Path) -> None:
+    open_player(page, editor)
+    page.keyboard.press("Control+k")
+    page.keyboard.type("save by itself")
+    page.keyboard.press("Enter")
+    expect(page.get_by_text("Saved · saves by itself")).to_be_visible()
+    select_state(page, "Kick")
+    type_doc(page, "saved by itself")
+    expect(page.get_by_text("Saved · saves by itself")).to_be_visible()
+    for _attempt in range(200):
+        if "saved by itself" in (project / "forward" / "player.yaml").read_text():
+            break
+        page.wait_for_timeout(50)
+    assert "saved by itself" in (project / "forward" / "player.yaml").read_text()
+
+
+def test_the_history_leads_to_any_point_by_mouse_and_keys(editor: str, page: Page) -> None:
+    open_player(page, editor)
+    select_state(page, "Kick")
+    for text in ("one", "two"):
+        type_doc(page, text)
+        page.get_by_label("Initial").click()
+    page.reload()
+    expect(page.locator('g[data-kind="state"][data-id="Kick"]')).to_be_visible()
+    page.get_by_role("tab", name="History").click()
+    rows = page.get_by_role("listitem")
+    expect(rows.first).to_have_attribute("aria-current", "step")
+    expect(rows.last).to_contain_text("open")
+    rows.last.click()
+    expect(page.get_by_text("Saved", exact=True)).to_be_visible()
+    expect(rows.last).to_have_attribute("aria-current", "step")
+    page.keyboard.press("ArrowUp")
+    page.keyboard.press("Enter")
+    expect(rows.last).not_to_have_attribute("aria-current", "step")
+    expect(page.get_by_text("Unsaved changes")).to_be_visible()

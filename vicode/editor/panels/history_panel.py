@@ -1,0 +1,110 @@
+"""The history of the design as a list: who did what and when; a click, or Enter, goes to that point."""
+
+import time
+from collections.abc import Callable
+
+from nicegui import ui
+
+from vicode.editor.panels.desk import Desk
+from vicode.editor.panels.rows import primary_button
+from vicode.editor.session.history_lines import HistoryLine, lines_of_history
+from vicode.editor.session.people import DISK
+
+_PAGE = 60
+_WALK = """(event) => {
+  const row = event.target.closest(".history-row");
+  const next = { ArrowDown: row?.nextElementSibling, ArrowUp: row?.previousElementSibling }[event.key];
+  if (next) { next.focus(); event.preventDefault(); }
+}"""
+
+
+class HistoryPanel:
+    """Builds the list; `refresh` adds new steps and marks where the design is."""
+
+    def __init__(self, desk: Desk) -> None:
+        """Build it empty."""
+        self.desk = desk
+        self.most = _PAGE
+        self.shown: dict[int, HistoryLine] = {}
+        self.rows: dict[int, ui.element] = {}
+        self.list = ui.element("div").classes("history-list").props('role="list" aria-label="History"')
+        self.list.on("keydown", js_handler=_WALK)
+        self.more = ui.button("Show older steps", on_click=self._show_more).props("flat dense no-caps")
+
+    def refresh(self) -> None:
+        """Show the history as it is now; only what changed is built."""
+        history = self.desk.document.history
+        lines = {line.step.id: line for line in lines_of_history(history, self.most)}
+        for id_ in [each for each in self.shown if each not in lines]:
+            self.rows.pop(id_).delete()
+            del self.shown[id_]
+        with self.list:
+            for place, (id_, line) in enumerate(lines.items()):
+                if id_ not in self.shown:
+                    self.rows[id_] = self._row(line)
+                    self.rows[id_].move(target_index=place)
+                elif self.shown[id_] != line:
+                    self._mark(self.rows[id_], line)
+        self.shown = lines
+        self.more.set_visibility(len(history.steps) > len(lines))
+
+    def _row(self, line: HistoryLine) -> ui.element:
+        step, people = line.step, self.desk.document.sheet.people
+        row = ui.element("button").classes("history-row").props('type="button" role="listitem"')
+        with row:
+            ui.icon("play_arrow").classes("history-now").props('aria-hidden="true"')
+            ui.label(time.strftime("%H:%M:%S", time.localtime(step.at_s))).classes("history-time mono")
+            ui.label(step.label).classes("history-label")
+            ui.label(people.name_of(step.person) if step.person else "").classes("history-person")
+        row.on("click", self._goer(step.id))
+        self._mark(row, line)
+        return row
+
+    def _mark(self, row: ui.element, line: HistoryLine) -> None:
+        row.classes(add="is-now" if line.is_now else None, remove=None if line.is_now else "is-now")
+        row.classes(add="is-ahead" if line.is_ahead else None, remove=None if line.is_ahead else "is-ahead")
+        row.style(f"--depth: {min(line.depth, 8)}")
+        row.props('aria-current="step"') if line.is_now else row.props(remove="aria-current")
+
+    def _show_more(self) -> None:
+        self.most += _PAGE
+        self.refresh()
+
+    def _goer(self, step: int) -> Callable[[], None]:
+        def go() -> None:
+            left = self._left_by(step)
+            if left:
+                self._ask(step, left)
+            else:
+                self.desk.document.jump(step)
+
+        return go
+
+    def _left_by(self, step: int) -> str:
+        """Whose steps a jump would leave, and how many: "3 steps of Ana"; nothing if only one's own."""
+        document = self.desk.document
+        kept = {each.id for each in document.history.jumped(step).path}
+        left = [each for each in document.history.path if each.id not in kept]
+        counts: dict[str, int] = {}
+        for each in left:
+            if each.person not in ("", DISK, document.person):
+                counts[each.person] = counts.get(each.person, 0) + 1
+        name = document.sheet.people.name_of
+        return " and ".join(
+            f"{count} {'step' if count == 1 else 'steps'} of {name(who)}" for who, count in counts.items()
+        )
+
+    def _ask(self, step: int, left: str) -> None:
+        label = self.desk.document.history.steps[step].label
+        with ui.dialog() as dialog, ui.card().classes("dialog"):
+            ui.label(f"Go to “{label}”?").classes("dialog-title")
+            ui.label(f"This leaves {left}, for everybody here. They stay in the history.")
+
+            def go() -> None:
+                self.desk.document.jump(step)
+                dialog.close()
+
+            with ui.row().classes("dialog-buttons"):
+                ui.button("Cancel", on_click=dialog.close).props("flat no-caps")
+                primary_button("Go there", go)
+        dialog.open()
