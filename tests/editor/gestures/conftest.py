@@ -45,7 +45,7 @@ class Sketch:
         page.wait_for_selector(".vicode-canvas[data-ready]")
         expect(page.get_by_text("Saved", exact=True)).to_be_visible()
         self.wait_for("vicode.view().resting && Object.keys(vicode.positions()).length === 5")
-        self.start = self.vicode("positions()")
+        self.start = json.dumps(sorted(map(list, self.vicode("positions()").items())), separators=(",", ":"))
         page.mouse.move(1000, 20)
 
     def at(self, of: str, identity: str, right: float = 0, down: float = 0) -> Point:
@@ -58,8 +58,8 @@ class Sketch:
 
     def empty(self) -> Point:
         """A point where nothing is."""
-        x, y = self.at("states", "Rest")
-        return x + 10, y + 160
+        (x1, y), (x2, _y) = self.state("Rest"), self.state("Stop")
+        return (x1 + x2) / 2, y + 20
 
     def click(self, spot: Point, *held: Any, right: bool = False, double: bool = False) -> None:
         for key in held:
@@ -148,9 +148,7 @@ class Sketch:
                 expect(self.page.get_by_text("Unsaved changes")).to_be_visible()
         expect(self.page.get_by_text("Saved", exact=True)).to_be_visible()
         # The drawing may follow a moment later than the words.
-        self.wait_for(
-            f"JSON.stringify(vicode.positions()) === {json.dumps(json.dumps(self.start, separators=(',', ':')))}"
-        )
+        self.wait_for(f"JSON.stringify(Object.entries(vicode.positions()).sort()) === {json.dumps(self.start)}")
 
     def vicode(self, call: str) -> Any:
         return self.page.evaluate(f"document.querySelector('.vicode-canvas').vicode.{call}")
@@ -173,6 +171,8 @@ def sketches(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
     """An editor on many small designs: a new one for each test."""
     folder = tmp_path_factory.mktemp("sketches")
     shutil.copytree(ROOT / "designs" / "forward", folder / "designs" / "forward")
+    (folder / "designs" / "forward" / "blank.yaml").write_text("vicode: 1\ncomponent: Blank\n", encoding="utf-8")
+    (folder / "designs" / "forward" / "empty.yaml").write_text("vicode: 1\ncomponent: Empty\n", encoding="utf-8")
     for number in range(MANY):
         file = folder / "designs" / "forward" / f"sketch{number}.yaml"
         file.write_text(DESIGN.format(number=number), encoding="utf-8")

@@ -1,0 +1,109 @@
+"""Fingers on a tablet: tap, drag, hold, pinch; targets large enough."""
+
+from collections.abc import Callable, Iterator
+
+import pytest
+from playwright.sync_api import Browser, BrowserContext, CDPSession, Page, expect
+
+from tests.editor.gestures.conftest import WAIT_MS, Point, Sketch, middle
+
+
+class Fingers:
+    """Touches as the screen sends them."""
+
+    def __init__(self, page: Page) -> None:
+        self.session: CDPSession = page.context.new_cdp_session(page)
+
+    def send(self, kind: str, *points: Point) -> None:
+        fingers = [{"x": x, "y": y, "id": number} for number, (x, y) in enumerate(points)]
+        self.session.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": fingers})
+
+    def drag(self, start: Point, end: Point) -> None:
+        self.send("touchStart", start)
+        for step in (0.3, 0.7, 1):
+            self.send("touchMove", (start[0] + (end[0] - start[0]) * step, start[1] + (end[1] - start[1]) * step))
+        self.send("touchEnd")
+
+    def tap(self, spot: Point) -> None:
+        self.send("touchStart", spot)
+        self.send("touchEnd")
+
+
+@pytest.fixture(scope="module")
+def window(chromium: Browser) -> Iterator[BrowserContext]:
+    context = chromium.new_context(viewport={"width": 1180, "height": 820}, has_touch=True)
+    context.set_default_timeout(WAIT_MS)
+    yield context
+    context.close()
+
+
+@pytest.fixture
+def fingers(sketch: Sketch) -> Fingers:
+    return Fingers(sketch.page)
+
+
+def test_one_finger_selects_and_drags_and_pans(sketch: Sketch, fingers: Fingers) -> None:
+    fingers.tap(sketch.state("Go"))
+    sketch.selects("states/Go")
+    x, y = sketch.state("Go")
+    fingers.drag((x, y), (x + 60, y + 50))
+    sketch.wait_for("vicode.positions()['states/Go'].x > 470")
+    sketch.undone()
+    before = sketch.state("Stop")
+    spot = sketch.empty()
+    fingers.drag(spot, (spot[0] + 40, spot[1] - 30))
+    sketch.wait_for(f"Math.abs(vicode.screen('states', 'Stop').x - {before[0] + 40}) < 12")
+    expect(sketch.page.get_by_text("Saved", exact=True)).to_be_visible()
+
+
+def test_a_finger_held_still_opens_the_menu(sketch: Sketch, fingers: Fingers) -> None:
+    fingers.send("touchStart", sketch.state("Rest"))
+    expect(sketch.menu()).to_be_visible()
+    fingers.send("touchEnd")
+    expect(sketch.menu()).to_be_visible()
+    sketch.selects("states/Rest")
+    entry = sketch.menu().get_by_role("menuitem", name="Duplicate")
+    box = entry.bounding_box()
+    assert box is not None
+    assert box["height"] >= 40
+    fingers.tap(middle(entry))
+    sketch.selects("states/Rest2")
+    sketch.undone()
+
+
+def test_two_fingers_zoom_and_a_finger_drags_a_transition_from_a_state(sketch: Sketch, fingers: Fingers) -> None:
+    before = sketch.view()["k"]
+    fingers.send("touchStart", (500, 600), (600, 600))
+    fingers.send("touchMove", (520, 600), (580, 600))
+    fingers.send("touchMove", (525, 600), (575, 600))
+    fingers.send("touchEnd")
+    sketch.wait_for(f"vicode.view().k < {before} * 0.7")
+    sketch.press("1")
+    sketch.wait_for(f"vicode.view().k === {before}")
+    fingers.tap(sketch.state("Rest"))
+    sketch.selects("states/Rest")
+    disc = sketch.page.locator('circle.handle-hit[data-handle="s:Rest"]').nth(1)
+    disc.wait_for()
+    box = disc.bounding_box()
+    assert box is not None
+    assert min(box["width"], box["height"]) >= 40 * min(1, before)
+    fingers.drag(middle(disc), sketch.state("Stop"))
+    expect(sketch.arrow("Rest/0")).to_have_count(1)
+    sketch.undone()
+
+
+def test_several_are_selected_without_a_key(
+    sketch: Sketch, fingers: Fingers, open_sketch: Callable[[Page], Sketch]
+) -> None:
+    fingers.tap(sketch.state("Go"))
+    several = sketch.page.get_by_role("button", name="Select several")
+    several.click()
+    expect(several).to_have_attribute("aria-pressed", "true")
+    fingers.tap(sketch.state("Stop"))
+    sketch.selects("states/Go", "states/Stop")
+    fingers.tap(sketch.state("Go"))
+    sketch.selects("states/Stop")
+    fingers.drag(sketch.state("Rest", -70, 50), sketch.state("Rest", 70, -20))
+    sketch.wait_for("vicode.selection().some(item => item.id === 'Rest')")
+    several.click()
+    expect(several).to_have_attribute("aria-pressed", "false")
