@@ -45,6 +45,8 @@ class Sketch:
         page.wait_for_selector(".vicode-canvas[data-ready]")
         expect(page.get_by_text("Saved", exact=True)).to_be_visible()
         self.wait_for("vicode.view().resting && Object.keys(vicode.positions()).length === 5")
+        # The panel below is filled: nothing moves the drawing any more.
+        expect(page.get_by_text("4 warnings")).to_be_visible()
         self.start = json.dumps(sorted(map(list, self.vicode("positions()").items())), separators=(",", ":"))
         page.mouse.move(1000, 20)
 
