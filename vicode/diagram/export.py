@@ -28,6 +28,11 @@ class Format(StrEnum):
     DOT = "dot"
 
     @property
+    def label(self) -> str:
+        """What people call it."""
+        return {Format.MERMAID: "Mermaid", Format.PLANTUML: "PlantUML"}.get(self, self.upper())
+
+    @property
     def suffix(self) -> str:
         """How the names of its files end."""
         return {Format.MERMAID: ".mmd", Format.PLANTUML: ".puml"}.get(self, f".{self}")

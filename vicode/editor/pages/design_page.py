@@ -17,6 +17,7 @@ from vicode.editor.panels.command import Command, Place
 from vicode.editor.panels.design_dialogs import DesignDialogs
 from vicode.editor.panels.designs_list import DesignsList
 from vicode.editor.panels.desk import Desk
+from vicode.editor.panels.export_dialog import ExportDialog
 from vicode.editor.panels.findings_panel import FindingsPanel
 from vicode.editor.panels.header import Header
 from vicode.editor.panels.help_dialog import show_help
@@ -54,18 +55,12 @@ class DesignPage:
             self.designs = DesignsList(library, (workspace.key, document.design.component), dialogs)
             with ui.element("main").classes("stage").props("tabindex=-1") as main:
                 self.stage = Stage(desk)
-            self.simulator = simulator = Simulator(desk, self.stage.drawing.canvas)
+            self.simulator = Simulator(desk, self.stage.drawing.canvas)
             self.dock = self._build_dock(problems)
             self.side = self._build_side()
-        actions = Actions(desk, self.stage.drawing, theme)
-        going = Going(desk, way.index, way.trail)
-        commands = (*actions.commands(), *problems.commands(), *self.stage.commands(), *going.commands())
         self.keeping = Keeping(desk, keeper)
-        commands += self.keeping.commands()
-        commands += simulation_commands(simulator, lambda: self.dock.show("Simulate"))
-        help_ = Command("help", "Keys and gestures", lambda: show_help(commands), Place.VIEW, icon="help", keys=("?",))
-        commands += (help_,)
-        commands += self.stage.drawing.commands(commands)
+        going = Going(desk, way.index, way.trail)
+        commands = self._commands(theme, (*problems.commands(), *going.commands(), *self.keeping.commands()))
         going.palette.commands = commands
         with head:
             self.header = Header(desk, commands, way.trail)
@@ -99,6 +94,16 @@ class DesignPage:
         with ui.element("aside").classes("side").props('aria-label="Inspector"'):
             side_grip()
             return Tabs({"Inspect": lambda: Inspector(desk), "Generated code": lambda: CodePanel(desk)}, place="side")
+
+    def _commands(self, theme: Theme, others: tuple[Command, ...]) -> tuple[Command, ...]:
+        """All that can be asked of this page, in the order in which it is listed."""
+        actions = Actions(self.desk, self.stage.drawing, theme)
+        commands = (*actions.commands(), *others, *self.stage.commands())
+        commands += ExportDialog(self.desk, lambda: actions.links_shown).commands()
+        commands += simulation_commands(self.simulator, lambda: self.dock.show("Simulate"))
+        help_ = Command("help", "Keys and gestures", lambda: show_help(commands), Place.VIEW, icon="help", keys=("?",))
+        commands += (help_,)
+        return (*commands, *self.stage.drawing.commands(commands))
 
     def _follow_disk(self) -> None:
         # The folder itself may go while the editor is open; what is open here stays, and can be saved elsewhere.

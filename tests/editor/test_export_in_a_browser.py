@@ -1,0 +1,67 @@
+"""Taking the drawing out: looked at, downloaded in every form, copied as text."""
+
+from pathlib import Path
+from xml.etree import ElementTree
+
+from playwright.sync_api import Locator, Page, expect
+
+from tests.editor.player_page import open_player, select_state
+
+
+def ask(page: Page) -> Locator:
+    page.keyboard.press("Control+Shift+E")
+    dialog = page.get_by_role("dialog", name="Export Player")
+    expect(dialog).to_be_visible()
+    return dialog
+
+
+def choose(page: Page, dialog: Locator, label: str, option: str) -> None:
+    dialog.get_by_label(label).click()
+    page.get_by_role("option", name=option).click()
+
+
+def download(page: Page, dialog: Locator) -> tuple[str, bytes]:
+    with page.expect_download() as found:
+        dialog.get_by_role("button", name="Download").click()
+    path = found.value.path()
+    return found.value.suggested_filename, Path(path).read_bytes()
+
+
+def test_a_picture_is_looked_at_and_downloaded(editor: str, page: Page) -> None:
+    open_player(page, editor)
+    dialog = ask(page)
+    expect(dialog.get_by_role("img", name="The drawing")).to_have_js_property("complete", value=True)
+    name, svg = download(page, dialog)
+    assert name == "player.svg"
+    texts = {element.text for element in ElementTree.fromstring(svg).iter() if element.tag.endswith("}text")}
+    assert {"Kick", "LookForBall", "perception"} <= texts
+    dialog.get_by_text("Used components").click()
+    choose(page, dialog, "Format", "PDF")
+    name, pdf = download(page, dialog)
+    assert (name, pdf[:5]) == ("player.pdf", b"%PDF-")
+
+
+def test_what_is_selected_is_taken_out_alone_as_it_is_now(editor: str, page: Page) -> None:
+    open_player(page, editor)
+    select_state(page, "Kick")
+    page.get_by_label("State", exact=True).fill("Shoot")
+    page.get_by_label("State", exact=True).press("Enter")
+    expect(page.get_by_text("Unsaved changes")).to_be_visible()
+    dialog = ask(page)
+    choose(page, dialog, "Format", "Mermaid")
+    expect(dialog.get_by_label("Preview")).to_contain_text("Shoot")
+    expect(dialog.get_by_label("Preview")).not_to_contain_text("LookForBall")
+    choose(page, dialog, "What", "Everything")
+    expect(dialog.get_by_label("Preview")).to_contain_text("LookForBall --> FollowBall")
+
+
+def test_a_text_is_copied_from_the_palette(editor: str, page: Page) -> None:
+    page.context.grant_permissions(["clipboard-read", "clipboard-write"])
+    open_player(page, editor)
+    page.keyboard.press("Control+k")
+    page.keyboard.type("copy as plantuml")
+    page.keyboard.press("Enter")
+    expect(page.get_by_text("PlantUML of Player is on the clipboard")).to_be_visible()
+    text = page.evaluate("navigator.clipboard.readText()")
+    assert text.startswith("@startuml")
+    assert "[*] --> LookForBall" in text
