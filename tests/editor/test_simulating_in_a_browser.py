@@ -3,7 +3,10 @@
 import json
 from pathlib import Path
 
+import pytest
 from playwright.sync_api import Locator, Page, expect
+
+from tests.editor.test_accessibility import complaints
 
 PLAYER = "design/forward/Player"
 expect.set_options(timeout=30_000)
@@ -17,10 +20,14 @@ def active(page: Page) -> Locator:
     return page.locator("g.node.active")
 
 
-def open_simulation(page: Page, url: str, design: str = PLAYER) -> None:
+def open_player(page: Page, url: str, design: str = PLAYER) -> None:
     page.set_viewport_size({"width": 1366, "height": 768})
     page.goto(url + design)
     expect(page.locator('g[data-kind="state"]').first).to_be_visible()
+
+
+def open_simulation(page: Page, url: str, design: str = PLAYER) -> None:
+    open_player(page, url, design)
     page.get_by_role("tab", name="Simulate").click()
     expect(page.get_by_text("not started")).to_be_visible()
 
@@ -71,6 +78,8 @@ def test_an_input_is_set_and_the_state_follows(editor: str, page: Page) -> None:
     age = page.get_by_role("spinbutton", name="Perception ball_age, number")
     age.fill("3.5")
     expect(page.locator(".guard", has_text="→ LookForBall")).to_contain_text("ball_age = 3.5")
+    page.get_by_role("slider", name="Perception ball_y").press("ArrowRight")
+    expect(page.get_by_role("spinbutton", name="Perception ball_y, number")).to_have_value("5")
     page.get_by_role("tab", name="Active components").click()
     expect(page.locator(".tree-row", has_text="FaceBall").first).to_be_visible()
     page.get_by_role("button", name="Run until the state changes (Shift+F6)").click()
@@ -170,3 +179,90 @@ def test_a_recorded_trace_is_looked_at(editor: str, page: Page, tmp_path: Path) 
     expect(page.locator('g.edge.taken[data-id="@common/0"]')).to_have_count(1)
     page.keyboard.press("Control+Shift+F10")
     expect(active(page)).to_have_attribute("data-id", "LookForBall")
+
+
+def test_the_menu_runs_to_a_state_and_sets_breakpoints(editor: str, page: Page) -> None:
+    open_simulation(page, editor)
+    expect(state(page, "FollowBall")).to_be_in_viewport()
+    page.wait_for_function("document.querySelector('.vicode-canvas').vicode.view().resting")
+    click_state(page, "LookForBall")
+    page.keyboard.press("Shift+F10")
+    page.get_by_role("menuitem", name="Breakpoint, or none").click()
+    expect(state(page, "LookForBall").locator(".stop-sign")).to_have_count(1)
+    click_state(page, "FollowBall")
+    page.keyboard.press("Control+F10")
+    expect(page.get_by_text("Stopped on entering LookForBall")).to_be_visible()
+    page.get_by_role("switch", name="Perception ball_seen").click()
+    click_state(page, "FollowBall")
+    page.keyboard.press("Control+F10")
+    expect(page.get_by_text("Stopped on entering FollowBall")).to_be_visible()
+
+
+def test_a_long_run_can_be_paused_and_time_gone_through(editor: str, page: Page) -> None:
+    open_simulation(page, editor)
+    page.keyboard.press("Shift+F6")
+    where(page, "iteration 1")
+    page.get_by_role("button", name="Play or pause (F6)").click()
+    expect(page.get_by_text("Paused")).to_be_visible()
+    slider = page.get_by_role("slider", name="Moment that is shown")
+    slider.focus()
+    slider.press("Home")
+    expect(page.get_by_text("before the first step")).to_be_visible()
+    slider.press("ArrowRight")
+    where(page, "0.00 s · iteration 1 ·")
+    page.get_by_role("button", name="Go on from here").click()
+    expect(page.get_by_text("The past,")).to_have_count(0)
+    page.keyboard.press("F10")
+    where(page, "0.02 s · iteration 2 ·")
+
+
+def test_texts_from_strangers_stay_texts_while_simulated(editor: str, page: Page, project: Path) -> None:
+    evil = "<img src=x onerror=document.title='owned'>\"' {{7*7}}"
+    quoted = json.dumps(evil)
+    file = project / "forward" / "project.yaml"
+    eye = (
+        f"  Eye:\n    implementation: hands:Eye\n    outputs:\n      seen: {{type: bool, doc: {quoted}}}\n"
+        f"      far: {{type: float, range: [0, 9], unit: {quoted}}}\n"
+    )
+    file.write_text(file.read_text().replace("\ncomponents:\n", f"\ncomponents:\n{eye}"))
+    (project / "forward" / "watcher.yaml").write_text(
+        "vicode: 1\ncomponent: Watcher\nuses: {eye: Eye}\ninitial: Off\nstates:\n"
+        f"  Off: {{doc: {quoted}, transitions: [{{to: On, when: eye.seen, doc: {quoted}}}]}}\n"
+        "  On:\n    actions:\n      - code: |\n"
+        f"          print({evil!r})\n          raise ValueError({evil!r})\n"
+    )
+    open_player(page, editor)
+    expect(page.get_by_role("link", name="Watcher")).to_be_visible()
+    open_simulation(page, editor, "design/forward/Watcher")
+    page.keyboard.press("F10")
+    where(page, "iteration 1")
+    page.get_by_text("seen", exact=True).hover()
+    page.get_by_role("switch", name="Eye seen").click()
+    page.keyboard.press("F10")
+    expect(page.locator(".simulation-message")).to_contain_text("Watcher, state On, On.actions, line 2: ValueError:")
+    expect(page.locator(".simulation-message")).to_contain_text("onerror")
+    page.get_by_role("tab", name="Output").click()
+    expect(page.locator(".output-line").first).to_contain_text("<img src=x")
+    page.get_by_role("tab", name="Active components").click()
+    expect(page.locator(".tree-row").first).to_be_visible()
+    assert page.locator("img[src=x]").count() == 0
+    assert "owned" not in page.title()
+
+
+@pytest.mark.parametrize("colours", ["light", pytest.param("dark", marks=pytest.mark.nightly)])
+def test_axe_finds_nothing_while_it_runs(editor: str, page: Page, colours: str) -> None:
+    page.emulate_media(color_scheme="dark" if colours == "dark" else "light", reduced_motion="reduce")
+    open_simulation(page, editor)
+    found = complaints(page)
+    page.keyboard.press("F10")
+    where(page, "iteration 1")
+    page.get_by_text("How to run").click()
+    expect(page.get_by_label("Seed of the world")).to_be_visible()
+    for tab in ("Plot", "Active components", "Output"):
+        page.get_by_role("tab", name=tab).click()
+        expect(page.get_by_role("tab", name=tab)).to_have_attribute("aria-selected", "true")
+        found += complaints(page)
+    page.keyboard.press("Control+Shift+F10")
+    expect(page.get_by_text("The past,")).to_be_visible()
+    found += complaints(page)
+    assert not found, "\n".join(found)

@@ -1,10 +1,13 @@
 """User code that fails, hangs, floods or dies is told in words with its place, and nothing of it reaches the editor."""
 
+import subprocess
+import sys
+import time
 from pathlib import Path
 
 import pytest
 
-from tests.editor.simulation.lamps import simulate, stage_of, write_lamps
+from tests.editor.simulation.lamps import LAMP, simulate, stage_of, write_lamps
 from vicode.editor.session.simulation import NotReadyError, Phase, Simulation
 from vicode.editor.view.activation import mistake_of
 from vicode.simulation import Stops
@@ -165,3 +168,56 @@ def test_code_that_reads_the_real_time_is_noticed(tmp_path: Path) -> None:
         assert simulation.note.startswith("Repeating the past gave something else")
 
     simulate(stage_of(folder), folder, act)
+
+
+def test_inputs_before_a_failure_are_not_lost(tmp_path: Path) -> None:
+    folder = write_lamps(tmp_path / "lamps", LAMP.replace('print("lit", self.turns)', '"while True: pass"'))
+
+    async def act(simulation: Simulation) -> None:
+        await simulation.step()
+        await simulation.set_input(("Eye", "seen"), True)
+        for _again in range(2):
+            assert await simulation.step() == ""
+            assert "Lamp, state Lit" in failure_words(simulation)
+            assert simulation.inputs["Eye"]["seen"] is True
+        await simulation.set_input(("Eye", "seen"), False)
+        assert simulation.failure is None
+        assert await simulation.step() == "count"
+
+    simulate(stage_of(folder, limit_s=0.3), folder, act)
+
+
+def test_the_process_ends_when_the_editor_is_killed(tmp_path: Path) -> None:
+    folder = lamp(tmp_path, "while True:\n              try: time.sleep(9)\n              except BaseException: pass")
+    program = f"""
+import asyncio
+from pathlib import Path
+from tests.editor.simulation.lamps import stage_of
+from vicode.editor.session.simulation import Simulation
+
+async def main():
+    folder = Path({str(folder)!r})
+    simulation = Simulation(stage=stage_of(folder, limit_s=60.0), cwd=folder)
+    await simulation.begin()
+    print(simulation._runner.pid, flush=True)
+    await simulation.step(100)
+
+asyncio.run(main())
+"""
+    command = [sys.executable, "-c", program]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True, cwd=Path(__file__).parents[3]) as editor:
+        assert editor.stdout is not None
+        pid = int(editor.stdout.readline())
+        editor.kill()
+    end = time.monotonic() + 20
+    while Path(f"/proc/{pid}").exists() and "Z" not in state_of(pid) and time.monotonic() < end:
+        time.sleep(0.05)
+    assert not Path(f"/proc/{pid}").exists() or "Z" in state_of(pid)
+
+
+def state_of(pid: int) -> str:
+    """The letter of a process' state; Z is one that only waits to be forgotten."""
+    try:
+        return Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0]
+    except OSError:
+        return "Z"

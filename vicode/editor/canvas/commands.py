@@ -13,6 +13,7 @@ class Group(StrEnum):
     EDIT = "Edit"
     ARRANGE = "Arrange"
     SEE = "See"
+    RUN = "Simulate"
     WALK = "Get about"
 
 
@@ -86,6 +87,8 @@ CANVAS_COMMANDS = (
     CanvasCommand("zoom-in", "Zoom in", Group.SEE, ("+", "=")),
     CanvasCommand("zoom-out", "Zoom out", Group.SEE, ("-",)),
     CanvasCommand("links", "Show or hide links to components", Group.SEE, on=("nothing",)),
+    CanvasCommand("breakpoint", "Breakpoint, or none", Group.RUN, on=_FEW),
+    CanvasCommand("simulate-here", "Run to here", Group.RUN, on=("states",)),
     CanvasCommand("menu", "Menu of what is selected", Group.WALK, ("Shift+F10", "ContextMenu"), shown="Shift+F10"),
     CanvasCommand("help", "Keys and gestures", Group.WALK, ("?",), on=("nothing",)),
     CanvasCommand("next", "Next thing, in the order of the design", Group.WALK, ("Tab",), shown="Tab"),

@@ -30,7 +30,7 @@ _FOCUS_GUARD = """
 
 _PLACES = {Group.SEE: Place.VIEW, Group.WALK: Place.VIEW}
 # What the page does for the canvas, when its menu or keys ask for it.
-_OF_THE_PAGE = ("lay-out", "links", "help")
+_OF_THE_PAGE = ("lay-out", "links", "help", "breakpoint", "simulate-here")
 
 
 class Drawing:

@@ -117,6 +117,8 @@ function seeingJobs(canvas) {
     "zoom-out": { run: () => viewport.zoomBy(0.8) },
     links: { run: () => canvas.report("command", { name: "links" }) },
     help: { run: () => canvas.report("command", { name: "help" }) },
+    breakpoint: { can: () => selection.keys.size > 0, run: () => canvas.report("command", { name: "breakpoint" }) },
+    "simulate-here": { can: () => selection.keys.size === 1, run: () => canvas.report("command", { name: "simulate-here" }) },
     menu: { run: () => canvas.menu.openAtSelection() },
   };
 }

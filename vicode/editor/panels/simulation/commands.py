@@ -12,6 +12,12 @@ _STOPPABLE = ("states", "transitions")
 def simulation_commands(simulator: Simulator, show: Callable[[], None]) -> tuple[Command, ...]:
     """All of them; `show` opens the panel."""
 
+    async def run_to() -> None:
+        await _run_to(simulator)
+
+    def toggle() -> None:
+        _toggle_breakpoint(simulator)
+
     def shown(act: Callable[[], object]) -> Callable[[], object]:
         def do() -> object:
             show()
@@ -19,37 +25,19 @@ def simulation_commands(simulator: Simulator, show: Callable[[], None]) -> tuple
 
         return do
 
-    place = Place.SIMULATE
     rows: tuple[tuple[str, str, Callable[[], object], str, str], ...] = (
-        ("simulate-start", "Simulate: start, or start again", simulator.restart, "restart_alt", ""),
-        ("simulate-play", "Simulate: play or pause", simulator.toggle_play, "play_arrow", "F6"),
-        ("simulate-step", "Simulate: one step", simulator.step, "skip_next", "F10"),
-        ("simulate-back", "Simulate: one step back", simulator.back, "skip_previous", "Ctrl+Shift+F10"),
-        (
-            "simulate-change",
-            "Simulate: run until the state changes",
-            simulator.step_to_change,
-            "fast_forward",
-            "Shift+F6",
-        ),
-        ("simulate-here", "Simulate: run to the selected state", lambda: _run_to(simulator), "adjust", "Ctrl+F10"),
-        ("simulate-stop", "Simulate: end", simulator.stop, "stop", ""),
+        ("simulate-start", "Simulate: start, or start again", shown(simulator.restart), "restart_alt", ""),
+        ("simulate-play", "Simulate: play or pause", shown(simulator.toggle_play), "play_arrow", "F6"),
+        ("simulate-step", "Simulate: one step", shown(simulator.step), "skip_next", "F10"),
+        ("simulate-back", "Simulate: one step back", shown(simulator.back), "skip_previous", "Ctrl+Shift+F10"),
+        ("simulate-change", "Simulate: run to the next state", shown(simulator.step_to_change), "forward", "Shift+F6"),
+        ("simulate-here", "Simulate: run to the selected state", shown(run_to), "adjust", "Ctrl+F10"),
+        ("simulate-stop", "Simulate: end", shown(simulator.stop), "stop", ""),
+        ("breakpoint", "Breakpoint on or off at what is selected", toggle, "stop_circle", "F9"),
     )
-    breakpoints = Command(
-        "breakpoint",
-        "Breakpoint on or off at what is selected",
-        lambda: _toggle_breakpoint(simulator),
-        place,
-        icon="stop_circle",
-        keys=("F9",),
-        while_typing=True,
-    )
-    return (
-        *(
-            Command(name, label, shown(act), place, icon=icon, keys=(keys,) if keys else (), while_typing=True)
-            for name, label, act, icon, keys in rows
-        ),
-        breakpoints,
+    return tuple(
+        Command(name, label, act, Place.SIMULATE, icon=icon, keys=(keys,) if keys else (), while_typing=True)
+        for name, label, act, icon, keys in rows
     )
 
 

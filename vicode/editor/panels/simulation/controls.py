@@ -6,6 +6,7 @@ from vicode.editor.panels.fields import enable
 from vicode.editor.panels.rows import icon_button
 from vicode.editor.panels.simulation.simulator import SPEEDS, Simulator, describe_rest
 from vicode.editor.session.simulation import Phase, Simulation
+from vicode.editor.view import Selected
 from vicode.editor.view.activation import mistake_of
 
 _HINT = "F10 steps, F6 plays and pauses, Shift+F6 runs to the next state, F9 sets a breakpoint on what is selected."
@@ -26,7 +27,10 @@ class Controls:
                 "fast_forward", "Run until the state changes (Shift+F6)", simulator.step_to_change
             )
             self.stop = icon_button("stop", "End the simulation", simulator.stop)
-            self.where = ui.label().classes("simulation-where mono").props('role="status" aria-live="off"')
+            self.where = ui.button("", on_click=self._reveal, color=None).props("flat dense no-caps no-wrap")
+            self.where.classes("simulation-where mono")
+            with self.where:
+                ui.tooltip("Bring the active state into view")
             ui.element("div").classes("spacer")
             self.time = ui.number(min=0, step=0.1, format="%.2f").props('dense outlined suffix="s" debounce=0')
             self.time.props('aria-label="Go to this time"').classes("simulation-time mono")
@@ -46,13 +50,13 @@ class Controls:
     def refresh(self) -> None:
         """Show where the simulation is, and what can be done."""
         simulator, simulation = self.simulator, self.simulator.simulation
-        icon = "pause" if simulator.is_playing else "play_arrow"
+        icon = "pause" if simulator.is_playing or simulator.is_running else "play_arrow"
         if self.play.props["icon"] != icon:
             self.play.props(f"icon={icon}")
         enable(self.back, flag=simulation is not None and simulation.cursor > 0)
         enable(self.stop, flag=simulation is not None)
         for button in (self.play, self.step, self.change):
-            enable(button, flag=simulation is None or simulation.can_go_on)
+            enable(button, flag=simulation is None or simulation.can_go_on or simulator.is_stale)
         where = _where(simulation)
         if self.where.text != where:
             self.where.set_text(where)
@@ -68,6 +72,11 @@ class Controls:
         self.message.classes(add=kind, remove=" ".join({"error", "warning", "past", "info"} - {kind}))
         self.mend.set_visibility(self.simulator.is_stale or kind == "error")
         self.cut.set_visibility(kind == "past" and simulation is not None and not simulation.replay)
+
+    def _reveal(self) -> None:
+        simulation = self.simulator.simulation
+        if simulation is not None and simulation.moment is not None:
+            self.simulator.desk.reveal(Selected(of="states", id=simulation.moment.state))
 
     def _cut(self) -> None:
         if self.simulator.simulation is not None:
@@ -112,7 +121,7 @@ def message_of(simulator: Simulator) -> tuple[str, str]:
         record = simulation.failure.error
         words = mistake_of(simulation.stage.design, record).words if record else simulation.failure.message
         return ("error", words)
-    if simulation.is_past and not simulator.is_playing:
+    if simulation.is_past and not simulator.is_playing and not simulator.is_running:
         behind = len(simulation.recording) - simulation.cursor
         return ("past", f"The past, {behind} iteration{'s' * (behind != 1)} before the newest.")
     moment = simulation.moment

@@ -37,7 +37,8 @@ class GuardsList:
         seconds = moment.tree[0].get("state_time_ns", 0) / 1e9 if moment and moment.tree else 0.0
         stops = frozenset(self.simulator.breakpoints.things)
         shape = (state, tuple((row.key, row.text, row.outcome) for row in rows), stops)
-        self._rebuild(rows, f"Guards of {state}", f"{seconds:.2f} s in it", shape)
+        waits = "" if moment is None or moment.worked else " · not tested now"
+        self._rebuild(rows, f"Guards of {state}", f"{seconds:.2f} s in it{waits}", shape)
         for row, (_old, icon, word, reads) in zip(rows, self._shown, strict=True):
             _show(row, icon, word, reads)
 
@@ -76,8 +77,8 @@ class GuardsList:
             return
         words = f"{'Remove the breakpoint' if is_stop else 'Breakpoint'} on {row.outcome}"
         gutter = ui.element("button").classes("gutter" + (" is-stop" if is_stop else ""))
-        # Names of states are letters, digits and underscores.
-        gutter.props(f'type="button" aria-label="{words}" aria-pressed="{str(is_stop).lower()}"')
+        gutter.props(f'type="button" aria-pressed="{str(is_stop).lower()}"')
+        gutter.props["aria-label"] = words
         gutter.on("click", lambda: self.simulator.toggle_breakpoints(thing))
 
     def _opener(self, thing: Selected) -> Callable[[], None]:

@@ -19,7 +19,9 @@ class ActivationTree:
         """Build the empty tree."""
         self.simulator = simulator
         self._shown: object = None
-        self.body = ui.column().classes("activation")
+        self.body = (
+            ui.column().classes("activation").props('tabindex=0 role=group aria-label="Steps of this iteration"')
+        )
 
     def refresh(self) -> None:
         """Show the iteration."""
@@ -50,7 +52,7 @@ class Output:
         """Build the empty list."""
         self.simulator = simulator
         self._shown: object = None
-        self.body = ui.column().classes("output")
+        self.body = ui.column().classes("output").props('tabindex=0 role=group aria-label="What was printed"')
 
     def refresh(self) -> None:
         """Show the newest lines."""

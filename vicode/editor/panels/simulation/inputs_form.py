@@ -6,6 +6,7 @@ from typing import Any
 
 from nicegui import background_tasks, ui
 
+from vicode.editor.panels.simulation.range_input import RangeInput
 from vicode.editor.panels.simulation.simulator import Simulator
 from vicode.editor.session.simulation import DONE, PARAMETERS, Input, Phase, Simulation
 from vicode.editor.view.guard_rows import guard_rows, names_read, show_value
@@ -177,9 +178,8 @@ def _controls(each: Input, name: str, changed: Callable[[Any], None]) -> list[An
     controls: list[Any] = []
     if each.range is not None and each.range[0] < each.range[1]:
         low, high = each.range
-        slider = ui.slider(min=low, max=high, step=_step(each), value=each.initial)
-        slider.on_value_change(lambda event: changed(event.value))
-        controls.append(_named(slider.props("dense").classes("input-slider"), name))
+        slider = RangeInput(name, low=low, high=high, step=_step(each), value=each.initial, on_move=changed)
+        controls.append(slider.classes("input-slider"))
     number = ui.number(value=each.initial, step=_step(each), suffix=each.unit or None)
     number.on_value_change(lambda event: changed(event.value))
     number.props("dense outlined debounce=150").classes("input-number mono")

@@ -50,6 +50,7 @@ class SimulationPanel:
         self._follow()
 
     def _follow(self) -> None:
+        self.simulator.follow_project()
         if self._shown == self.simulator.changes:
             return
         self._shown = self.simulator.changes

@@ -2,7 +2,6 @@
 
 import asyncio
 import time
-from collections.abc import Callable
 from typing import Any, cast
 
 from nicegui import background_tasks, run
@@ -47,25 +46,26 @@ class Simulator:
         self.speed = 1.0
         self.pauses_on_errors = True
         self.is_playing = False
+        self.is_running = False
+        """Whether it makes more than a step without being played."""
         self.is_stale = False
         self.trouble = ""
         """Why it could not be started."""
         self.changes = 0
         """Counts what the panel has to show anew."""
-        self._listeners: list[Callable[[], None]] = []
         self._meaning: object = None
+        self._seen_project: object = None
+        self._starting = asyncio.Lock()
+        self._is_closed = False
         self._seq = 0
         canvas.client.on_disconnect(self.pause)
         canvas.client.on_delete(self.close)
 
-    def listen(self, listener: Callable[[], None]) -> None:
-        """Call `listener` after every change."""
-        self._listeners.append(listener)
-
     async def restart(self) -> None:
         """Begin anew with the design as it is now."""
-        self.is_playing = False
-        await self._start()
+        self.pause()
+        async with self._starting:
+            await self._start()
 
     async def step(self) -> None:
         """One iteration."""
@@ -98,7 +98,7 @@ class Simulator:
 
     def toggle_play(self) -> None:
         """Play, or pause."""
-        if self.is_playing:
+        if self.is_playing or self.is_running:
             self.pause()
             return
         self.is_playing = True
@@ -140,6 +140,12 @@ class Simulator:
         self._show_stops()
         self._changed()
 
+    def follow_project(self) -> None:
+        """Notice changes of designs that this one uses, made elsewhere."""
+        if self._seen_project is not self.desk.workspace.project:
+            self._seen_project = self.desk.workspace.project
+            self.design_changed()
+
     def design_changed(self) -> None:
         """End a run of a design that is no more; its past can still be looked at."""
         kept = self.breakpoints.within(self.desk.design)
@@ -156,13 +162,15 @@ class Simulator:
             self._changed()
 
     def close(self) -> None:
-        """End the simulation."""
+        """End the simulation, as the window goes."""
+        self._is_closed = True
         self.is_playing = False
         self._drop()
 
     def stop(self) -> None:
         """End the simulation, and show so."""
-        self.close()
+        self.is_playing = False
+        self._drop()
         self.is_stale = False
         self._changed()
 
@@ -179,7 +187,7 @@ class Simulator:
         self._drop()
         self.trouble, self.is_stale = "", False
         stage = await self._prepare()
-        if stage is not None:
+        if stage is not None and not self._is_closed:
             self._meaning = meaning_of(self.desk.workspace.project, stage.design)
             self.breakpoints = self.breakpoints.within(stage.design)
             self.simulation = simulation = Simulation(
@@ -202,18 +210,22 @@ class Simulator:
         self.simulation = None
 
     async def _ready(self) -> bool:
-        """Whether there is a simulation of the design as it is now; one is begun if there was none."""
-        if self.simulation is None or self.simulation.phase in (Phase.ENDED, Phase.FAILED):
-            if self.simulation is not None and self.simulation.is_past:
-                return True
-            return await self._start()
-        return True
+        """Whether there is a simulation to step; one is begun if there was none, or none of the design as it is now."""
+        async with self._starting:
+            simulation = self.simulation
+            if simulation is None or simulation.is_over:
+                return await self._start()
+            return True
 
     async def _go(self, count: int, stops: Stops) -> None:
         if self.is_playing:
             self.pause()
-        if await self._ready():
-            await self._running.step(count, stops)
+        self.is_running = count > 1
+        try:
+            if await self._ready():
+                await self._running.step(count, stops)
+        finally:
+            self.is_running = False
         self._changed()
 
     async def _play(self) -> None:
@@ -244,8 +256,6 @@ class Simulator:
     def _changed(self) -> None:
         self.changes += 1
         self._show_active()
-        for listener in tuple(self._listeners):
-            listener()
 
     def _show_active(self) -> None:
         """Mark on the canvas the active state and the transition that led there."""

@@ -6,6 +6,7 @@ from typing import Any
 from nicegui import ui
 from nicegui.events import GenericEventArguments
 
+from vicode.editor.panels.simulation.range_input import RangeInput
 from vicode.editor.panels.simulation.simulator import Simulator
 from vicode.editor.session.simulation import Simulation
 from vicode.editor.view.plot import Curve, band_labels, plot_svg
@@ -26,11 +27,11 @@ class Timeline:
         self.simulator = simulator
         self._shown: object = None
         self._names: tuple[str, ...] = ()
-        self._is_following = False
+        self._drawn_length = 0
         self.choice = ui.select([], value=[], multiple=True, label="Values to plot", on_change=self._draw)
         self.choice.props("dense outlined options-dense stack-label").classes("field plot-choice")
-        self.slider = ui.slider(min=0, max=1, step=1, value=0, on_change=lambda event: self._go_to(event.value))
-        self.slider.props('dense aria-label="Moment that is shown"').classes("plot-slider")
+        self.slider = RangeInput("Moment that is shown", low=0, high=1, step=1, value=0, on_move=self._go_to)
+        self.slider.classes("plot-slider")
         with ui.element("div").classes("plot-frame") as frame:
             self.names = ui.html("", sanitize=False).classes("plot-names")
             self.drawing = ui.html("", sanitize=False)
@@ -43,13 +44,14 @@ class Timeline:
         self._offer(simulation)
         length, cursor = (len(simulation.recording), simulation.cursor) if simulation else (0, 0)
         shown = (id(simulation), length, cursor)
-        if shown == self._shown:
+        # A long recording takes long to draw, and grows by little.
+        is_little = self.simulator.is_playing and 0 < length - self._drawn_length < length // 50
+        if shown == self._shown or is_little:
             return
+        self._drawn_length = length
         self._shown = shown
-        self._is_following = True
-        self.slider.props(f"max={max(length, 1)}")
+        self.slider.set_high(max(length, 1))
         self.slider.set_value(cursor)
-        self._is_following = False
         self._draw()
 
     def _offer(self, simulation: Simulation | None) -> None:
@@ -82,7 +84,7 @@ class Timeline:
 
     def _go_to(self, value: Any) -> None:
         simulation = self.simulator.simulation
-        if self._is_following or simulation is None or not isinstance(value, int | float):
+        if simulation is None or not isinstance(value, int | float):
             return
         self.simulator.pause()
         simulation.go_to(round(value))

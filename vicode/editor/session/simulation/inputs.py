@@ -54,7 +54,8 @@ class Input:
             return None
         if abs(value) > _FAR:
             return None
-        return round(value) if self.type == INT else float(value)
+        # A slider adds steps up to 0.30000000000000004, which nobody meant.
+        return round(value) if self.type == INT else float(f"{value:.12g}")
 
 
 def inputs_of(project: Project, design: Design, stood_in: tuple[str, ...]) -> tuple[Input, ...]:

@@ -81,7 +81,7 @@ def prepare(project: Project, design: Design, wish: Wish, sources: Mapping[str, 
     inputs = inputs_of(whole, design, stood_in)
     staged = _stand_in(whole, stood_in)
     _refuse_mistakes(whole, collect_components(staged, (design.component,)))
-    ready = replace(staged, designs=tuple(_with_ids(each) for each in staged.designs))
+    ready = replace(staged, designs=tuple(with_ids(each) for each in staged.designs))
     files = generate(ready, components=(design.component,), languages=("python",), sources=sources)
     probes = python_probes(ready, design.component)
     types = types_of(whole, inputs)
@@ -101,6 +101,13 @@ def prepare(project: Project, design: Design, wish: Wish, sources: Mapping[str, 
         memory_bytes=wish.memory_bytes,
     )
     return Stage(design=design, files=(*files, probes), setup=setup, inputs=inputs)
+
+
+def with_ids(design: Design) -> Design:
+    """The design with every decision's canvas key as its id, so that the run can say which it was."""
+    common = _give_ids(design.common.transitions, ("common", "transitions"))
+    states = tuple(_state_with_ids(state) for state in design.states)
+    return replace(design, common=replace(design.common, transitions=common), states=states)
 
 
 def meaning_of(project: Project, design: Design) -> object:
@@ -140,13 +147,6 @@ def _functions(project: Project, design: Design, stood_in: tuple[str, ...]) -> t
         names = tuple(output.name for output in outputs if output.arguments is not None)
         found += [(use.alias, names)] if names else []
     return tuple(found)
-
-
-def _with_ids(design: Design) -> Design:
-    """The design with every decision's canvas key as its id, so that the run can say which it was."""
-    common = _give_ids(design.common.transitions, ("common", "transitions"))
-    states = tuple(_state_with_ids(state) for state in design.states)
-    return replace(design, common=replace(design.common, transitions=common), states=states)
 
 
 def _state_with_ids(state: State) -> State:

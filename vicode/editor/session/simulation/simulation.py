@@ -69,6 +69,7 @@ class Simulation:
     _leaving: list[Runner] = field(init=False, default_factory=list)
     _done: int = field(init=False, default=0)
     """How many iterations the process has made."""
+    _first_guards: Mapping[str, Any] = field(init=False, default_factory=dict)
     _pending: dict[str, dict[str, Any]] = field(init=False, default_factory=dict)
     _busy: asyncio.Lock = field(init=False, default_factory=asyncio.Lock)
     _wants_pause: bool = field(init=False, default=False)
@@ -97,6 +98,12 @@ class Simulation:
         return not self.replay and self.phase is not Phase.ENDED and not self.recording.is_full
 
     @property
+    def is_over(self) -> bool:
+        """Whether there is nothing more to come from it: it was ended, or failed before the first moment."""
+        failed = self.phase is Phase.FAILED and not len(self.recording)
+        return failed or (self.phase is Phase.ENDED and not self.is_past)
+
+    @property
     def time_s(self) -> float:
         """The simulated time of what is shown."""
         return self.recording.times_ns[self.cursor - 1] / 1e9 if self.cursor else 0.0
@@ -120,6 +127,7 @@ class Simulation:
         """Start the process, so that mistakes are told before the first step."""
         async with self._busy:
             await self._guarded(self._look)
+            self._first_guards = self.guards
         self._tell()
 
     async def step(self, count: int = 1, stops: Stops = _NOTHING) -> str:
@@ -142,7 +150,7 @@ class Simulation:
     def go_to(self, number: int) -> None:
         """Show a recorded moment."""
         self.cursor = min(max(0, number), len(self.recording))
-        self.guards = moment.guards if (moment := self.moment) else {}
+        self.guards = moment.guards if (moment := self.moment) else self._first_guards
         self.rested = ""
         self._tell()
 
@@ -155,7 +163,7 @@ class Simulation:
         # What was set before the next iteration stands in the form already.
         self._pending = {component: dict(values) for component, values in after.items()}
         self._drop_runner()
-        self.phase, self.failure = Phase.RESTING, None
+        self._forgive()
 
     async def set_input(self, key: tuple[str, str], value: Any) -> bool:
         """Set an input for the next iteration; false if there is no such input or the value is none of its type."""
@@ -166,6 +174,7 @@ class Simulation:
         if accepted is None:
             return False
         self.cut()
+        self._forgive()
         merge_inputs(self._pending, {key[0]: {key[1]: accepted}})
         if not self._busy.locked():
             async with self._busy:
@@ -183,6 +192,11 @@ class Simulation:
         """Wait until the processes that were killed have left nothing behind."""
         while self._leaving:
             await self._leaving.pop().gone()
+
+    def _forgive(self) -> None:
+        """Forget a failure: with another input, or without what led to it, it may go well."""
+        if self.phase is Phase.FAILED:
+            self.phase, self.failure = Phase.RESTING, None
 
     async def _forward(self, count: int, stops: Stops) -> str:
         left = count
@@ -226,7 +240,12 @@ class Simulation:
             count = 1
         waiting = [changes]
         request = Request(do="run", inputs=changes, count=count, stops=stops)
-        rested = await self._runner.run(request, lambda moment: self._take(moment, waiting))
+        try:
+            rested = await self._runner.run(request, lambda moment: self._take(moment, waiting))
+        except RunFailedError:
+            # Inputs that no moment has seen are still to come.
+            self._pending = waiting.pop() if waiting else {}
+            raise
         self.phase = Phase.RESTING
         return rested.reason
 
@@ -241,7 +260,12 @@ class Simulation:
             return
         self._drop_runner()
         await self.gone()
-        self._runner = await start_runner(self.stage, self.cwd)
+        runner = await start_runner(self.stage, self.cwd)
+        if self.phase is Phase.ENDED:
+            # It was ended while it began.
+            runner.kill()
+            raise RunFailedError("The simulation was ended.")
+        self._runner = runner
         latest: list[Moment] = []
         for changes, count in self.recording.runs(len(self.recording)):
             inputs = changes

@@ -1,0 +1,22 @@
+// A browser's own slider: keys and screen readers know it. While a hand moves it, what the server last knew does not move it back.
+const OWN_MS = 500;
+
+export default {
+  template: `<input type="range" :min="min" :max="max" :step="step" :value="shown" :disabled="disable" @input="move" />`,
+  props: { min: Number, max: Number, step: Number, value: Number, disable: Boolean },
+  data() {
+    return { shown: this.value, movedAt: -OWN_MS };
+  },
+  watch: {
+    value(now) {
+      if (performance.now() - this.movedAt > OWN_MS) this.shown = now;
+    },
+  },
+  methods: {
+    move(event) {
+      this.movedAt = performance.now();
+      this.shown = Number(event.target.value);
+      this.$emit("moved", this.shown);
+    },
+  },
+};

@@ -1,0 +1,55 @@
+"""A slider that keys and screen readers can work with: the browser's own."""
+
+from collections.abc import Callable
+
+from nicegui import ui
+from nicegui.events import GenericEventArguments
+
+_PAUSE_S = 0.05
+
+
+class RangeInput(ui.element, component="range_input.js"):
+    """Shows a number in a range, and reports where a person moves it.
+
+    Args:
+        label: its name for screen readers.
+        low: the least value.
+        high: the greatest.
+        step: between two values.
+        value: what it shows first.
+        on_move: called with every value it is moved to, some times a second.
+    """
+
+    def __init__(
+        self, label: str, *, low: float, high: float, step: float, value: float, on_move: Callable[[float], None]
+    ) -> None:
+        super().__init__()
+        self.value, self.enabled = value, True
+        self._on_move = on_move
+        self.props.update({"min": low, "max": high, "step": step, "value": value, "aria-label": label})
+        self.on("moved", self._hear, throttle=_PAUSE_S)
+
+    def set_value(self, value: float) -> None:
+        """Show a value, without reporting it."""
+        if value != self.value:
+            self.value = value
+            self.props["value"] = value
+            self.update()
+
+    def set_high(self, high: float) -> None:
+        """Take another greatest value."""
+        if self.props["max"] != high:
+            self.props["max"] = high
+            self.update()
+
+    def set_enabled(self, value: bool) -> None:
+        """Let it be moved, or not."""
+        self.enabled = value
+        self.props["disable"] = not value
+        self.update()
+
+    def _hear(self, event: GenericEventArguments) -> None:
+        if isinstance(event.args, int | float):
+            self.value = event.args
+            self.props["value"] = event.args
+            self._on_move(event.args)
