@@ -2,7 +2,7 @@
 
 import math
 from collections import defaultdict
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
 from vicode.diagram.boxes import Size
@@ -52,6 +52,27 @@ class Rects:
     def under(self, rect: Rect) -> set[str]:
         """The keys of all that overlap a rectangle."""
         return {key for cell in _cells(rect) for key, other in self._cells.get(cell, ()) if rect.overlaps(other)}
+
+
+class Points:
+    """Points of lines, to be found by place."""
+
+    def __init__(self) -> None:
+        self._cells: dict[tuple[int, int], list[tuple[str, Point]]] = defaultdict(list)
+
+    def add(self, key: str, points: Iterable[Point]) -> None:
+        """Put the points of a line there."""
+        for x, y in points:
+            self._cells[math.floor(x / _CELL), math.floor(y / _CELL)].append((key, (x, y)))
+
+    def within(self, rect: Rect) -> set[str]:
+        """The keys of all lines with a point in a rectangle."""
+        return {
+            key
+            for cell in _cells(rect)
+            for key, (x, y) in self._cells.get(cell, ())
+            if rect.left <= x <= rect.right and rect.top <= y <= rect.bottom
+        }
 
 
 def _cells(rect: Rect) -> Iterator[tuple[int, int]]:
