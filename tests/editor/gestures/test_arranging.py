@@ -30,7 +30,6 @@ def test_a_selection_is_moved_and_deleted_in_one_edit(sketch: Sketch) -> None:
     sketch.drag(start, (start[0] + 60, start[1] + 37))
     sketch.wait_for("vicode.positions()['states/Go'].x > 470 && vicode.positions()['states/Stop'].x > 470")
     sketch.undone()
-    sketch.stands("states/Go", 440, 100)
     sketch.select("Go", "Stop")
     sketch.press("Delete")
     expect(sketch.thing("state", "Stop")).to_have_count(0)
@@ -108,6 +107,18 @@ def test_arrow_keys_nudge_as_one_edit(sketch: Sketch) -> None:
     sketch.stands("states/Stop", 460, 321)
     sketch.undone()
     sketch.stands("states/Go", 440, 100)
+
+
+def test_arrows_follow_while_a_box_is_dragged(sketch: Sketch) -> None:
+    line = sketch.arrow("Start/0").locator("path.line")
+    before = line.get_attribute("d")
+    assert before
+    x, y = sketch.state("Go")
+    sketch.grip((x, y), (x + 90, y + 110))
+    expect(line).not_to_have_attribute("d", before)
+    sketch.press("Escape")
+    sketch.page.mouse.up()
+    expect(line).to_have_attribute("d", before)
 
 
 def test_the_view_pans_and_zooms_by_every_way(sketch: Sketch) -> None:

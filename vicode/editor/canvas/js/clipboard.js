@@ -61,7 +61,8 @@ export class Clipboard {
   #hearPaste(event) {
     const [inner] = event.composedPath();
     const isOurs = event.composedPath().includes(this.canvas.stage) || inner === document.body;
-    if (!isOurs || inner.closest?.("input, textarea, [contenteditable=true]")) return;
+    const isShown = Boolean(this.canvas.host.offsetParent);
+    if (!isOurs || !isShown || inner.closest?.("input, textarea, [contenteditable=true]")) return;
     event.preventDefault();
     this.#report(event.clipboardData?.getData("text/plain") ?? "", this.canvas.gestures.pasteSpot());
   }

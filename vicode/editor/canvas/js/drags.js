@@ -127,7 +127,7 @@ export class Move {
 
   #put() {
     for (const [key, { x, y }] of this.places) this.canvas.scene.move(key, x + this.by.x, y + this.by.y);
-    this.canvas.painter.follow(this.ghost ? [] : this.places.keys());
+    this.canvas.painter.follow(this.ghost ? [] : [...this.places.keys()]);
   }
 
   #lift() {
@@ -151,7 +151,7 @@ export class Move {
     stage.classList.remove("lifting");
     this.guides?.close();
     this.ghost?.remove();
-    if (this.ghost) painter.follow(this.places.keys());
+    if (this.ghost) painter.follow([...this.places.keys()]);
     this.ghost = null;
   }
 }

@@ -15,7 +15,7 @@ export class LabelDrag {
     this.grip = { x: route.at.x - world.x, y: route.at.y - world.y };
     this.tie = svg("path", { class: "guide" });
     this.canvas.painter.layers.above.append(this.tie);
-    this.canvas.say("Along its arrow or off it; onto another label of this state to be tested there");
+    this.canvas.say("On another label of this state: tested there");
   }
 
   move({ world }) {
