@@ -196,6 +196,37 @@ def test_a_large_machine_is_a_picture_from_far_and_boxes_from_near(show: Show) -
     assert hand.vicode("mounted()") < 700
 
 
+def test_a_crowd_zooms_as_a_picture_and_is_there_again_for_a_hand(show: Show) -> None:
+    hand = show(machine(400))
+    hand.call("centre", "states", "State210")
+    hand.wait_for("!vicode.view().far")
+    hand.wait_until_rest()
+    hand.wait_for("vicode.mounted() > 250")
+    # The coarse bitmap must be there, which has time to be drawn.
+    hand.page.wait_for_timeout(700)
+    spot = hand.at("states", "State210")
+    hand.page.mouse.move(*spot)
+    frozen = hand.page.locator(".stage.frozen")
+    hand.page.evaluate(
+        """() => {
+          const stage = document.querySelector('.vicode-canvas').shadowRoot.querySelector('.stage');
+          window.wasFrozen = false;
+          new MutationObserver(() => { window.wasFrozen ||= stage.classList.contains('frozen'); })
+            .observe(stage, {attributes: true});
+        }"""
+    )
+    hand.page.mouse.wheel(0, -60)
+    hand.page.mouse.wheel(0, -60)
+    hand.wait_for("window.wasFrozen")
+    hand.click(spot)
+    expect(frozen).to_have_count(0)
+    assert hand.selection() == {"states/State210"}
+    hand.wait_until_rest()
+    box = hand.group("state", "State210").locator("rect.box").bounding_box()
+    assert box is not None
+    assert (box["x"] + box["width"] / 2, box["y"] + box["height"] / 2) == pytest.approx(spot, abs=1)
+
+
 @pytest.mark.parametrize(("wish", "theme"), [("dark", "dark"), ("light", "light"), ("auto", "light")])
 def test_the_view_or_the_page_decide_between_light_and_dark(show: Show, wish: str, theme: str) -> None:
     page = show({**player(), "theme": wish}).page
