@@ -72,7 +72,7 @@ def test_an_edit_ends_the_preview(editor: str, page: Page, project: Path) -> Non
 def test_a_layout_that_takes_long_is_called_off(editor: str, page: Page, project: Path) -> None:
     file = project / "forward" / "ring.yaml"
     write_text(file, save_design(ring_design(480, chords=4), ""))
-    page.goto(editor + "design/forward/Ring")
+    page.goto(editor + "design/forward/Ring", timeout=60_000)
     expect(page.locator(".vicode-canvas[data-ready]")).to_be_visible(timeout=40_000)
     before = page.evaluate(PLACES)
     page.get_by_role("button", name="Lay out what is selected, or everything").click()
@@ -86,7 +86,7 @@ def test_a_layout_that_takes_long_is_called_off(editor: str, page: Page, project
 
 def test_among_many_states_a_target_is_found_by_typing(editor: str, page: Page, project: Path) -> None:
     write_text(project / "forward" / "ring.yaml", save_design(ring_design(80, chords=0), ""))
-    page.goto(editor + "design/forward/Ring")
+    page.goto(editor + "design/forward/Ring", timeout=60_000)
     find = page.get_by_label("Transition to")
     find.click()
     find.press_sequentially("State77")

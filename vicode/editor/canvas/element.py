@@ -1,7 +1,7 @@
 """The Python side of the canvas: keeps what is shown, so that a page that mounts late or again gets it all."""
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from inspect import isawaitable
 from pathlib import Path
 from typing import Any, cast
@@ -41,6 +41,7 @@ class Canvas(ui.element, component="js/vicode_canvas.js"):
         self._links_shown = True
         self._arrival: tuple[Kind, str] | None = None
         self._is_mounted = False
+        self.on_shown: Callable[[], None] = lambda: None
         self._active: tuple[list[str], int, list[str]] = ([], -1, [])
         self._stops: list[Item] = []
         self._acknowledged = -1
@@ -203,6 +204,7 @@ class Canvas(ui.element, component="js/vicode_canvas.js"):
         self._send_people()
         if self._active[1] >= 0:
             self._send_active()
+        self.on_shown()
 
     def _hear_ack(self, event: GenericEventArguments) -> None:
         self._acknowledged = self._sent = event.args["seq"]

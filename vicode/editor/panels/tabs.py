@@ -19,10 +19,11 @@ class Tabs:
     Args:
         panels: what builds each panel, by the word on its tab.
         place: the style class of bar and panels, such as "side".
+        waits: the first panel is built by the first `refresh`, when more important things are there.
     """
 
-    def __init__(self, panels: Mapping[str, Callable[[], Panel]], place: str) -> None:
-        """Build the bar and the first panel."""
+    def __init__(self, panels: Mapping[str, Callable[[], Panel]], place: str, *, waits: bool = False) -> None:
+        """Build the bar, and the first panel unless it waits."""
         self._builders = dict(panels)
         self._panels: dict[str, Panel] = {}
         self._slots: dict[str, ui.tab_panel] = {}
@@ -35,7 +36,8 @@ class Tabs:
             for name in panels:
                 self._slots[name] = ui.tab_panel(name)
         self._bar.on_value_change(lambda _event: self.refresh())
-        self.refresh()
+        if not waits:
+            self.refresh()
 
     @property
     def shown(self) -> str:

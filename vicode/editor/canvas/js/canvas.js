@@ -97,6 +97,8 @@ class Canvas {
     this.fitPending = false;
     if (extent) this.viewport.fit(extent);
     else this.viewport.centreOn(0, 0, 1);
+    const { x, y, k } = this.viewport;
+    this.fitted = { x, y, k };
   }
 
   /** Shows what is selected, with the ends of its transitions. */
@@ -297,7 +299,9 @@ class Canvas {
 
   #resized() {
     if (!this.viewport.measure()) return;
+    const isUntouched = ["x", "y", "k"].every((name) => this.fitted?.[name] === this.viewport[name]);
     if (this.fitPending && this.scene.nodes.size) arrive(this);
+    else if (isUntouched) this.fit();
     this.viewport.set({});
   }
 
