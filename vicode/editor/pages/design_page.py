@@ -34,6 +34,9 @@ from vicode.editor.session.keeper import Keeper
 from vicode.editor.view.address import design_address
 
 _BREATH_S = 0.02
+# A design of more states is drawn before anything else; what is beside it comes when the drawing is on its way.
+_MANY = 500
+_SENDING_S = 0.15
 
 
 class DesignPage:
@@ -48,6 +51,7 @@ class DesignPage:
         self.desk = desk = Desk(workspace=workspace, document=hand, say=say, window=ui.context.client.id)
         theme = Theme(desk.code_editors, add_look())
         problems = Problems(desk)
+        self.waits = len(desk.design.states) > _MANY
         with ui.element("div").classes("shell"):
             skip = ui.element("a").classes("skip-link")
             dialogs = DesignDialogs(say=say, offer_undo=UndoBar().offer)
@@ -71,6 +75,7 @@ class DesignPage:
         arrived = going.start(way.select)
         desk.listen(self._refresh)
         self._refresh()
+        self.stage.drawing.canvas.on_shown = self._canvas_is_there
         if arrived:
             self.stage.drawing.arrive_at(arrived)
         self.is_behind = False
@@ -87,13 +92,18 @@ class DesignPage:
                     "Simulate": lambda: SimulationPanel(simulator),
                 },
                 place="dock",
+                waits=self.waits,
             )
 
     def _build_side(self) -> Tabs:
         desk = self.desk
         with ui.element("aside").classes("side").props('aria-label="Inspector"'):
             side_grip()
-            return Tabs({"Inspect": lambda: Inspector(desk), "Generated code": lambda: CodePanel(desk)}, place="side")
+            return Tabs(
+                {"Inspect": lambda: Inspector(desk), "Generated code": lambda: CodePanel(desk)},
+                place="side",
+                waits=self.waits,
+            )
 
     def _commands(self, theme: Theme, others: tuple[Command, ...]) -> tuple[Command, ...]:
         """All that can be asked of this page, in the order in which it is listed."""
@@ -135,3 +145,15 @@ class DesignPage:
     def _refresh(self) -> None:
         for panel in (self.stage, self.header, self.dock, self.side, self.keeping):
             panel.refresh()
+
+    def _canvas_is_there(self) -> None:
+        """Build what had to wait, once the drawing is on its way to the browser."""
+        if self.waits and core.loop is not None:
+            self.waits = False
+            core.loop.call_later(_SENDING_S, self._build_panels)
+
+    def _build_panels(self) -> None:
+        if not self.stage.drawing.canvas.is_deleted:
+            with self.stage.drawing.canvas.client:
+                self.dock.begin()
+                self.side.begin()

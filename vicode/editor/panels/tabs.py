@@ -19,7 +19,7 @@ class Tabs:
     Args:
         panels: what builds each panel, by the word on its tab.
         place: the style class of bar and panels, such as "side".
-        waits: the first panel is built by the first `refresh`, when more important things are there.
+        waits: nothing is built before `begin`, as something else is more important.
     """
 
     def __init__(self, panels: Mapping[str, Callable[[], Panel]], place: str, *, waits: bool = False) -> None:
@@ -36,8 +36,8 @@ class Tabs:
             for name in panels:
                 self._slots[name] = ui.tab_panel(name)
         self._bar.on_value_change(lambda _event: self.refresh())
-        if not waits:
-            self.refresh()
+        self._waits = waits
+        self.refresh()
 
     @property
     def shown(self) -> str:
@@ -48,8 +48,15 @@ class Tabs:
         """Open a tab."""
         self._bar.set_value(name)
 
+    def begin(self) -> None:
+        """Build what waited."""
+        self._waits = False
+        self.refresh()
+
     def refresh(self) -> None:
         """Bring the shown panel up to date."""
+        if self._waits:
+            return
         name = self.shown
         if name not in self._panels:
             with self._slots[name]:
