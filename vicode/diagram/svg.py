@@ -17,8 +17,10 @@ def write_svg(drawing: Drawing) -> str:
     left, top, width, height = map(_number, (drawing.left, drawing.top, drawing.width, drawing.height))
     families = ", ".join(f"'{name}'" if " " in name else name for name in FAMILIES)
     place = f'width="{width}" height="{height}" viewBox="{left} {top} {width} {height}"'
+    # A picture of one piece hides from screen readers the links that are in it.
+    role = "group" if any(group.href for group in drawing.groups) else "img"
     lines = [
-        f'<svg xmlns="http://www.w3.org/2000/svg" {place} font-family="{families}" role="img">',
+        f'<svg xmlns="http://www.w3.org/2000/svg" {place} font-family="{families}" role="{role}">',
         f"<title>{_text(drawing.title)}</title>",
         *([f"<desc>{_text(drawing.doc)}</desc>"] if drawing.doc else ()),
         f'<rect x="{left}" y="{top}" width="{width}" height="{height}" fill="{drawing.paper}"/>',
