@@ -26,6 +26,7 @@ ROOM_OF_LIBRARY = {
     "networkx": "check",
     "nicegui": "editor",
     "pygraphviz": "diagram",
+    "regex": "editor",
     "reportlab": "diagram",
     "resvg_py": "diagram",
     "send2trash": "editor",

@@ -25,6 +25,8 @@ from vicode.editor.panels.history_panel import HistoryPanel
 from vicode.editor.panels.inspector import Inspector
 from vicode.editor.panels.messages import say
 from vicode.editor.panels.problems import Problems
+from vicode.editor.panels.search_panel import TAB as SEARCH
+from vicode.editor.panels.search_panel import SearchPanel, search_command
 from vicode.editor.panels.side_grip import side_grip
 from vicode.editor.panels.simulation import SimulationPanel, Simulator, simulation_commands
 from vicode.editor.panels.tabs import Tabs
@@ -88,6 +90,7 @@ class DesignPage:
             return Tabs(
                 {
                     "Findings": lambda: FindingsPanel(desk, problems),
+                    SEARCH: lambda: SearchPanel(desk),
                     "History": lambda: HistoryPanel(desk),
                     "Simulate": lambda: SimulationPanel(simulator),
                 },
@@ -112,7 +115,7 @@ class DesignPage:
         commands += ExportDialog(self.desk, lambda: actions.links_shown).commands()
         commands += simulation_commands(self.simulator, lambda: self.dock.show("Simulate"))
         help_ = Command("help", "Keys and gestures", lambda: show_help(commands), Place.VIEW, icon="help", keys=("?",))
-        commands += (help_,)
+        commands += (search_command(self.dock), help_)
         return (*commands, *self.stage.drawing.commands(commands))
 
     def _follow_disk(self) -> None:
