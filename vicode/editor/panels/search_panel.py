@@ -108,10 +108,10 @@ class SearchPanel:
     def _row(self, hit: Hit) -> None:
         part, thing = words_of_part(hit.path), words_of_path(self.desk.design, hit.path)
         with ui.element("div").classes("finding-row").props('role="listitem"'):
-            with ui.element("button").classes("hit").props('type="button"') as row:
+            with ui.element("button").classes("search-hit").props('type="button"') as row:
                 ui.label(thing).classes("finding-thing")
                 ui.label(f"{part}, line {hit.line}" if hit.line > 1 else part).classes("small")
-                with ui.element("span").classes("hit-line mono"):
+                with ui.element("span").classes("search-hit-line mono"):
                     for text, tag in ((hit.before, "span"), (hit.found, "mark"), (hit.after, "span")):
                         with ui.element(tag):
                             ui.label(text)
@@ -150,7 +150,7 @@ class SearchPanel:
         return box.classes(f"search-box mono {style}")
 
     def _toggle(self, sign: str, words: str, act: Callable[[], bool], *, is_on: bool) -> None:
-        button = ui.button(sign, color=None).props("flat dense no-caps size=sm").classes("severity-toggle")
+        button = ui.button(sign, color=None).props("flat dense no-caps size=sm").classes("search-toggle")
         button.props["aria-label"], button.props["aria-pressed"] = words, str(is_on).lower()
 
         def flip() -> None:

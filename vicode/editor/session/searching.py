@@ -12,6 +12,7 @@ from vicode.model.texts import PlacedText, TextKind, rewrite_text, walk_texts
 
 TIME_LIMIT_S = 1.0
 MOST_HITS = 2000
+_BEFORE = 36
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -172,7 +173,12 @@ def _hit(placed: PlacedText, start: int, end: int) -> Hit:
         start=start,
         end=end,
         line=text.count("\n", 0, start) + 1,
-        before=text[line_start:start].lstrip()[-60:],
+        before=_shortened(text[line_start:start].lstrip()),
         found=text[start:end][:200],
         after=text[end:line_end][:120],
     )
+
+
+def _shortened(text: str) -> str:
+    """The end of a text, so that what was found behind it is in view."""
+    return text if len(text) <= _BEFORE else f"…{text[-_BEFORE:]}"
