@@ -5,6 +5,7 @@ import contextlib
 from nicegui import ui
 from starlette.requests import Request
 
+from vicode.editor.pages.broken_page import BrokenPage
 from vicode.editor.pages.design_page import DesignPage
 from vicode.editor.pages.going import Way
 from vicode.editor.pages.home import HomePage
@@ -45,6 +46,17 @@ def add_pages(library: Library, keeper: Keeper | None = None) -> None:
         trail = trail_of_text(query.get("from", ""), workspace.project.interfaces(), component)
         way = Way(index=index, trail=trail, select=query.get("select", ""))
         DesignPage(library, workspace, document, way, keeper)
+
+    @ui.page("/broken/{key}/{file:path}", title="vicode")
+    def broken(key: str, file: str) -> None:
+        workspace = library.workspace(key)
+        # Only what was found to be broken is opened, so that no address leads to any other file.
+        path = workspace.broken_files.get(file) if workspace else None
+        if workspace is None or path is None:
+            _nothing(f"There is no broken file {file[:80]} here", "It may have been mended or removed.")
+            return
+        ui.page_title(f"{file} – vicode")
+        BrokenPage(library, workspace, path, file)
 
 
 def _nothing(title: str, hint: str) -> None:

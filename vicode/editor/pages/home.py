@@ -123,7 +123,7 @@ class HomePage:
                 for card in cards:
                     design_card(workspace, card, self.dialogs)
                 for each in broken:
-                    broken_card(each)
+                    broken_card(workspace, each)
             if not cards and not broken:
                 self._nothing(bool(project.designs))
             if not self.wanted:

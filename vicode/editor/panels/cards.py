@@ -8,7 +8,7 @@ from vicode.editor.panels.thumbnails import thumbnail_address
 from vicode.editor.session import Workspace
 from vicode.editor.session.overview import Broken, Card, HandWritten
 from vicode.editor.view import Selected
-from vicode.editor.view.address import design_address
+from vicode.editor.view.address import broken_address, design_address
 from vicode.findings import Severity
 
 _ICONS = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.NOTE: "info"}
@@ -47,7 +47,7 @@ def _facts(card: Card) -> None:
         ui.label("Starts here").classes("fact root")
 
 
-def broken_card(broken: Broken) -> None:
+def broken_card(workspace: Workspace, broken: Broken) -> None:
     """A file that holds no design that can be read, with what is wrong first."""
     with ui.element("article").classes("design-card is-broken"):
         with ui.element("div").classes("card-picture"):
@@ -60,6 +60,7 @@ def broken_card(broken: Broken) -> None:
             with ui.row().classes("card-facts"), ui.row().classes("fact error"):
                 ui.icon("error").props('aria-hidden="true"')
                 ui.label("Cannot be read")
+            ui.link("Mend its text", broken_address(workspace.key, broken.file))
 
 
 def hand_written_row(workspace: Workspace, row: HandWritten) -> None:

@@ -6,7 +6,7 @@ from vicode.editor.panels.design_dialogs import DesignDialogs
 from vicode.editor.panels.design_menu import add_design_menu
 from vicode.editor.panels.rows import icon_button
 from vicode.editor.session import Library, Workspace
-from vicode.editor.view.address import design_address
+from vicode.editor.view.address import broken_address, design_address
 
 
 class DesignsList:
@@ -39,10 +39,10 @@ class DesignsList:
         for design in sorted(workspace.project.designs, key=lambda each: each.component.casefold()):
             self._design(workspace, design.component)
         for file in workspace.broken:
-            with ui.row().classes("design-link is-broken"):
-                ui.icon("error")
+            with ui.link(target=broken_address(workspace.key, file)).classes("design-link is-broken"):
+                ui.icon("error").props('aria-hidden="true"')
                 ui.label(file)
-                ui.tooltip(f"{file} cannot be read: run 'vicode check' for the places and mends")
+                ui.tooltip(f"{file} cannot be read: open its text to mend it")
 
     def _design(self, workspace: Workspace, component: str) -> None:
         is_here = self.here == (workspace.key, component)

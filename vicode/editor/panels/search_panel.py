@@ -111,10 +111,7 @@ class SearchPanel:
             with ui.element("button").classes("search-hit").props('type="button"') as row:
                 ui.label(thing).classes("finding-thing")
                 ui.label(f"{part}, line {hit.line}" if hit.line > 1 else part).classes("small")
-                with ui.element("span").classes("search-hit-line mono"):
-                    for text, tag in ((hit.before, "span"), (hit.found, "mark"), (hit.after, "span")):
-                        with ui.element(tag):
-                            ui.label(text)
+                _line(hit)
             row.on("click", lambda: self._open(hit))
             icon_button("find_replace", f"Replace in {thing}", lambda: self._replace(hit))
 
@@ -168,3 +165,11 @@ class SearchPanel:
     def _flip_kind(self, kind: TextKind) -> bool:
         self.kinds ^= {kind}
         return kind in self.kinds
+
+
+def _line(hit: Hit) -> None:
+    """The line of a hit with what was found in it marked."""
+    with ui.element("span").classes("search-hit-line mono"):
+        for text, tag in ((hit.before, "span"), (hit.found, "mark"), (hit.after, "span")):
+            with ui.element(tag):
+                ui.label(text)

@@ -33,7 +33,7 @@ class Workspace:
     autosave: bool = False
     """Whether designs are saved by themselves, a second after they were touched."""
     project: Project = field(init=False)
-    broken: tuple[str, ...] = field(init=False)
+    broken_files: dict[str, Path] = field(init=False)
     files: dict[str, Path] = field(init=False)
     gone: dict[str, str] = field(init=False, default_factory=dict)
     _texts: dict[str, str] = field(init=False)
@@ -79,6 +79,11 @@ class Workspace:
         """The component whose design a file holds."""
         wanted = path.resolve()
         return next((name for name, file in self.files.items() if name and file.resolve() == wanted), None)
+
+    @property
+    def broken(self) -> tuple[str, ...]:
+        """The files that are meant to be designs and cannot be read, relative to the project's folder."""
+        return tuple(self.broken_files)
 
     @property
     def unsaved(self) -> tuple[str, ...]:
@@ -215,7 +220,7 @@ class Workspace:
         """Make a project as read the one that is worked on."""
         self._texts, self.files = dict(opened.texts), dict(opened.files)
         self.gone = {name: new for name, new in self.gone.items() if opened.project.design(name) is None}
-        self.broken = tuple(file.name for file in opened.broken)
+        self.broken_files = {_name_in(self.folder, file): file for file in opened.broken}
         self._reading = dict.fromkeys(opened.texts, ())
         for finding in opened.findings:
             name = finding.thing.component if finding.thing else ""
@@ -279,6 +284,11 @@ def _read(file: Path) -> str | None:
         return file.read_bytes().decode("utf-8")
     except (FileNotFoundError, UnicodeDecodeError):
         return None
+
+
+def _name_in(folder: Path, file: Path) -> str:
+    inside, place = file.resolve(), folder.resolve()
+    return inside.relative_to(place).as_posix() if inside.is_relative_to(place) else file.name
 
 
 def _signature(file: Path) -> tuple[str, int, int]:

@@ -25,6 +25,11 @@ def design_address(key: str, component: str, selected: Selected | None = None, t
 _SAFE = "/:,@"
 
 
+def broken_address(key: str, file: str) -> str:
+    """Where the text of a file that cannot be read is mended."""
+    return f"/broken/{quote(key, safe='')}/{quote(file)}"
+
+
 def text_of_selected(selected: Selected) -> str:
     """A thing as addresses say it: "Kick", "Kick/0", "@common/1", "components:head"."""
     if selected.of in ("states", "transitions", "common"):
