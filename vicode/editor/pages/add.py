@@ -12,7 +12,7 @@ from vicode.editor.pages.home import HomePage
 from vicode.editor.pages.keeping import keep_all
 from vicode.editor.pages.look import add_look
 from vicode.editor.panels.thumbnails import serve_thumbnails
-from vicode.editor.session import Library
+from vicode.editor.session import Library, Workspace
 from vicode.editor.session.finding_things import Index
 from vicode.editor.session.keeper import Keeper
 from vicode.editor.view.address import trail_of_text
@@ -32,11 +32,7 @@ def add_pages(library: Library, keeper: Keeper | None = None) -> None:
 
     @ui.page("/design/{key}/{component}", title="vicode")
     def design(key: str, component: str, request: Request) -> None:
-        workspace = library.workspace(key)
-        if workspace:
-            # A design may be younger than what was read last.
-            with contextlib.suppress(OSError):
-                workspace.follow_disk()
+        workspace = _workspace_as_on_disk(library, key)
         document = workspace.document(component) if workspace else None
         if workspace is None or document is None:
             _nothing(f"There is no design {component[:80]} here", "It may have been renamed or removed.")
@@ -49,7 +45,7 @@ def add_pages(library: Library, keeper: Keeper | None = None) -> None:
 
     @ui.page("/broken/{key}/{file:path}", title="vicode")
     def broken(key: str, file: str) -> None:
-        workspace = library.workspace(key)
+        workspace = _workspace_as_on_disk(library, key)
         # Only what was found to be broken is opened, so that no address leads to any other file.
         path = workspace.broken_files.get(file) if workspace else None
         if workspace is None or path is None:
@@ -57,6 +53,15 @@ def add_pages(library: Library, keeper: Keeper | None = None) -> None:
             return
         ui.page_title(f"{file} – vicode")
         BrokenPage(library, workspace, path, file)
+
+
+def _workspace_as_on_disk(library: Library, key: str) -> Workspace | None:
+    """The project of a key; a file may be younger than what was read last."""
+    workspace = library.workspace(key)
+    if workspace:
+        with contextlib.suppress(OSError):
+            workspace.follow_disk()
+    return workspace
 
 
 def _nothing(title: str, hint: str) -> None:
