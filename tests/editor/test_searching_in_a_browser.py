@@ -43,7 +43,7 @@ def test_ways_of_searching_and_mistakes(editor: str, page: Page) -> None:
     open_player(page, editor)
     page.keyboard.press("Control+Shift+F")
     box = page.get_by_label("Search for")
-    box.fill("SELF")
+    box.fill("SELF.")
     expect(hits(page)).not_to_have_count(0)
     page.get_by_role("button", name="Match case").click()
     expect(hits(page)).to_have_count(0)
