@@ -30,13 +30,13 @@ def editor(project: Path, tmp_path: Path) -> Iterator[str]:
 
 
 @contextmanager
-def started_editor(folder: Path, storage: Path) -> Iterator[str]:
-    """An editor on a folder of projects; its URL."""
+def started_editor(folder: Path, storage: Path, options: tuple[str, ...] = ("--no-tour",)) -> Iterator[str]:
+    """An editor on a folder of projects; its URL. The tour is left out, as it would stand in the way of other tests."""
     # NiceGUI behaves differently when it thinks that a test runs it.
     environment = {key: value for key, value in os.environ.items() if not key.startswith(("PYTEST", "NICEGUI"))}
     environment["NICEGUI_STORAGE_PATH"] = str(storage)
     environment["VICODE_STATE"] = str(storage / "state")
-    command = [sys.executable, "-m", "vicode", "edit", str(folder), "--no-open", "--port", "0"]
+    command = [sys.executable, "-m", "vicode", "edit", str(folder), "--no-open", "--port", "0", *options]
     with subprocess.Popen(
         command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, env=environment, cwd=ROOT
     ) as process:

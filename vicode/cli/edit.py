@@ -9,6 +9,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("path", metavar="PATH", nargs="?", default=".", help="a design or a folder (this one)")
     parser.add_argument("--host", default="127.0.0.1", help="who may connect: an address of this machine (only itself)")
     parser.add_argument("--port", type=_port, help="port to listen on (a free one)")
+    parser.add_argument("--no-tour", action="store_true", help="do not begin the tour in a browser that is new here")
     parser.add_argument("--no-open", action="store_true", help="print the address, open no browser")
 
 
@@ -25,5 +26,5 @@ def run(args: argparse.Namespace) -> int:
 
     path = Path(args.path)
     path.stat()
-    serve(path, choose_address(args.host, args.port), open_browser=not args.no_open)
+    serve(path, choose_address(args.host, args.port), open_browser=not args.no_open, tour=not args.no_tour)
     return 0

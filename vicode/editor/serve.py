@@ -52,7 +52,7 @@ def choose_address(host: str, port: int | None) -> Address:
     return Address(host=host, port=_free_port(host, port), token=token)
 
 
-def serve(path: Path, address: Address, *, open_browser: bool = True) -> None:
+def serve(path: Path, address: Address, *, open_browser: bool = True, tour: bool = True) -> None:
     """Serve the editor on the projects at `path` until it is ended.
 
     Raises:
@@ -69,7 +69,7 @@ def serve(path: Path, address: Address, *, open_browser: bool = True) -> None:
     from vicode.editor.session.recovery import open_recovery  # noqa: PLC0415
 
     library = Library(path)
-    add_pages(library, Keeper(library, open_recovery()))
+    add_pages(library, Keeper(library, open_recovery()), tour=tour)
     hosts = ("127.0.0.1", "localhost", "::1") if not address.token else None
     start = address.url_of(_first_page(library))
     # A folder's home is printed, so that it can be given to others; who names a file wants its design.

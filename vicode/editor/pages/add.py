@@ -18,7 +18,7 @@ from vicode.editor.session.keeper import Keeper
 from vicode.editor.view.address import trail_of_text
 
 
-def add_pages(library: Library, keeper: Keeper | None = None) -> None:
+def add_pages(library: Library, keeper: Keeper | None = None, *, tour: bool = False) -> None:
     """Serve the designs of a library: `/` is their home, `/design/PROJECT/COMPONENT` edits one."""
     index = Index(library)
     if keeper is not None:
@@ -40,7 +40,7 @@ def add_pages(library: Library, keeper: Keeper | None = None) -> None:
         ui.page_title(f"{component} – vicode")
         query = request.query_params
         trail = trail_of_text(query.get("from", ""), workspace.project.interfaces(), component)
-        way = Way(index=index, trail=trail, select=query.get("select", ""))
+        way = Way(index=index, trail=trail, select=query.get("select", ""), tour=tour)
         DesignPage(library, workspace, document, way, keeper)
 
     @ui.page("/broken/{key}/{file:path}", title="vicode")

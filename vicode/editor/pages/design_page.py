@@ -30,6 +30,7 @@ from vicode.editor.panels.search_panel import SearchPanel, search_command
 from vicode.editor.panels.side_grip import side_grip
 from vicode.editor.panels.simulation import SimulationPanel, Simulator, simulation_commands
 from vicode.editor.panels.tabs import Tabs
+from vicode.editor.panels.tour import Tour
 from vicode.editor.panels.undo_bar import UndoBar
 from vicode.editor.session import Document, Library, Workspace
 from vicode.editor.session.keeper import Keeper
@@ -65,8 +66,10 @@ class DesignPage:
             self.dock = self._build_dock(problems)
             self.side = self._build_side()
         self.keeping = Keeping(desk, keeper)
+        self.tour = Tour(desk, lambda: self.stage.shows_table, begins=way.tour)
         going = Going(desk, way.index, way.trail)
-        commands = self._commands(theme, (*problems.commands(), *going.commands(), *self.keeping.commands()))
+        own = (*problems.commands(), *going.commands(), *self.keeping.commands(), *self.tour.commands())
+        commands = self._commands(theme, own)
         going.palette.commands = commands
         with head:
             self.header = Header(desk, commands, way.trail)
@@ -146,7 +149,7 @@ class DesignPage:
                 self.desk.tell()
 
     def _refresh(self) -> None:
-        for panel in (self.stage, self.header, self.dock, self.side, self.keeping):
+        for panel in (self.stage, self.header, self.dock, self.side, self.keeping, self.tour):
             panel.refresh()
 
     def _canvas_is_there(self) -> None:

@@ -23,6 +23,8 @@ class Way:
     index: Index
     trail: tuple[str, ...] = ()
     select: str = ""
+    tour: bool = False
+    """Whether the tour may begin by itself."""
 
 
 class Going:

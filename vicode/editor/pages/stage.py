@@ -54,6 +54,7 @@ class Stage:
         self._drawing_space.set_visibility(not table)
         self._table_space.set_visibility(table)
         self._mark()
+        self.desk.tell()
         if not table:
             ui.run_javascript(_FOCUS_CANVAS)
             return

@@ -28,7 +28,7 @@ class Header:
         self.clash = ui.button("Choose …", on_click=lambda: ask_about_disk(desk)).props("flat dense no-caps")
         ui.element("div").classes("spacer")
         self.people = PeopleChips(desk)
-        self.buttons = {name: icon_button(named[name].icon, named[name].label, named[name].act) for name in _ICONS}
+        self.buttons = {name: _icon(named[name]) for name in _ICONS}
         save, generate = named["save"], named["generate"]
         ui.button(save.label, icon=save.icon, on_click=save.act).props("flat no-caps dense").classes("head-button")
         primary_button(generate.label, generate.act, icon=generate.icon)
@@ -61,6 +61,10 @@ class Header:
         self.clash.set_visibility(document.sheet.clash is not None)
         enable(self.buttons["undo"], flag=bool(document.undo_label))
         enable(self.buttons["redo"], flag=bool(document.redo_label))
+
+
+def _icon(command: Command) -> ui.button:
+    return icon_button(command.icon, command.label, command.act, keys=" or ".join(command.keys))
 
 
 def _separator() -> None:

@@ -7,14 +7,14 @@ from nicegui import ui
 Act = Callable[[], object]
 
 
-def icon_button(icon: str, label: str, act: Act) -> ui.button:
-    """A button with only an icon; `label` is its tip and its name for screen readers."""
+def icon_button(icon: str, label: str, act: Act, *, keys: str = "") -> ui.button:
+    """A button with only an icon; `label` is its name for screen readers, and with its keys its tip."""
     # Without a colour of Quasar's, which would overrule that of the place it stands in.
     button = ui.button(icon=icon, on_click=act, color=None).props("flat dense round size=sm").classes("icon-button")
     # Set, not written into a text of props: labels hold names, and a quote in a name would begin another prop.
     button.props["aria-label"] = label
     with button:
-        ui.tooltip(label)
+        ui.tooltip(f"{label} ({keys})" if keys else label)
     return button
 
 

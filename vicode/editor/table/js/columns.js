@@ -40,7 +40,8 @@ export function drawCell(cell, row, column) {
   if (column.kind === "flag" && value !== undefined) return drawFlag(cell, row, column, value);
   if (column.name === "name") drawLead(cell, row);
   const text = span("text", value ?? "");
-  if (column.hint && value === "") text.dataset.hint = column.hint;
+  // Only without any condition a transition is always taken.
+  if (column.hint && value === "" && !row.cells.when && !row.cells.after && !row.cells.code) text.dataset.hint = column.hint;
   cell.append(text);
   cell.title = column.name === "name" && row.messages.length ? row.messages.join("\n") : (value ?? "");
   return cell;

@@ -1,0 +1,125 @@
+// The tour: a card beside what it speaks of, and a ring around that. Python tells what was done; then it goes on.
+const KEY = "vicode-tour";
+const WATCH_MS = 150;
+const GAP = 12;
+
+export default {
+  template: `
+    <div v-if="step" class="tour-ring" :style="ring" aria-hidden="true"></div>
+    <section v-if="step" ref="card" class="tour" :style="place" role="region" aria-label="Tour" tabindex="-1">
+      <div class="tour-count">{{ at + 1 }} of {{ steps.length }}</div>
+      <div class="tour-words" role="status">
+        <div class="tour-title" role="heading" aria-level="2">{{ step.title }}</div>
+        <div class="tour-text">{{ step.text }}</div>
+      </div>
+      <div class="tour-buttons">
+        <button type="button" class="tour-quiet" @click="end">Do not show again</button>
+        <button v-if="at > 0" type="button" class="tour-quiet" @click="go(at - 1)">Back</button>
+        <button ref="next" type="button" class="tour-next" @click="next">{{ at + 1 < steps.length ? (step.done ? "Skip" : "Next") : "Done" }}</button>
+      </div>
+    </section>`,
+  props: { steps: Array, begins: Boolean, facts: Object },
+  data: () => ({ at: -1, ring: {}, place: {} }),
+  computed: {
+    step() {
+      return this.steps[this.at];
+    },
+  },
+  watch: {
+    facts(now) {
+      if (this.step && isDone(this.step.done, { now, here: this.here, before: this.before })) this.next();
+    },
+  },
+  mounted() {
+    this.escape = (event) => this.heard(event);
+    document.addEventListener("keydown", this.escape, true);
+    if (this.begins && !isOver()) this.waiting = setInterval(() => drawing() && this.start(), WATCH_MS);
+  },
+  unmounted() {
+    document.removeEventListener("keydown", this.escape, true);
+    clearInterval(this.waiting);
+    clearInterval(this.watching);
+  },
+  methods: {
+    start() {
+      clearInterval(this.waiting);
+      clearInterval(this.watching);
+      this.before = this.facts;
+      this.watching = setInterval(() => this.arrange(), WATCH_MS);
+      this.go(0);
+    },
+    go(at) {
+      this.at = at;
+      this.here = this.facts;
+      this.$nextTick(() => {
+        this.arrange();
+        // What is done on the drawing by keys is done there; else the card's own button is at hand.
+        if (this.step?.done && at > 0) drawing()?.focus();
+        else this.$refs.next?.focus({ preventScroll: true });
+      });
+    },
+    next() {
+      if (this.at + 1 < this.steps.length) this.go(this.at + 1);
+      else this.end();
+    },
+    end() {
+      clearInterval(this.watching);
+      this.at = -1;
+      try {
+        localStorage.setItem(KEY, "over");
+      } catch {
+        // A private window keeps nothing: it comes again in the next one.
+      }
+      drawing()?.focus();
+    },
+    /** Escape ends the tour, but what is being typed has it first. */
+    heard(event) {
+      if (event.key !== "Escape" || !this.step || document.querySelector(".q-dialog, dialog[open], .q-menu")) return;
+      if (event.composedPath()[0].closest?.("input, textarea, [contenteditable=true]")) return;
+      event.preventDefault();
+      event.stopPropagation();
+      this.end();
+    },
+    arrange() {
+      const card = this.$refs.card;
+      const target = this.step?.at && document.querySelector(this.step.at);
+      if (!card || !target) return;
+      const box = target.getBoundingClientRect();
+      this.ring = { left: `${box.left + 2}px`, top: `${box.top + 2}px`, width: `${box.width - 4}px`, height: `${box.height - 4}px` };
+      const { left, top } = placeBeside(box, card.getBoundingClientRect());
+      this.place = { left: `${left}px`, top: `${top}px` };
+    },
+  },
+};
+
+const isOver = () => {
+  try {
+    return localStorage.getItem(KEY) === "over";
+  } catch {
+    return false;
+  }
+};
+
+const drawing = () => document.querySelector(".vicode-canvas[data-ready]")?.shadowRoot?.querySelector(".stage");
+
+/** Whether what a step asks for was done; facts are compared with those of its begin, and of the tour's. */
+function isDone(wish, { now, here, before }) {
+  const checks = {
+    selected: () => now.selected,
+    "state-more": () => now.states > here.states,
+    "transition-more": () => now.transitions > here.transitions,
+    "as-at-start": () => now.states === before.states && now.transitions === before.transitions,
+    table: () => now.table,
+  };
+  return checks[wish]?.() ?? false;
+}
+
+/** Left of a part at the right, above one at the bottom, below a bar at the top; inside a large one, where it hides least. */
+function placeBeside(box, card) {
+  const clampX = (x) => Math.max(GAP, Math.min(innerWidth - card.width - GAP, x));
+  const clampY = (y) => Math.max(GAP, Math.min(innerHeight - card.height - GAP, y));
+  if (box.left > card.width + 2 * GAP && box.height > innerHeight / 2) return { left: clampX(box.left - card.width - GAP), top: clampY(box.top + 56) };
+  if (box.height > innerHeight / 2) return { left: clampX(box.left + GAP), top: clampY(box.bottom - card.height - GAP) };
+  if (box.top > innerHeight / 2) return { left: clampX(box.left + GAP), top: clampY(box.top - card.height - GAP) };
+  return { left: clampX(box.width > innerWidth / 2 ? box.right - card.width - 24 : box.left), top: clampY(box.bottom + GAP) };
+}
