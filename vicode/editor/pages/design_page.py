@@ -124,7 +124,7 @@ class DesignPage:
     def _follow_disk(self) -> None:
         # The folder itself may go while the editor is open; what is open here stays, and can be saved elsewhere.
         with contextlib.suppress(OSError):
-            self.desk.workspace.follow_disk()
+            self.desk.workspace.glance()
         self.designs.refresh()
         became = self.desk.workspace.gone.get(self.desk.design.component)
         if became is not None:

@@ -14,7 +14,7 @@ from vicode.editor.panels.desk import Desk
 from vicode.editor.panels.use_dialog import ask_for_component
 from vicode.editor.session import apply_gesture, clipboard, follow, follow_gesture
 from vicode.editor.session.gestures import point_of
-from vicode.editor.view import Scene, Selected, difference, peek_of, scene_of
+from vicode.editor.view import Scene, Selected, difference, peek_of
 from vicode.editor.view.address import design_address
 from vicode.model.design import Point
 from vicode.model.edits import add_use
@@ -95,7 +95,7 @@ class Drawing:
 
     def _draw(self) -> Scene:
         desk = self.desk
-        return scene_of(desk.workspace.project, desk.design, desk.document.findings, desk.document.rev)
+        return desk.document.sheet.scene(desk.workspace.project)
 
     def _exists(self, thing: Selected) -> bool:
         if thing.of in ("design", "common"):

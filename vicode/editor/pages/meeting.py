@@ -45,14 +45,15 @@ class Meeting:
     def _hear(self) -> None:
         if not self.is_behind and core.loop is not None:
             self.is_behind = True
-            core.loop.call_later(_BREATH_S, self._show)
+            # Where many are, news of people may wait; edits do not.
+            core.loop.call_later(_BREATH_S * max(1, len(self.desk.company.all) / 4), self._show)
 
     def _show(self) -> None:
         self.is_behind = False
         if self.canvas.is_deleted:
             return
         others = self.desk.company.others(self.desk.window)
-        typing = [(each.window, each.typing_in) for each in others]
+        typing = [(each.person.name, each.typing_in) for each in others if each.typing_in]
         with self.canvas.client:
             self.canvas.show_people([_other(each) for each in others if each.person.id != self.person.id])
             self.chips.refresh()

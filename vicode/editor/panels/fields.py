@@ -11,6 +11,7 @@ from nicegui.elements.mixins.value_element import ValueElement
 from vicode.editor.panels.desk import Desk
 from vicode.editor.session.keystrokes import Keystrokes
 from vicode.editor.session.outline import order_around
+from vicode.editor.session.wording import words_of_path
 from vicode.findings import Path
 from vicode.model.design import Design
 
@@ -93,7 +94,7 @@ class Field:
         write, key = self.bound.write, "/".join(map(str, self.bound.path)) + self.bound.label
         # Noted before the edit is told to all fields, this one among them.
         self._keystrokes.sent(value, self.bound.read(write(self.desk.design, wanted)))
-        self.desk.edit(f"edit {self.bound.label}", lambda design: write(design, wanted), typing_in=key)
+        self.desk.edit(f"edit {words_of_path(self.bound.path)}", lambda design: write(design, wanted), typing_in=key)
 
     def _show_findings(self, message: ui.label) -> None:
         path = self.bound.path

@@ -36,9 +36,10 @@ class PeopleChips:
     def refresh(self) -> None:
         """Show who is here now, oneself first."""
         chips = self._chips()
-        if chips == self.shown:
+        shape = (chips[:_MOST_SHOWN], [chip.person.name for chip in chips[_MOST_SHOWN:]])
+        if shape == self.shown:
             return
-        self.shown = chips
+        self.shown = shape
         self.row.clear()
         with self.row:
             for chip in chips[:_MOST_SHOWN]:

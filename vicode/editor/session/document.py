@@ -8,10 +8,11 @@ from pathlib import Path
 from vicode.editor.session.history import History, Refusal, Step
 from vicode.editor.session.people import DISK, Company, People
 from vicode.editor.session.wording import words_of_path
-from vicode.editor.view import path_of_key
+from vicode.editor.view import Scene, path_of_key, scene_of
 from vicode.findings import Finding
 from vicode.model.design import Design
 from vicode.model.merging import Conflict
+from vicode.model.project import Project
 from vicode.model.walks import decision_at
 
 Watcher = Callable[["Document"], None]
@@ -67,6 +68,7 @@ class Sheet:
     clash: Clash | None = field(init=False, default=None)
     news: News = field(init=False, default=News())
     watchers: list[Watcher] = field(init=False, default_factory=list)
+    _drawn: tuple[Project, tuple[Finding, ...], Scene] | None = field(init=False, default=None)
     _recent: dict[int, Design] = field(init=False, default_factory=dict)
 
     def __post_init__(self) -> None:
@@ -84,6 +86,14 @@ class Sheet:
         self.rev += 1
         self.findings = self._find()
         self.tell(by)
+
+    def scene(self, project: Project) -> Scene:
+        """What the canvas draws; worked out once for all windows."""
+        drawn = self._drawn
+        if drawn is None or drawn[0] is not project or drawn[1] is not self.findings or drawn[2]["rev"] != self.rev:
+            scene = scene_of(project, self.history.present.design, self.findings, self.rev)
+            self._drawn = drawn = (project, self.findings, scene)
+        return drawn[2]
 
     def design_at(self, rev: int) -> Design:
         """The design as it was at a recent `rev`, as it is now for any other."""

@@ -1,5 +1,6 @@
 """One open project: its designs as they are now, and their files."""
 
+import time
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
@@ -17,6 +18,8 @@ from vicode.model.names import snake_case
 from vicode.model.project import Project
 from vicode.output import set_aside
 from vicode.store import OpenProject, design_files, open_project, read_design, save_design, write_text
+
+_GLANCE_S = 0.8
 
 
 class ChangedOnDiskError(Exception):
@@ -36,6 +39,7 @@ class Workspace:
     broken_files: dict[str, Path] = field(init=False)
     files: dict[str, Path] = field(init=False)
     gone: dict[str, str] = field(init=False, default_factory=dict)
+    _glanced_s: float = field(init=False, default=0.0)
     _texts: dict[str, str] = field(init=False)
     _reading: dict[str, tuple[Finding, ...]] = field(init=False)
     _seen: frozenset[tuple[str, int, int]] = field(init=False, default=frozenset())
@@ -44,6 +48,17 @@ class Workspace:
     def __post_init__(self) -> None:
         """Read the project."""
         self.follow_disk()
+
+    def glance(self) -> None:
+        """Follow the disk, once a second however many windows ask.
+
+        Raises:
+            OSError: The folder is gone.
+        """
+        now_s = time.monotonic()
+        if now_s - self._glanced_s >= _GLANCE_S:
+            self._glanced_s = now_s
+            self.follow_disk()
 
     def follow_disk(self) -> None:
         """Take over what other programs wrote; where unsaved changes touch it, they stay until somebody decides.

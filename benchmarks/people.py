@@ -1,0 +1,231 @@
+"""Many people at work on one design: how soon edits reach every window, whether one is lost, what memory it takes.
+
+Run `python -m benchmarks.people [CLIENTS] [SECONDS]`. The clients are sockets that speak the pages' own protocol, in
+one process beside the server: fifty real browsers would measure the machine, not the server. Each moves its own state.
+"""
+
+import asyncio
+import html
+import json
+import os
+import random
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+import uuid
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from pathlib import Path
+from statistics import median
+from typing import Any
+
+import aiohttp
+import socketio
+
+ROOT = Path(__file__).parents[1]
+PAGE = "design/forward/Player"
+PAUSE_S = 2.0
+FIRST_MARK = 100_000
+FORGET_S = 75.0
+
+
+@dataclass
+class Watch:
+    """What was sent when, and how long each edit took to each window."""
+
+    sent_s: dict[int, float] = field(default_factory=dict)
+    took_s: list[float] = field(default_factory=list)
+    errors: list[str] = field(default_factory=list)
+
+    def mark(self) -> int:
+        """A number that no other edit has; it travels as a coordinate."""
+        number = FIRST_MARK + len(self.sent_s)
+        self.sent_s[number] = time.perf_counter()
+        return number
+
+
+@dataclass(frozen=True)
+class Result:
+    """What came of it; times in milliseconds, memory in megabytes."""
+
+    edits: int
+    seen: int
+    median_ms: float
+    p95_ms: float
+    lost: list[str]
+    errors: list[str]
+    memory_mb: tuple[float, float, float]
+
+
+class Client:
+    """One window without a browser."""
+
+    def __init__(self, url: str, number: int, watch: Watch) -> None:
+        self.url, self.name, self.watch = url, f"C{number}", watch
+        self.socket = socketio.AsyncClient(reconnection=False)
+        self.socket.on("*", self._hear)
+        self.scene: dict[str, Any] = {}
+        self.last: tuple[int, int] | None = None
+        self.renames = asyncio.Event()
+        self.rev = 0
+
+    async def enter(self) -> None:
+        """Ask for the page, and connect as its script would."""
+        async with aiohttp.ClientSession() as session, session.get(self.url + PAGE) as response:
+            text = await response.text()
+        found = re.search(r"parseElements\(String\.raw`(.*?)`\)", text, re.DOTALL)
+        known = re.search(r"'client_id': '([^']+)'", text)
+        assert found
+        assert known
+        elements = json.loads(html.unescape(found[1]))
+        self.client_id = known[1]
+        self.canvas, events = next(
+            (int(key), each["events"])
+            for key, each in elements.items()
+            if any(event["type"] == "gesture" for event in each.get("events", ()))
+        )
+        self.listeners = {event["type"]: event["listener_id"] for event in events}
+        query = f"client_id={self.client_id}&next_message_id=0&implicit_handshake=true"
+        query += f"&tab_id={uuid.uuid4()}&document_id={uuid.uuid4()}"
+        await self.socket.connect(
+            f"{self.url}?{query}", transports=["websocket"], socketio_path="/_nicegui_ws/socket.io", wait_timeout=30
+        )
+        await self._emit("ready", {})
+
+    async def own_a_state(self) -> None:
+        """Make the state that this window moves, and name it."""
+        await self._gesture({"kind": "create", "x": 0, "y": 0})
+        await asyncio.wait_for(self.renames.wait(), 120)
+        await self._gesture({"kind": "rename", "of": "states", "id": self.made, "name": self.name})
+
+    async def work(self, until_s: float) -> None:
+        """Move the own state now and then."""
+        while time.perf_counter() < until_s:
+            await asyncio.sleep(random.uniform(0.5, 1.5) * PAUSE_S)
+            x = self.watch.mark()
+            self.last = (x, random.randrange(1000))
+            item = {"of": "states", "id": self.name, "x": self.last[0], "y": self.last[1]}
+            await self._gesture({"kind": "move", "items": [item]})
+
+    async def leave(self) -> None:
+        """Close the window."""
+        await self.socket.disconnect()
+
+    async def _gesture(self, payload: dict[str, Any]) -> None:
+        await self._emit("gesture", {**payload, "rev": self.rev})
+
+    async def _emit(self, event: str, payload: dict[str, Any]) -> None:
+        message = {
+            "id": self.canvas,
+            "client_id": self.client_id,
+            "listener_id": self.listeners[event],
+            "args": [json.dumps(payload)],
+        }
+        await self.socket.emit("event", message)
+
+    async def _hear(self, event: str, data: Any = None) -> None:
+        if event != "run_javascript":
+            return
+        code, now_s = str(data.get("code", "")), time.perf_counter()
+        if "showPeople" in code:
+            await self._emit("seen", {})
+        if "renameInPlace" in code:
+            self.made = re.findall(r"State\d*", code)[-1]
+            self.renames.set()
+        revs = re.findall(r'"rev":(\d+)', code)
+        self.rev = int(revs[-1]) if revs else self.rev
+        if '"load"' in code:
+            places = re.findall(r'"id":"(C\d+)".*?"x":([\d.]+),"y":([\d.]+)', code)
+            self.scene = {name: (float(x), float(y)) for name, x, y in places}
+        if '"apply"' in code:
+            for mark in re.findall(r'"x":(\d{6,})', code):
+                if int(mark) in self.watch.sent_s:
+                    self.watch.took_s.append(now_s - self.watch.sent_s[int(mark)])
+
+
+async def measure(url: str, pid: int, clients: int, seconds: float, forget_s: float = FORGET_S) -> Result:
+    """Let clients work for some time, and look whether all of it is there."""
+    watch = Watch()
+    before = _memory_mb(pid)
+    people = [Client(url, number, watch) for number in range(clients)]
+    for client in people:
+        await client.enter()
+    for client in people:
+        await client.own_a_state()
+    await asyncio.sleep(1)
+    until_s = time.perf_counter() + seconds
+    outcomes = await asyncio.gather(*(client.work(until_s) for client in people), return_exceptions=True)
+    watch.errors += [repr(each) for each in outcomes if each is not None]
+    await asyncio.sleep(2)
+    during = _memory_mb(pid)
+    late = Client(url, clients, watch)
+    await late.enter()
+    await asyncio.sleep(2)
+    lost = [client.name for client in people if client.last and late.scene.get(client.name) != client.last]
+    for client in (*people, late):
+        await client.leave()
+    await asyncio.sleep(forget_s)
+    took = sorted(watch.took_s)
+    return Result(
+        edits=len(watch.sent_s),
+        seen=len(took),
+        median_ms=median(took) * 1000 if took else 0.0,
+        p95_ms=took[int(len(took) * 0.95)] * 1000 if took else 0.0,
+        lost=lost,
+        errors=watch.errors,
+        memory_mb=(before, during, _memory_mb(pid)),
+    )
+
+
+@contextmanager
+def started_server(said: Path) -> Iterator[tuple[str, int]]:
+    """An editor on a copy of the forward player; its URL and process. What it says goes into a file."""
+    with tempfile.TemporaryDirectory() as folder:
+        shutil.copytree(ROOT / "designs" / "forward", Path(folder) / "designs" / "forward")
+        state = {"VICODE_STATE": f"{folder}/state", "NICEGUI_STORAGE_PATH": f"{folder}/storage"}
+        kept = {key: value for key, value in os.environ.items() if not key.startswith(("PYTEST", "NICEGUI"))}
+        command = [sys.executable, "-m", "vicode", "edit", f"{folder}/designs", "--no-open", "--port", "0"]
+        with said.open("w") as log:
+            process = subprocess.Popen(command, stdout=log, stderr=subprocess.STDOUT, env={**kept, **state}, cwd=ROOT)
+        try:
+            yield _url(said), process.pid
+        finally:
+            process.kill()
+            process.wait()
+
+
+def _url(said: Path) -> str:
+    for _attempt in range(600):
+        found = re.search(r"http://\S+", said.read_text())
+        if found:
+            return found[0]
+        time.sleep(0.1)
+    raise RuntimeError(said.read_text())
+
+
+def _memory_mb(pid: int) -> float:
+    status = Path(f"/proc/{pid}/status").read_text()
+    return int(re.search(r"VmRSS:\s+(\d+)", status)[1]) / 1024  # type: ignore[index]
+
+
+def main(clients: int = 50, seconds: float = 60.0) -> None:
+    """Measure once and say what came of it."""
+    said = Path(tempfile.mkstemp(suffix=".log")[1])
+    with started_server(said) as (url, pid):
+        result = asyncio.run(measure(url, pid, clients, seconds))
+    complaints = [line for line in said.read_text().splitlines() if "Error" in line or "Traceback" in line]
+    print(
+        f"{clients} clients for {seconds:g} s: {result.edits} edits, seen {result.seen} times in other windows and own"
+    )
+    print(f"edit → window: median {result.median_ms:.0f} ms, 95 % within {result.p95_ms:.0f} ms")
+    print(f"lost edits: {len(result.lost)} {result.lost[:5]}; errors: {len(result.errors)} {result.errors[:3]}")
+    print(f"complaints of the server: {len(complaints)} {complaints[:3]}")
+    print("memory of the server before, during, after: " + ", ".join(f"{each:.0f} MB" for each in result.memory_mb))
+
+
+if __name__ == "__main__":
+    main(*(int(each) for each in sys.argv[1:]))

@@ -1,0 +1,17 @@
+"""A few people at work at once, as in the benchmark of many: no error, and every edit is there in the end."""
+
+import asyncio
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+from benchmarks.people import measure, started_server
+
+
+def test_nothing_is_lost_when_many_edit_at_once(tmp_path: Path) -> None:
+    with started_server(tmp_path / "said.log") as (url, pid), ThreadPoolExecutor(1) as apart:
+        # In a thread: a browser of another test may hold an event loop in this one.
+        result = apart.submit(asyncio.run, measure(url, pid, clients=4, seconds=6, forget_s=0)).result()
+    assert (result.lost, result.errors) == ([], [])
+    assert result.edits > 0
+    assert result.seen >= result.edits
+    assert "Traceback" not in (tmp_path / "said.log").read_text()
