@@ -93,6 +93,7 @@ class BrokenPage:
             for mark in reading.marks[:50]:
                 button = ui.element("button").classes(f"field-message {mark.severity}").props('type="button"')
                 with button:
-                    ui.label(f"Line {mark.line}: {mark.message}")
+                    column = mark.start - text.rfind("\n", 0, mark.start)
+                    ui.label(f"Line {mark.line}, column {column}: {mark.message}")
                 button.on("click", lambda mark=mark: self.aid.go_to(mark.start))
         return reading
