@@ -76,7 +76,7 @@ def test_a_clash_with_the_file_is_settled_place_by_place(editor: str, page: Page
 
     # What was not taken is in the history.
     page.get_by_role("tab", name="History").click()
-    expect(page.get_by_role("listitem").get_by_text("as it was on disk")).to_be_visible()
+    expect(page.get_by_role("group", name="History").get_by_text("as it was on disk")).to_be_visible()
 
 
 def test_what_does_not_touch_is_merged_and_said(editor: str, page: Page, project: Path) -> None:
@@ -117,7 +117,7 @@ def test_the_history_leads_to_any_point_by_mouse_and_keys(editor: str, page: Pag
     page.reload()
     expect(page.locator('g[data-kind="state"][data-id="Kick"]')).to_be_visible()
     page.get_by_role("tab", name="History").click()
-    rows = page.get_by_role("listitem")
+    rows = page.get_by_role("group", name="History").get_by_role("button")
     expect(rows.first).to_have_attribute("aria-current", "step")
     expect(rows.last).to_contain_text("open")
     rows.last.click()

@@ -27,7 +27,7 @@ class HistoryPanel:
         self.most = _PAGE
         self.shown: dict[int, HistoryLine] = {}
         self.rows: dict[int, ui.element] = {}
-        self.list = ui.element("div").classes("history-list").props('role="list" aria-label="History"')
+        self.list = ui.element("div").classes("history-list").props('role="group" aria-label="History"')
         self.list.on("keydown", js_handler=_WALK)
         self.more = ui.button("Show older steps", on_click=self._show_more).props("flat dense no-caps")
 
@@ -50,7 +50,7 @@ class HistoryPanel:
 
     def _row(self, line: HistoryLine) -> ui.element:
         step, people = line.step, self.desk.document.sheet.people
-        row = ui.element("button").classes("history-row").props('type="button" role="listitem"')
+        row = ui.element("button").classes("history-row").props('type="button"')
         with row:
             ui.icon("play_arrow").classes("history-now").props('aria-hidden="true"')
             ui.label(time.strftime("%H:%M:%S", time.localtime(step.at_s))).classes("history-time mono")
