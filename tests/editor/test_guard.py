@@ -91,6 +91,13 @@ def test_a_body_is_counted_as_it_comes() -> None:
     assert large[0]["status"] == 413
 
 
+def test_a_body_that_says_it_is_too_large_is_not_read() -> None:
+    headers = {"host": "localhost", "content-length": str(MAXIMUM_BODY + 1)}
+    assert ask(LOCAL, headers, method="POST")[0]["status"] == 413
+    assert ask(LOCAL, {**headers, "content-length": "9" * 30}, method="POST")[0]["status"] == 200
+    assert ask(LOCAL, {**headers, "content-length": "²"}, method="POST")[0]["status"] == 200
+
+
 def test_a_server_others_can_reach_asks_for_its_token() -> None:
     assert ask(OPEN, {"host": "robot:1"})[0]["status"] == 403
     assert ask(OPEN, {"host": "robot:1", "cookie": f"{COOKIE}=wrong"})[0]["status"] == 403

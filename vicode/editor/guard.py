@@ -42,6 +42,8 @@ class Guard:
         given = self._token_in_query(scope)
         if not self._is_welcome(scope, headers) or not (self._has_token(headers) or given):
             await _refuse(scope, send, 403)
+        elif _declared_length(headers) > MAXIMUM_BODY:
+            await _refuse(scope, send, 413)
         elif given and scope["type"] == "http" and scope["method"] == "GET":
             await self._remember_token(scope, send)
         else:
@@ -110,6 +112,11 @@ class Guard:
         except TooLargeError:
             if not started:
                 await _refuse(scope, send, 413)
+
+
+def _declared_length(headers: dict[bytes, str]) -> int:
+    length = headers.get(b"content-length", "")
+    return int(length) if length.isdecimal() and len(length) < 20 else 0
 
 
 def _parts(address: str) -> tuple[str, str]:
