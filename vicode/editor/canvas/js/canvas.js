@@ -191,6 +191,7 @@ class Canvas {
   }
 
   afterGesture() {
+    this.painter.tidy();
     this.handles.refresh();
     this.levels.cullSoon();
   }

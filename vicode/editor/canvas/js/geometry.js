@@ -121,15 +121,13 @@ export function crosses(points, rect) {
   return false;
 }
 
-/** Liang and Barsky: the part of the segment within each pair of sides, until nothing is left of it. */
+/** Whether a segment has a part in a rectangle: of the parts within each pair of sides something must be left. */
 function touches(a, b, rect) {
-  let [from, to] = [0, 1];
-  const within = (start, by, low, high) => {
-    if (by === 0) return start >= low && start <= high;
-    const [one, other] = [(low - start) / by, (high - start) / by];
-    from = Math.max(from, Math.min(one, other));
-    to = Math.min(to, Math.max(one, other));
-    return from <= to;
-  };
-  return within(a.x, b.x - a.x, rect.x, rect.x + rect.w) && within(a.y, b.y - a.y, rect.y, rect.y + rect.h);
+  const [right, bottom] = [rect.x + rect.w, rect.y + rect.h];
+  if (Math.max(a.x, b.x) < rect.x || Math.min(a.x, b.x) > right || Math.max(a.y, b.y) < rect.y || Math.min(a.y, b.y) > bottom) return false;
+  if (a.x === b.x || a.y === b.y) return true;
+  // Not beside it, so only a slanting line past a corner misses: then all four corners lie on one side of it.
+  const side = (x, y) => (b.x - a.x) * (y - a.y) > (b.y - a.y) * (x - a.x);
+  const first = side(rect.x, rect.y);
+  return side(right, rect.y) !== first || side(rect.x, bottom) !== first || side(right, bottom) !== first;
 }

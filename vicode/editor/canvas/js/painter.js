@@ -88,12 +88,22 @@ export class Painter {
   /** Follows nodes that are being moved, with the edges at them. */
   follow(nodeKeys) {
     this.revision += 1;
+    this.router.isHasty = true;
     for (const key of nodeKeys) {
       const item = this.items.get(key);
       if (item) placeNode(item.node, this.scene.nodes.get(key));
       this.router.forgetAround(key);
     }
     this.#placeEdges(nodeKeys);
+    this.router.isHasty = false;
+  }
+
+  /** The hand let go: labels that were placed in haste look for the best places. */
+  tidy() {
+    const edges = [...this.router.hasty].map((key) => this.scene.edges.get(key)).filter(Boolean);
+    this.router.hasty.clear();
+    for (const edge of edges) this.router.forget(edge);
+    for (const edge of edges) this.#placeEdge(edge);
   }
 
   /** Puts everything where the scene has it now. */

@@ -18,6 +18,9 @@ export class Router {
     this.lines = new Grid();
     this.labels = new Grid();
     this.labelRects = new Map();
+    // While a box follows a hand, labels look at boxes and labels alone; these want a second look then.
+    this.isHasty = false;
+    this.hasty = new Set();
   }
 
   clear() {
@@ -129,6 +132,7 @@ export class Router {
     let best = { cost: Infinity };
     for (const chip of [wanted, ...shorterChips(edge, wanted)]) {
       const place = placeLabel(edge, curve, chip, (rect) => this.#crowd(rect, edge.key));
+      if (this.isHasty) this.hasty.add(edge.key);
       if (place.cost < best.cost) best = { ...place, chip };
       if (best.cost < COST.label) break;
     }
@@ -145,6 +149,7 @@ export class Router {
     for (const key of this.labels.query(rect)) {
       if (key !== own && overlaps(grow(this.labelRects.get(key), 2), rect)) sum += COST.label;
     }
+    if (this.isHasty) return sum;
     for (const key of this.lines.query(rect)) {
       if (key !== own && crosses(this.ways.get(key).points, rect)) sum += key.startsWith(LINKS) ? COST.link : COST.line;
     }
