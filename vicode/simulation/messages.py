@@ -40,7 +40,10 @@ class StandIn:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Setup:
-    """What to run. Classes are named module:Class; `functions` are outputs with arguments, by alias."""
+    """What to run. Classes are named module:Class; `functions` are outputs with arguments, by alias.
+
+    `folder` holds nothing but what was generated for this run; it is removed when the other side has gone.
+    """
 
     component: str
     probes: str
@@ -48,6 +51,7 @@ class Setup:
     stand_ins: tuple[StandIn, ...] = ()
     functions: tuple[tuple[str, tuple[str, ...]], ...] = ()
     parameter_types: tuple[tuple[str, str], ...] = ()
+    folder: str = ""
     world: str = ""
     seed: int = 0
     tick_ns: int = 20_000_000

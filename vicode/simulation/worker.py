@@ -6,6 +6,7 @@ import faulthandler
 import logging
 import os
 import queue
+import shutil
 import sys
 import threading
 from collections.abc import Callable
@@ -33,7 +34,7 @@ from vicode.simulation.messages import (
 )
 from vicode.simulation.resting import COUNT, reason_to_rest
 
-START_LIMIT_S = 20.0
+START_LIMIT_S = 60.0
 
 
 def main() -> int:
@@ -42,8 +43,14 @@ def main() -> int:
     first = requests.readline()
     if not first:
         return 0
-    worker = _Worker(decode_setup(first), answers)
-    return worker.serve(_listen(requests))
+    setup = decode_setup(first)
+    try:
+        return _Worker(setup, answers).serve(_listen(requests, setup.folder))
+    except BrokenPipeError:
+        # The other side has gone, which the listening thread may not have heard yet.
+        return 0
+    finally:
+        _clear(setup.folder)
 
 
 def _take_pipes() -> tuple[BinaryIO, BinaryIO]:
@@ -57,17 +64,23 @@ def _take_pipes() -> tuple[BinaryIO, BinaryIO]:
     return requests, answers
 
 
-def _listen(requests: BinaryIO) -> queue.SimpleQueue[bytes]:
+def _listen(requests: BinaryIO, folder: str) -> queue.SimpleQueue[bytes]:
     """Read in a thread of its own, which ends the process when the other side has gone, whatever user code does."""
     lines: queue.SimpleQueue[bytes] = queue.SimpleQueue()
 
     def read() -> None:
         for line in requests:
             lines.put(line)
+        _clear(folder)
         os._exit(0)
 
     threading.Thread(target=read, daemon=True).start()
     return lines
+
+
+def _clear(folder: str) -> None:
+    if folder:
+        shutil.rmtree(folder, ignore_errors=True)
 
 
 class _Worker:

@@ -5,7 +5,7 @@ from collections.abc import Awaitable, Callable
 from dataclasses import replace
 from pathlib import Path
 
-from vicode.editor.session.simulation import Simulation, Stage, Wish, hand_written, prepare
+from vicode.editor.session.simulation import Simulation, Stage, Wish, prepare
 from vicode.simulation import Moment
 from vicode.store import open_project
 
@@ -105,8 +105,7 @@ def stage_of(folder: Path, *, stood_in: frozenset[str] | None = None, **wish: ob
     opened = open_project(folder)
     design = opened.project.design("Lamp")
     assert design is not None
-    chosen = hand_written(opened.project, design) if stood_in is None else stood_in
-    wished = replace(Wish(stood_in=chosen), **wish)
+    wished = replace(Wish(stood_in=stood_in), **wish)
     return prepare(opened.project, design, wished, {"Lamp": "lamp.yaml"}, folder)
 
 

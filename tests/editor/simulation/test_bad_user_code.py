@@ -199,7 +199,7 @@ async def main():
     folder = Path({str(folder)!r})
     simulation = Simulation(stage=stage_of(folder, limit_s=60.0), cwd=folder)
     await simulation.begin()
-    print(simulation._runner.pid, flush=True)
+    print(simulation._runner.pid, simulation._runner._folder, flush=True)
     await simulation.step(100)
 
 asyncio.run(main())
@@ -207,12 +207,14 @@ asyncio.run(main())
     command = [sys.executable, "-c", program]
     with subprocess.Popen(command, stdout=subprocess.PIPE, text=True, cwd=Path(__file__).parents[3]) as editor:
         assert editor.stdout is not None
-        pid = int(editor.stdout.readline())
+        number, generated = editor.stdout.readline().split()
         editor.kill()
+    pid = int(number)
     end = time.monotonic() + 20
     while Path(f"/proc/{pid}").exists() and "Z" not in state_of(pid) and time.monotonic() < end:
         time.sleep(0.05)
     assert not Path(f"/proc/{pid}").exists() or "Z" in state_of(pid)
+    assert not Path(generated).exists()
 
 
 def state_of(pid: int) -> str:

@@ -4,12 +4,10 @@ from nicegui import ui
 
 from vicode.editor.panels.fields import enable
 from vicode.editor.panels.rows import icon_button
-from vicode.editor.panels.simulation.simulator import SPEEDS, Simulator, describe_rest
-from vicode.editor.session.simulation import Phase, Simulation
+from vicode.editor.panels.simulation.simulator import SPEEDS, Simulator
+from vicode.editor.panels.simulation.wording import message_of
+from vicode.editor.session.simulation import Simulation
 from vicode.editor.view import Selected
-from vicode.editor.view.activation import mistake_of
-
-_HINT = "F10 steps, F6 plays and pauses, Shift+F6 runs to the next state, F9 sets a breakpoint on what is selected."
 
 
 class Controls:
@@ -102,31 +100,3 @@ def _where(simulation: Simulation | None) -> str:
     if moment is None:
         return "before the first step"
     return f"{moment.time_ns / 1e9:.2f} s · iteration {moment.iteration} · {moment.state}"
-
-
-def message_of(simulator: Simulator) -> tuple[str, str]:
-    """What is to be said, and its kind: error, warning, past or info."""
-    simulation = simulator.simulation
-    if simulator.trouble:
-        return ("error", simulator.trouble)
-    if simulator.is_stale:
-        return (
-            ("warning", "The design has changed: what is shown is the past of what it was.")
-            if (simulation is not None and simulation.phase is Phase.ENDED)
-            else ("warning", "Start again to simulate it that way.")
-        )
-    if simulation is None:
-        return ("info", _HINT)
-    if simulation.failure is not None and not simulation.is_past:
-        record = simulation.failure.error
-        words = mistake_of(simulation.stage.design, record).words if record else simulation.failure.message
-        return ("error", words)
-    if simulation.is_past and not simulator.is_playing and not simulator.is_running:
-        behind = len(simulation.recording) - simulation.cursor
-        return ("past", f"The past, {behind} iteration{'s' * (behind != 1)} before the newest.")
-    moment = simulation.moment
-    if moment is not None and moment.errors:
-        return ("error", mistake_of(simulation.stage.design, moment.errors[0]).words)
-    if simulation.note:
-        return ("warning", simulation.note)
-    return ("info", _HINT if simulator.is_playing else describe_rest(simulation.rested, simulation) or _HINT)

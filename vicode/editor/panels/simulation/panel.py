@@ -39,6 +39,7 @@ class SimulationPanel:
                         },
                         place="happenings",
                     )
+        simulator.show = self._follow
         ui.timer(_BEAT_S, self._follow)
         # The panel takes room from the drawing, and what is active there is to be seen.
         ui.timer(_SETTLED_S, simulator.canvas.fit, once=True)

@@ -2,7 +2,8 @@
 
 import asyncio
 import time
-from typing import Any, cast
+from collections.abc import Callable
+from typing import cast
 
 from nicegui import background_tasks, run
 
@@ -16,7 +17,6 @@ from vicode.editor.session.simulation import (
     Simulation,
     Stage,
     Wish,
-    hand_written,
     meaning_of,
     prepare,
 )
@@ -40,7 +40,7 @@ class Simulator:
         self.desk, self.canvas = desk, canvas
         self.simulation: Simulation | None = None
         self.breakpoints = Breakpoints()
-        self.wish = Wish(stood_in=hand_written(desk.workspace.project, desk.design))
+        self.wish = Wish()
         self.trace: tuple[Moment, ...] = ()
         self.replays = False
         self.speed = 1.0
@@ -48,11 +48,14 @@ class Simulator:
         self.is_playing = False
         self.is_running = False
         """Whether it makes more than a step without being played."""
+        self.is_starting = False
         self.is_stale = False
         self.trouble = ""
         """Why it could not be started."""
         self.changes = 0
         """Counts what the panel has to show anew."""
+        self.show: Callable[[], None] = lambda: None
+        """Bring the panel up to date at once, if it is there."""
         self._meaning: object = None
         self._seen_project: object = None
         self._starting = asyncio.Lock()
@@ -95,6 +98,7 @@ class Simulator:
         self.pause()
         if self.simulation is not None:
             self.simulation.back()
+        self.show()
 
     def toggle_play(self) -> None:
         """Play, or pause."""
@@ -183,6 +187,15 @@ class Simulator:
         return self.breakpoints.stops(changes=changes, errors=self.pauses_on_errors, also=also)
 
     async def _start(self) -> bool:
+        self.is_starting = True
+        self._changed()
+        try:
+            return await self._start_anew()
+        finally:
+            self.is_starting = False
+            self._changed()
+
+    async def _start_anew(self) -> bool:
         inputs = self.simulation.inputs if self.simulation and not self.simulation.replay else {}
         self._drop()
         self.trouble, self.is_stale = "", False
@@ -200,7 +213,6 @@ class Simulator:
             simulation.take_over(inputs)
             if not simulation.replay:
                 await simulation.begin()
-        self._changed()
         return self.simulation is not None and self.simulation.failure is None
 
     def _drop(self) -> None:
@@ -227,6 +239,7 @@ class Simulator:
         finally:
             self.is_running = False
         self._changed()
+        self.show()
 
     async def _play(self) -> None:
         """Step as real time passes, times the speed, until something says rest."""
@@ -276,19 +289,3 @@ class Simulator:
 
 def _order(thing: Selected) -> tuple[str, str]:
     return (thing.of, thing.id)
-
-
-def describe_rest(reason: str, simulation: Simulation) -> str:
-    """Why a run came to rest, in words."""
-    state = simulation.moment.state if simulation.moment else ""
-    words: dict[str, Any] = {
-        "transition": f"Stopped at a breakpoint: the transition to {state}",
-        "state": f"Stopped on entering {state}",
-        "error": "Stopped at an error",
-        "done": f"Done: {state} is a final state",
-        "finished": "The world has come to its end",
-        "change": f"Entered {state}",
-        "pause": "Paused",
-        "end": "There is nothing after this",
-    }
-    return str(words.get(reason, ""))

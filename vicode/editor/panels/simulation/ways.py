@@ -6,7 +6,7 @@ from nicegui import ui
 from nicegui.events import UploadEventArguments
 
 from vicode.editor.panels.simulation.simulator import Simulator
-from vicode.editor.session.simulation import hand_written, used_components
+from vicode.editor.session.simulation import stood_in_of, used_components
 from vicode.editor.session.simulation.traces import MOST_BYTES, TraceError
 
 _HAND, _OWN, _DRIVE, _REPLAY = "Inputs by hand", "All components run", "Inputs from a trace", "Look at a trace"
@@ -42,13 +42,15 @@ class Ways:
             ui.label("Stood in for, instead of running").classes("field-label")
             self.rows = ui.column().classes("ways-rows")
         self._listed: object = None
+        self._stood_in: frozenset[str] = frozenset()
 
     def refresh(self) -> None:
         """List the components that the design uses now."""
         self.upload.set_visibility(self.way in (_DRIVE, _REPLAY) and not self.simulator.trace)
         desk = self.simulator.desk
         used = used_components(desk.workspace.project, desk.design)
-        listed = (used, self.simulator.wish.stood_in)
+        self._stood_in = stood_in_of(desk.workspace.project, desk.design, self.simulator.wish)
+        listed = (used, self._stood_in)
         if listed == self._listed:
             return
         self._listed = listed
@@ -61,21 +63,19 @@ class Ways:
 
     def _row(self, name: str) -> None:
         is_design = self.simulator.desk.workspace.project.design(name) is not None
-        box = ui.checkbox(name + (" (design)" if is_design else ""), value=name in self.simulator.wish.stood_in)
+        box = ui.checkbox(name + (" (design)" if is_design else ""), value=name in self._stood_in)
         box.props("dense size=xs").classes("mono")
         box.on_value_change(lambda event: self._stand_in(name, flag=bool(event.value)))
 
     def _stand_in(self, name: str, *, flag: bool) -> None:
-        wish = self.simulator.wish
-        stood_in = wish.stood_in | {name} if flag else wish.stood_in - {name}
-        self.simulator.set_wish(replace(wish, stood_in=frozenset(stood_in)))
+        stood_in = self._stood_in | {name} if flag else self._stood_in - {name}
+        self.simulator.set_wish(replace(self.simulator.wish, stood_in=stood_in))
 
     def _choose(self) -> None:
         self.way = str(self.choice.value)
-        desk, wish = self.simulator.desk, self.simulator.wish
-        stood_in = frozenset() if self.way == _OWN else hand_written(desk.workspace.project, desk.design)
         self.simulator.forget_trace()
-        self.simulator.set_wish(replace(wish, stood_in=stood_in))
+        stood_in: frozenset[str] | None = frozenset() if self.way == _OWN else None
+        self.simulator.set_wish(replace(self.simulator.wish, stood_in=stood_in))
 
     def _set_numbers(self) -> None:
         seed, tick = self.seed.value, self.tick.value

@@ -10,6 +10,7 @@ from vicode.editor.session.simulation.setup import (
     hand_written,
     meaning_of,
     prepare,
+    stood_in_of,
     used_components,
 )
 from vicode.editor.session.simulation.simulation import Failure, Phase, Simulation
@@ -29,5 +30,6 @@ __all__ = [
     "hand_written",
     "meaning_of",
     "prepare",
+    "stood_in_of",
     "used_components",
 ]

@@ -33,7 +33,7 @@ from vicode.simulation import (
 from vicode.simulation.environment import fresh_environment
 from vicode.simulation.messages import LONGEST_LINE
 
-_START_LIMIT_S = 30.0
+_START_LIMIT_S = 75.0
 _GRACE_S = 3.0
 _QUIET_LIMIT_S = 120.0
 _MOST_STDERR = 64_000
@@ -208,7 +208,8 @@ async def start_runner(stage: Stage, cwd: Path) -> Runner:
     )
     runner = Runner(process, folder, stage.setup.limit_s)
     try:
-        setup = replace(stage.setup, path=(str(folder / "python"), *stage.setup.path))
+        path = (str(folder / "python"), *stage.setup.path)
+        setup = replace(stage.setup, path=path, folder=str(folder))
         await runner._send(encode_setup(setup))
         await runner.wait_until_ready()
     except BaseException:

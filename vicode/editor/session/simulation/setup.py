@@ -23,9 +23,9 @@ class NotReadyError(Exception):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Wish:
-    """How to simulate: which components are stood in, in which world (seed), with how much time between iterations."""
+    """How to simulate: which components are stood in (None: the hand-written), the world's seed, the time of a step."""
 
-    stood_in: frozenset[str]
+    stood_in: frozenset[str] | None = None
     seed: int = 0
     tick_ms: float = 20.0
     limit_s: float = 2.0
@@ -61,6 +61,11 @@ def hand_written(project: Project, design: Design) -> frozenset[str]:
     return frozenset(name for name in used_components(project, design) if project.design(name) is None)
 
 
+def stood_in_of(project: Project, design: Design, wish: Wish) -> frozenset[str]:
+    """The components that are stood in by a wish."""
+    return hand_written(project, design) if wish.stood_in is None else wish.stood_in
+
+
 def prepare(project: Project, design: Design, wish: Wish, sources: Mapping[str, str], folder: Path) -> Stage:
     """Generate what runs a design; nothing is written.
 
@@ -77,7 +82,8 @@ def prepare(project: Project, design: Design, wish: Wish, sources: Mapping[str, 
     """
     designs = tuple(design if each.component == design.component else each for each in project.designs)
     whole = replace(project, designs=designs)
-    stood_in = tuple(name for name in used_components(whole, design) if name in wish.stood_in)
+    chosen = stood_in_of(whole, design, wish)
+    stood_in = tuple(name for name in used_components(whole, design) if name in chosen)
     inputs = inputs_of(whole, design, stood_in)
     staged = _stand_in(whole, stood_in)
     _refuse_mistakes(whole, collect_components(staged, (design.component,)))
