@@ -2,8 +2,7 @@
 
 import json
 import shutil
-from collections.abc import Callable, Iterator
-from itertools import count
+from collections.abc import Iterator
 from typing import Any
 
 import pytest
@@ -12,24 +11,23 @@ from playwright.sync_api import Browser, BrowserContext, Locator, Page, expect
 from tests.editor.conftest import ROOT, started_editor
 
 Point = tuple[float, float]
-MANY = 60
-WAIT_MS = 20_000
+WAIT_MS = 30_000
 DESIGN = """\
 vicode: 1
-component: Sketch{number}
+component: Sketch
 uses:
-  walk: {{component: Walk, at: [760, 320]}}
+  walk: {component: Walk, at: [760, 320]}
 initial: Start
 states:
   Start:
     at: [120, 100]
     transitions:
-      - {{to: Go, when: state_time > 1}}
-      - {{to: Stop, after: 3}}
-      - {{to: Rest, when: state_time > 9}}
-  Go: {{at: [440, 100]}}
-  Stop: {{at: [440, 320]}}
-  Rest: {{at: [120, 320]}}
+      - {to: Go, when: state_time > 1}
+      - {to: Stop, after: 3}
+      - {to: Rest, when: state_time > 9}
+  Go: {at: [440, 100]}
+  Stop: {at: [440, 320]}
+  Rest: {at: [120, 320]}
 """
 
 # A busy machine takes its time; what never comes still fails.
@@ -39,10 +37,11 @@ expect.set_options(timeout=WAIT_MS)
 class Sketch:
     """One page on one small design, and what a person does there with mouse and keys."""
 
-    def __init__(self, page: Page, address: str, number: int) -> None:
-        self.page, self.address, self.number = page, address, number
-        page.goto(f"{address}design/forward/Sketch{number}")
+    def __init__(self, page: Page, address: str) -> None:
+        self.page, self.address = page, address
+        page.goto(f"{address}design/forward/Sketch")
         page.wait_for_selector(".vicode-canvas[data-ready]")
+        self.undo_all()
         expect(page.get_by_text("Saved", exact=True)).to_be_visible()
         self.wait_for("vicode.view().resting && Object.keys(vicode.positions()).length === 5")
         # The panel below is filled: nothing moves the drawing any more.
@@ -152,6 +151,14 @@ class Sketch:
         # The drawing may follow a moment later than the words.
         self.wait_for(f"JSON.stringify(Object.entries(vicode.positions()).sort()) === {json.dumps(self.start)}")
 
+    def undo_all(self) -> None:
+        """Take back what an earlier test left."""
+        canvas = self.page.locator(".vicode-canvas")
+        while self.page.locator(".saved").inner_text() != "Saved":
+            rev = canvas.get_attribute("data-rev") or ""
+            self.press("Control+z")
+            expect(canvas).not_to_have_attribute("data-rev", rev)
+
     def vicode(self, call: str) -> Any:
         return self.page.evaluate(f"document.querySelector('.vicode-canvas').vicode.{call}")
 
@@ -170,21 +177,14 @@ def middle(locator: Locator) -> Point:
 
 @pytest.fixture(scope="session")
 def sketches(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
-    """An editor on many small designs: a new one for each test."""
+    """An editor on a small design, and on empty ones."""
     folder = tmp_path_factory.mktemp("sketches")
     shutil.copytree(ROOT / "designs" / "forward", folder / "designs" / "forward")
     (folder / "designs" / "forward" / "blank.yaml").write_text("vicode: 1\ncomponent: Blank\n", encoding="utf-8")
     (folder / "designs" / "forward" / "empty.yaml").write_text("vicode: 1\ncomponent: Empty\n", encoding="utf-8")
-    for number in range(MANY):
-        file = folder / "designs" / "forward" / f"sketch{number}.yaml"
-        file.write_text(DESIGN.format(number=number), encoding="utf-8")
+    (folder / "designs" / "forward" / "sketch.yaml").write_text(DESIGN, encoding="utf-8")
     with started_editor(folder / "designs", folder / "storage") as url:
         yield url
-
-
-@pytest.fixture(scope="session")
-def numbers() -> Iterator[int]:
-    return count()
 
 
 @pytest.fixture(scope="module")
@@ -204,14 +204,8 @@ def first_page(window: BrowserContext) -> Page:
 
 
 @pytest.fixture
-def open_sketch(sketches: str, numbers: Iterator[int]) -> Callable[[Page], Sketch]:
-    """Opens a fresh design in a page."""
-    return lambda page: Sketch(page, sketches, next(numbers))
-
-
-@pytest.fixture
-def sketch(open_sketch: Callable[[Page], Sketch], first_page: Page) -> Iterator[Sketch]:
-    """A hand at a fresh design; errors in the console fail the test."""
+def sketch(sketches: str, first_page: Page) -> Iterator[Sketch]:
+    """A hand at the design as it is on disk; errors in the console fail the test."""
     errors: list[str] = []
 
     def on_console(message: Any) -> None:
@@ -223,7 +217,7 @@ def sketch(open_sketch: Callable[[Page], Sketch], first_page: Page) -> Iterator[
 
     first_page.on("console", on_console)
     first_page.on("pageerror", on_error)
-    yield open_sketch(first_page)
+    yield Sketch(first_page, sketches)
     first_page.remove_listener("console", on_console)
     first_page.remove_listener("pageerror", on_error)
     assert not errors, "the browser reported errors:\n" + "\n".join(errors)

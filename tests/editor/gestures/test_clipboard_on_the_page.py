@@ -1,8 +1,6 @@
 """Copy, cut, paste and duplicate through the clipboard of the system, within a design, between designs and windows."""
 
-from collections.abc import Callable
-
-from playwright.sync_api import Page, expect
+from playwright.sync_api import expect
 
 from tests.editor.gestures.conftest import Sketch
 
@@ -67,9 +65,7 @@ def test_duplicate_keeps_what_leads_between_and_out(sketch: Sketch) -> None:
     sketch.undone()
 
 
-def test_parts_travel_between_designs_and_windows_with_what_they_use(
-    sketch: Sketch, open_sketch: Callable[[Page], Sketch]
-) -> None:
+def test_parts_travel_between_designs_and_windows_with_what_they_use(sketch: Sketch) -> None:
     page = sketch.page.context.new_page()
     page.goto(f"{sketch.address}design/forward/Player")
     player = page.locator('g[data-kind="state"][data-id="LookForBall"] rect.box')

@@ -1,6 +1,6 @@
 """Fingers on a tablet: tap, drag, hold, pinch; targets large enough."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 
 import pytest
 from playwright.sync_api import Browser, BrowserContext, CDPSession, Page, expect
@@ -92,9 +92,7 @@ def test_two_fingers_zoom_and_a_finger_drags_a_transition_from_a_state(sketch: S
     sketch.undone()
 
 
-def test_several_are_selected_without_a_key(
-    sketch: Sketch, fingers: Fingers, open_sketch: Callable[[Page], Sketch]
-) -> None:
+def test_several_are_selected_without_a_key(sketch: Sketch, fingers: Fingers) -> None:
     fingers.tap(sketch.state("Go"))
     several = sketch.page.get_by_role("button", name="Select several")
     several.click()

@@ -64,7 +64,7 @@ export class Clipboard {
     const isShown = Boolean(this.canvas.host.offsetParent);
     if (!isOurs || !isShown || inner.closest?.("input, textarea, [contenteditable=true]")) return;
     event.preventDefault();
-    this.#report(event.clipboardData?.getData("text/plain") ?? "", this.canvas.gestures.pasteSpot());
+    this.#report(event.clipboardData?.getData("text/plain") ?? "", this.canvas.gestures.menuSpot());
   }
 
   #report(text, { x, y }) {

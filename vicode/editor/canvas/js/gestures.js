@@ -90,11 +90,6 @@ export class Gestures {
     return at ? viewport.toWorld(at) : viewport.middle();
   }
 
-  pasteSpot() {
-    this.menuAt = null;
-    return this.menuSpot();
-  }
-
   #take(gesture, from, what) {
     this.cancel();
     this.tool = new Tool(this.canvas, gesture, from, what);

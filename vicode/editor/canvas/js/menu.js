@@ -42,6 +42,7 @@ export class Menu {
 
   close({ refocus = false } = {}) {
     if (this.element.hidden) return;
+    this.canvas.gestures.menuAt = null;
     if (refocus) this.canvas.stage.focus({ preventScroll: true });
     this.element.hidden = true;
   }
@@ -62,11 +63,18 @@ export class Menu {
       html("span", { text: label }),
       html("kbd", { text: shown }),
     ]);
-    row.addEventListener("click", () => {
-      this.close({ refocus: true });
-      this.canvas.commands.run(name);
-    });
+    row.addEventListener("click", () => this.#choose(name));
     return row;
+  }
+
+  /** What is made from the menu goes where it was opened; what is made later by a key does not. */
+  #choose(name) {
+    const { commands, gestures } = this.canvas;
+    const at = gestures.menuAt;
+    this.close({ refocus: true });
+    gestures.menuAt = at;
+    commands.run(name);
+    gestures.menuAt = null;
   }
 
   #items() {
