@@ -5,10 +5,14 @@ from dataclasses import replace
 from nicegui import ui
 from nicegui.events import UploadEventArguments
 
+from vicode.editor.guard import MAXIMUM_BODY
 from vicode.editor.panels.simulation.simulator import Simulator
 from vicode.editor.session.simulation import stood_in_of, used_components
-from vicode.editor.session.simulation.traces import MOST_BYTES, TraceError
+from vicode.editor.session.simulation.traces import TraceError
 
+# The file travels in a body with some words around it.
+_LARGEST = MAXIMUM_BODY - 65_536
+_TOO_LARGE = f"That file is too large for a trace, which may have {_LARGEST / 1e6:.1f} MB: record fewer seconds"
 _HAND, _OWN, _DRIVE, _REPLAY = "Inputs by hand", "All components run", "Inputs from a trace", "Look at a trace"
 
 
@@ -26,9 +30,9 @@ class Ways:
         self.upload = ui.upload(
             label="A trace: vicode run --trace FILE --values",
             auto_upload=True,
-            max_file_size=MOST_BYTES,
+            max_file_size=_LARGEST,
             on_upload=self._take,
-            on_rejected=lambda: simulator.desk.say("That file is too large for a trace", "warning"),
+            on_rejected=lambda: simulator.desk.say(_TOO_LARGE, "warning"),
         )
         self.upload.props('accept=".jsonl,.json,.txt,*" flat bordered').classes("field trace-upload")
         with ui.expansion("How to run").classes("section ways").props("dense dense-toggle"):
@@ -85,8 +89,8 @@ class Ways:
 
     async def _take(self, event: UploadEventArguments) -> None:
         # What the browser promised of the size binds nobody.
-        if event.file.size() > MOST_BYTES:
-            self.simulator.desk.say("That file is too large for a trace", "warning")
+        if event.file.size() > _LARGEST:
+            self.simulator.desk.say(_TOO_LARGE, "warning")
             return
         try:
             text = await event.file.text()
