@@ -33,7 +33,6 @@ class HomePage:
     def __init__(self, library: Library, index: Index) -> None:
         """Build the page for the browser that asks for it."""
         self.library = library
-        self.overviews = [Overview(workspace) for workspace in library.workspaces]
         self.shape: object = None
         self.wanted = ""
         theme = Theme(CodeEditors(), add_look())
@@ -84,18 +83,19 @@ class HomePage:
         self._refresh()
 
     def _refresh(self) -> None:
+        overviews = [self.library.overview(workspace) for workspace in self.library.workspaces]
         shape = (
             self.wanted,
-            [(each.cards(), each.broken(), each.workspace.project.components) for each in self.overviews],
+            [(each.cards(), each.broken(), each.workspace.project.components) for each in overviews],
         )
         if shape == self.shape:
             return
         self.shape = shape
         self.body.clear()
         with self.body:
-            if not self.overviews:
+            if not overviews:
                 self._empty()
-            for overview in self.overviews:
+            for overview in overviews:
                 self._project(overview)
 
     def _empty(self) -> None:

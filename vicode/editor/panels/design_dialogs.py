@@ -74,6 +74,9 @@ class DesignDialogs:
                     for change in planned.changes:
                         ui.label(change.file.name).classes("mono")
                         ui.label(change.words)
+                    if planned.changes and workspace.broken:
+                        unread = f"Not looked into, as it cannot be read: {', '.join(workspace.broken)}"
+                        ui.label(unread).classes("empty")
                     if planned.refused:
                         ui.label(f"Not possible: {planned.refused}").classes("empty")
 

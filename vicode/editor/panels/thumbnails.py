@@ -1,7 +1,6 @@
-"""Small pictures of designs by address; the address names the content, so that browsers may keep it for good."""
+"""Small pictures of designs by address; the address names what is drawn, so that browsers may keep it."""
 
 from functools import lru_cache
-from hashlib import sha256
 from urllib.parse import quote
 
 from nicegui import app
@@ -12,7 +11,7 @@ from vicode.editor.session import Library, Workspace
 from vicode.model.design import Design
 
 _HEADERS = {
-    "cache-control": "private, max-age=31536000, immutable",
+    "cache-control": "private, max-age=86400",
     # It is a picture and nothing else, wherever it is opened.
     "content-security-policy": "default-src 'none'; style-src 'unsafe-inline'",
     "x-content-type-options": "nosniff",
@@ -34,7 +33,8 @@ def serve_thumbnails(library: Library) -> None:
 def thumbnail_address(workspace: Workspace, component: str, *, dark: bool) -> str:
     """Where the picture of a design as it is now is found."""
     design = workspace.project.design(component)
-    version = _version(design, dark) if design else "none"
+    # Equal designs are drawn equally; the number lives as long as this process, and so do the pictures here.
+    version = f"{hash(design) & 0xFFFFFFFFFFFFFFFF:016x}"
     path = f"/thumbnail/{quote(workspace.key, safe='')}/{quote(component, safe='')}/{version}.svg"
     return f"{path}?dark=true" if dark else path
 
@@ -42,7 +42,3 @@ def thumbnail_address(workspace: Workspace, component: str, *, dark: bool) -> st
 @lru_cache(maxsize=512)
 def _drawn(design: Design, dark: bool) -> str:
     return thumbnail(design, dark=dark)
-
-
-def _version(design: Design, dark: bool) -> str:
-    return sha256(_drawn(design, dark).encode()).hexdigest()[:16]

@@ -3,6 +3,7 @@
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from vicode.editor.session.overview import Overview
 from vicode.editor.session.people import People
 from vicode.editor.session.workspace import Workspace
 from vicode.store import find_projects
@@ -15,6 +16,7 @@ class Library:
     path: Path
     people: People = field(init=False, default_factory=People)
     workspaces: list[Workspace] = field(init=False)
+    _overviews: dict[str, Overview] = field(init=False, default_factory=dict)
 
     def __post_init__(self) -> None:
         """Read them all."""
@@ -24,6 +26,10 @@ class Library:
     def workspace(self, key: str) -> Workspace | None:
         """The project of a key."""
         return next((each for each in self.workspaces if each.key == key), None)
+
+    def overview(self, workspace: Workspace) -> Overview:
+        """What the home page shows of a project, shared by all windows."""
+        return self._overviews.setdefault(workspace.key, Overview(workspace))
 
     def begin(self) -> Workspace:
         """The project of a folder that holds none yet."""

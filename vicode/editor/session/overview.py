@@ -44,20 +44,26 @@ class HandWritten:
 
 @dataclass(eq=False)
 class Overview:
-    """Of one project; designs are checked again only after something in the project has changed."""
+    """Of one project, for all windows; a design is checked again only when it, or what it sees of others, changed."""
 
     workspace: Workspace
-    _project: Project | None = field(init=False, default=None)
-    _findings: dict[str, tuple[Finding, ...]] = field(init=False, default_factory=dict)
+    _checked: dict[str, tuple[object, tuple[Finding, ...]]] = field(init=False, default_factory=dict)
 
     def cards(self) -> tuple[Card, ...]:
         """The designs by name."""
-        project = self.workspace.project
-        if project is not self._project:
-            self._findings, self._project = {}, project
+        project, sources, unsaved = self.workspace.project, self.workspace.sources, self.workspace.unsaved
         roots = {agent.root for agent in project.agents}
+        surroundings = _surroundings(project)
         return tuple(
-            self._card(design, is_root=design.component in roots)
+            Card(
+                component=design.component,
+                doc=" ".join(design.doc.split()),
+                file=sources.get(design.component, ""),
+                states=len(design.states),
+                counts=_count(self._findings(design, surroundings)),
+                is_unsaved=design.component in unsaved,
+                is_root=design.component in roots,
+            )
             for design in sorted(project.designs, key=lambda each: each.component.casefold())
         )
 
@@ -82,22 +88,19 @@ class Overview:
             for each in sorted(project.components, key=lambda each: each.component.casefold())
         )
 
-    def _card(self, design: Design, *, is_root: bool) -> Card:
+    def _findings(self, design: Design, surroundings: object) -> tuple[Finding, ...]:
         workspace, name = self.workspace, design.component
-        if name not in self._findings:
+        known = workspace.open_findings(name)
+        if known is not None:
+            return known
+        interfaces = tuple(workspace.project.interface(use.component) for use in design.uses)
+        seen = (surroundings, interfaces, workspace.reading.get(name, ()))
+        cached = self._checked.get(name)
+        if cached is None or cached[0] != (id(design), seen):
             checked = check_design(workspace.project, design)
-            self._findings[name] = tuple(dict.fromkeys((*workspace.reading.get(name, ()), *checked)))
-        found = self._findings[name]
-        counts = {severity: sum(each.severity is severity for each in found) for severity in Severity}
-        return Card(
-            component=name,
-            doc=" ".join(design.doc.split()),
-            file=workspace.sources.get(name, workspace.files[name].name),
-            states=len(design.states),
-            counts={severity: count for severity, count in counts.items() if count},
-            is_unsaved=name in workspace.unsaved,
-            is_root=is_root,
-        )
+            cached = (id(design), seen), tuple(dict.fromkeys((*workspace.reading.get(name, ()), *checked)))
+            self._checked[name] = cached
+        return cached[1]
 
     def _broken(self, file: str) -> Broken:
         every = (finding for findings in self.workspace.reading.values() for finding in findings)
@@ -105,3 +108,14 @@ class Overview:
             if finding.place is not None and finding.place.file.endswith(file):
                 return Broken(file=file, why=finding.message, line=finding.place.line)
         return Broken(file=file, why="it holds no design that can be read")
+
+
+def _surroundings(project: Project) -> object:
+    """What every design of a project may be judged by: common declarations, and who uses whom."""
+    uses = tuple((design.component, design.uses) for design in project.designs)
+    return (project.enumerations, project.constants, uses)
+
+
+def _count(findings: tuple[Finding, ...]) -> Mapping[Severity, int]:
+    counts = {severity: sum(each.severity is severity for each in findings) for severity in Severity}
+    return {severity: count for severity, count in counts.items() if count}

@@ -105,6 +105,11 @@ class Workspace:
         """The components whose designs have changes that no file holds."""
         return tuple(name for name, document in self._documents.items() if not document.is_saved)
 
+    def open_findings(self, component: str) -> tuple[Finding, ...] | None:
+        """What is wrong with a design as it is open; None when it is not."""
+        document = self._documents.get(component)
+        return document.findings if document else None
+
     @property
     def reading(self) -> Mapping[str, tuple[Finding, ...]]:
         """What was wrong with the files when they were read, by component; "" is what belongs to none."""
