@@ -17,7 +17,7 @@ _ICONS = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.NOTE: "
 def design_card(workspace: Workspace, card: Card, dialogs: DesignDialogs) -> None:
     """A design: the picture and the name lead to it."""
     address = design_address(workspace.key, card.component)
-    with ui.element("article").classes("design-card"):
+    with ui.element("article").classes("design-card") as whole:
         with ui.link(target=address).classes("card-picture").props('tabindex="-1" aria-hidden="true"'):
             for theme in ("light", "dark"):
                 picture = ui.element("img").classes(f"is-{theme}").props('alt="" loading="lazy"')
@@ -28,7 +28,7 @@ def design_card(workspace: Workspace, card: Card, dialogs: DesignDialogs) -> Non
             ui.label(card.doc or "No doc yet").classes("card-doc")
             with ui.row().classes("card-facts"):
                 _facts(card)
-        add_design_menu(workspace, card.component, dialogs)
+        add_design_menu(workspace, card.component, dialogs, whole)
 
 
 def _facts(card: Card) -> None:

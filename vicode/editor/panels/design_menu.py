@@ -7,19 +7,32 @@ from vicode.editor.panels.rows import icon_button
 from vicode.editor.session import Workspace
 
 
-def add_design_menu(workspace: Workspace, component: str, dialogs: DesignDialogs) -> None:
-    """Add the button with its menu, and the same menu for right clicks on the current slot."""
-    with icon_button("more_vert", f"More for {component}", lambda: None).classes("more-button"), ui.menu():
-        _items(workspace, component, dialogs)
-    with ui.context_menu():
-        _items(workspace, component, dialogs)
+def add_design_menu(workspace: Workspace, component: str, dialogs: DesignDialogs, around: ui.element) -> None:
+    """Add the button; a right click within `around` opens the same menu.
+
+    The menu is made when it is first wanted: a folder has many designs, and few of them are renamed.
+    """
+    menus: list[ui.menu] = []
+
+    def show() -> None:
+        if not menus:
+            with button:
+                menus.append(_menu(workspace, component, dialogs))
+        menus[0].open()
+
+    button = icon_button("more_vert", f"More for {component}", show).classes("more-button")
+    button.props("aria-haspopup=menu")
+    around.on("contextmenu.prevent", show)
 
 
-def _items(workspace: Workspace, component: str, dialogs: DesignDialogs) -> None:
+def _menu(workspace: Workspace, component: str, dialogs: DesignDialogs) -> ui.menu:
     asked = (
         ("Rename everywhere…", dialogs.ask_name),
         ("Duplicate…", dialogs.ask_copy),
         ("Move to trash…", dialogs.ask_removal),
     )
-    for label, ask in asked:
-        ui.menu_item(label, lambda ask=ask: ask(workspace, component)).props('role="menuitem"')
+    # Quasar would open it at each click on the button as well, and shut what was just opened.
+    with ui.menu().props("no-parent-event") as menu:
+        for label, ask in asked:
+            ui.menu_item(label, lambda ask=ask: ask(workspace, component)).props("role=menuitem")
+    return menu

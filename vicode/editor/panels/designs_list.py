@@ -46,7 +46,7 @@ class DesignsList:
 
     def _design(self, workspace: Workspace, component: str) -> None:
         is_here = self.here == (workspace.key, component)
-        with ui.element("div").classes("design-row"):
+        with ui.element("div").classes("design-row") as row:
             link = ui.link(target=design_address(workspace.key, component))
             link.classes("design-link" + (" is-open" if is_here else ""))
             if is_here:
@@ -55,4 +55,4 @@ class DesignsList:
                 ui.label(component)
                 if component in workspace.unsaved:
                     ui.label("●").classes("unsaved-mark").props('aria-label="unsaved" role="img"')
-            add_design_menu(workspace, component, self.dialogs)
+            add_design_menu(workspace, component, self.dialogs, row)
