@@ -30,7 +30,7 @@ ROOT = Path(__file__).parents[1]
 PAGE = "design/forward/Player"
 PAUSE_S = 2.0
 FIRST_MARK = 100_000
-FORGET_S = 75.0
+FORGET_S = 66.0
 
 
 @dataclass
@@ -40,6 +40,15 @@ class Watch:
     sent_s: dict[int, float] = field(default_factory=dict)
     took_s: list[float] = field(default_factory=list)
     errors: list[str] = field(default_factory=list)
+    gone: list[str] = field(default_factory=list)
+    heard_s: float = 0.0
+
+    async def rest(self, quiet_s: float = 1.5, most_s: float = 120.0) -> None:
+        """Wait until nothing has come for a while: opening fifty windows is another thing than working in them."""
+        end_s = time.perf_counter() + most_s
+        self.heard_s = time.perf_counter()
+        while time.perf_counter() - self.heard_s < quiet_s and time.perf_counter() < end_s:
+            await asyncio.sleep(0.1)
 
     def mark(self) -> int:
         """A number that no other edit has; it travels as a coordinate."""
@@ -68,6 +77,7 @@ class Client:
         self.url, self.name, self.watch = url, f"C{number}", watch
         self.socket = socketio.AsyncClient(reconnection=False)
         self.socket.on("*", self._hear)
+        self.socket.on("disconnect", lambda *_reason: watch.gone.append(self.name))
         self.scene: dict[str, Any] = {}
         self.last: tuple[int, int] | None = None
         self.renames = asyncio.Event()
@@ -99,7 +109,7 @@ class Client:
     async def own_a_state(self) -> None:
         """Make the state that this window moves, and name it."""
         await self._gesture({"kind": "create", "x": 0, "y": 0})
-        await asyncio.wait_for(self.renames.wait(), 120)
+        await asyncio.wait_for(self.renames.wait(), 60)
         await self._gesture({"kind": "rename", "of": "states", "id": self.made, "name": self.name})
 
     async def work(self, until_s: float) -> None:
@@ -131,6 +141,7 @@ class Client:
         if event != "run_javascript":
             return
         code, now_s = str(data.get("code", "")), time.perf_counter()
+        self.watch.heard_s = now_s
         if "showPeople" in code:
             await self._emit("seen", {})
         if "renameInPlace" in code:
@@ -154,18 +165,20 @@ async def measure(url: str, pid: int, clients: int, seconds: float, forget_s: fl
     people = [Client(url, number, watch) for number in range(clients)]
     for client in people:
         await client.enter()
-    for client in people:
-        await client.own_a_state()
-    await asyncio.sleep(1)
+    begun = await asyncio.gather(*(client.own_a_state() for client in people), return_exceptions=True)
+    watch.errors += [f"{client.name}: {each!r}" for client, each in zip(people, begun, strict=True) if each is not None]
+    people = [client for client, each in zip(people, begun, strict=True) if each is None]
+    await watch.rest()
     until_s = time.perf_counter() + seconds
     outcomes = await asyncio.gather(*(client.work(until_s) for client in people), return_exceptions=True)
     watch.errors += [repr(each) for each in outcomes if each is not None]
-    await asyncio.sleep(2)
+    await watch.rest()
     during = _memory_mb(pid)
     late = Client(url, clients, watch)
     await late.enter()
-    await asyncio.sleep(2)
+    await watch.rest()
     lost = [client.name for client in people if client.last and late.scene.get(client.name) != client.last]
+    watch.errors += [f"{name} lost its connection" for name in watch.gone]
     for client in (*people, late):
         await client.leave()
     await asyncio.sleep(forget_s)

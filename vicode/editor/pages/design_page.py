@@ -137,8 +137,9 @@ class DesignPage:
             self._follow()
         elif not self.is_behind and core.loop is not None:
             self.is_behind = True
-            # Generating reads the disk beside the event loop.
-            core.loop.call_soon_threadsafe(core.loop.call_later, _BREATH_S, self._follow)
+            # The more windows there are, the more edits each takes at once. Generating reads beside the event loop.
+            pause_s = _BREATH_S * max(1.0, len(self.desk.company.all) / 8)
+            core.loop.call_soon_threadsafe(core.loop.call_later, pause_s, self._follow)
 
     def _follow(self) -> None:
         self.is_behind = False
