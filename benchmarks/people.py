@@ -5,6 +5,7 @@ one process beside the server: fifty real browsers would measure the machine, no
 """
 
 import asyncio
+import contextlib
 import html
 import json
 import os
@@ -30,6 +31,7 @@ ROOT = Path(__file__).parents[1]
 PAGE = "design/forward/Player"
 PAUSE_S = 2.0
 FIRST_MARK = 100_000
+# A window that is closed is forgotten after a minute.
 FORGET_S = 66.0
 
 
@@ -80,6 +82,7 @@ class Client:
         self.socket.on("disconnect", lambda *_reason: watch.gone.append(self.name))
         self.scene: dict[str, Any] = {}
         self.last: tuple[int, int] | None = None
+        self.loaded = asyncio.Event()
         self.renames = asyncio.Event()
         self.rev = 0
 
@@ -104,7 +107,12 @@ class Client:
         await self.socket.connect(
             f"{self.url}?{query}", transports=["websocket"], socketio_path="/_nicegui_ws/socket.io", wait_timeout=30
         )
-        await self._emit("ready", {})
+        # What is said before the handshake is done is not heard.
+        for _attempt in range(20):
+            await self._emit("ready", {})
+            with contextlib.suppress(TimeoutError):
+                await asyncio.wait_for(self.loaded.wait(), 5)
+                return
 
     async def own_a_state(self) -> None:
         """Make the state that this window moves, and name it."""
@@ -152,6 +160,7 @@ class Client:
         if '"load"' in code:
             places = re.findall(r'"id":"(C\d+)".*?"x":([\d.]+),"y":([\d.]+)', code)
             self.scene = {name: (float(x), float(y)) for name, x, y in places}
+            self.loaded.set()
         if '"apply"' in code:
             for mark in re.findall(r'"x":(\d{6,})', code):
                 if int(mark) in self.watch.sent_s:
