@@ -7,6 +7,7 @@ const FAR = 0.3;
 const FAR_STATES = 150;
 const CROWD = 240;
 const LEAVING = 0.88;
+const THAW_MS = 300;
 
 export class Levels {
   constructor(canvas, plane, colours) {
@@ -37,14 +38,10 @@ export class Levels {
     else if (!painter.covers(viewport.rect())) this.#uncovered(zooms);
   }
 
-  /** The view came to rest: what is seen is drawn as well as it can be. */
+  /** The view came to rest: what is seen is drawn as well as it can be; after a picture a little later, as wheels pause. */
   rest() {
-    if (this.far && !this.#tooMuch(LEAVING)) this.#setFar(false);
-    this.#thaw();
-    this.cull();
-    if (this.far) this.overview.sharpen(this.canvas.selection.keys);
-    if (this.shownZoom !== this.sharpZoom) this.#rasterAnew();
-    if (!this.far) this.snapshot.prepare(this.shownZoom);
+    if (!this.frozen) return this.#settle();
+    this.canvas.frame.afterRest("thaw", THAW_MS, () => this.canvas.viewport.resting && this.#settle());
   }
 
   /** Brings the mounted part up to what is seen. */
@@ -87,6 +84,15 @@ export class Levels {
       this.overview.prepare(selection.keys);
       if (this.far) this.overview.sharpen(selection.keys);
     });
+  }
+
+  #settle() {
+    if (this.far && !this.#tooMuch(LEAVING)) this.#setFar(false);
+    this.#thaw();
+    this.cull();
+    if (this.far) this.overview.sharpen(this.canvas.selection.keys);
+    if (this.shownZoom !== this.sharpZoom) this.#rasterAnew();
+    if (!this.far) this.snapshot.prepare(this.shownZoom);
   }
 
   #placePlane() {
