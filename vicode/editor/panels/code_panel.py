@@ -47,16 +47,15 @@ class CodePanel:
         """The file that is shown."""
         return next((file for file in self.preview.files if file.path == self.choice.value), None)
 
-    def _generate(self) -> Preview:
-        workspace = self.desk.workspace
-        return preview.preview_of(workspace.project, self.desk.design, workspace.sources, workspace.output_folder)
-
     async def _follow(self) -> None:
         """Generate beside the event loop until the newest design is shown."""
         try:
             while self.shown_rev != self.desk.document.rev:
                 self.shown_rev = self.desk.document.rev
-                shown = await run.io_bound(self._generate)
+                # What is asked for is taken here, not in the thread, where it could change meanwhile.
+                workspace, design = self.desk.workspace, self.desk.design
+                around = (workspace.sources, workspace.output_folder)
+                shown = await run.io_bound(preview.preview_of, workspace.project, design, *around)
                 # Nothing comes back while the server is shutting down.
                 if shown is None or self.editor.is_deleted:
                     return
