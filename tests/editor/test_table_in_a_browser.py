@@ -136,8 +136,12 @@ def test_table_drawing_and_another_window_keep_in_step(editor: str, page: Page) 
 
 
 def test_a_thousand_states_are_gone_through_by_keys(editor: str, page: Page, project: Path) -> None:
-    states = "".join(f"  S{n}:\n    transitions: [{{to: S{(n + 1) % 1000}, after: {n}}}]\n" for n in range(1000))
-    (project / "forward" / "long.yaml").write_text(f"vicode: 1\ncomponent: Long\nstates:\n{states}")
+    states = "".join(
+        f"  S{n}:\n    at: [{200 * (n % 40)}, {120 * (n // 40)}]\n"
+        f"    transitions: [{{to: S{(n + 1) % 1000}, after: {n}}}]\n"
+        for n in range(1000)
+    )
+    (project / "forward" / "long.yaml").write_text(f"vicode: 1\ncomponent: Long\ninitial: S0\nstates:\n{states}")
     page.goto(editor + "design/forward/Long")
     expect(page.get_by_role("button", name="Table")).to_be_visible()
     page.get_by_role("button", name="Table").click()
