@@ -84,6 +84,9 @@ class Field:
 
     def _typed(self, value: Any) -> None:
         now = self.bound.read(self.desk.design)
+        # A choice whose value is not among its options says None of itself: nobody chose that.
+        if value is None and now == "":
+            return
         self.refused, self._refused_beside = self.bound.refuse(value), now
         if self.refused or value == now:
             if value == now:
