@@ -27,11 +27,15 @@ class TooLargeError(Exception):
 
 @dataclass(eq=False)
 class Guard:
-    """ASGI middleware. `hosts` are the names the server answers to; None: any, but then a `token` is asked for."""
+    """ASGI middleware. `hosts` are the names the server answers to; None: any, but then a `token` is asked for.
+
+    Browsers give a host's cookies to all of its ports, so that two editors on one need a `cookie` each.
+    """
 
     app: ASGIApp
     hosts: Collection[str] | None
     token: str = ""
+    cookie: str = COOKIE
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Let a request through, or answer 403 (413 for a body that is too large)."""
@@ -64,7 +68,7 @@ class Guard:
         if not self.token:
             return True
         try:
-            cookie = SimpleCookie(headers.get(b"cookie", "")).get(COOKIE)
+            cookie = SimpleCookie(headers.get(b"cookie", "")).get(self.cookie)
         except CookieError:
             return False
         return cookie is not None and hmac.compare_digest(cookie.value.encode(), self.token.encode())
@@ -82,7 +86,7 @@ class Guard:
         rest = urlencode(query, doseq=True)
         # A path of two slashes would lead to another host.
         location = "/" + quote(scope["path"].lstrip("/")) + (f"?{rest}" if rest else "")
-        cookie = f"{COOKIE}={self.token}; Path=/; HttpOnly; SameSite=Strict"
+        cookie = f"{self.cookie}={self.token}; Path=/; HttpOnly; SameSite=Strict"
         headers = [(b"location", location.encode("latin-1")), (b"set-cookie", cookie.encode()), *_HEADERS]
         await send({"type": "http.response.start", "status": 303, "headers": headers})
         await send({"type": "http.response.body", "body": b""})

@@ -62,7 +62,7 @@ def serve(path: Path, address: Address, *, open_browser: bool = True, tour: bool
     os.environ.setdefault(STORAGE, str(Path(tempfile.gettempdir()) / f"vicode-{os.getuid()}"))
     from nicegui import app, background_tasks, ui  # noqa: PLC0415 - it reads the environment when imported
 
-    from vicode.editor.guard import Guard  # noqa: PLC0415
+    from vicode.editor.guard import COOKIE, Guard  # noqa: PLC0415
     from vicode.editor.pages.add import add_pages  # noqa: PLC0415
     from vicode.editor.session import Library  # noqa: PLC0415
     from vicode.editor.session.keeper import Keeper  # noqa: PLC0415
@@ -72,13 +72,14 @@ def serve(path: Path, address: Address, *, open_browser: bool = True, tour: bool
     add_pages(library, Keeper(library, open_recovery()), tour=tour)
     hosts = ("127.0.0.1", "localhost", "::1") if not address.token else None
     start = address.url_of(_first_page(library))
-    # A folder's home is printed, so that it can be given to others; who names a file wants its design.
-    shown = address.url if path.is_dir() else start
-    app.add_middleware(Guard, hosts=hosts, token=address.token)
+    words = [f"vicode edits {path} at {start}  (Ctrl-C ends it)"]
+    if path.is_dir() and start != address.url:
+        words = [f"vicode edits {path} at {address.url}  (Ctrl-C ends it)", f"  begin with {start}"]
+    app.add_middleware(Guard, hosts=hosts, token=address.token, cookie=f"{COOKIE}_{address.port}")
     # Quasar's bar for requests under way is a landmark without a name, and says nothing here: all is one socket.
     app.config.quasar_config["loadingBar"] = {"skipHijack": True}
     app.config.quasar_config["ripple"] = False
-    app.on_startup(lambda: background_tasks.create(_announce(path, shown, address), name="announce"))
+    app.on_startup(lambda: background_tasks.create(_announce("\n".join(words), address), name="announce"))
     ui.run(
         host=address.host,
         port=address.port,
@@ -103,8 +104,8 @@ def _first_page(library: "Library") -> str:
     return design_address(first[0].key, first[1]) if first else "/"
 
 
-async def _announce(path: Path, url: str, address: Address) -> None:
-    """Print the address once the server answers there: it is told that it starts before it listens."""
+async def _announce(words: str, address: Address) -> None:
+    """Print the addresses once the server answers there: it is told that it starts before it listens."""
     for _attempt in range(500):
         try:
             _reader, writer = await asyncio.open_connection(address.local_host, address.port)
@@ -112,7 +113,7 @@ async def _announce(path: Path, url: str, address: Address) -> None:
             await asyncio.sleep(0.02)
         else:
             writer.close()
-            print(f"vicode edits {path} at {url}  (Ctrl-C ends it)", flush=True)  # noqa: T201
+            print(words, flush=True)  # noqa: T201
             return
 
 
