@@ -3,7 +3,8 @@
 VENV := .venv
 BIN := $(VENV)/bin
 PYTEST := $(BIN)/python -m pytest
-PARALLEL := -n 2 --dist loadfile
+# Three for two cores: browser tests wait a lot.
+PARALLEL := -n 3 --dist loadfile
 
 # The first interpreter that is new enough and can make environments.
 PYTHON = $(shell for name in python3 python3.14 python3.13 python3.12 python3.11; do \

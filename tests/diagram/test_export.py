@@ -128,6 +128,7 @@ def test_pdf_shows_letters_that_helvetica_has_not() -> None:
     assert "α" in text
 
 
+@pytest.mark.nightly
 def test_large_designs_fit_into_what_the_forms_allow() -> None:
     design = ring_design(400)
     page = PdfReader(BytesIO(export(design, Format.PDF))).pages[0]

@@ -37,7 +37,7 @@ def open_player(page: Page, url: str) -> None:
     expect(page.get_by_label("Doc").first).to_be_visible()
 
 
-@pytest.mark.parametrize("colours", ["light", "dark"])
+@pytest.mark.parametrize("colours", ["light", pytest.param("dark", marks=pytest.mark.nightly)])
 def test_axe_finds_nothing(editor: str, page: Page, colours: str) -> None:
     page.emulate_media(color_scheme="dark" if colours == "dark" else "light", reduced_motion="reduce")
     open_player(page, editor)

@@ -249,7 +249,8 @@ def test_texts_from_strangers_stay_texts_while_simulated(editor: str, page: Page
     assert "owned" not in page.title()
 
 
-@pytest.mark.parametrize("colours", ["light", pytest.param("dark", marks=pytest.mark.nightly)])
+@pytest.mark.nightly
+@pytest.mark.parametrize("colours", ["light", "dark"])
 def test_axe_finds_nothing_while_it_runs(editor: str, page: Page, colours: str) -> None:
     page.emulate_media(color_scheme="dark" if colours == "dark" else "light", reduced_motion="reduce")
     open_simulation(page, editor)

@@ -1,8 +1,8 @@
 """Form fields that show one value of the design and change it, without disturbing who types in them."""
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
-from typing import Any
+from dataclasses import dataclass, field, replace
+from typing import Any, cast
 
 from nicegui import ui
 from nicegui.elements.mixins.disableable_element import DisableableElement
@@ -84,9 +84,6 @@ class Field:
 
     def _typed(self, value: Any) -> None:
         now = self.bound.read(self.desk.design)
-        # A choice whose value is not among its options says None of itself: nobody chose that.
-        if value is None and now == "":
-            return
         self.refused, self._refused_beside = self.bound.refuse(value), now
         if self.refused or value == now:
             if value == now:
@@ -133,13 +130,38 @@ def text_field(desk: Desk, bound: Bound, *, monospace: bool = False, lines: bool
 
 
 def choice_field(desk: Desk, bound: Bound, options: Sequence[str], *, several: bool = False) -> Field:
-    """One, or several, of the options."""
+    """One, or several, of the options; what the design holds can always be chosen, known or not."""
+    if not several:
+        bound = _none_for_empty(bound)
     with ui.column().classes("field"):
         element = ui.select(list(options), label=bound.label, multiple=several, value=[] if several else None)
         element.props("outlined dense options-dense stack-label" + (" use-chips" if several else ""))
         message = ui.label().classes("field-finding")
         message.set_visibility(False)
-    return Field(desk, bound, element, message)
+    return ChoiceField(desk, bound, element, message)
+
+
+def _none_for_empty(bound: Bound) -> Bound:
+    """The same value, None where it is empty: a choice of one shows nothing as None."""
+    return replace(
+        bound,
+        read=lambda design: bound.read(design) or None,
+        write=lambda design, value: bound.write(design, value or ""),
+    )
+
+
+class ChoiceField(Field):
+    """A choice; without the design's value among its options it would choose something else by itself."""
+
+    def refresh(self) -> None:
+        """Show what the design holds."""
+        value = self.bound.read(self.desk.design)
+        held = value if isinstance(value, list) else [value] if value else []
+        element = cast("ui.select", self.element)
+        missing = [each for each in held if each not in element.options]
+        if missing:
+            element.set_options([*element.options, *missing])
+        super().refresh()
 
 
 def flag_field(desk: Desk, bound: Bound) -> Field:
