@@ -92,6 +92,8 @@ def test_code_edited_by_hand_is_shown_and_kept(editor: str, page: Page, project:
     expect(page.get_by_text(re.compile("Generated .*in "))).not_to_have_count(0)
     expect(dialog).to_have_count(0)
     file = code(project)
+    while not file.exists():
+        page.wait_for_timeout(50)
     file.write_text(file.read_text().replace("import logging\n", "import logging\nimport math\n"))
     select_state(page, "LookForBall")
     page.get_by_label("Doc", exact=True).first.fill("Another doc.")

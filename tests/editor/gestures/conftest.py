@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from typing import Any
 
 import pytest
-from playwright.sync_api import Browser, BrowserContext, Locator, Page, expect
+from playwright.sync_api import Browser, BrowserContext, FloatRect, Locator, Page, expect
 
 from tests.editor.conftest import ROOT, started_editor
 
@@ -168,10 +168,14 @@ class Sketch:
         )
 
 
-def middle(locator: Locator) -> Point:
+def box_of(locator: Locator) -> FloatRect:
+    """Where a thing is on the screen; it may be drawn anew between two questions."""
     locator.wait_for()
-    box = locator.bounding_box()
-    assert box is not None
+    return locator.bounding_box() or box_of(locator)
+
+
+def middle(locator: Locator) -> Point:
+    box = box_of(locator)
     return box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
 
 

@@ -5,7 +5,7 @@ from collections.abc import Iterator
 import pytest
 from playwright.sync_api import Browser, BrowserContext, CDPSession, Page, expect
 
-from tests.editor.gestures.conftest import WAIT_MS, Point, Sketch, middle
+from tests.editor.gestures.conftest import WAIT_MS, Point, Sketch, box_of, middle
 
 
 class Fingers:
@@ -83,9 +83,7 @@ def test_two_fingers_zoom_and_a_finger_drags_a_transition_from_a_state(sketch: S
     fingers.tap(sketch.state("Rest"))
     sketch.selects("states/Rest")
     disc = sketch.page.locator('circle.handle-hit[data-handle="s:Rest"]').nth(1)
-    disc.wait_for()
-    box = disc.bounding_box()
-    assert box is not None
+    box = box_of(disc)
     assert min(box["width"], box["height"]) >= 40 * min(1, before)
     fingers.drag(middle(disc), sketch.state("Stop"))
     expect(sketch.arrow("Rest/0")).to_have_count(1)

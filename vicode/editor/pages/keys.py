@@ -19,7 +19,10 @@ document.addEventListener("keydown", (event) => {
   const types = event.target.closest?.("input, textarea, [contenteditable=true], .canvas");
   if (!wish || (types && !wish.typing)) return;
   event.preventDefault();
-  if (window.did_handshake) emitEvent("command-" + wish.name);
+  if (!window.did_handshake) return;
+  // What can begin in the browser alone does so, and calls the event off.
+  const isLeft = dispatchEvent(new CustomEvent("vicode-wish", { detail: wish.name, cancelable: true }));
+  if (isLeft) emitEvent("command-" + wish.name);
 }, true);
 </script>
 """

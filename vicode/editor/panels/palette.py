@@ -39,14 +39,18 @@ class Palette(ui.element, component="vicode_palette.js"):
         self._things: list[Thing] = []
         self._told: tuple[str, tuple[Match, ...]] = ("", ())
         # Handlers added after the first rendering would make NiceGUI mount the element anew.
+        self.on("opened", self._take_stock)
         self.on("ask", self._hear_ask)
         self.on("choose", self._hear_choose)
 
     def open(self) -> None:
-        """Show it, and take stock of what there is now."""
+        """Show it."""
+        self.run_method("open")
+
+    def _take_stock(self) -> None:
+        """It was opened, by its keys or by `open`: look at what there is now."""
         self._things = [*self._index.things(), *(_thing_of(command) for command in self.commands)]
         self._told = ("", ())
-        self.run_method("open")
 
     def _hear_ask(self, event: GenericEventArguments) -> None:
         matches = self._find(_text(event))

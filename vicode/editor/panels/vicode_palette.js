@@ -26,12 +26,25 @@ export default {
       </div>
     </dialog>`,
   data: () => ({ text: "", hits: [], at: 0, words: "" }),
+  mounted() {
+    // Its keys open it here and now: what is typed next must not fall on the drawing below.
+    this.hear = (event) => {
+      if (event.detail !== "find") return;
+      event.preventDefault();
+      this.open();
+    };
+    addEventListener("vicode-wish", this.hear);
+  },
+  unmounted() {
+    removeEventListener("vicode-wish", this.hear);
+  },
   methods: {
     open() {
       if (this.$refs.box.open) return this.$refs.field.select();
       this.text = "";
       this.$refs.box.showModal();
       this.$refs.field.focus();
+      this.$emit("opened");
       this.ask();
     },
     /** What Python found for a text; an answer to an older text is shown until the newer comes. */
