@@ -2,6 +2,7 @@
 
 from pathlib import Path
 
+import pytest
 from playwright.sync_api import Page, expect
 
 from tests.diagram.drawn_designs import ring_design
@@ -69,6 +70,7 @@ def test_an_edit_ends_the_preview(editor: str, page: Page, project: Path) -> Non
     expect(page.locator("path.before")).to_have_count(0)
 
 
+@pytest.mark.nightly
 def test_a_layout_that_takes_long_is_called_off(editor: str, page: Page, project: Path) -> None:
     file = project / "forward" / "ring.yaml"
     write_text(file, save_design(ring_design(480, chords=4), ""))

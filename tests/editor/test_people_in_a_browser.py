@@ -121,6 +121,7 @@ def test_two_people_type_into_one_field(editor: str, page: Page, other: Page) ->
         expect(each).to_have_value("then kick the ball hard")
 
 
+@pytest.mark.nightly
 def test_typing_goes_on_while_the_form_around_it_changes(editor: str, page: Page, other: Page) -> None:
     open_player(page, editor)
     open_player(other, editor)
@@ -139,6 +140,7 @@ def test_typing_goes_on_while_the_form_around_it_changes(editor: str, page: Page
     expect(other.get_by_role("textbox", name="Doc")).to_have_value("first and second")
 
 
+@pytest.mark.nightly
 def test_a_selection_follows_what_others_rename(editor: str, page: Page, other: Page) -> None:
     open_player(page, editor)
     open_player(other, editor)

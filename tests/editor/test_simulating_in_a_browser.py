@@ -198,6 +198,7 @@ def test_the_menu_runs_to_a_state_and_sets_breakpoints(editor: str, page: Page) 
     expect(page.get_by_text("Stopped on entering FollowBall")).to_be_visible()
 
 
+@pytest.mark.nightly
 def test_a_long_run_can_be_paused_and_time_gone_through(editor: str, page: Page) -> None:
     open_simulation(page, editor)
     page.keyboard.press("Shift+F6")

@@ -41,6 +41,7 @@ class Canvas {
     this.table = table;
     this.activeSeq = -1;
     this.fitPending = true;
+    this.nudged = null;
     this.frame = new Frame();
     this.scene = new Scene();
     this.router = new Router(this.scene);
@@ -158,6 +159,7 @@ class Canvas {
 
   /** Sends one gesture to Python. */
   report(kind, payload) {
+    if (kind !== "move") this.nudged = null;
     this.emit("gesture", { kind, ...payload, rev: this.scene.rev });
   }
 
