@@ -30,8 +30,6 @@ def test_moments_are_kept_whole() -> None:
     assert recording.states == ["Dark", "Lit", "Lit"]
     assert recording.latest_transition(3) == "Lit/0"
     assert recording.latest_transition(1) == ""
-    assert recording.number_at(19) == 1
-    assert recording.number_at(20) == 2
 
 
 def test_the_way_is_told_as_runs_between_inputs() -> None:

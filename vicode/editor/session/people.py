@@ -63,11 +63,6 @@ class People:
         known = self._known.get(id_)
         return known.name if known else "somebody"
 
-    def colour_of(self, id_: str) -> int | None:
-        """The colour of a person, None for who has none."""
-        known = self._known.get(id_)
-        return known.colour if known else None
-
 
 @dataclass(eq=False)
 class Company:

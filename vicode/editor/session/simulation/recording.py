@@ -107,10 +107,6 @@ class Recording:
         """The transition that was taken last up to a moment, "" if there was none."""
         return next((each for each in reversed(self.transitions[:number]) if each), "")
 
-    def number_at(self, time_ns: int) -> int:
-        """The last moment that is not later than a time."""
-        return bisect_right(self.times_ns, time_ns)
-
     def _add_values(self, moment: Moment) -> None:
         index = len(self) - 1
         for step in moment.tree:
