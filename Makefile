@@ -4,7 +4,7 @@ VENV := .venv
 BIN := $(VENV)/bin
 PYTEST := $(BIN)/python -m pytest
 # Three for two cores: browser tests wait a lot.
-PARALLEL := -n 3 --dist loadfile
+PARALLEL := -n 3 --dist loadfile --max-worker-restart 1
 
 # The first interpreter that is new enough and can make environments.
 PYTHON = $(shell for name in python3 python3.14 python3.13 python3.12 python3.11; do \
@@ -33,7 +33,7 @@ check: $(VENV)/.ready-dev  ## format, lint, types, architecture, fast tests (und
 	@$(PYTEST) $(PARALLEL) -m "not browser and not nightly"
 
 nightly: $(VENV)/.ready-test chromium  ## the long runs: kills, fuzzing, many more examples, the browser tests 20 times
-	@VICODE_HYPOTHESIS=nightly $(PYTEST) $(PARALLEL) -m "nightly or hypothesis"
+	@VICODE_HYPOTHESIS=nightly $(PYTEST) $(PARALLEL) --timeout 3600 -m "nightly or hypothesis"
 	@VICODE_RUNS=20 $(PYTEST) $(PARALLEL) -m "browser and not nightly"
 
 bench: $(VENV)/.ready-bench  ## measure against a hand-written machine and other libraries

@@ -112,16 +112,15 @@ def test_a_double_click_on_an_arrow_leads_to_its_guard(editor: str, page: Page) 
     expect(page.get_by_label("When", exact=True)).to_have_text("not kicker.busy")
 
 
-def test_two_windows_stay_in_step(editor: str, page: Page) -> None:
-    other = page.context.new_page()
+def test_two_windows_stay_in_step(editor: str, page: Page, second_window: Page) -> None:
     open_player(page, editor)
-    open_player(other, editor)
+    open_player(second_window, editor)
     stage = page.locator("main.stage").bounding_box()
     assert stage is not None
     create_state(page, stage["x"] + 30, stage["y"] + stage["height"] - 40, "Pause")
-    expect(state(other, "Pause")).to_be_visible()
-    other.get_by_role("button", name="Undo").click()
-    other.get_by_role("button", name="Undo").click()
+    expect(state(second_window, "Pause")).to_be_visible()
+    second_window.get_by_role("button", name="Undo").click()
+    second_window.get_by_role("button", name="Undo").click()
     expect(state(page, "Pause")).to_have_count(0)
     expect(page.get_by_text("Saved", exact=True)).to_be_visible()
 

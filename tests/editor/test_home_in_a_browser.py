@@ -85,13 +85,14 @@ def test_a_new_design_begins_with_a_template(editor: str, page: Page, project: P
     assert "component: Knock" in (project / "forward" / "knock.yaml").read_text()
 
 
-def test_a_renaming_shows_what_changes_does_it_and_takes_it_back(editor: str, page: Page, project: Path) -> None:
+def test_a_renaming_shows_what_changes_does_it_and_takes_it_back(
+    editor: str, page: Page, second_window: Page, project: Path
+) -> None:
     folder = project / "forward"
     before = (folder / "player.yaml").read_text()
     open_home(page, editor)
-    other = page.context.new_page()
-    other.goto(editor + "design/forward/FaceBall")
-    expect(state(other, "Facing")).to_be_visible()
+    second_window.goto(editor + "design/forward/FaceBall")
+    expect(state(second_window, "Facing")).to_be_visible()
     dialog = choose(page, "FaceBall", "Rename everywhere")
     field = dialog.get_by_label("New name")
     field.fill("Turn")
@@ -104,9 +105,12 @@ def test_a_renaming_shows_what_changes_does_it_and_takes_it_back(editor: str, pa
     expect(card(page, "FaceBall")).to_have_count(0)
     assert "component: LookAtBall" in (folder / "player.yaml").read_text()
     # The window that was open on it goes with it.
-    expect(other).to_have_url(re.compile(r"/LookAtBall$"))
+    expect(second_window).to_have_url(re.compile(r"/LookAtBall$"))
+    expect(state(second_window, "Facing")).to_be_visible()
     page.get_by_role("button", name="Undo").click()
     expect(card(page, "FaceBall")).to_be_visible()
+    expect(second_window).to_have_url(re.compile(r"/FaceBall$"))
+    expect(state(second_window, "Facing")).to_be_visible()
     assert (folder / "player.yaml").read_text() == before
 
 

@@ -115,7 +115,7 @@ def test_addresses_lead_nowhere_outside(editor: str, page: Page, project: Path, 
     (project.parent / "secret.yaml").write_text("vicode: 1\ncomponent: Secret\nstates: {Hidden: {}}\n")
     for address in OUTSIDE:
         try:
-            with urllib.request.urlopen(editor + address) as answer:
+            with urllib.request.urlopen(editor + address, timeout=60) as answer:
                 text = answer.read().decode()
         except HTTPError as error:
             text = error.read().decode()

@@ -112,18 +112,17 @@ def test_a_choice_is_made_by_mouse(editor: str, page: Page) -> None:
     expect(cell(page, "states/Kick", "doc")).to_have_text("one of six")
 
 
-def test_table_drawing_and_another_window_keep_in_step(editor: str, page: Page) -> None:
-    other = page.context.new_page()
+def test_table_drawing_and_another_window_keep_in_step(editor: str, page: Page, second_window: Page) -> None:
     open_table(page, editor)
-    other.goto(editor + PLAYER)
-    expect(other.locator('g[data-kind="state"][data-id="Kick"]')).to_be_visible()
+    second_window.goto(editor + PLAYER)
+    expect(second_window.locator('g[data-kind="state"][data-id="Kick"]')).to_be_visible()
     cell(page, "states/FollowBall", "name").click()
     expect(page.get_by_label("State", exact=True)).to_have_value("FollowBall")
     press(page, "F2")
     page.keyboard.type("Chase")
     press(page, "Enter")
-    expect(other.locator('g[data-kind="state"][data-id="Chase"]')).to_be_visible()
-    other.get_by_role("button", name="Undo").click()
+    expect(second_window.locator('g[data-kind="state"][data-id="Chase"]')).to_be_visible()
+    second_window.get_by_role("button", name="Undo").click()
     expect(cell(page, "states/FollowBall", "name")).to_be_visible()
     press(page, "F4")
     box = page.locator('g[data-kind="state"][data-id="GetUp"] rect.box').bounding_box()

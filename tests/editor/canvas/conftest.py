@@ -112,7 +112,7 @@ class Hand:
 
     def _ask(self, path: str, body: bytes | None = None) -> str:
         request = Request(self.address + path, data=body, headers={"Content-Type": "application/json"})
-        with urlopen(request) as answer:
+        with urlopen(request, timeout=60) as answer:
             return str(answer.read().decode())
 
 
@@ -184,7 +184,7 @@ def _wait_until_served(address: str, process: subprocess.Popen[bytes], log: Path
     end = time.monotonic() + 60
     while time.monotonic() < end and process.poll() is None:
         try:
-            urlopen(f"{address}/heard").close()
+            urlopen(f"{address}/heard", timeout=60).close()
         except OSError:
             time.sleep(0.05)
         else:
