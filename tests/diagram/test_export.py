@@ -9,8 +9,9 @@ import pytest
 from pypdf import PdfReader
 
 from tests.diagram.drawn_designs import HOSTILE_NAMES, ring_design, shipped_designs
-from vicode.diagram.export import Format, Wish, export
+from vicode.diagram.export import export
 from vicode.diagram.figure import figure_of
+from vicode.diagram.formats import Format, Wish
 from vicode.diagram.palettes import DARK, LIGHT, Palette
 from vicode.diagram.routes import routes_of
 from vicode.model.design import Code, Common, Design, Group, Guard, State, Transition, Use

@@ -30,7 +30,8 @@ def run(args: argparse.Namespace) -> int:
     if design is None:
         return 1
     # Drawing loads Graphviz's and PDF's writers, which --help has no need of.
-    from vicode.diagram.export import Format, Wish, export
+    from vicode.diagram.export import export
+    from vicode.diagram.formats import Format, Wish
 
     only = _states(args.states)
     unknown = sorted((only or frozenset()) - {state.name for state in design.states})

@@ -1,10 +1,9 @@
 """Takes a drawing of a design out: as a picture, or as text that other tools draw."""
 
 from collections.abc import Callable, Collection
-from dataclasses import dataclass, field
-from enum import StrEnum
 
 from vicode.diagram.drawing import draw
+from vicode.diagram.formats import Format, Wish
 from vicode.diagram.graphviz_text import write_graphviz
 from vicode.diagram.mermaid import write_mermaid
 from vicode.diagram.palettes import DARK, LIGHT
@@ -15,43 +14,6 @@ from vicode.diagram.shapes import Drawing
 from vicode.diagram.svg import write_svg
 from vicode.model.design import Design
 from vicode.model.enabling import enabled_part
-
-
-class Format(StrEnum):
-    """What a drawing can be written as."""
-
-    SVG = "svg"
-    PDF = "pdf"
-    PNG = "png"
-    MERMAID = "mermaid"
-    PLANTUML = "plantuml"
-    DOT = "dot"
-
-    @property
-    def label(self) -> str:
-        """What people call it."""
-        return {Format.MERMAID: "Mermaid", Format.PLANTUML: "PlantUML"}.get(self, self.upper())
-
-    @property
-    def suffix(self) -> str:
-        """How the names of its files end."""
-        return {Format.MERMAID: ".mmd", Format.PLANTUML: ".puml"}.get(self, f".{self}")
-
-    @property
-    def media_type(self) -> str:
-        """How a browser is told what it is."""
-        types = {Format.SVG: "image/svg+xml", Format.PDF: "application/pdf", Format.PNG: "image/png"}
-        return types.get(self, "text/plain; charset=utf-8")
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Wish:
-    """What of a design is drawn, and how; `only` names states, None for all, with what they use if `links`."""
-
-    only: frozenset[str] | None = None
-    links: bool = True
-    dark: bool = False
-    scale: float = field(default=2.0)
 
 
 def export(design: Design, form: Format, wish: Wish | None = None) -> bytes:

@@ -41,6 +41,7 @@ class Canvas(ui.element, component="js/vicode_canvas.js"):
         self._links_shown = True
         self._arrival: tuple[Kind, str] | None = None
         self._is_mounted = False
+        self._rev_in_page: int | None = None
         self.on_shown: Callable[[], None] = lambda: None
         self._active: tuple[list[str], int, list[str]] = ([], -1, [])
         self._stops: list[Item] = []
@@ -56,13 +57,16 @@ class Canvas(ui.element, component="js/vicode_canvas.js"):
     def load(self, view: Scene) -> None:
         """Show a whole scene; the view is kept when it is the same component as before, else all is fitted in."""
         self._scene = {**view, **{kind: {thing["id"]: thing for thing in view.get(kind, ())} for kind in _KINDS}}
+        if not self._is_mounted:
+            # It travels with the page, so that it is drawn before the page's socket is open.
+            self._props["scene"], self._rev_in_page = self._whole(), view["rev"]
         self._call("load", self._whole())
 
     def apply(self, changes: Changes) -> None:
         """Bring the shown scene up to date by a difference."""
         if self._scene is None:
             raise RuntimeError("apply() needs a scene: call load() first")
-        self._scene["rev"] = changes["rev"]
+        self._scene["rev"], self._rev_in_page = changes["rev"], None
         for kind, ids in changes.get("remove", {}).items():
             for identity in ids:
                 self._scene[kind].pop(identity, None)
@@ -191,10 +195,12 @@ class Canvas(ui.element, component="js/vicode_canvas.js"):
         if isawaitable(answer):
             await answer
 
-    def _hear_ready(self) -> None:
+    def _hear_ready(self, event: GenericEventArguments) -> None:
         self._is_mounted = True
-        if self._scene is not None:
+        self._props.pop("scene", None)
+        if self._scene is not None and (self._rev_in_page is None or event.args.get("rev") != self._rev_in_page):
             self._call("load", self._whole())
+        self._rev_in_page = None
         self._call("showLinks", self._links_shown)
         self._call("select", self._selected)
         if self._arrival:

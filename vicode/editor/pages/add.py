@@ -5,10 +5,8 @@ import contextlib
 from nicegui import ui
 from starlette.requests import Request
 
-from vicode.editor.pages.broken_page import BrokenPage
 from vicode.editor.pages.design_page import DesignPage
 from vicode.editor.pages.going import Way
-from vicode.editor.pages.home import HomePage
 from vicode.editor.pages.keeping import keep_all
 from vicode.editor.pages.look import add_look
 from vicode.editor.panels.thumbnails import serve_thumbnails
@@ -28,6 +26,8 @@ def add_pages(library: Library, keeper: Keeper | None = None, *, tour: bool = Fa
 
     @ui.page("/", title="vicode")
     def home() -> None:
+        from vicode.editor.pages.home import HomePage
+
         HomePage(library, index)
 
     @ui.page("/design/{key}/{component}", title="vicode")
@@ -45,6 +45,8 @@ def add_pages(library: Library, keeper: Keeper | None = None, *, tour: bool = Fa
 
     @ui.page("/broken/{key}/{file:path}", title="vicode")
     def broken(key: str, file: str) -> None:
+        from vicode.editor.pages.broken_page import BrokenPage
+
         workspace = _workspace_as_on_disk(library, key)
         # Only what was found to be broken is opened, so that no address leads to any other file.
         path = workspace.broken_files.get(file) if workspace else None

@@ -5,6 +5,7 @@ import contextlib
 from nicegui import core, ui
 
 from vicode.editor.pages.actions import Actions
+from vicode.editor.pages.beside import Beside
 from vicode.editor.pages.going import HOME, Going, Way
 from vicode.editor.pages.keeping import Keeping
 from vicode.editor.pages.keys import listen_to_keys
@@ -12,24 +13,15 @@ from vicode.editor.pages.look import Theme, add_look
 from vicode.editor.pages.meeting import Meeting
 from vicode.editor.pages.stage import Stage
 from vicode.editor.pages.visitor import greet_visitor
-from vicode.editor.panels.code_panel import CodePanel
 from vicode.editor.panels.command import Command, Place
 from vicode.editor.panels.design_dialogs import DesignDialogs
 from vicode.editor.panels.designs_list import DesignsList
 from vicode.editor.panels.desk import Desk
 from vicode.editor.panels.export_dialog import ExportDialog
-from vicode.editor.panels.findings_panel import FindingsPanel
 from vicode.editor.panels.header import Header
 from vicode.editor.panels.help_dialog import show_help
-from vicode.editor.panels.history_panel import HistoryPanel
-from vicode.editor.panels.inspector import Inspector
 from vicode.editor.panels.messages import say
 from vicode.editor.panels.problems import Problems
-from vicode.editor.panels.search_panel import TAB as SEARCH
-from vicode.editor.panels.search_panel import SearchPanel, search_command
-from vicode.editor.panels.side_grip import side_grip
-from vicode.editor.panels.simulation import SimulationPanel, Simulator, simulation_commands
-from vicode.editor.panels.tabs import Tabs
 from vicode.editor.panels.tour import Tour
 from vicode.editor.panels.undo_bar import UndoBar
 from vicode.editor.session import Document, Library, Workspace
@@ -37,9 +29,6 @@ from vicode.editor.session.keeper import Keeper
 from vicode.editor.view.address import design_address
 
 _BREATH_S = 0.02
-# A design of more states is drawn before anything else; what is beside it comes when the drawing is on its way.
-_MANY = 500
-_SENDING_S = 0.15
 
 
 class DesignPage:
@@ -54,7 +43,6 @@ class DesignPage:
         self.desk = desk = Desk(workspace=workspace, document=hand, say=say, window=ui.context.client.id)
         theme = Theme(desk.code_editors, add_look())
         problems = Problems(desk)
-        self.waits = len(desk.design.states) > _MANY
         with ui.element("div").classes("shell"):
             skip = ui.element("a").classes("skip-link")
             dialogs = DesignDialogs(say=say, offer_undo=UndoBar().offer)
@@ -62,9 +50,7 @@ class DesignPage:
             self.designs = DesignsList(library, (workspace.key, document.design.component), dialogs)
             with ui.element("main").classes("stage").props("tabindex=-1") as main:
                 self.stage = Stage(desk)
-            self.simulator = Simulator(desk, self.stage.drawing.canvas)
-            self.dock = self._build_dock(problems)
-            self.side = self._build_side()
+            self.beside = Beside(desk, self.stage.drawing.canvas, problems)
         self.keeping = Keeping(desk, keeper)
         self.tour = Tour(desk, lambda: self.stage.shows_table, begins=way.tour)
         going = Going(desk, way.index, way.trail)
@@ -80,45 +66,20 @@ class DesignPage:
         arrived = going.start(way.select)
         desk.listen(self._refresh)
         self._refresh()
-        self.stage.drawing.canvas.on_shown = self._canvas_is_there
+        self.stage.drawing.canvas.on_shown = self.beside.begin
         if arrived:
             self.stage.drawing.arrive_at(arrived)
         self.is_behind = False
         ui.context.client.on_delete(hand.watch(self._hear))
         ui.timer(1.0, self._follow_disk)
 
-    def _build_dock(self, problems: Problems) -> Tabs:
-        desk, simulator = self.desk, self.simulator
-        with ui.element("section").classes("dock").props('aria-label="Findings"'):
-            return Tabs(
-                {
-                    "Findings": lambda: FindingsPanel(desk, problems),
-                    SEARCH: lambda: SearchPanel(desk),
-                    "History": lambda: HistoryPanel(desk),
-                    "Simulate": lambda: SimulationPanel(simulator),
-                },
-                place="dock",
-                waits=self.waits,
-            )
-
-    def _build_side(self) -> Tabs:
-        desk = self.desk
-        with ui.element("aside").classes("side").props('aria-label="Inspector"'):
-            side_grip()
-            return Tabs(
-                {"Inspect": lambda: Inspector(desk), "Generated code": lambda: CodePanel(desk)},
-                place="side",
-                waits=self.waits,
-            )
-
     def _commands(self, theme: Theme, others: tuple[Command, ...]) -> tuple[Command, ...]:
         """All that can be asked of this page, in the order in which it is listed."""
         actions = Actions(self.desk, self.stage.drawing, theme)
         commands = (*actions.commands(), *others, *self.stage.commands())
         commands += ExportDialog(self.desk, lambda: actions.links_shown).commands()
-        commands += simulation_commands(self.simulator, lambda: self.dock.show("Simulate"))
         help_ = Command("help", "Keys and gestures", lambda: show_help(commands), Place.VIEW, icon="help", keys=("?",))
-        commands += (search_command(self.dock), help_)
+        commands += (*self.beside.commands(), help_)
         return (*commands, *self.stage.drawing.commands(commands))
 
     def _follow_disk(self) -> None:
@@ -146,21 +107,9 @@ class DesignPage:
         if not self.stage.drawing.canvas.is_deleted:
             with self.stage.drawing.canvas.client:
                 self.stage.follow()
-                self.simulator.design_changed()
+                self.beside.design_changed()
                 self.desk.tell()
 
     def _refresh(self) -> None:
-        for panel in (self.stage, self.header, self.dock, self.side, self.keeping, self.tour):
+        for panel in (self.stage, self.header, self.beside, self.keeping, self.tour):
             panel.refresh()
-
-    def _canvas_is_there(self) -> None:
-        """Build what had to wait, once the drawing is on its way to the browser."""
-        if self.waits and core.loop is not None:
-            self.waits = False
-            core.loop.call_later(_SENDING_S, self._build_panels)
-
-    def _build_panels(self) -> None:
-        if not self.stage.drawing.canvas.is_deleted:
-            with self.stage.drawing.canvas.client:
-                self.dock.begin()
-                self.side.begin()

@@ -5,7 +5,7 @@ from collections.abc import Callable
 
 from nicegui import background_tasks, run, ui
 
-from vicode.diagram.export import Format, Wish, export
+from vicode.diagram.formats import Format, Wish
 from vicode.editor.panels.command import Command, Place
 from vicode.editor.panels.desk import Desk
 from vicode.editor.panels.dialogs import titled_dialog
@@ -94,9 +94,9 @@ def _look(desk: Desk, form: Format, wish: Wish) -> None:
     if len(desk.design.states) > _MOST_LOOKED_AT:
         ui.label(f"{len(desk.design.states)} states: too many to look at here").classes("empty")
     elif form in _TEXTS:
-        ui.label(export(desk.design, form, wish).decode()).classes("mono export-text")
+        ui.label(_exported(desk, form, wish).decode()).classes("mono export-text")
     else:
-        picture = base64.b64encode(export(desk.design, Format.SVG, wish)).decode()
+        picture = base64.b64encode(_exported(desk, Format.SVG, wish)).decode()
         image = ui.element("img").props('alt="The drawing as it would come out"')
         image.props["src"] = f"data:image/svg+xml;base64,{picture}"
 
@@ -106,17 +106,23 @@ def _copier(desk: Desk, form: Format) -> Callable[[], None]:
 
 
 def _copy(desk: Desk, form: Format, wish: Wish) -> None:
-    ui.clipboard.write(export(desk.design, form, wish).decode())
+    ui.clipboard.write(_exported(desk, form, wish).decode())
     desk.say(f"{form.label} of {desk.design.component} is on the clipboard", "positive")
 
 
 def _download(desk: Desk, form: Format, wish: Wish) -> None:
     async def paint() -> None:
         # Large pictures take seconds; the others must not wait for them.
-        content = await run.io_bound(export, desk.design, form, wish)
+        content = await run.io_bound(_exported, desk, form, wish)
         if content is not None:
             with client:
                 ui.download(content, f"{snake_case(desk.design.component)}{form.suffix}", form.media_type)
 
     client = ui.context.client
     background_tasks.create(paint(), name="export")
+
+
+def _exported(desk: Desk, form: Format, wish: Wish) -> bytes:
+    from vicode.diagram.export import export  # noqa: PLC0415 - many ways of drawing, none of them the first page's
+
+    return export(desk.design, form, wish)

@@ -5,43 +5,15 @@ from functools import partial
 
 from nicegui import background_tasks, run, ui
 
-from vicode.editor.panels.command import Command, Place
 from vicode.editor.panels.desk import Desk
 from vicode.editor.panels.rows import icon_button
-from vicode.editor.panels.tabs import Tabs
 from vicode.editor.session.searching import Found, Hit, Query, find, replace_hits
 from vicode.editor.view import thing_of_path, words_of_part, words_of_path
 from vicode.model.texts import TextKind
 
-TAB = "Search"
 _SHOWN_AT_MOST = 100
 _KINDS = {TextKind.CODE: "Code", TextKind.EXPRESSION: "Guards and values", TextKind.DOC: "Docs"}
 _WAYS = (("match_case", "Aa", "Match case"), ("whole_word", "ab|", "Whole words"), ("is_pattern", ".*", "Pattern"))
-_FOCUS = """
-(function focus(left) {
-  const box = document.querySelector(".search-text input");
-  if (box?.offsetParent) { box.focus(); box.select(); }
-  else if (left > 0) setTimeout(() => focus(left - 1), 50);
-})(100);
-"""
-
-
-def search_command(dock: Tabs) -> Command:
-    """The command that opens the panel with the cursor in it."""
-
-    def open_search() -> None:
-        dock.show(TAB)
-        ui.run_javascript(_FOCUS)
-
-    return Command(
-        name="search",
-        label="Search and replace in all texts",
-        act=open_search,
-        place=Place.EDIT,
-        icon="search",
-        keys=("Ctrl+Shift+F",),
-        while_typing=True,
-    )
 
 
 class SearchPanel:

@@ -1,6 +1,6 @@
 """Panels behind tabs: built when first shown, brought up to date only while they are shown."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from typing import Protocol
 
 from nicegui import ui
@@ -14,30 +14,26 @@ class Panel(Protocol):
 
 
 class Tabs:
-    """A bar of tabs with their panels; the first is shown.
+    """A bar of tabs; their panels come with `begin`, so that the page is there before what is behind its tabs.
 
     Args:
-        panels: what builds each panel, by the word on its tab.
+        names: the word on each tab; the first is shown.
         place: the style class of bar and panels, such as "side".
-        waits: nothing is built before `begin`, as something else is more important.
     """
 
-    def __init__(self, panels: Mapping[str, Callable[[], Panel]], place: str, *, waits: bool = False) -> None:
-        """Build the bar, and the first panel unless it waits."""
-        self._builders = dict(panels)
+    def __init__(self, names: Sequence[str], place: str) -> None:
+        """Build the bar, with room for the panels."""
+        self._builders: Mapping[str, Callable[[], Panel]] = {}
         self._panels: dict[str, Panel] = {}
         self._slots: dict[str, ui.tab_panel] = {}
-        first = next(iter(panels))
         with ui.tabs().props("dense no-caps align=left").classes(f"{place}-tabs") as self._bar:
-            for name in panels:
+            for name in names:
                 ui.tab(name)
-        kept = ui.tab_panels(self._bar, value=first, keep_alive=True)
+        kept = ui.tab_panels(self._bar, value=names[0], keep_alive=True)
         with kept.props("animated=false").classes(f"{place}-panels"):
-            for name in panels:
+            for name in names:
                 self._slots[name] = ui.tab_panel(name)
         self._bar.on_value_change(lambda _event: self.refresh())
-        self._waits = waits
-        self.refresh()
 
     @property
     def shown(self) -> str:
@@ -48,14 +44,15 @@ class Tabs:
         """Open a tab."""
         self._bar.set_value(name)
 
-    def begin(self) -> None:
-        """Build what waited."""
-        self._waits = False
-        self.refresh()
+    def begin(self, builders: Mapping[str, Callable[[], Panel]]) -> None:
+        """Build the panel that is shown, and the others once they are; `builders` are by the words on the tabs."""
+        if not self._builders:
+            self._builders = builders
+            self.refresh()
 
     def refresh(self) -> None:
         """Bring the shown panel up to date."""
-        if self._waits:
+        if not self._builders:
             return
         name = self.shown
         if name not in self._panels:

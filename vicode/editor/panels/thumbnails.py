@@ -6,7 +6,6 @@ from urllib.parse import quote
 from nicegui import app
 from starlette.responses import Response
 
-from vicode.diagram.thumbnail import thumbnail
 from vicode.editor.session import Library, Workspace
 from vicode.model.design import Design
 
@@ -41,4 +40,6 @@ def thumbnail_address(workspace: Workspace, component: str, *, dark: bool) -> st
 
 @lru_cache(maxsize=512)
 def _drawn(design: Design, dark: bool) -> str:
+    from vicode.diagram.thumbnail import thumbnail  # noqa: PLC0415 - the first page shows none
+
     return thumbnail(design, dark=dark)

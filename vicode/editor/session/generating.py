@@ -6,7 +6,6 @@ from pathlib import Path
 
 from vicode.check import check_project
 from vicode.findings import Finding, Severity
-from vicode.generators import collect_components, generate, list_outputs
 from vicode.model.project import Project
 from vicode.output import Difference, Status, apply, compare, set_aside
 from vicode.regions import is_sealed
@@ -52,6 +51,8 @@ def prepare(folder: Path, job: Job, component: str) -> Prepared:
     Raises:
         OSError: A file cannot be read.
     """
+    from vicode.generators import collect_components, generate, list_outputs  # noqa: PLC0415 - not for the first page
+
     project = job.project
     wanted = collect_components(project, (component,))
     read = [finding for name in ("", *wanted) for finding in job.reading.get(name, ())]

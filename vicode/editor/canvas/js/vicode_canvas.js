@@ -2,11 +2,12 @@
 import { mountCanvas } from "vicode-canvas";
 
 export default {
-  props: { commands: { type: Array, default: () => [] } },
+  props: { commands: { type: Array, default: () => [] }, scene: { type: Object, default: null } },
   template: `<div class="vicode-canvas"></div>`,
   mounted() {
     this.canvas = mountCanvas(this.$el, (event, payload) => this.$emit(event, payload), this.commands);
-    this.$emit("ready", {});
+    if (this.scene) this.canvas.load(this.scene);
+    this.$emit("ready", { rev: this.scene?.rev ?? null });
   },
   unmounted() {
     this.canvas.dispose();

@@ -13,6 +13,7 @@ from vicode.editor.panels.tabs import Tabs
 
 _BEAT_S = 0.08
 _SETTLED_S = 0.3
+_HAPPENINGS = ("Plot", "Active components", "Output")
 
 
 class SimulationPanel:
@@ -31,14 +32,9 @@ class SimulationPanel:
                 with ui.element("section").classes("simulation-part").props('aria-label="Guards of the active state"'):
                     self.guards = GuardsList(simulator)
                 with ui.element("section").classes("simulation-part happenings").props('aria-label="What happened"'):
-                    self.tabs = Tabs(
-                        {
-                            "Plot": lambda: Timeline(simulator),
-                            "Active components": lambda: ActivationTree(simulator),
-                            "Output": lambda: Output(simulator),
-                        },
-                        place="happenings",
-                    )
+                    self.tabs = Tabs(_HAPPENINGS, "happenings")
+        builders = lambda: Timeline(simulator), lambda: ActivationTree(simulator), lambda: Output(simulator)
+        self.tabs.begin(dict(zip(_HAPPENINGS, builders, strict=True)))
         simulator.show = self._follow
         ui.timer(_BEAT_S, self._follow)
         # The panel takes room from the drawing, and what is active there is to be seen.
