@@ -11,6 +11,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from nicegui import App
+
     from vicode.editor.session import Library
 
 STORAGE = "NICEGUI_STORAGE_PATH"
@@ -66,7 +68,6 @@ def serve(path: Path, address: Address, *, open_browser: bool = True, tour: bool
     from nicegui import app, background_tasks, ui
     from starlette.middleware.gzip import GZipMiddleware
 
-    from vicode.editor.guard import COOKIE, Guard
     from vicode.editor.pages.add import add_pages
     from vicode.editor.session import Library
     from vicode.editor.session.keeper import Keeper
@@ -74,16 +75,13 @@ def serve(path: Path, address: Address, *, open_browser: bool = True, tour: bool
 
     library = Library(path)
     add_pages(library, Keeper(library, open_recovery()), tour=tour)
-    hosts = ("127.0.0.1", "localhost", "::1") if not address.token else None
+    _stand_before(app, address)
     start = address.url_of(_first_page(library))
-    words = [f"vicode edits {path} at {start}  (Ctrl-C ends it)"]
-    if path.is_dir() and start != address.url:
-        words = [f"vicode edits {path} at {address.url}  (Ctrl-C ends it)", f"  begin with {start}"]
-    app.add_middleware(Guard, hosts=hosts, token=address.token, cookie=f"{COOKIE}_{address.port}")
+    words = _greeting(path, address, start)
     # Quasar's bar for requests under way is a landmark without a name, and says nothing here: all is one socket.
     app.config.quasar_config["loadingBar"] = {"skipHijack": True}
     app.config.quasar_config["ripple"] = False
-    app.on_startup(lambda: background_tasks.create(_announce("\n".join(words), address), name="announce"))
+    app.on_startup(lambda: background_tasks.create(_announce(words, address), name="announce"))
     gc.freeze()
     gc.enable()
     ui.run(
@@ -103,6 +101,23 @@ def serve(path: Path, address: Address, *, open_browser: bool = True, tour: bool
         gzip_middleware_factory=GZipMiddleware if address.token else None,
         ws_per_message_deflate=bool(address.token),
     )
+
+
+def _stand_before(app: "App", address: Address) -> None:
+    """Let the guard see every request first, and answer for scripts before anything else does."""
+    from vicode.editor.assets import Assets
+    from vicode.editor.canvas.element import script_files
+    from vicode.editor.guard import COOKIE, Guard
+
+    hosts = ("127.0.0.1", "localhost", "::1") if not address.token else None
+    app.add_middleware(Assets, files=script_files())
+    app.add_middleware(Guard, hosts=hosts, token=address.token, cookie=f"{COOKIE}_{address.port}")
+
+
+def _greeting(path: Path, address: Address, start: str) -> str:
+    if path.is_dir() and start != address.url:
+        return f"vicode edits {path} at {address.url}  (Ctrl-C ends it)\n  begin with {start}"
+    return f"vicode edits {path} at {start}  (Ctrl-C ends it)"
 
 
 def _first_page(library: "Library") -> str:

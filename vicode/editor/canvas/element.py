@@ -6,8 +6,8 @@ from inspect import isawaitable
 from pathlib import Path
 from typing import Any, cast
 
-from nicegui import ui
-from nicegui.dependencies import register_esm
+from nicegui import __version__, ui
+from nicegui.dependencies import esm_modules, register_esm
 from nicegui.events import GenericEventArguments
 
 from vicode.editor.canvas.commands import as_plain
@@ -19,6 +19,12 @@ _KINDS = ("states", "transitions", "components", "links")
 # NiceGUI lets browsers keep these files for a year under a key made of this time; a folder's own time would
 # not change when one of its files is edited.
 register_esm("vicode-canvas", _SCRIPTS, max_time=max(path.stat().st_mtime for path in _SCRIPTS.iterdir()))
+
+
+def script_files() -> dict[str, Path]:
+    """The files of the canvas, by the paths at which NiceGUI serves them."""
+    key = next(key for key, module in esm_modules.items() if module.path == _SCRIPTS)
+    return {f"/_nicegui/{__version__}/esm/{key}/{path.name}": path for path in _SCRIPTS.iterdir()}
 
 
 class Canvas(ui.element, component="js/vicode_canvas.js"):

@@ -10,7 +10,6 @@ from vicode.editor.pages.drawing import Drawing
 from vicode.editor.pages.look import Theme
 from vicode.editor.panels.command import Command, Place
 from vicode.editor.panels.desk import Desk
-from vicode.editor.panels.generate_dialog import ask_before_writing, is_unasked
 from vicode.editor.panels.save_dialog import ask_about_disk
 from vicode.editor.session import ChangedOnDiskError, Document, apply_gesture
 
@@ -90,6 +89,8 @@ class Actions:
 
     async def _write_code(self) -> None:
         """Show what would change, unless nothing would or the person does not want to be asked."""
+        from vicode.editor.panels.generate_dialog import ask_before_writing, is_unasked
+
         desk, canvas = self.desk, self.drawing.canvas
         with canvas.client:
             prepared = await self._try(desk.workspace.prepare)

@@ -4,7 +4,6 @@ from nicegui import app, run
 
 from vicode.editor.panels.command import Command, Place
 from vicode.editor.panels.desk import Desk
-from vicode.editor.panels.recovery_dialog import offer_recovery
 from vicode.editor.panels.save_dialog import ask_about_disk
 from vicode.editor.session.keeper import Keeper
 
@@ -32,6 +31,8 @@ class Keeping:
         self.desk = desk
         self.told = desk.document.sheet.news
         if keeper is not None:
+            from vicode.editor.panels.recovery_dialog import offer_recovery
+
             offer_recovery(desk, keeper)
 
     def commands(self) -> tuple[Command, ...]:

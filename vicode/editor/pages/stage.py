@@ -1,12 +1,16 @@
 """The middle of the page: the design as a drawing or as a table, kept in step, one of them shown."""
 
+from typing import TYPE_CHECKING
+
 from nicegui import ui
 
 from vicode.editor.pages.drawing import Drawing
 from vicode.editor.pages.layouts import Layouts
 from vicode.editor.panels.command import Command, Place
 from vicode.editor.panels.desk import Desk
-from vicode.editor.panels.table_panel import TablePanel
+
+if TYPE_CHECKING:
+    from vicode.editor.panels.table_panel import TablePanel
 
 _FOCUS_CANVAS = 'document.querySelector(".canvas")?.shadowRoot?.querySelector(".stage")?.focus()'
 
@@ -59,6 +63,8 @@ class Stage:
             ui.run_javascript(_FOCUS_CANVAS)
             return
         if self.table is None:
+            from vicode.editor.panels.table_panel import TablePanel
+
             with self._table_space:
                 self.table = TablePanel(self.desk)
         self.table.refresh()

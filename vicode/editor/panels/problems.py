@@ -1,15 +1,18 @@
 """Going from finding to finding, and the quick fixes of each."""
 
 from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
 
 from nicegui import ui
 
 from vicode.editor.panels.command import Command, Place
 from vicode.editor.panels.desk import Desk
-from vicode.editor.session.fixes import Fix, fixes_of
 from vicode.editor.session.problems import following
 from vicode.editor.view import Selected, thing_of_path
 from vicode.findings import Finding
+
+if TYPE_CHECKING:
+    from vicode.editor.session.fixes import Fix
 
 
 @dataclass(eq=False)
@@ -67,6 +70,8 @@ class Problems:
     def fill_menu(self, menu: ui.menu, finding: Finding) -> None:
         """Put the fixes of a finding into a menu, found when it opens: each is tried on the whole design."""
         menu.clear()
+        from vicode.editor.session.fixes import fixes_of  # noqa: PLC0415 - wanted when somebody looks at a finding
+
         fixes = fixes_of(self.desk.workspace.project, self.desk.design, finding)
         with menu:
             for fix in fixes:
@@ -74,7 +79,7 @@ class Problems:
             if not fixes:
                 ui.menu_item("No mend is certain here").props("disable role=menuitem")
 
-    def apply(self, fix: Fix) -> None:
+    def apply(self, fix: "Fix") -> None:
         """Mend; one edit, so that undo takes it back."""
         self.desk.edit(f"fix: {fix.label}", fix.change)
         self.desk.say(f"{fix.label}: done. Ctrl+Z takes it back.", "positive")
