@@ -106,8 +106,8 @@ def serve(path: Path, address: Address, *, open_browser: bool = True, tour: bool
 def _stand_before(app: "App", address: Address) -> None:
     """Let the guard see every request first, and answer for scripts before anything else does."""
     from vicode.editor.assets import Assets
-    from vicode.editor.canvas.element import script_files
     from vicode.editor.guard import COOKIE, Guard
+    from vicode.editor.scripts import script_files
 
     hosts = ("127.0.0.1", "localhost", "::1") if not address.token else None
     app.add_middleware(Assets, files=script_files())

@@ -3,31 +3,19 @@
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from inspect import isawaitable
-from pathlib import Path
 from typing import Any, cast
 
-from nicegui import __version__, ui
-from nicegui.dependencies import esm_modules, register_esm
+from nicegui import ui
 from nicegui.events import GenericEventArguments
 
 from vicode.editor.canvas.commands import as_plain
 from vicode.editor.canvas.gesture import Changes, Gesture, Item, Kind, OnGesture, OnPointer, Other, Place, Scene
+from vicode.editor.scripts import CANVAS
 
-_SCRIPTS = Path(__file__).parent / "js"
 _KINDS = ("states", "transitions", "components", "links")
 
-# NiceGUI lets browsers keep these files for a year under a key made of this time; a folder's own time would
-# not change when one of its files is edited.
-register_esm("vicode-canvas", _SCRIPTS, max_time=max(path.stat().st_mtime for path in _SCRIPTS.iterdir()))
 
-
-def script_files() -> dict[str, Path]:
-    """The files of the canvas, by the paths at which NiceGUI serves them."""
-    key = next(key for key, module in esm_modules.items() if module.path == _SCRIPTS)
-    return {f"/_nicegui/{__version__}/esm/{key}/{path.name}": path for path in _SCRIPTS.iterdir()}
-
-
-class Canvas(ui.element, component="js/vicode_canvas.js"):
+class Canvas(ui.element, component=CANVAS / "vicode_canvas.js"):
     """A state machine to look at and to work on.
 
     Args:

@@ -2,27 +2,23 @@
 
 from collections.abc import Callable, Iterable
 from dataclasses import asdict
-from pathlib import Path
 from typing import Any
 
 from nicegui import ui
-from nicegui.dependencies import register_esm
 from nicegui.events import GenericEventArguments
 
+from vicode.editor.scripts import CODE
 from vicode.editor.session.completing import Completion
 from vicode.editor.session.marking import Mark
 
-_SCRIPTS = Path(__file__).parent / "js"
 _LONGEST = 200_000
 
-# The key of NiceGUI's cache is made of this time; a folder's own would not change with its files.
-register_esm("vicode-code", _SCRIPTS, max_time=max(path.stat().st_mtime for path in _SCRIPTS.iterdir()))
 
 Complete = Callable[[str, int], Completion]
 """What may be written in a text at a character."""
 
 
-class CodeAid(ui.element, component="js/vicode_code.js"):
+class CodeAid(ui.element, component=CODE / "vicode_code.js"):
     """Stands beside a code editor and helps who writes in it; it shows nothing itself.
 
     Args:

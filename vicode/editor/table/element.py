@@ -1,23 +1,17 @@
 """The Python side of the table: keeps what is shown, so that a page that mounts late or again gets it all."""
 
 from collections.abc import Callable, Iterable, Mapping
-from pathlib import Path
 from typing import Any
 
 from nicegui import ui
-from nicegui.dependencies import register_esm
 from nicegui.events import GenericEventArguments
 
-_SCRIPTS = Path(__file__).parent / "js"
-
-# NiceGUI lets browsers keep these files for a year under a key made of this time; a folder's own time would
-# not change when one of its files is edited.
-register_esm("vicode-table", _SCRIPTS, max_time=max(path.stat().st_mtime for path in _SCRIPTS.iterdir()))
+from vicode.editor.scripts import TABLE
 
 Payload = Mapping[str, Any]
 
 
-class TableGrid(ui.element, component="js/vicode_table.js"):
+class TableGrid(ui.element, component=TABLE / "vicode_table.js"):
     """The rows of a design (see `vicode.editor.view.table`), as a tree grid that keys alone can steer.
 
     Args:

@@ -1,0 +1,27 @@
+"""The folders of our scripts, known to every page from its start, so that what is shown later can be loaded later."""
+
+from pathlib import Path
+
+from nicegui import __version__
+from nicegui.dependencies import esm_modules, register_esm
+
+
+def _register(room: str) -> Path:
+    folder = Path(__file__).parent / room / "js"
+    # NiceGUI lets browsers keep these files for a year under a key made of this time; a folder's own time would
+    # not change when one of its files is edited.
+    register_esm(f"vicode-{room}", folder, max_time=max(path.stat().st_mtime for path in folder.iterdir()))
+    return folder
+
+
+CANVAS, CODE, TABLE = _register("canvas"), _register("code"), _register("table")
+
+
+def script_files() -> dict[str, Path]:
+    """All of them, by the paths at which NiceGUI serves them."""
+    return {
+        f"/_nicegui/{__version__}/esm/{key}/{path.name}": path
+        for key, module in esm_modules.items()
+        if module.path in (CANVAS, CODE, TABLE)
+        for path in module.path.iterdir()
+    }
