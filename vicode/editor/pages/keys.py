@@ -19,10 +19,14 @@ document.addEventListener("keydown", (event) => {
   const types = event.target.closest?.("input, textarea, [contenteditable=true], .canvas");
   if (!wish || (types && !wish.typing)) return;
   event.preventDefault();
-  if (!window.did_handshake) return;
-  // What can begin in the browser alone does so, and calls the event off.
-  const isLeft = dispatchEvent(new CustomEvent("vicode-wish", { detail: wish.name, cancelable: true }));
-  if (isLeft) emitEvent("command-" + wish.name);
+  const begin = () => {
+    // A page is seen a moment before it can speak to the server; what is asked then is asked a moment later.
+    if (!window.did_handshake) return void setTimeout(begin, 10);
+    // What can begin in the browser alone does so, and calls the event off.
+    const isLeft = dispatchEvent(new CustomEvent("vicode-wish", { detail: wish.name, cancelable: true }));
+    if (isLeft) emitEvent("command-" + wish.name);
+  };
+  begin();
 }, true);
 </script>
 """
