@@ -1,13 +1,16 @@
 """A running editor on a copy of the forward player's project."""
 
+import json
 import os
 import re
 import shutil
+import signal
 import subprocess
 import sys
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -42,26 +45,50 @@ def second_window(page: Page) -> Page:
 @contextmanager
 def started_editor(folder: Path, storage: Path, options: tuple[str, ...] = ("--no-tour",)) -> Iterator[str]:
     """An editor on a folder of projects; its URL. The tour is left out, as it would stand in the way of other tests."""
-    # NiceGUI behaves differently when it thinks that a test runs it.
-    environment = {key: value for key, value in os.environ.items() if not key.startswith(("PYTEST", "NICEGUI"))}
-    environment["NICEGUI_STORAGE_PATH"] = str(storage)
-    environment["VICODE_STATE"] = str(storage / "state")
-    command = [sys.executable, "-m", "vicode", "edit", str(folder), "--no-open", "--port", "0", *options]
+    environment = {**_environment(), "NICEGUI_STORAGE_PATH": str(storage), "VICODE_STATE": str(storage / "state")}
     storage.mkdir(parents=True, exist_ok=True)
-    # Into a file: nobody reads on once the address is said, and a full pipe would stop the server.
     said = storage / "said.log"
-    with said.open("w") as log:
-        process = subprocess.Popen(command, stdout=log, stderr=subprocess.STDOUT, env=environment, cwd=ROOT)
+    said.write_text("")
+    arguments = ["edit", str(folder), "--no-open", "--port", "0", *options]
+    brood = _brood()
+    assert brood.stdin is not None
+    assert brood.stdout is not None
+    brood.stdin.write(json.dumps({"arguments": arguments, "environment": environment, "log": str(said)}) + "\n")
+    brood.stdin.flush()
+    process = int(brood.stdout.readline())
     try:
         yield _url(process, said)
     finally:
-        process.kill()
-        process.wait()
+        if _lives(process):
+            os.kill(process, signal.SIGKILL)
+        while _lives(process):
+            time.sleep(0.01)
 
 
-def _url(process: "subprocess.Popen[bytes]", said: Path) -> str:
+@cache
+def _brood() -> "subprocess.Popen[str]":
+    """What all editors of this test process split off from; it ends with it."""
+    command = [sys.executable, "-m", "tests.editor.brood"]
+    pipe = subprocess.PIPE
+    return subprocess.Popen(command, stdin=pipe, stdout=pipe, text=True, env=_environment(), cwd=ROOT)
+
+
+def _environment() -> dict[str, str]:
+    """NiceGUI behaves differently when it thinks that a test runs it."""
+    return {key: value for key, value in os.environ.items() if not key.startswith(("PYTEST", "NICEGUI"))}
+
+
+def _lives(process: int) -> bool:
+    try:
+        os.kill(process, 0)
+    except ProcessLookupError:
+        return False
+    return True
+
+
+def _url(process: int, said: Path) -> str:
     end_s = time.monotonic() + 60
-    while time.monotonic() < end_s and process.poll() is None:
+    while time.monotonic() < end_s and _lives(process):
         found = re.search(r"http://\S+", said.read_text())
         if found:
             return found[0]

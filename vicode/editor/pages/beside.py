@@ -7,8 +7,8 @@ from nicegui import ui
 from vicode.editor.canvas import Canvas
 from vicode.editor.panels.command import Command, Place
 from vicode.editor.panels.desk import Desk
+from vicode.editor.panels.grips import add_grips, dock_grip, side_grip
 from vicode.editor.panels.problems import Problems
-from vicode.editor.panels.side_grip import side_grip
 from vicode.editor.panels.simulation.commands import simulation_commands
 from vicode.editor.panels.tabs import Tabs
 
@@ -35,7 +35,9 @@ class Beside:
         """Make room for the panels."""
         self._desk, self._canvas, self._problems = desk, canvas, problems
         self._simulator: Simulator | None = None
+        add_grips()
         with ui.element("section").classes("dock").props('aria-label="Findings"'):
+            dock_grip()
             self.dock = Tabs(_DOCK, "dock")
         with ui.element("aside").classes("side").props('aria-label="Inspector"'):
             side_grip()
