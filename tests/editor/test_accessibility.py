@@ -99,6 +99,7 @@ def test_chosen_colours_are_kept(editor: str, page: Page) -> None:
     open_player(page, editor)
     page.get_by_role("button", name="Light, dark, or as the system").click()
     expect(page.locator("body.body--dark")).to_be_attached()
+    page.wait_for_function("document.cookie.includes('vicode_colours=dark')")
     page.reload()
     expect(page.locator("body.body--dark")).to_be_attached()
     assert page.evaluate("getComputedStyle(document.documentElement).backgroundColor") == "rgb(17, 22, 30)"

@@ -124,7 +124,7 @@ def test_code_is_written_in_a_wide_editor(editor: str, page: Page) -> None:
     expect(guard(page)).to_have_text("perception.ball_seen and True")
 
 
-def test_the_side_panel_is_widened_and_stays_so(editor: str, page: Page) -> None:
+def test_panels_are_made_larger_and_stay_so(editor: str, page: Page) -> None:
     open_player(page, editor)
     side, grip = page.locator(".side"), page.get_by_role("separator", name="Width of the side panel")
     box = grip.bounding_box()
@@ -136,8 +136,13 @@ def test_the_side_panel_is_widened_and_stays_so(editor: str, page: Page) -> None
     expect(side).to_have_css("width", "468px")
     grip.press("ArrowLeft")
     expect(side).to_have_css("width", "500px")
+    dock, grip_below = page.locator(".dock-panels"), page.get_by_role("separator", name="Height of the panels below")
+    expect(dock).to_have_css("height", "104px")
+    grip_below.press("ArrowUp")
+    expect(dock).to_have_css("height", "128px")
     page.reload()
     expect(side).to_have_css("width", "500px")
+    expect(dock).to_have_css("height", "128px")
     grip.dblclick()
     expect(side).to_have_css("width", "368px")
 

@@ -5,6 +5,14 @@ from pathlib import Path
 from playwright.sync_api import Locator, Page, expect
 
 PLAYER = "design/forward/Player"
+# The page's socket seems to be open only when the test says so.
+SPEAKS_LATE = """
+let isOpen = false;
+Object.defineProperty(window, "did_handshake", {
+  get: () => isOpen && Boolean(window.maySpeak),
+  set: (value) => { isOpen = value; },
+});
+"""
 
 # A busy machine takes its time; what never comes still fails.
 expect.set_options(timeout=20_000)
@@ -110,6 +118,16 @@ def test_a_double_click_on_an_arrow_leads_to_its_guard(editor: str, page: Page) 
     page.locator('g[data-kind="transition"][data-id="Kick/0"] .plate').first.dblclick(force=True)
     expect(page.get_by_label("When", exact=True)).to_be_focused()
     expect(page.get_by_label("When", exact=True)).to_have_text("not kicker.busy")
+
+
+def test_what_is_asked_before_the_page_can_speak_is_done_when_it_can(editor: str, page: Page) -> None:
+    page.add_init_script(SPEAKS_LATE)
+    open_player(page, editor)
+    page.keyboard.press("F4")
+    page.get_by_role("button", name="Light, dark, or as the system").click()
+    page.evaluate("window.maySpeak = true")
+    expect(page.get_by_role("treegrid")).to_be_visible()
+    expect(page.get_by_text("Dark colours")).to_be_visible()
 
 
 def test_two_windows_stay_in_step(editor: str, page: Page, second_window: Page) -> None:

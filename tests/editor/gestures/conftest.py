@@ -91,6 +91,7 @@ class Sketch:
 
     def select(self, *names: str) -> None:
         """Select states by clicks."""
+        self.view()
         for index, name in enumerate(names):
             self.click(self.state(name), *(["Shift"] if index else []))
         self.selects(*(f"states/{name}" for name in names))

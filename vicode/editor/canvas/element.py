@@ -191,12 +191,17 @@ class Canvas(ui.element, component=CANVAS / "vicode_canvas.js"):
 
     def _hear_ready(self, event: GenericEventArguments) -> None:
         self._is_mounted = True
-        self._props.pop("scene", None)
-        if self._scene is not None and (self._rev_in_page is None or event.args.get("rev") != self._rev_in_page):
-            self._call("load", self._whole())
+        with self._props.suspend_updates():
+            self._props.pop("scene", None)
+        # A page that is new shows what came with it, and somebody may have begun to work on that.
+        is_new = self._rev_in_page is not None and event.args.get("rev") == self._rev_in_page
         self._rev_in_page = None
-        self._call("showLinks", self._links_shown)
-        self._call("select", self._selected)
+        if self._scene is not None and not is_new:
+            self._call("load", self._whole())
+        if not (is_new and self._links_shown):
+            self._call("showLinks", self._links_shown)
+        if not is_new or self._selected:
+            self._call("select", self._selected)
         if self._arrival:
             self._call("arriveAt", *self._arrival)
             self._arrival = None
