@@ -43,18 +43,27 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 
 @pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Mark what needs Chromium, before `-m` selects, so that nobody can forget the mark."""
+    """Mark what needs Chromium, before `-m` selects, so that nobody can forget the mark.
+
+    A person tries again when the machine was asleep for a second; so do we, once, and it is told. The nightly run,
+    which asks whether a test ever fails, gives no second try.
+    """
     for item in items:
         if "chromium" in getattr(item, "fixturenames", ()):
             item.add_marker(pytest.mark.browser)
+            if _runs() == 1:
+                item.add_marker(pytest.mark.flaky(reruns=1))
 
 
 def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
     """Run what needs Chromium as often as VICODE_RUNS says: a test that fails once in twenty runs is wrong."""
-    runs = int(os.environ.get("VICODE_RUNS", "1"))
-    if runs > 1 and "chromium" in metafunc.fixturenames:
+    if _runs() > 1 and "chromium" in metafunc.fixturenames:
         metafunc.fixturenames.append("run_number")
-        metafunc.parametrize("run_number", range(runs))
+        metafunc.parametrize("run_number", range(_runs()))
+
+
+def _runs() -> int:
+    return int(os.environ.get("VICODE_RUNS", "1"))
 
 
 @pytest.fixture(scope="session")
