@@ -125,7 +125,11 @@ def test_what_is_asked_before_the_page_can_speak_is_done_when_it_can(editor: str
     open_player(page, editor)
     page.keyboard.press("F4")
     page.get_by_role("button", name="Light, dark, or as the system").click()
+    page.keyboard.press("Control+k")
+    page.keyboard.type("save by it")
     page.evaluate("window.maySpeak = true")
+    expect(page.get_by_role("option", name="Save by itself")).to_be_visible()
+    page.keyboard.press("Escape")
     expect(page.get_by_role("treegrid")).to_be_visible()
     expect(page.get_by_text("Dark colours")).to_be_visible()
 

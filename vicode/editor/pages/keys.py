@@ -19,14 +19,11 @@ document.addEventListener("keydown", (event) => {
   const types = event.target.closest?.("input, textarea, [contenteditable=true], .canvas");
   if (!wish || (types && !wish.typing)) return;
   event.preventDefault();
-  const begin = () => {
-    // A page is seen a moment before it can speak to the server; what is asked then is asked a moment later.
-    if (!window.did_handshake) return void setTimeout(begin, 10);
-    // What can begin in the browser alone does so, and calls the event off.
-    const isLeft = dispatchEvent(new CustomEvent("vicode-wish", { detail: wish.name, cancelable: true }));
-    if (isLeft) emitEvent("command-" + wish.name);
-  };
-  begin();
+  // What can begin in the browser alone does so, and calls the event off.
+  if (!dispatchEvent(new CustomEvent("vicode-wish", { detail: wish.name, cancelable: true }))) return;
+  // A page is seen a moment before it can speak to the server; what is asked then is asked a moment later.
+  const ask = () => (window.did_handshake ? emitEvent("command-" + wish.name) : setTimeout(ask, 10));
+  ask();
 }, true);
 </script>
 """
