@@ -10,7 +10,7 @@ from vicode.editor.panels.actions_panel import python, with_python
 from vicode.editor.panels.code_field import code_field, expression_field
 from vicode.editor.panels.decisions_list import decisions_list
 from vicode.editor.panels.desk import Desk
-from vicode.editor.panels.fields import Bound, Field, choice_field, flag_field, text_field
+from vicode.editor.panels.fields import Bound, Field, choice_field, flag_field, state_names, text_field
 from vicode.editor.panels.rows import heading
 from vicode.editor.view import Selected, path_of_key
 from vicode.findings import Path
@@ -55,8 +55,7 @@ def _kind(decision: Decision) -> str:
 def _target_field(desk: Desk, path: Path, decision: Decision) -> list[Field]:
     if not isinstance(decision, Transition):
         return []
-    names = list(dict.fromkeys([*(state.name for state in desk.design.states), decision.to]))
-    return [choice_field(desk, _decision_bound(path, "To", "to"), names)]
+    return [choice_field(desk, _decision_bound(path, "To", "to"), state_names)]
 
 
 def _decision_bound(path: Path, label: str, attribute: str) -> Bound:

@@ -7,12 +7,11 @@ from nicegui import ui
 from vicode.editor.panels.desk import Desk
 from vicode.editor.panels.row_dragging import RowDragging
 from vicode.editor.panels.rows import row_of_buttons
+from vicode.editor.session.outline import MANY_STATES
 from vicode.editor.view import Selected, guard_label, transition_key
 from vicode.findings import Path
 from vicode.model.design import Decision, Group, Guard, Stay, Transition
 from vicode.model.edits import add_transition, items_path, remove_decisions, reorder_decision, update_items
-
-_MANY_TARGETS = 60
 
 
 def decisions_list(desk: Desk, source: str, path: Path, items: tuple[Decision, ...]) -> None:
@@ -28,15 +27,26 @@ def decisions_list(desk: Desk, source: str, path: Path, items: tuple[Decision, .
 
 def _offer_targets(desk: Desk, source: str) -> None:
     """A new transition to a state: from a menu, or by typing when there are more states than anybody would scroll."""
-    targets = [state.name for state in desk.design.states]
-    if len(targets) > _MANY_TARGETS:
-        find = ui.select(targets, label="Transition to", with_input=True, clearable=True)
+
+    def targets() -> list[str]:
+        return [state.name for state in desk.design.states]
+
+    if len(targets()) > MANY_STATES:
+        find = ui.select(targets(), label="Transition to", with_input=True, clearable=True)
         find.on_value_change(lambda event: _connector(desk, source, event.value)() if event.value else None)
+        find.on("focus", lambda: find.set_options(targets()))
         find.props("dense outlined options-dense").classes("mono")
         return
-    with ui.button("Transition", icon="add").props("flat dense no-caps size=sm"), ui.menu().props("auto-close"):
-        for target in targets:
-            ui.menu_item(f"to {target}", on_click=_connector(desk, source, target)).classes("mono")
+
+    def fill() -> None:
+        menu.clear()
+        with menu:
+            for target in targets():
+                ui.menu_item(f"to {target}", on_click=_connector(desk, source, target)).classes("mono")
+
+    with ui.button("Transition", icon="add").props("flat dense no-caps size=sm"), ui.menu().props("auto-close") as menu:
+        # Other people's states shall be in it, but not make every form anew.
+        menu.on("before-show", fill)
 
 
 def _rows(desk: Desk, path: Path, items: tuple[Decision, ...]) -> None:

@@ -10,7 +10,7 @@ from vicode.editor.panels.actions_panel import actions_panel, with_python
 from vicode.editor.panels.code_field import code_field
 from vicode.editor.panels.decisions_list import decisions_list
 from vicode.editor.panels.desk import Desk
-from vicode.editor.panels.fields import Bound, Field, choice_field, flag_field, text_field
+from vicode.editor.panels.fields import Bound, Field, choice_field, flag_field, state_names, text_field
 from vicode.editor.panels.rows import heading, icon_button
 from vicode.editor.session import numbers
 from vicode.model.design import COMMON, Declaration, Design
@@ -32,7 +32,7 @@ def design_panel(desk: Desk) -> list[Field]:
     fields = [
         text_field(desk, _bound("Doc", "doc"), lines=True),
         text_field(desk, _frequency(), monospace=True),
-        choice_field(desk, _bound("Initial state", "initial"), [state.name for state in design.states]),
+        choice_field(desk, _bound("Initial state", "initial"), state_names),
         flag_field(desk, _bound("Resume: go on where it was left", "resume")),
     ]
     heading("Uses", hint="components it requires or modulates")

@@ -18,6 +18,7 @@ from vicode.model.design import Design
 Read = Callable[[Design], Any]
 Write = Callable[[Design, Any], Design]
 Refuse = Callable[[Any], str]
+Options = Callable[[Design], Sequence[str]]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -129,16 +130,18 @@ def text_field(desk: Desk, bound: Bound, *, monospace: bool = False, lines: bool
     return Field(desk, bound, element, message)
 
 
-def choice_field(desk: Desk, bound: Bound, options: Sequence[str], *, several: bool = False) -> Field:
-    """One, or several, of the options; what the design holds can always be chosen, known or not."""
+def choice_field(desk: Desk, bound: Bound, options: Options, *, several: bool = False) -> Field:
+    """One, or several, of the design's options; what the design holds can always be chosen, known or not."""
     if not several:
         bound = _none_for_empty(bound)
     with ui.column().classes("field"):
-        element = ui.select(list(options), label=bound.label, multiple=several, value=[] if several else None)
+        element = ui.select(
+            list(options(desk.design)), label=bound.label, multiple=several, value=[] if several else None
+        )
         element.props("outlined dense options-dense stack-label" + (" use-chips" if several else ""))
         message = ui.label().classes("field-finding")
         message.set_visibility(False)
-    return ChoiceField(desk, bound, element, message)
+    return ChoiceField(desk, bound, element, message, options=options)
 
 
 def _none_for_empty(bound: Bound) -> Bound:
@@ -150,18 +153,36 @@ def _none_for_empty(bound: Bound) -> Bound:
     )
 
 
+@dataclass(eq=False)
 class ChoiceField(Field):
     """A choice; without the design's value among its options it would choose something else by itself."""
 
+    options: Options = field(default=lambda _design: ())
+
     def refresh(self) -> None:
-        """Show what the design holds."""
-        value = self.bound.read(self.desk.design)
-        held = value if isinstance(value, list) else [value] if value else []
-        element = cast("ui.select", self.element)
-        missing = [each for each in held if each not in element.options]
-        if missing:
-            element.set_options([*element.options, *missing])
+        """Show what the design holds, and what it offers."""
+        if self.has_focus:
+            super().refresh()
+            return
+        design, element = self.desk.design, cast("ui.select", self.element)
+        wanted = list(dict.fromkeys([*self.options(design), *_listed(self.bound.read(design))]))
+        self._offer([*wanted, *(each for each in _listed(element.value) if each not in wanted)])
         super().refresh()
+        self._offer(wanted)
+
+    def _offer(self, options: list[str]) -> None:
+        element = cast("ui.select", self.element)
+        if element.options != options:
+            element.set_options(options)
+
+
+def _listed(value: Any) -> list[str]:
+    return value if isinstance(value, list) else [value] if value else []
+
+
+def state_names(design: Design) -> list[str]:
+    """What a choice among states offers."""
+    return [state.name for state in design.states]
 
 
 def flag_field(desk: Desk, bound: Bound) -> Field:

@@ -1,5 +1,8 @@
 """What is wrong with the open design, as it is typed: by severity and thing, filtered, with quick fixes."""
 
+from collections.abc import Iterator
+from itertools import islice
+
 from nicegui import ui
 
 from vicode.editor.panels.desk import Desk
@@ -11,6 +14,8 @@ from vicode.findings import Finding, Severity
 
 _ICONS = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.NOTE: "info"}
 _SHOWN_AT_MOST = 200
+_Row = tuple[Finding, str, bool, bool]
+"""A finding, what it is about, whether it is the first about that, and whether it is the one at hand."""
 
 
 class FindingsPanel:
@@ -21,6 +26,7 @@ class FindingsPanel:
         self.desk, self.problems = desk, problems
         self.hidden: set[Severity] = set()
         self.shown: object = None
+        self.rows: dict[_Row, ui.element] = {}
         with ui.row().classes("findings-head"):
             self.summary = ui.label().classes("findings-summary").props('role="status"')
             ui.element("div").classes("spacer")
@@ -29,6 +35,8 @@ class FindingsPanel:
             self.filter.props('dense borderless clearable debounce=150 aria-label="Filter findings"')
             self.filter.classes("findings-filter")
         self.list = ui.column().classes("findings-list").props('role="list" aria-label="List of findings"')
+        self.more = ui.label().classes("empty findings-more")
+        self.more.set_visibility(False)
 
     def refresh(self) -> None:
         """Show the findings of the design as it is now."""
@@ -43,26 +51,36 @@ class FindingsPanel:
             count = sum(each.severity is severity for each in findings)
             button.set_visibility(bool(count))
             button.set_text(str(count))
-        self.list.clear()
-        with self.list:
-            self._fill(wanted)
+        self._fill(wanted)
 
     def _fill(self, wanted: tuple[Finding, ...]) -> None:
-        left = _SHOWN_AT_MOST
+        """Make what is new and take away what is gone: when many work at once, most of it stays."""
+        rows = dict.fromkeys(islice(self._rows_of(wanted), _SHOWN_AT_MOST))
+        for row in [row for row in self.rows if row not in rows]:
+            self.rows.pop(row).delete()
+        for index, row in enumerate(rows):
+            if row not in self.rows:
+                with self.list:
+                    self.rows[row] = self._build(row)
+            if self.list.default_slot.children[index] is not self.rows[row]:
+                self.rows[row].move(target_index=index)
+        left = len(wanted) - _SHOWN_AT_MOST
+        self.more.set_text(f"and {left} more: type into the filter to find them")
+        self.more.set_visibility(left > 0)
+
+    def _rows_of(self, wanted: tuple[Finding, ...]) -> Iterator[_Row]:
         for _severity, findings in grouped(wanted):
             before = ""
-            for finding in findings[: max(0, left)]:
+            for finding in findings:
                 words = words_of_path(self.desk.design, finding.thing.path) if finding.thing else ""
-                self._row(finding, words, is_first=words != before)
+                yield finding, words, words != before, finding == self.problems.current
                 before = words
-            left -= len(findings)
-        if left < 0:
-            ui.label(f"and {-left} more: type into the filter to find them").classes("empty findings-more")
 
-    def _row(self, finding: Finding, words: str, *, is_first: bool) -> None:
+    def _build(self, row_: _Row) -> ui.element:
+        finding, words, is_first, is_current = row_
         severity = finding.severity
-        here = " is-current" if finding == self.problems.current else ""
-        with ui.element("div").classes(f"finding-row{here}").props('role="listitem"'):
+        here = " is-current" if is_current else ""
+        with ui.element("div").classes(f"finding-row{here}").props('role="listitem"') as whole:
             with ui.element("button").classes(f"finding {severity}").props('type="button"') as row:
                 ui.icon(_ICONS[severity]).props('aria-hidden="true"')
                 ui.label(f"{severity} {finding.rule.code}").classes("finding-code mono")
@@ -74,6 +92,7 @@ class FindingsPanel:
             row.on("click", lambda: self.problems.open(finding))
             if may_be_fixed(finding):
                 self._fix_button(finding)
+        return whole
 
     def _fix_button(self, finding: Finding) -> None:
         button = ui.button("Fix", icon="auto_fix_high", color=None).props("flat dense no-caps size=sm")

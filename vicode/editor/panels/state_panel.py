@@ -44,6 +44,10 @@ def state_panel(desk: Desk, name: str) -> list[Field]:
     return fields
 
 
+def _aliases(design: Design) -> list[str]:
+    return [use.alias for use in design.uses]
+
+
 def _title(desk: Desk, name: str) -> None:
     """The name changes when Enter is pressed or the field is left, as the whole design follows it."""
     box = ui.input("State", value=name).props("outlined dense stack-label").classes("mono")
@@ -95,7 +99,7 @@ def _requires(desk: Desk, name: str) -> Field:
         read=read,
         write=lambda design, value: update_state(design, name, lambda state: replace(state, requires=tuple(value))),
     )
-    return choice_field(desk, bound, [use.alias for use in desk.design.uses], several=True)
+    return choice_field(desk, bound, _aliases, several=True)
 
 
 def _modulates(desk: Desk, state: State) -> list[Field]:
@@ -114,7 +118,7 @@ def _modulates(desk: Desk, state: State) -> list[Field]:
         return [call.alias for call in now.modulates] if now else []
 
     bound = Bound(label="Components", path=("states", name, "modulates"), read=read, write=write)
-    fields = [choice_field(desk, bound, [use.alias for use in desk.design.uses], several=True)]
+    fields = [choice_field(desk, bound, _aliases, several=True)]
     fields += [_parameters(desk, name, call.alias) for call in state.modulates]
     return fields
 

@@ -7,11 +7,14 @@ from vicode.findings import Path
 from vicode.model.design import Action, Call, Decision, Design, Group
 from vicode.model.walks import decision_at, walk_decisions
 
+MANY_STATES = 60
+"""Of more, one is found by typing instead of in a menu."""
+
 
 def outline_of(design: Design, thing: Selected | None) -> object:
     """A value that changes exactly when the form of `thing` must be built anew (None: the form of the design)."""
     uses = tuple((use.alias, use.component) for use in design.uses)
-    names = tuple(state.name for state in design.states)
+    is_crowded = len(design.states) > MANY_STATES
     match thing:
         case Selected(of="states", id=name):
             state = design.state(name)
@@ -19,16 +22,16 @@ def outline_of(design: Design, thing: Selected | None) -> object:
                 return None
             phases = (_actions(state.enter), _actions(state.actions), _actions(state.leave))
             calls = tuple(call.alias for call in state.modulates)
-            return (uses, names, phases, calls, state.transitions)
+            return (uses, is_crowded, phases, calls, state.transitions)
         case Selected(of="transitions", id=key):
             located = decision_at(design, path_of_key(key))
-            return located and (names, located.source, _decision(located.decision))
+            return located and (located.source, _decision(located.decision))
         case Selected(of="components" | "links", id=key):
             return (uses, key)
         case Selected(of="common"):
-            return (uses, names, _actions(design.common.actions), design.common.transitions)
+            return (uses, is_crowded, _actions(design.common.actions), design.common.transitions)
         case _:
-            return (uses, names, _declarations(design), _actions(design.common.actions), design.common.transitions)
+            return (uses, is_crowded, _declarations(design), _actions(design.common.actions), design.common.transitions)
 
 
 def order_around(design: Design, path: Path) -> object:
