@@ -178,7 +178,8 @@ async def measure(url: str, pid: int, clients: int, seconds: float, forget_s: fl
     begun = await asyncio.gather(*(client.own_a_state() for client in people), return_exceptions=True)
     watch.errors += [f"{client.name}: {each!r}" for client, each in zip(people, begun, strict=True) if each is not None]
     people = [client for client, each in zip(people, begun, strict=True) if each is None]
-    await watch.rest()
+    # A server that builds fifty forms is silent for a while, and not at rest.
+    await watch.rest(quiet_s=1.5 + clients / 10)
     until_s = time.perf_counter() + seconds
     outcomes = await asyncio.gather(*(client.work(until_s) for client in people), return_exceptions=True)
     watch.errors += [repr(each) for each in outcomes if each is not None]

@@ -49,7 +49,7 @@ class Field:
     """Why what stands in the field is not in the design."""
     _refused_beside: Any = None
     _keystrokes: Keystrokes = field(default_factory=Keystrokes)
-    _order: object = None
+    _shown_in: Design | None = None
 
     def __post_init__(self) -> None:
         """Watch for typing."""
@@ -66,7 +66,7 @@ class Field:
             self.refused = ""
         if not self.has_focus and not self.refused:
             self._keystrokes.show(value)
-            self._order = order_around(self.desk.design, self.bound.path)
+            self._shown_in = self.desk.design
             if self.element.value != value:
                 self.element.set_value(value)
         if self.message is not None:
@@ -81,7 +81,8 @@ class Field:
 
     def leads_there(self) -> bool:
         """Whether the path still leads to what the field was made for: nothing was put before it, or taken away."""
-        return self._order == order_around(self.desk.design, self.bound.path)
+        before, now, path = self._shown_in, self.desk.design, self.bound.path
+        return before is now or (before is not None and order_around(before, path) == order_around(now, path))
 
     def _typed(self, value: Any) -> None:
         now = self.bound.read(self.desk.design)
