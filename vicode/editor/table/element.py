@@ -43,7 +43,11 @@ class TableGrid(ui.element, component=TABLE / "vicode_table.js"):
 
     def select(self, rows: Iterable[str]) -> None:
         """Mark exactly these rows, and bring the first of them into sight."""
-        self._selected = list(rows)
+        wanted = list(rows)
+        if wanted == self._selected:
+            # The hand may be some rows ahead by now: what it told is not told back to it.
+            return
+        self._selected = wanted
         self._call("select", self._selected)
 
     def edit_cell(self, row: str, column: str) -> None:
@@ -69,6 +73,7 @@ class TableGrid(ui.element, component=TABLE / "vicode_table.js"):
             self._on_edit(event.args)
 
     def _hear_select(self, event: GenericEventArguments) -> None:
+        self._selected = [str(event.args)]
         self._on_select(str(event.args))
 
     def _hear_ready(self) -> None:

@@ -50,12 +50,11 @@ class Table {
   }
 
   select(ids) {
-    this.selected = new Set(ids);
-    for (const [id, element] of this.mounted) element.setAttribute("aria-selected", String(this.selected.has(id)));
+    this.#markSelected(ids);
     const [first] = ids;
-    if (ids.length !== 1 || !this.rows.has(first) || first === this.at.row) return;
-    const hadFocus = this.body.contains(document.activeElement);
-    this.#goTo(first, this.at.column, { quiet: true, focus: hadFocus && !this.editor.isOpen });
+    // Who is typing stays there.
+    if (this.editor.isOpen || ids.length !== 1 || !this.rows.has(first) || first === this.at.row) return;
+    this.#goTo(first, this.at.column, { quiet: true, focus: this.body.contains(document.activeElement) });
   }
 
   editCell(id, name, options = {}) {
@@ -197,7 +196,14 @@ class Table {
     if (!this.telling) return;
     clearTimeout(this.telling);
     this.telling = null;
-    if (this.rows.has(this.at.row)) this.emit("select", this.at.row);
+    if (!this.rows.has(this.at.row)) return;
+    this.#markSelected([this.at.row]);
+    this.emit("select", this.at.row);
+  }
+
+  #markSelected(ids) {
+    this.selected = new Set(ids);
+    for (const [id, element] of this.mounted) element.setAttribute("aria-selected", String(this.selected.has(id)));
   }
 
   #focused() {
