@@ -214,5 +214,6 @@ async def start_runner(stage: Stage, cwd: Path) -> Runner:
         await runner.wait_until_ready()
     except BaseException:
         runner.kill()
+        await runner.gone()
         raise
     return runner
