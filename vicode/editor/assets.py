@@ -1,4 +1,4 @@
-"""Answers for the canvas' scripts by itself: fifty small files, each on the long way of a page, delay the first one."""
+"""Answers for the canvas' scripts by itself: fifty small files, each on the long way of a page, keep the server busy."""
 
 import mimetypes
 from collections.abc import Mapping

@@ -97,7 +97,7 @@ def serve(path: Path, address: Address, *, open_browser: bool = True, tour: bool
         reconnect_timeout=60,
         storage_secret=secrets.token_urlsafe(32),
         uvicorn_logging_level="warning",
-        # To this machine, packing costs more time than it saves: half a second for a page that opens.
+        # To this machine, packing costs more time than it saves: 0.2 s for a page that opens.
         gzip_middleware_factory=GZipMiddleware if address.token else None,
         ws_per_message_deflate=bool(address.token),
     )
