@@ -1,4 +1,4 @@
-"""Answers for the canvas' scripts by itself: fifty small files, each on the long way of a page, keep the server busy."""
+"""Answers for the canvas' scripts by itself: fifty small files, each on the long way of a page, cost much time."""
 
 import mimetypes
 from collections.abc import Mapping
