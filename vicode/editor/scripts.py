@@ -2,8 +2,7 @@
 
 from pathlib import Path
 
-from nicegui import __version__
-from nicegui.dependencies import esm_modules, register_esm
+from nicegui.dependencies import register_esm
 
 
 def _register(room: str) -> Path:
@@ -15,13 +14,3 @@ def _register(room: str) -> Path:
 
 
 CANVAS, CODE, TABLE = _register("canvas"), _register("code"), _register("table")
-
-
-def script_files() -> dict[str, Path]:
-    """All of them, by the paths at which NiceGUI serves them."""
-    return {
-        f"/_nicegui/{__version__}/esm/{key}/{path.name}": path
-        for key, module in esm_modules.items()
-        if module.path in (CANVAS, CODE, TABLE)
-        for path in module.path.iterdir()
-    }

@@ -75,7 +75,7 @@ def serve(path: Path, address: Address, *, open_browser: bool = True, tour: bool
 
     library = Library(path)
     add_pages(library, Keeper(library, open_recovery()), tour=tour)
-    _stand_before(app, address)
+    _add_guard(app, address)
     start = address.url_of(_first_page(library))
     words = _greeting(path, address, start)
     # Quasar's bar for requests under way is a landmark without a name, and says nothing here: all is one socket.
@@ -103,14 +103,10 @@ def serve(path: Path, address: Address, *, open_browser: bool = True, tour: bool
     )
 
 
-def _stand_before(app: "App", address: Address) -> None:
-    """Let the guard see every request first, and answer for scripts before anything else does."""
-    from vicode.editor.assets import Assets
+def _add_guard(app: "App", address: Address) -> None:
     from vicode.editor.guard import COOKIE, Guard
-    from vicode.editor.scripts import script_files
 
     hosts = ("127.0.0.1", "localhost", "::1") if not address.token else None
-    app.add_middleware(Assets, files=script_files())
     app.add_middleware(Guard, hosts=hosts, token=address.token, cookie=f"{COOKIE}_{address.port}")
 
 
