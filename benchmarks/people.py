@@ -32,7 +32,7 @@ PAGE = "design/forward/Player"
 PAUSE_S = 2.0
 FIRST_MARK = 100_000
 # A window that is closed is forgotten after a minute.
-FORGET_S = 66.0
+FORGET_S = 80.0
 
 
 @dataclass

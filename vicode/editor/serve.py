@@ -68,6 +68,7 @@ def serve(path: Path, address: Address, *, open_browser: bool = True, tour: bool
     from nicegui import app, background_tasks, ui
     from starlette.middleware.gzip import GZipMiddleware
 
+    from vicode.editor.memory import Memory
     from vicode.editor.pages.add import add_pages
     from vicode.editor.session import Library
     from vicode.editor.session.keeper import Keeper
@@ -82,7 +83,7 @@ def serve(path: Path, address: Address, *, open_browser: bool = True, tour: bool
     app.config.quasar_config["loadingBar"] = {"skipHijack": True}
     app.config.quasar_config["ripple"] = False
     app.on_startup(lambda: background_tasks.create(_announce(words, address), name="announce"))
-    gc.freeze()
+    Memory(app).set_aside()
     gc.enable()
     ui.run(
         host=address.host,

@@ -1,6 +1,7 @@
 """The page that edits a design: canvas in the middle, designs to the left, inspector to the right, findings below."""
 
 import contextlib
+from collections.abc import Callable
 
 from nicegui import core, ui
 
@@ -28,7 +29,9 @@ from vicode.editor.session import Document, Library, Workspace
 from vicode.editor.session.keeper import Keeper
 from vicode.editor.view.address import design_address
 
-_BREATH_S = 0.02
+# What others do is seen in the drawing first; the panels say it when there is time.
+_DRAWING_S = 0.02
+_PANELS_S = 0.1
 
 
 class DesignPage:
@@ -69,7 +72,7 @@ class DesignPage:
         self.stage.drawing.canvas.on_shown = self.beside.begin
         if arrived:
             self.stage.drawing.arrive_at(arrived)
-        self.is_behind = False
+        self._is_due: set[Callable[[], None]] = set()
         ui.context.client.on_delete(hand.watch(self._hear))
         ui.timer(1.0, self._follow_disk)
 
@@ -95,18 +98,29 @@ class DesignPage:
     def _hear(self, by: Document) -> None:
         """Follow a change: at once if it was made here, else a moment later, so that many come as one."""
         if by is self.desk.document:
-            self._follow()
-        elif not self.is_behind and core.loop is not None:
-            self.is_behind = True
-            # The more windows there are, the more edits each takes at once. Generating reads beside the event loop.
-            pause_s = _BREATH_S * max(1.0, len(self.desk.company.all) / 8)
-            core.loop.call_soon_threadsafe(core.loop.call_later, pause_s, self._follow)
+            self._draw()
+            self._tell()
+        else:
+            self._later(_DRAWING_S, self._draw)
+            self._later(_PANELS_S, self._tell)
 
-    def _follow(self) -> None:
-        self.is_behind = False
+    def _later(self, pause_s: float, act: Callable[[], None]) -> None:
+        if act not in self._is_due and core.loop is not None:
+            self._is_due.add(act)
+            # The more windows there are, the more edits each takes at once. Generating reads beside the event loop.
+            pause_s *= max(1.0, len(self.desk.company.all) / 8)
+            core.loop.call_soon_threadsafe(core.loop.call_later, pause_s, act)
+
+    def _draw(self) -> None:
+        self._is_due.discard(self._draw)
         if not self.stage.drawing.canvas.is_deleted:
             with self.stage.drawing.canvas.client:
                 self.stage.follow()
+
+    def _tell(self) -> None:
+        self._is_due.discard(self._tell)
+        if not self.stage.drawing.canvas.is_deleted:
+            with self.stage.drawing.canvas.client:
                 self.beside.design_changed()
                 self.desk.tell()
 

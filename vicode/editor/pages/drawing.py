@@ -14,7 +14,7 @@ from vicode.editor.panels.desk import Desk
 from vicode.editor.panels.use_dialog import ask_for_component
 from vicode.editor.session import apply_gesture, clipboard, follow, follow_gesture
 from vicode.editor.session.gestures import point_of
-from vicode.editor.view import Scene, Selected, difference, peek_of
+from vicode.editor.view import Scene, Selected, peek_of
 from vicode.editor.view.address import design_address
 from vicode.model.design import Point
 from vicode.model.edits import add_use
@@ -73,7 +73,7 @@ class Drawing:
     def follow(self) -> None:
         """Draw what changed in the design, and forget selected things that are gone."""
         scene = self._draw()
-        self.canvas.apply(difference(self.scene, scene))
+        self.canvas.apply(self.desk.document.sheet.changes(self.scene, scene))
         self.scene = scene
         followed = [follow(thing, self.design, self.desk.design) for thing in self.desk.selected]
         self.design = self.desk.design

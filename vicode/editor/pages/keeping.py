@@ -1,5 +1,7 @@
 """What keeps a window's work from being lost: recovery after a crash, saving by itself, and news of what others do."""
 
+import time
+
 from nicegui import app, run
 
 from vicode.editor.panels.command import Command, Place
@@ -8,16 +10,25 @@ from vicode.editor.panels.save_dialog import ask_about_disk
 from vicode.editor.session.keeper import Keeper
 
 _TICK_S = 0.5
+# Journals take a tenth of the time at most, however large the designs are and however many work on them.
+_SHARE = 9
 
 
 def keep_all(keeper: Keeper) -> None:
     """Let a keeper look after the designs for as long as the server runs."""
+    rests_until_s = 0.0
 
     async def look() -> None:
+        nonlocal rests_until_s
         keeper.save_rested()
+        begun_s = time.perf_counter()
+        if begun_s < rests_until_s:
+            return
         for snapshot in keeper.due():
             # Writing a large design takes a while; the next look waits for it.
             await run.io_bound(keeper.recovery.write, snapshot)
+        ended_s = time.perf_counter()
+        rests_until_s = ended_s + _SHARE * (ended_s - begun_s)
 
     app.timer(_TICK_S, look)
     app.on_shutdown(keeper.recovery.close)

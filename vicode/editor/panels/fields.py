@@ -92,11 +92,16 @@ class Field:
                 self._keystrokes.show(now)
             self.refresh()
             return
+        if not self.leads_there():
+            # It would go into what stands there now.
+            self.desk.say("Somebody else changed the order here just now: look again", "warning")
+            return
         wanted = self._keystrokes.bring_in(value, now)
         write, key = self.bound.write, "/".join(map(str, self.bound.path)) + self.bound.label
         # Noted before the edit is told to all fields, this one among them.
         self._keystrokes.sent(value, self.bound.read(write(self.desk.design, wanted)))
         self.desk.edit(f"edit {words_of_path(self.bound.path)}", lambda design: write(design, wanted), typing_in=key)
+        self._shown_in = self.desk.design
 
     def _show_findings(self, message: ui.label) -> None:
         path = self.bound.path

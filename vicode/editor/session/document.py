@@ -1,14 +1,16 @@
 """One open design: the sheet that all windows share, and the hold of one person on it."""
 
 import time
+from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Any
 
 from vicode.editor.session.history import History, Refusal, Step
 from vicode.editor.session.people import DISK, Company, People
 from vicode.editor.session.wording import words_of_path
-from vicode.editor.view import Scene, path_of_key, scene_of
+from vicode.editor.view import Scene, difference, path_of_key, scene_of
 from vicode.findings import Finding
 from vicode.model.design import Design
 from vicode.model.merging import Conflict
@@ -70,6 +72,9 @@ class Sheet:
     watchers: list[Watcher] = field(init=False, default_factory=list)
     _drawn: tuple[Project, tuple[Finding, ...], Scene] | None = field(init=False, default=None)
     _recent: dict[int, Design] = field(init=False, default_factory=dict)
+    _differences: deque[tuple[Scene, Scene, dict[str, Any]]] = field(
+        init=False, default_factory=lambda: deque(maxlen=8)
+    )
 
     def __post_init__(self) -> None:
         """Begin with what is on disk."""
@@ -94,6 +99,15 @@ class Sheet:
             scene = scene_of(project, self.history.present.design, self.findings, self.rev)
             self._drawn = drawn = (project, self.findings, scene)
         return drawn[2]
+
+    def changes(self, before: Scene, now: Scene) -> dict[str, Any]:
+        """What differs between two scenes; worked out once for all windows that show the first."""
+        for old, new, changes in self._differences:
+            if old is before and new is now:
+                return changes
+        changes = difference(before, now)
+        self._differences.append((before, now, changes))
+        return changes
 
     def design_at(self, rev: int) -> Design:
         """The design as it was at a recent `rev`, as it is now for any other."""

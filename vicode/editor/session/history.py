@@ -3,6 +3,7 @@
 from bisect import bisect_left
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 
 from vicode.findings import Path
 from vicode.model.design import Design
@@ -40,7 +41,7 @@ class Refusal:
     path: Path
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True)
 class History:
     """All steps by id, and the one the design is `at`. `taken_back` holds what each person may do again, newest last.
 
@@ -61,7 +62,7 @@ class History:
         """The step that holds the design as it is now."""
         return self.steps[self.at]
 
-    @property
+    @cached_property
     def path(self) -> tuple[Step, ...]:
         """The steps from the start to now."""
         path = [self.present]
