@@ -94,7 +94,7 @@ def test_fast_typing_is_neither_lost_nor_reordered(editor: str, page: Page, proj
 def test_the_linter_speaks_of_code_and_what_is_declared_is_known(editor: str, page: Page) -> None:
     open_player(page, editor)
     select_state(page, "LookForBall")
-    page.get_by_label("Inspector").get_by_role("button", name="Code", exact=True).first.click()
+    page.get_by_label("Inspector").get_by_role("button", name="Add to actions: Code").first.click()
     code = page.get_by_label("Python", exact=True).first
     retype(page, code, "log.info(Side.left, wrong)")
     expect(page.locator(".squiggle.warning")).to_have_text("wrong")

@@ -36,12 +36,12 @@ class Beside:
         self._desk, self._canvas, self._problems = desk, canvas, problems
         self._simulator: Simulator | None = None
         add_grips()
-        with ui.element("section").classes("dock").props('aria-label="Findings"'):
+        with ui.element("section").classes("dock").props('aria-label="Below the drawing"'):
             dock_grip()
-            self.dock = Tabs(_DOCK, "dock")
+            self.dock = Tabs(_DOCK, "dock", "Panels below")
         with ui.element("aside").classes("side").props('aria-label="Inspector"'):
             side_grip()
-            self.side = Tabs(_SIDE, "side")
+            self.side = Tabs(_SIDE, "side", "Panels beside")
 
     def begin(self) -> None:
         """Build the panels that are in sight."""

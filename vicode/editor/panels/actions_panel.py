@@ -8,7 +8,7 @@ from nicegui import ui
 from vicode.editor.panels.code_field import code_field, pairs_field
 from vicode.editor.panels.desk import Desk
 from vicode.editor.panels.fields import Bound, Field
-from vicode.editor.panels.rows import row_of_buttons
+from vicode.editor.panels.rows import add_button, row_of_buttons
 from vicode.findings import Path
 from vicode.model.design import Action, Assign, Call, Code, Declaration, Design, RunCode
 from vicode.model.edits import update_actions
@@ -22,6 +22,7 @@ def actions_panel(desk: Desk, path: Path, actions: tuple[Action, ...], *, calls:
             with ui.row().classes("card-head"):
                 ui.label(_title(action)).classes("card-title")
                 row_of_buttons(
+                    f"{index + 1} {_title(action)}",
                     up=None if index == 0 else _mover(desk, path, index, -1),
                     down=None if index == len(actions) - 1 else _mover(desk, path, index, 1),
                     remove=_remover(desk, path, index),
@@ -163,7 +164,7 @@ def _adder(desk: Desk, path: Path, label: str, icon: str, make: Callable[[], Act
         action = make()
         desk.edit(f"add {label.lower()}", lambda design: update_actions(design, path, lambda old: (*old, action)))
 
-    ui.button(label, icon=icon, on_click=add).props("flat dense no-caps size=sm")
+    add_button(label, f"Add to {path[-1]}: {label}", add, icon=icon)
 
 
 def _mover(desk: Desk, path: Path, index: int, by: int) -> Callable[[], None]:

@@ -18,6 +18,7 @@ def design_card(workspace: Workspace, card: Card, dialogs: DesignDialogs) -> Non
     """A design: the picture and the name lead to it."""
     address = design_address(workspace.key, card.component)
     with ui.element("article").classes("design-card") as whole:
+        whole.props["aria-label"] = card.component
         with ui.link(target=address).classes("card-picture").props('tabindex="-1" aria-hidden="true"'):
             for theme in ("light", "dark"):
                 picture = ui.element("img").classes(f"is-{theme}").props('alt="" loading="lazy"')
@@ -49,7 +50,8 @@ def _facts(card: Card) -> None:
 
 def broken_card(workspace: Workspace, broken: Broken) -> None:
     """A file that holds no design that can be read, with what is wrong first."""
-    with ui.element("article").classes("design-card is-broken"):
+    with ui.element("article").classes("design-card is-broken") as whole:
+        whole.props["aria-label"] = broken.file
         with ui.element("div").classes("card-picture"):
             ui.icon("broken_image").props('aria-hidden="true"')
         with ui.element("div").classes("card-text"):

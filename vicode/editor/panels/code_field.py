@@ -8,6 +8,7 @@ from nicegui.events import CodeMirrorFocusChangeEventArguments
 
 from vicode.editor.code import CodeAid
 from vicode.editor.panels.desk import Desk
+from vicode.editor.panels.dialogs import titled_dialog
 from vicode.editor.panels.fields import Bound, Field
 from vicode.editor.panels.rows import icon_button
 from vicode.editor.session.completing import (
@@ -77,8 +78,8 @@ def _build(desk: Desk, bound: Bound, writing: Writing, *, is_large: bool = False
 
     with ui.column().classes("field"):
         with ui.row().classes("field-head"):
-            ui.label(bound.label).classes("field-label")
             if not is_large:
+                ui.label(bound.label).classes("field-label")
                 icon_button("open_in_full", f"Enlarge: {bound.label}", lambda: _enlarge(desk, bound, writing))
         editor = desk.code_editors.make(on_focus=focus, language=None if writing.is_expression else "Python")
         editor.classes(writing.style + (" is-large" if is_large else ""))
@@ -96,7 +97,7 @@ def _build(desk: Desk, bound: Bound, writing: Writing, *, is_large: bool = False
 
 def _enlarge(desk: Desk, bound: Bound, writing: Writing) -> None:
     """The same text in a wide editor; both follow each other."""
-    with ui.dialog(value=True) as dialog, ui.card().classes("dialog code-dialog"):
+    with titled_dialog(bound.label, "code-dialog") as dialog:
         large = _build(desk, bound, writing, is_large=True)
         with ui.row().classes("dialog-buttons"):
             ui.button("Close", on_click=dialog.close).props("flat no-caps")

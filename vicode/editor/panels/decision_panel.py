@@ -11,7 +11,7 @@ from vicode.editor.panels.code_field import code_field, expression_field
 from vicode.editor.panels.decisions_list import decisions_list
 from vicode.editor.panels.desk import Desk
 from vicode.editor.panels.fields import Bound, Field, choice_field, flag_field, state_names, text_field
-from vicode.editor.panels.rows import heading
+from vicode.editor.panels.rows import heading, panel_title
 from vicode.editor.view import Selected, path_of_key
 from vicode.findings import Path
 from vicode.model.design import COMMON, Decision, Design, Group, Guard, Transition
@@ -28,9 +28,7 @@ def decision_panel(desk: Desk, key: str) -> list[Field]:
         return []
     path, decision = located.path, located.decision
     source = "every state" if located.source == COMMON else located.source
-    with ui.row().classes("panel-title"):
-        ui.label(_kind(decision))
-        ui.link(source, "#").classes("mono").on("click.prevent", _select_source(desk, located.source))
+    panel_title(_kind(decision), source, _select_source(desk, located.source))
     fields = _target_field(desk, path, decision)
     fields.append(expression_field(desk, _guard_bound(path, "When", "when")))
     fields.append(text_field(desk, _guard_bound(path, "After, seconds in this state", "after"), monospace=True))

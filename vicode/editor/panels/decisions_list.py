@@ -6,7 +6,7 @@ from nicegui import ui
 
 from vicode.editor.panels.desk import Desk
 from vicode.editor.panels.row_dragging import RowDragging
-from vicode.editor.panels.rows import row_of_buttons
+from vicode.editor.panels.rows import add_button, row_of_buttons
 from vicode.editor.session.outline import MANY_STATES
 from vicode.editor.view import Selected, guard_label, transition_key
 from vicode.findings import Path
@@ -44,7 +44,7 @@ def _offer_targets(desk: Desk, source: str) -> None:
             for target in targets():
                 ui.menu_item(f"to {target}", on_click=_connector(desk, source, target)).classes("mono")
 
-    with ui.button("Transition", icon="add").props("flat dense no-caps size=sm"), ui.menu().props("auto-close") as menu:
+    with add_button("Transition", "Add: Transition"), ui.menu().props("auto-close") as menu:
         # Other people's states shall be in it, but not make every form anew.
         menu.on("before-show", fill)
 
@@ -62,6 +62,7 @@ def _rows(desk: Desk, path: Path, items: tuple[Decision, ...]) -> None:
                 ui.label(_target(item) + (" (disabled)" if item.disabled else "")).classes("decision-target")
                 ui.label(guard_label(item.guard) or "always").classes("decision-guard mono")
             row_of_buttons(
+                f"{index + 1} {_target(item)}",
                 up=None if index == 0 else _mover(desk, here, index - 1),
                 down=None if index == len(items) - 1 else _mover(desk, here, index + 1),
                 remove=_remover(desk, here),
@@ -106,7 +107,7 @@ def _adder(desk: Desk, path: Path, label: str, make: Callable[[], Decision]) -> 
         decision = make()
         desk.edit(f"add {label.lower()}", lambda design: update_items(design, path, lambda items: (*items, decision)))
 
-    ui.button(label, icon="add", on_click=add).props("flat dense no-caps size=sm")
+    add_button(label, f"Add: {label}", add)
 
 
 def _mover(desk: Desk, path: Path, to_index: int) -> Callable[[], None]:

@@ -11,7 +11,7 @@ from vicode.editor.panels.code_field import code_field
 from vicode.editor.panels.decisions_list import decisions_list
 from vicode.editor.panels.desk import Desk
 from vicode.editor.panels.fields import Bound, Field, choice_field, flag_field, state_names, text_field
-from vicode.editor.panels.rows import heading, icon_button
+from vicode.editor.panels.rows import add_button, heading, icon_button, panel_title
 from vicode.editor.session import numbers
 from vicode.model.design import COMMON, Declaration, Design
 from vicode.model.edits import add_use, free_name, remove_uses, set_declarations
@@ -25,10 +25,7 @@ _SECTIONS = (
 
 def design_panel(desk: Desk) -> list[Field]:
     """Build the form of the design."""
-    design = desk.design
-    with ui.row().classes("panel-title"):
-        ui.label("Component")
-        ui.label(design.component).classes("mono")
+    panel_title("Component", desk.design.component)
     fields = [
         text_field(desk, _bound("Doc", "doc"), lines=True),
         text_field(desk, _frequency(), monospace=True),
@@ -114,7 +111,7 @@ def _uses(desk: Desk) -> None:
             icon_button("close", f"Stop using {use.alias}", _use_remover(desk, use.alias))
     used = {use.component for use in desk.design.uses} | {desk.design.component}
     free = sorted(name for name in desk.workspace.project.interfaces() if name not in used)
-    with ui.row().classes("adders"), ui.button("Component", icon="add").props("flat dense no-caps size=sm") as button:
+    with ui.row().classes("adders"), add_button("Component", "Use one more component") as button:
         if not free:
             button.disable()
         with ui.menu().props("auto-close"):
@@ -134,14 +131,15 @@ def _declarations(desk: Desk, section: str) -> list[Field]:
     fields: list[Field] = []
     declarations: tuple[Declaration, ...] = getattr(desk.design, section)
     for index, declaration in enumerate(declarations):
-        with ui.element("div").classes("declaration"):
+        with ui.element("div").classes("declaration").props("role=group") as whole:
+            whole.props["aria-label"] = f"{section.removesuffix('s')} {declaration.name}"
             for label, attribute in (("Name", "name"), ("Type", "type"), ("Initial", "initial"), ("Unit", "unit")):
                 bound = _declaration_bound(section, index, declaration.name, (label, attribute))
                 fields.append(text_field(desk, bound, monospace=True))
             fields.append(text_field(desk, _declaration_bound(section, index, declaration.name, ("Doc", "doc"))))
             icon_button("close", f"Remove {declaration.name}", _declaration_remover(desk, section, index))
     with ui.row().classes("adders"):
-        ui.button("Declare", icon="add", on_click=_declaration_adder(desk, section)).props("flat dense no-caps size=sm")
+        add_button("Declare", f"Declare: one more of the {section}", _declaration_adder(desk, section))
     return fields
 
 

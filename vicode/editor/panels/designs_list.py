@@ -36,17 +36,16 @@ class DesignsList:
         with ui.row().classes("project-head"):
             ui.label(workspace.project.name).classes("project-name")
             icon_button("add", f"New design in {workspace.project.name}", lambda: self.dialogs.ask_new(workspace))
-        for design in sorted(workspace.project.designs, key=lambda each: each.component.casefold()):
-            self._design(workspace, design.component)
-        for file in workspace.broken:
-            with ui.link(target=broken_address(workspace.key, file)).classes("design-link is-broken"):
-                ui.icon("error").props('aria-hidden="true"')
-                ui.label(file)
-                ui.tooltip(f"{file} cannot be read: open its text to mend it")
+        with ui.element("div").props("role=list") as listed:
+            listed.props["aria-label"] = workspace.project.name
+            for design in sorted(workspace.project.designs, key=lambda each: each.component.casefold()):
+                self._design(workspace, design.component)
+            for file in workspace.broken:
+                _broken(workspace, file)
 
     def _design(self, workspace: Workspace, component: str) -> None:
         is_here = self.here == (workspace.key, component)
-        with ui.element("div").classes("design-row") as row:
+        with ui.element("div").classes("design-row").props("role=listitem") as row:
             link = ui.link(target=design_address(workspace.key, component))
             link.classes("design-link" + (" is-open" if is_here else ""))
             if is_here:
@@ -56,3 +55,11 @@ class DesignsList:
                 if component in workspace.unsaved:
                     ui.label("●").classes("unsaved-mark").props('aria-label="unsaved" role="img"')
             add_design_menu(workspace, component, self.dialogs, row)
+
+
+def _broken(workspace: Workspace, file: str) -> None:
+    address = broken_address(workspace.key, file)
+    with ui.element("div").props("role=listitem"), ui.link(target=address).classes("design-link is-broken"):
+        ui.icon("error").props('aria-hidden="true"')
+        ui.label(file)
+        ui.tooltip(f"{file} cannot be read: open its text to mend it")

@@ -7,9 +7,9 @@ from nicegui import ui
 
 
 @contextmanager
-def titled_dialog(title: str) -> Iterator[ui.dialog]:
-    """A dialog to be filled; it opens when it is left."""
-    with ui.dialog() as dialog, ui.card().classes("dialog"):
+def titled_dialog(title: str, look: str = "") -> Iterator[ui.dialog]:
+    """A dialog to be filled, with a style class of its own if it has a look of its own; it opens when it is left."""
+    with ui.dialog() as dialog, ui.card().classes(f"dialog {look}"):
         # Set, not written into a text of props: titles hold names.
         dialog.props["aria-label"] = title
         ui.label(title).classes("dialog-title").props("role=heading aria-level=2")

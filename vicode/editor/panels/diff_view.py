@@ -14,12 +14,16 @@ _MOST_ROWS = 2000
 def diff_view(old: str | None, new: str | None) -> ui.html:
     """Build it; None: there is no file on that side."""
     rows = side_by_side(old or "", new or "")
-    body = "".join(_row(row) for row in rows[:_MOST_ROWS])
+    # Where nothing stands on the left, all the room belongs to the right.
+    is_new = old is None
+    body = "".join(_row(row, is_new=is_new) for row in rows[:_MOST_ROWS])
     if len(rows) > _MOST_ROWS:
         body += f'<tr class="gap"><td colspan="5">and {len(rows) - _MOST_ROWS} more lines</td></tr>'
-    heads = ("on disk" if old is not None else "no file yet", "generated" if new is not None else "will be deleted")
-    head = f'<tr><th colspan="2">{heads[0]}</th><th></th><th colspan="2">{heads[1]}</th></tr>'
-    columns = '<colgroup><col class="number"><col><col class="sign"><col class="number"><col></colgroup>'
+    left = "" if is_new else '<th scope="col" colspan="2">on disk</th>'
+    right = "generated" if new is not None else "will be deleted"
+    head = f'<tr>{left}<td></td><th scope="col" colspan="2">{right}</th></tr>'
+    left = "" if is_new else '<col class="number"><col>'
+    columns = f'<colgroup>{left}<col class="sign"><col class="number"><col></colgroup>'
     table = f'<table class="diff mono">{columns}<thead>{head}</thead><tbody>{body}</tbody></table>'
     # Everything that comes from a text is escaped here; nothing else is in it.
     return (
@@ -27,13 +31,14 @@ def diff_view(old: str | None, new: str | None) -> ui.html:
     )
 
 
-def _row(row: Row) -> str:
+def _row(row: Row, *, is_new: bool) -> str:
     if row.change is Change.GAP:
         return f'<tr class="gap"><td colspan="5">{escape(row.old)}</td></tr>'
     sign = _SIGNS.get(row.change, "")
     word = _WORDS.get(row.change, "")
+    left = f'<td class="number">{row.old_number or ""}</td><td class="old">{escape(row.old)}</td>'
     return (
-        f'<tr class="{row.change}"><td class="number">{row.old_number or ""}</td><td class="old">{escape(row.old)}</td>'
+        f'<tr class="{row.change}">{"" if is_new else left}'
         f'<td class="sign" title="{word}">{sign}</td>'
         f'<td class="number">{row.new_number or ""}</td><td class="new">{escape(row.new)}</td></tr>'
     )

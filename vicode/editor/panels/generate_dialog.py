@@ -4,6 +4,7 @@ from collections.abc import Callable
 
 from nicegui import ui
 
+from vicode.editor.panels.dialogs import titled_dialog
 from vicode.editor.panels.diff_view import diff_view
 from vicode.editor.panels.rows import primary_button
 from vicode.editor.session.generating import Prepared
@@ -26,8 +27,7 @@ def ask_before_writing(prepared: Prepared, write: Callable[[bool], None]) -> Non
     """Show what would change; `write` is called with whether edited files are to be set aside, or not at all."""
     changes = prepared.changes
     unchanged = len(prepared.differences) - len(changes)
-    with ui.dialog(value=True).props('aria-label="Generate"') as dialog, ui.card().classes("dialog generate-dialog"):
-        ui.label("Write the generated code?").classes("dialog-title")
+    with titled_dialog("Write the generated code?", "generate-dialog") as dialog:
         rest = f"; {unchanged} more {'is' if unchanged == 1 else 'are'} up to date" if unchanged else ""
         ui.label(f"{_count(len(changes))} in {prepared.folder.name}/{rest}.").classes("small")
         with ui.element("div").classes("generate-files"):

@@ -6,15 +6,15 @@ from nicegui import ui
 
 from vicode.editor.canvas.commands import BY_HAND, CANVAS_COMMANDS, Group
 from vicode.editor.panels.command import Command, Place
+from vicode.editor.panels.dialogs import titled_dialog
 
 _PAGE = {Place.DESIGN: "Design", Place.EDIT: "Edit", Place.VIEW: "View"}
 
 
 def show_help(commands: Sequence[Command]) -> None:
     """Show it; Escape closes it."""
-    with ui.dialog() as dialog, ui.card().classes("dialog help"):
-        ui.label("Keys and gestures").classes("dialog-title")
-        with ui.element("div").classes("help-columns"):
+    with titled_dialog("Keys and gestures", "help") as dialog:
+        with ui.element("div").classes("help-scroll"), ui.element("div").classes("help-columns"):
             for group in Group:
                 _section(f"Canvas: {group.lower()}", _canvas_rows(group))
             for place, title in _PAGE.items():
@@ -23,7 +23,6 @@ def show_help(commands: Sequence[Command]) -> None:
         with ui.row().classes("dialog-buttons"):
             ui.button("Close", on_click=dialog.close).props("flat no-caps autofocus")
     dialog.on("hide", dialog.delete)
-    dialog.open()
 
 
 def _canvas_rows(group: Group) -> list[tuple[str, str]]:
@@ -42,8 +41,15 @@ def _section(title: str, rows: Iterable[tuple[str, str]]) -> None:
     if not rows:
         return
     with ui.element("section").classes("help-section"):
-        ui.label(title).classes("help-title").props('role="heading" aria-level="2"')
-        for keys, meaning in rows:
-            with ui.element("div").classes("help-row"):
-                ui.label(keys).classes("help-keys")
-                ui.label(meaning)
+        ui.label(title).classes("help-title").props('role="heading" aria-level="3"')
+        with ui.element("dl"):
+            for keys, meaning in rows:
+                _row(keys, meaning)
+
+
+def _row(keys: str, meaning: str) -> None:
+    with ui.element("div").classes("help-row"):
+        with ui.element("dt").classes("help-keys"):
+            ui.label(keys)
+        with ui.element("dd"):
+            ui.label(meaning)

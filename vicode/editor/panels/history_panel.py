@@ -6,6 +6,7 @@ from collections.abc import Callable
 from nicegui import ui
 
 from vicode.editor.panels.desk import Desk
+from vicode.editor.panels.dialogs import titled_dialog
 from vicode.editor.panels.rows import primary_button
 from vicode.editor.session.history_lines import HistoryLine, lines_of_history
 from vicode.editor.session.people import DISK
@@ -96,8 +97,7 @@ class HistoryPanel:
 
     def _ask(self, step: int, left: str) -> None:
         label = self.desk.document.history.steps[step].label
-        with ui.dialog() as dialog, ui.card().classes("dialog"):
-            ui.label(f"Go to “{label}”?").classes("dialog-title")
+        with titled_dialog(f"Go to “{label}”?") as dialog:
             ui.label(f"This leaves {left}, for everybody here. They stay in the history.")
 
             def go() -> None:
@@ -107,4 +107,3 @@ class HistoryPanel:
             with ui.row().classes("dialog-buttons"):
                 ui.button("Cancel", on_click=dialog.close).props("flat no-caps")
                 primary_button("Go there", go)
-        dialog.open()

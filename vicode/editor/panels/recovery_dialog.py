@@ -5,6 +5,7 @@ import time
 from nicegui import ui
 
 from vicode.editor.panels.desk import Desk
+from vicode.editor.panels.dialogs import titled_dialog
 from vicode.editor.panels.rows import primary_button
 from vicode.editor.session.keeper import Keeper, difference_of
 from vicode.editor.session.recovery import Lost
@@ -17,21 +18,16 @@ def offer_recovery(desk: Desk, keeper: Keeper) -> None:
     found = keeper.lost(desk.workspace)
     if not found:
         return
-    with ui.dialog() as dialog, ui.card().classes("dialog recovery"):
-        ui.label("Unsaved changes were left behind").classes("dialog-title")
+    with titled_dialog("Unsaved changes were left behind", "recovery") as dialog:
         ui.label("The editor ended before they were saved.").classes("small")
         for lost in found:
             _offer(desk, keeper, lost, dialog)
         with ui.row().classes("dialog-buttons"):
             ui.button("Later", on_click=dialog.close).props("flat no-caps")
-    dialog.open()
 
 
 def _offer(desk: Desk, keeper: Keeper, lost: Lost, dialog: ui.dialog) -> None:
     with ui.column().classes("recovery-row") as row:
-        ui.label(f"Recover the unsaved changes of {lost.component} from {_time_of(lost)}?")
-        with ui.expansion("See the differences").props("dense").classes("section"):
-            _differences(lost)
 
         def done(said: str, kind: str) -> None:
             desk.say(said, kind)
@@ -48,13 +44,16 @@ def _offer(desk: Desk, keeper: Keeper, lost: Lost, dialog: ui.dialog) -> None:
             keeper.recovery.forget(lost)
             done(f"Discarded the changes of {lost.component}", "info")
 
-        with ui.row().classes("dialog-buttons"):
+        with ui.row().classes("recovery-ask"):
+            ui.label(f"Recover the unsaved changes of {lost.component} from {_time_of(lost)}?")
             ui.button("Discard", on_click=discard).props("flat no-caps color=negative")
             primary_button("Recover", recover)
+        with ui.expansion("See the differences").props("dense").classes("section"):
+            _differences(lost)
 
 
 def _differences(lost: Lost) -> None:
-    with ui.element("div").classes("diff"):
+    with ui.element("div").classes("patch"):
         for line in difference_of(lost).splitlines():
             kind = {"+": "added", "-": "removed", "@": "where"}.get(line[:1], "same")
             ui.label(line or " ").classes(f"mono diff-line {kind}")

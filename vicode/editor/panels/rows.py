@@ -24,19 +24,38 @@ def primary_button(label: str, act: Act, *, icon: str | None = None) -> ui.butto
     return ui.button(label, icon=icon, on_click=act, color=None).props("unelevated no-caps").classes("primary-button")
 
 
-def row_of_buttons(*, up: Act | None, down: Act | None, remove: Act) -> None:
-    """Buttons to move a row and to remove it; None: at that end already."""
+def row_of_buttons(what: str, *, up: Act | None, down: Act | None, remove: Act) -> None:
+    """Buttons to move a row and to remove it; None: at that end already. `what` says for the ear which row it is."""
     with ui.row().classes("row-buttons"):
         for icon, label, act in (("arrow_upward", "Earlier", up), ("arrow_downward", "Later", down)):
             button = icon_button(icon, label, act or (lambda: None))
+            button.props["aria-label"] = f"{label}: {what}"
             if act is None:
                 button.disable()
-        icon_button("close", "Remove", remove)
+        icon_button("close", "Remove", remove).props["aria-label"] = f"Remove: {what}"
+
+
+def add_button(label: str, name: str, act: Act | None = None, *, icon: str = "add") -> ui.button:
+    """A small button below what it adds to; `name` says for the ear what it adds, and holds the label."""
+    button = ui.button(label, icon=icon, on_click=act).props("flat dense no-caps size=sm")
+    button.props["aria-label"] = name
+    return button
 
 
 def heading(text: str, *, hint: str = "") -> None:
     """A heading inside a panel."""
     with ui.row().classes("heading"):
-        ui.label(text).props("role=heading aria-level=2")
+        ui.label(text).props("role=heading aria-level=3")
         if hint:
             ui.label(hint).classes("heading-hint")
+
+
+def panel_title(words: str, name: str = "", act: Act | None = None, *, is_heard_only: bool = False) -> None:
+    """What a panel is about: words and a name, which leads somewhere if there is something to do."""
+    look = "heard-only" if is_heard_only else "panel-title"
+    with ui.row().classes(look).props("role=heading aria-level=2"):
+        ui.label(words)
+        if act is not None:
+            ui.link(name, "#").classes("mono").on("click.prevent", act)
+        elif name:
+            ui.label(name).classes("mono")

@@ -5,6 +5,7 @@ from collections.abc import Callable
 from nicegui import ui
 
 from vicode.editor.panels.desk import Desk
+from vicode.editor.panels.dialogs import titled_dialog
 from vicode.editor.panels.rows import primary_button
 from vicode.editor.session import ChangedOnDiskError
 from vicode.editor.session.wording import words_of_path, words_of_value
@@ -19,18 +20,18 @@ def ask_about_disk(desk: Desk) -> None:
     clash = desk.document.sheet.clash
     if clash is None:
         return
-    with ui.dialog() as dialog, ui.card().classes("dialog clash"):
-        if clash.disk.design is None:
-            _ask_to_write(desk, dialog, is_gone=not clash.disk.text)
-        else:
+    name, is_gone = desk.document.file.name, not clash.disk.text
+    if clash.disk.design is not None:
+        with titled_dialog(f"{name} was changed by another program", "clash") as dialog:
             _ask_for_choices(desk, dialog, clash.conflicts)
-    dialog.open()
+        return
+    what = "was deleted by another program" if is_gone else "holds no design any more"
+    with titled_dialog(f"{name} {what}", "clash") as dialog:
+        _ask_to_write(desk, dialog, is_gone=is_gone)
 
 
 def _ask_to_write(desk: Desk, dialog: ui.dialog, *, is_gone: bool) -> None:
     name = desk.document.file.name
-    what = "was deleted by another program" if is_gone else "holds no design any more"
-    ui.label(f"{name} {what}").classes("dialog-title")
     aside = "" if is_gone else f" What it holds now is put aside as {name}.edited."
     ui.label(f"Your design is here. Saving writes the file anew.{aside}")
     with ui.row().classes("dialog-buttons"):
@@ -41,7 +42,6 @@ def _ask_to_write(desk: Desk, dialog: ui.dialog, *, is_gone: bool) -> None:
 def _ask_for_choices(desk: Desk, dialog: ui.dialog, conflicts: tuple[Conflict, ...]) -> None:
     chosen: dict[Path, str] = {conflict.path: "mine" for conflict in conflicts}
     count = "one place" if len(conflicts) == 1 else f"{len(conflicts)} places"
-    ui.label(f"{desk.document.file.name} was changed by another program").classes("dialog-title")
     ui.label(f"It touches your unsaved work in {count}; all other changes of both come together.").classes("small")
     with ui.column().classes("clash-list"):
         for conflict in conflicts:

@@ -6,7 +6,7 @@ from functools import partial
 from nicegui import ui
 
 from vicode.editor.panels.desk import Desk
-from vicode.editor.panels.rows import heading, icon_button
+from vicode.editor.panels.rows import heading, icon_button, panel_title
 
 _WORDS = {
     "states": ("state", "states"),
@@ -39,7 +39,7 @@ def several_panel(desk: Desk) -> None:
     """Build it for what is selected."""
     counts = Counter(thing.of for thing in desk.selected)
     parts = [f"{counts[of]} {words[counts[of] > 1]}" for of, words in _WORDS.items() if counts[of]]
-    ui.label(", ".join(parts) + " selected").classes("panel-title")
+    panel_title(", ".join(parts) + " selected")
     boxes = sum(counts[of] for of in ("states", "components", "common"))
     if boxes > 1:
         heading("Line up")

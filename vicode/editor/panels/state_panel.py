@@ -10,7 +10,7 @@ from vicode.editor.panels.code_field import pairs_field
 from vicode.editor.panels.decisions_list import decisions_list
 from vicode.editor.panels.desk import Desk
 from vicode.editor.panels.fields import Bound, Field, choice_field, flag_field, text_field
-from vicode.editor.panels.rows import heading
+from vicode.editor.panels.rows import heading, panel_title
 from vicode.editor.session import apply_gesture
 from vicode.model.design import Call, Design, State
 from vicode.model.edits import update_state
@@ -22,6 +22,8 @@ def state_panel(desk: Desk, name: str) -> list[Field]:
     if state is None:
         return []
     path = ("states", name)
+    # The field says it to the eye.
+    panel_title("State", name, is_heard_only=True)
     _title(desk, name)
     fields = [
         text_field(desk, _bound(name, "Doc", "doc"), lines=True),

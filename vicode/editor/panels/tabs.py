@@ -19,20 +19,23 @@ class Tabs:
     Args:
         names: the word on each tab; the first is shown.
         place: the style class of bar and panels, such as "side".
+        label: what the tabs are of, for the ear.
     """
 
-    def __init__(self, names: Sequence[str], place: str) -> None:
+    def __init__(self, names: Sequence[str], place: str, label: str) -> None:
         """Build the bar, with room for the panels."""
         self._builders: Mapping[str, Callable[[], Panel]] = {}
         self._panels: dict[str, Panel] = {}
         self._slots: dict[str, ui.tab_panel] = {}
         with ui.tabs().props("dense no-caps align=left").classes(f"{place}-tabs") as self._bar:
+            self._bar.props["aria-label"] = label
             for name in names:
                 ui.tab(name)
         kept = ui.tab_panels(self._bar, value=names[0], keep_alive=True)
         with kept.props("animated=false").classes(f"{place}-panels"):
             for name in names:
                 self._slots[name] = ui.tab_panel(name)
+                self._slots[name].props["aria-label"] = name
         self._bar.on_value_change(lambda _event: self.refresh())
 
     @property

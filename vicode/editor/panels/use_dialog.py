@@ -4,13 +4,13 @@ from collections.abc import Callable, Sequence
 
 from nicegui import ui
 
+from vicode.editor.panels.dialogs import titled_dialog
 from vicode.model.project import Interface
 
 
 def ask_for_component(interfaces: Sequence[Interface], take: Callable[[str], None]) -> None:
     """Show the components of a project; `take` is called with the name of the chosen one."""
-    with ui.dialog() as dialog, ui.card().classes("dialog"):
-        ui.label("Use a component").classes("dialog-title")
+    with titled_dialog("Use a component", "use-dialog") as dialog:
         wanted = (
             ui.input("Component", placeholder="a part of its name")
             .props("outlined dense stack-label autofocus")
@@ -42,7 +42,6 @@ def ask_for_component(interfaces: Sequence[Interface], take: Callable[[str], Non
     wanted.on("keydown.enter", choose_first)
     dialog.on("hide", dialog.delete)
     show()
-    dialog.open()
 
 
 def _row(interface: Interface, choose: Callable[[str], None]) -> None:

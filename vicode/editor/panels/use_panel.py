@@ -4,7 +4,7 @@ from nicegui import ui
 
 from vicode.editor.panels.desk import Desk
 from vicode.editor.panels.fields import Field
-from vicode.editor.panels.rows import heading
+from vicode.editor.panels.rows import heading, panel_title
 from vicode.editor.view import Selected
 from vicode.model.design import Declaration
 from vicode.model.edits import remove_uses, unlink
@@ -17,9 +17,7 @@ def use_panel(desk: Desk, alias: str) -> list[Field]:
         return []
     project = desk.workspace.project
     interface = project.interface(use.component)
-    with ui.row().classes("panel-title"):
-        ui.label("Component")
-        ui.label(use.component).classes("mono")
+    panel_title("Component", use.component)
     if interface is None:
         ui.label("Nothing in the project declares it.").classes("field-finding")
         return []
@@ -56,9 +54,7 @@ def _table(declarations: tuple[Declaration, ...]) -> None:
 def link_panel(desk: Desk, key: str) -> list[Field]:
     """Build the panel of a link between a state and a component."""
     kind, state, alias = key.split("/")
-    with ui.row().classes("panel-title"):
-        ui.label(f"{state} {kind}")
-        ui.label(alias).classes("mono")
+    panel_title(f"{state} {kind}", alias)
     ui.button("Open the state", on_click=lambda: desk.select(Selected(of="states", id=state))).props(
         "flat dense no-caps"
     )

@@ -239,7 +239,6 @@ class Canvas {
 
   say(text) {
     this.message.textContent = text;
-    this.message.hidden = !text;
   }
 
   /** Words that go by themselves. */
@@ -274,7 +273,8 @@ class Canvas {
     this.peek = new Peek(this);
     this.people = new People(this);
     this.dots = html("div", { class: "dots" });
-    this.message = html("div", { class: "message", role: "status", hidden: true });
+    // Always there, as what only comes with its words is not read aloud by all screen readers.
+    this.message = html("div", { class: "message", role: "status" });
     this.empty = html("div", { class: "empty", hidden: true, text: "No states yet.\nDouble click, or press S, to add the first." });
     const corner = html("div", { class: "corner" }, [this.minimap.element, this.toolbar.element]);
     const above = [this.empty, this.message, this.rename.input, corner, this.peek.element, this.menu.element];

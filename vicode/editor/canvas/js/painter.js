@@ -11,14 +11,17 @@ const PINNED = { selected: MOST_PINNED, active: MOST_PINNED, taken: 1, drop: 1, 
 
 const MOST_MOUNTED = 2500;
 
+const TOLD = { selected: "selected", active: "active now", taken: "just taken", stop: "breakpoint" };
+
 export class Painter {
   constructor(scene, router) {
     this.scene = scene;
     this.router = router;
     this.items = new Map();
     this.marks = new Map(["selected", "active", "taken", "stop", "drop", "held", "lit", "hover"].map((name) => [name, new Set()]));
-    this.layers = { links: svg("g"), edges: svg("g"), nodes: svg("g"), chips: svg("g"), above: svg("g") };
-    this.svg = svg("svg", { "aria-hidden": "false" }, [hatching(), ...Object.values(this.layers)]);
+    const heard = (name) => svg("g", { role: "group", "aria-label": name });
+    this.layers = { links: heard("Links to components"), edges: heard("Transitions"), nodes: heard("States and components"), chips: svg("g"), above: svg("g") };
+    this.svg = svg("svg", { role: "presentation" }, [hatching(), ...Object.values(this.layers)]);
     this.covered = null;
     this.far = false;
     // They grow with everything that changes the picture, and with what only changes colours in it.
@@ -203,9 +206,17 @@ export class Painter {
     for (const part of Object.values(this.items.get(key) ?? {})) {
       if (!part) continue;
       part.classList.toggle(name, on);
+      if (name in TOLD && part.role === "button") describeMarks(part);
       if (on && name === "lit" && part.nextSibling) bringForward(part);
     }
   }
+}
+
+/** Marks are told beside the name, which stays what it is. */
+function describeMarks(part) {
+  const words = Object.keys(TOLD).filter((name) => part.classList.contains(name)).map((name) => TOLD[name]);
+  if (words.length) part.setAttribute("aria-description", words.join(", "));
+  else part.removeAttribute("aria-description");
 }
 
 /** The lines across a disabled box. */

@@ -8,8 +8,7 @@ export function showStop(item, thing, on) {
   const part = item?.node ?? item?.chip ?? item?.line;
   if (!part) return;
   part.querySelector(":scope > .stop-sign")?.remove();
-  if (!on) return part.removeAttribute("aria-description");
-  part.setAttribute("aria-description", "breakpoint");
+  if (!on) return;
   part.append(svg("g", { class: "stop-sign", transform: placeOf(item, thing), "aria-hidden": "true" }, [
     svg("circle", { r: R }),
     svg("rect", { x: -2.5, y: -2.5, width: 5, height: 5 }),

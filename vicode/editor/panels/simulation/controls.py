@@ -30,10 +30,11 @@ class Controls:
             with self.where:
                 ui.tooltip("Bring the active state into view")
             ui.element("div").classes("spacer")
+            ui.label("Go to").classes("small").props('aria-hidden="true"')
             self.time = ui.number(min=0, step=0.1, format="%.2f").props('dense outlined suffix="s" debounce=0')
             self.time.props('aria-label="Go to this time"').classes("simulation-time mono")
             self.time.on("keydown.enter", self._go_to_time)
-            ui.label("Speed").classes("small")
+            ui.label("Speed").classes("small").props('aria-hidden="true"')
             speeds = {speed: f"{speed:g}×" for speed in SPEEDS}
             self.speed = ui.select(speeds, value=simulator.speed, on_change=lambda event: self._set_speed(event.value))
             self.speed.props('dense outlined options-dense aria-label="Speed"').classes("simulation-speed")

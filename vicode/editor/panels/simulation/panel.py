@@ -32,7 +32,7 @@ class SimulationPanel:
                 with ui.element("section").classes("simulation-part").props('aria-label="Guards of the active state"'):
                     self.guards = GuardsList(simulator)
                 with ui.element("section").classes("simulation-part happenings").props('aria-label="What happened"'):
-                    self.tabs = Tabs(_HAPPENINGS, "happenings")
+                    self.tabs = Tabs(_HAPPENINGS, "happenings", "What happened")
         builders = lambda: Timeline(simulator), lambda: ActivationTree(simulator), lambda: Output(simulator)
         self.tabs.begin(dict(zip(_HAPPENINGS, builders, strict=True)))
         simulator.show = self._follow
