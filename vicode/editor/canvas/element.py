@@ -52,8 +52,9 @@ class Canvas(ui.element, component=CANVAS / "vicode_canvas.js"):
         """Show a whole scene; the view is kept when it is the same component as before, else all is fitted in."""
         self._scene = {**view, **{kind: {thing["id"]: thing for thing in view.get(kind, ())} for kind in _KINDS}}
         if not self._is_mounted:
-            # It travels with the page, so that it is drawn before the page's socket is open.
-            self._props["scene"], self._rev_in_page = self._whole(), view["rev"]
+            # It travels with the page, so that it is drawn before the page's socket is open. In a tuple, as NiceGUI
+            # would make watched copies of all its dictionaries, which took longer than drawing them.
+            self._props["scene"], self._rev_in_page = (self._whole(),), view["rev"]
         self._call("load", self._whole())
 
     def apply(self, changes: Changes) -> None:

@@ -1,13 +1,16 @@
 // The Vue shell NiceGUI loads; the canvas itself lives in the ES modules beside it.
+import { toRaw } from "vue";
 import { mountCanvas } from "vicode-canvas";
 
 export default {
-  props: { commands: { type: Array, default: () => [] }, scene: { type: Object, default: null } },
+  props: { commands: { type: Array, default: () => [] }, scene: { type: Array, default: () => [] } },
   template: `<div class="vicode-canvas"></div>`,
   mounted() {
     this.canvas = mountCanvas(this.$el, (event, payload) => this.$emit(event, payload), this.commands);
-    if (this.scene) this.canvas.load(this.scene);
-    this.$emit("ready", { rev: this.scene?.rev ?? null });
+    // Not as Vue's watched copies, of which every look at a state would make another.
+    const [scene] = toRaw(this.scene);
+    if (scene) this.canvas.load(scene);
+    this.$emit("ready", { rev: scene?.rev ?? null });
   },
   unmounted() {
     this.canvas.dispose();
