@@ -1,5 +1,6 @@
 """What a hand does on the canvas is what Python hears."""
 
+import re
 from collections.abc import Callable, Mapping
 from typing import Any
 
@@ -19,6 +20,12 @@ def test_a_dragged_state_follows_and_snaps_to_the_grid(hand: Hand) -> None:
     assert moved["y"] % 10 == 0
     assert moved["x"] > 180
     assert hand.place("states/GiveUp") == (moved["x"], moved["y"])
+    # What rests stands there by its coordinates.
+    drawn = hand.page.locator('g.nodes > [data-id="GiveUp"]')
+    expect(drawn).not_to_have_attribute("transform", re.compile("."))
+    box = drawn.locator(".box")
+    left, top, width, height = (float(box.get_attribute(name) or 0) for name in ("x", "y", "width", "height"))
+    assert (left + width / 2, top + height / 2) == (moved["x"], moved["y"])
 
 
 def test_alt_moves_freely(hand: Hand) -> None:
@@ -36,7 +43,10 @@ def test_escape_puts_a_dragged_state_back(hand: Hand) -> None:
     hand.page.mouse.down()
     hand.page.mouse.move(x + 90, y + 50, steps=4)
     hand.wait_for("vicode.positions()['states/GiveUp'].x > 80")
+    # On sheets of their own, so that the browser need not paint the rest with every movement.
+    assert hand.page.locator('.held.nodes > [data-id="GiveUp"], .held.edges > [data-id="LookForBall/2"]').count() == 2
     hand.press("Escape")
+    assert hand.page.locator(".held > *").count() == 0
     hand.page.mouse.up()
     assert hand.place("states/GiveUp") == (80, 330)
     hand.press("Control+z")

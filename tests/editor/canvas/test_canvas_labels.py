@@ -91,7 +91,7 @@ def _drawn(hand: Hand) -> dict[str, list[str]]:
           const of = (id, part) => root.querySelector(`g.${part}[data-id="${id}"]`);
           const ids = [...root.querySelectorAll('g.edge')].map(edge => edge.dataset.id);
           return Object.fromEntries(ids.map(id => [
-            id, [of(id, 'edge').querySelector('.line').getAttribute('d'), of(id, 'chip').getAttribute('transform')]]));
+            id, [of(id, 'edge').querySelector('.line').getAttribute('d'), of(id, 'chip').dataset.at]]));
         }"""
     )
     return drawn

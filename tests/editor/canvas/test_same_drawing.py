@@ -22,7 +22,7 @@ DRAWN = """() => {
   return [...root.querySelectorAll('g.edge:not(.chip)')].map(line => [
     line.dataset.kind + ':' + line.dataset.id,
     line.querySelector('.hit').getAttribute('d'),
-    labels[line.dataset.key]?.getAttribute('transform') ?? '',
+    labels[line.dataset.key]?.dataset.at ?? '',
   ]);
 }"""
 

@@ -177,7 +177,7 @@ class Canvas {
   reportMove(keys, oldRects, how = "drag") {
     const nodes = keys.map((key) => this.scene.nodes.get(key));
     this.scene.reindex(keys);
-    this.painter.settle([...oldRects, ...nodes.map(rectOf)]);
+    this.painter.tidy([...oldRects, ...nodes.map(rectOf)]);
     this.painter.covered = null;
     this.report("move", { items: nodes.map(({ of, id, x, y }) => ({ of, id, x, y })), how });
     this.#sceneChanged();
@@ -259,7 +259,7 @@ class Canvas {
     const colours = (name) => this.theme.colour(name);
     this.viewport = new Viewport(this.stage, this.frame);
     this.minimap = new Minimap(this.scene, this.viewport, colours);
-    this.levels = new Levels(this, html("div", { class: "plane layer" }, [this.painter.svg]), colours);
+    this.levels = new Levels(this, html("div", { class: "plane layer" }, this.painter.sheets), colours);
     this.theme = new Theme(this.stage, () => this.#coloursChanged());
     this.toolbar = new Toolbar(this);
     this.selection = new Selection(this);

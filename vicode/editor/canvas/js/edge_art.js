@@ -1,6 +1,7 @@
 // Curves with arrow heads and their label chips. A curve and its chip lie in different layers.
 import { badge, findings, kindOf } from "./node_art.js";
 import { BADGE } from "./labels.js";
+import { shift, stand } from "./standing.js";
 import { svg } from "./svg.js";
 
 const HEAD = 10;
@@ -31,7 +32,7 @@ export function placeEdge({ line, chip }, { curve, at }) {
   hit.setAttribute("d", pathOf(curve, { x: curve[6], y: curve[7] }));
   stroke.setAttribute("d", pathOf(curve, base));
   head.setAttribute("d", tip);
-  if (chip) chip.setAttribute("transform", `translate(${round(at.x)} ${round(at.y)})`);
+  if (chip) stand(chip, round(at.x), round(at.y));
 }
 
 /** The path of a curve, drawn to `end` instead of its own last point. */
@@ -59,7 +60,7 @@ function drawChip(edge, { chip }, names) {
     group.append(svg("rect", { class: "plate bg", x: -w / 2, y: -h / 2, width: w - badgeWidth, height: h, rx: h / 2 }));
     if (chip.order) group.append(svg("text", { class: "order", x, text: chip.text || chip.icon ? `${chip.order} · ` : chip.order }));
     x += orderWidth;
-    if (chip.icon) group.append(svg("path", { class: "icon", d: ICONS[chip.icon], transform: `translate(${x} 0)` }));
+    if (chip.icon) group.append(shift(svg("path", { class: "icon", d: ICONS[chip.icon] }), x, 0));
     x += iconWidth;
     if (chip.text) group.append(svg("text", { class: "label", x, text: chip.text }));
   }

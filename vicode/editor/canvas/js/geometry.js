@@ -117,14 +117,23 @@ export function pointsOf(curve, length) {
 
 /** Whether a line through these points touches a rectangle. */
 export function crosses(points, rect) {
-  for (let index = 1; index < points.length; index += 1) if (touches(points[index - 1], points[index], rect)) return true;
+  let before = sidesOf(points[0], rect);
+  for (let index = 1; index < points.length; index += 1) {
+    const sides = sidesOf(points[index], rect);
+    // Both beyond the same side: this is asked for thousands of lines, of which nearly all pass elsewhere.
+    if ((before & sides) === 0 && touches(points[index - 1], points[index], rect)) return true;
+    before = sides;
+  }
   return false;
 }
 
-/** Whether a segment has a part in a rectangle: of the parts within each pair of sides something must be left. */
+/** Beyond which sides of a rectangle a point lies, as bits. */
+const sidesOf = ({ x, y }, rect) =>
+  (x < rect.x ? 1 : x > rect.x + rect.w ? 2 : 0) | (y < rect.y ? 4 : y > rect.y + rect.h ? 8 : 0);
+
+/** Whether a segment that is not wholly beyond one side of a rectangle has a part in it. */
 function touches(a, b, rect) {
   const [right, bottom] = [rect.x + rect.w, rect.y + rect.h];
-  if (Math.max(a.x, b.x) < rect.x || Math.min(a.x, b.x) > right || Math.max(a.y, b.y) < rect.y || Math.min(a.y, b.y) > bottom) return false;
   if (a.x === b.x || a.y === b.y) return true;
   // Not beside it, so only a slanting line past a corner misses: then all four corners lie on one side of it.
   const side = (x, y) => (b.x - a.x) * (y - a.y) > (b.y - a.y) * (x - a.x);

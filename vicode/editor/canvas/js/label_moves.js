@@ -1,6 +1,7 @@
 // The label of a transition is put elsewhere by hand: along its arrow or off it, or onto another label to be tested there.
 import { rectAround } from "./geometry.js";
 import { labelAt, labelPlace } from "./labels.js";
+import { stand } from "./standing.js";
 import { svg } from "./svg.js";
 
 export class LabelDrag {
@@ -15,6 +16,7 @@ export class LabelDrag {
     this.grip = { x: route.at.x - world.x, y: route.at.y - world.y };
     this.tie = svg("path", { class: "guide" });
     this.canvas.painter.layers.above.append(this.tie);
+    this.canvas.painter.mark("held", [this.key]);
     this.canvas.say("On another label of this state: tested there");
   }
 
@@ -24,7 +26,7 @@ export class LabelDrag {
     this.at = { x: world.x + this.grip.x, y: world.y + this.grip.y };
     this.onto = this.#siblingAt(world);
     this.canvas.painter.mark("drop", this.onto ? [this.onto.key] : []);
-    this.canvas.painter.items.get(this.key)?.chip?.setAttribute("transform", `translate(${this.at.x} ${this.at.y})`);
+    this.#put(this.at);
     const [part, shift] = labelPlace(route.curve, this.at);
     const foot = labelAt(route.curve, [part, 0]);
     this.tie.setAttribute("d", Math.abs(shift) > 14 && !this.onto ? `M${foot.x} ${foot.y}L${this.at.x} ${this.at.y}` : "");
@@ -61,13 +63,18 @@ export class LabelDrag {
 
   #putBack() {
     const route = this.#route();
-    if (route) this.canvas.painter.items.get(this.key)?.chip?.setAttribute("transform", `translate(${route.at.x} ${route.at.y})`);
+    if (route) this.#put(route.at);
+  }
+
+  #put({ x, y }) {
+    const chip = this.canvas.painter.items.get(this.key)?.chip;
+    if (chip) stand(chip, x, y);
   }
 
   #release() {
     this.tie?.remove();
     this.canvas.say("");
-    this.canvas.painter.mark("drop", []);
+    for (const name of ["drop", "held"]) this.canvas.painter.mark(name, []);
   }
 
   /** Another transition of the same source whose label lies under the pointer. */

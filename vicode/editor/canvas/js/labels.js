@@ -59,14 +59,14 @@ function roomBetween(from, to, beside) {
   return Math.min(MOST_ROOM, Math.max(LEAST_ROOM, Math.floor((gap - 30) / 10) * 10));
 }
 
-/** The place `{at, cost}` where a label hides least; `crowd` says what a rectangle would hide. */
+/** The place `{at, cost}` where a label hides least; `crowd` says what a rectangle would hide, and may stop at a limit. */
 export function placeLabel(edge, curve, chip, crowd) {
   const isLoop = edge.source === edge.target;
   let best = { cost: Infinity };
   for (const place of isLoop ? LOOP_PLACES : PLACES) {
     if (place.cost >= best.cost) break;
     const at = isLoop ? besideLoop(curve, chip, place.out) : besideLine(curve, chip, place);
-    const cost = place.cost + crowd(rectAround(at.x, at.y, chip.w, chip.h));
+    const cost = place.cost + crowd(rectAround(at.x, at.y, chip.w, chip.h), best.cost - place.cost);
     if (cost < best.cost) best = { at, cost };
   }
   return best;

@@ -1,5 +1,6 @@
 // Boxes, hexagons and the common badge as SVG groups. Marks speak by shape first, by colour second.
 import { HEX_SLANT } from "./geometry.js";
+import { shift, stand } from "./standing.js";
 import { svg } from "./svg.js";
 
 const MARK_ROW = 16;
@@ -33,7 +34,7 @@ export function drawNode(node) {
   return group;
 }
 
-export const placeNode = (group, node) => group.setAttribute("transform", `translate(${node.x} ${node.y})`);
+export const placeNode = (group, node) => stand(group, node.x, node.y);
 
 export const kindOf = (thing) =>
   ({ states: "state", components: "component", transitions: "transition", links: "link", common: "common" })[thing.of];
@@ -46,7 +47,7 @@ function drawState(node) {
   if (data.initial) parts.push(...initialMark(w, h));
   parts.push(svg("text", { class: "name", y: marks.length ? NAME_RISE : 0, text: node.label }));
   if (marks.length) parts.push(markRow(marks, MARK_ROW));
-  if (data.disabled) parts.push(svg("path", { class: "off", d: OFF, transform: `translate(${-w / 2 + 9} ${-h / 2 + 14})` }));
+  if (data.disabled) parts.push(shift(svg("path", { class: "off", d: OFF }), -w / 2 + 9, -h / 2 + 14));
   if (data.severity) parts.push(badge(data, w / 2 - 4, -h / 2 + 2));
   return parts;
 }
@@ -55,10 +56,10 @@ function drawComponent(node) {
   const { w, h, data } = node;
   const s = HEX_SLANT;
   const points = [-w / 2, 0, -w / 2 + s, -h / 2, w / 2 - s, -h / 2, w / 2, 0, w / 2 - s, h / 2, -w / 2 + s, h / 2].join(" ");
-  const parts = [svg("polygon", { class: "box bg", points })];
+  const parts = [svg("path", { class: "box bg", d: `M${points}Z` })];
   parts.push(svg("text", { class: "name", y: node.second ? NAME_RISE : 0, text: node.label }));
   if (node.second) parts.push(svg("text", { class: "second", y: 12, text: node.second }));
-  if (data.design) parts.push(svg("path", { class: "mark open", d: "M-5 -3.5H3.5V5M3.5 -3.5L-4.5 4.5", transform: `translate(${w / 2 - 25} 0)` }));
+  if (data.design) parts.push(shift(svg("path", { class: "mark open", d: "M-5 -3.5H3.5V5M3.5 -3.5L-4.5 4.5" }), w / 2 - 25, 0));
   if (data.severity) parts.push(badge(data, w / 2 - s, -h / 2 + 2));
   return parts;
 }
@@ -68,7 +69,7 @@ function drawCommon(node) {
   const parts = [svg("rect", { class: "box bg", x: -w / 2, y: -h / 2, width: w, height: h, rx: h / 2 })];
   parts.push(svg("path", { class: "mark", d: "M-52 -6V6M-57.2 -3L-46.8 3M-57.2 3L-46.8 -3" }));
   parts.push(svg("text", { class: "name", x: 4, y: 0, text: node.label }));
-  if (data.actions) parts.push(svg("path", { class: "mark", d: MARKS.actions.d, transform: `translate(${w / 2 - 24} 0)` }));
+  if (data.actions) parts.push(shift(svg("path", { class: "mark", d: MARKS.actions.d }), w / 2 - 24, 0));
   if (data.severity) parts.push(badge(data, w / 2 - 8, -h / 2 + 2));
   return parts;
 }
@@ -97,7 +98,7 @@ function markRow(marks, y) {
   let x = -(widths.reduce((sum, width) => sum + width, 0) + MARK_GAP * (marks.length - 1)) / 2;
   const row = svg("g", { class: "marks", "aria-hidden": "true" });
   marks.forEach(({ name, count }, index) => {
-    row.append(svg("path", { class: `mark ${name}`, d: MARKS[name].d, transform: `translate(${x} ${y})` }));
+    row.append(shift(svg("path", { class: `mark ${name}`, d: MARKS[name].d }), x, y));
     if (count) row.append(svg("text", { class: `count ${name}`, x: x + MARKS[name].w + 3, y, text: count }));
     x += widths[index] + MARK_GAP;
   });
@@ -112,10 +113,10 @@ export function badge(data, x, y) {
     note: "M-9.5 0a9.5 9.5 0 1 0 19 0a9.5 9.5 0 1 0 -19 0Z",
   }[data.severity];
   const count = data.messages?.length ?? 0;
-  const group = svg("g", { class: `badge ${data.severity}`, transform: `translate(${x} ${y})`, "aria-hidden": "true" });
+  const group = svg("g", { class: `badge ${data.severity}`, "aria-hidden": "true" });
   group.append(svg("path", { d: shape }));
   group.append(svg("text", { y: data.severity === "warning" ? 2.5 : 0, text: count > 9 ? "9+" : count > 0 ? String(count) : "!" }));
-  return group;
+  return shift(group, x, y);
 }
 
 /** The tooltip of a node. */

@@ -1,7 +1,8 @@
 // Keeps in the DOM what is near enough to be seen, and nothing else; knows the marks on every thing.
 import { drawEdge, placeEdge } from "./edge_art.js";
-import { covers, grow, overlaps, rectOf } from "./geometry.js";
+import { bounds, covers, grow, overlaps, rectOf } from "./geometry.js";
 import { drawNode, placeNode } from "./node_art.js";
+import { rest } from "./standing.js";
 import { showStop } from "./stop_sign.js";
 import { svg } from "./svg.js";
 
@@ -10,6 +11,18 @@ export const MOST_PINNED = 150;
 const PINNED = { selected: MOST_PINNED, active: MOST_PINNED, taken: 1, drop: 1, lit: 200, held: 1500 };
 
 const MOST_MOUNTED = 2500;
+// So far arrows may bow, and boxes be dragged, beyond what was there before.
+const GROUND = 1000;
+
+// Back to front. What a hand moves lies on sheets of its own, so that a browser need not paint all the rest with every movement.
+const SHEETS = [
+  ["links", "edges"],
+  ["held links", "held edges"],
+  ["nodes", "chips"],
+  ["held nodes", "held chips", "above"],
+];
+const HEARD = { links: "Links to components", edges: "Transitions", nodes: "States and components" };
+const TWINS = ["links", "edges", "nodes", "chips"].map((name) => [name, `held ${name}`]);
 
 const TOLD = { selected: "selected", active: "active now", taken: "just taken", stop: "breakpoint" };
 
@@ -19,10 +32,13 @@ export class Painter {
     this.router = router;
     this.items = new Map();
     this.marks = new Map(["selected", "active", "taken", "stop", "drop", "held", "lit", "hover"].map((name) => [name, new Set()]));
-    const heard = (name) => svg("g", { role: "group", "aria-label": name });
-    this.layers = { links: heard("Links to components"), edges: heard("Transitions"), nodes: heard("States and components"), chips: svg("g"), above: svg("g") };
-    this.svg = svg("svg", { role: "presentation" }, [hatching(), ...Object.values(this.layers)]);
+    this.layers = Object.fromEntries(SHEETS.flat().map((name) => [name, layer(name)]));
+    this.grounds = SHEETS.map(() => svg("rect", { class: "ground" }));
+    this.sheets = SHEETS.map((names, index) => svg("svg", { role: "presentation" }, [this.grounds[index], ...names.map((name) => this.layers[name])]));
+    this.sheets[0].prepend(hatching());
+    this.twins = new Map(TWINS.flatMap((pair) => [pair, pair.toReversed()]).map((pair) => pair.map((name) => this.layers[name])));
     this.covered = null;
+    this.ground = null;
     this.far = false;
     // They grow with everything that changes the picture, and with what only changes colours in it.
     this.revision = 0;
@@ -45,6 +61,7 @@ export class Painter {
     this.far = far;
     // The smaller things are, the more of them the margin would hold.
     this.covered = grow(seen, (Math.max(seen.w, seen.h) / 3) * Math.min(1, zoom * zoom));
+    this.#spread(bounds([this.covered, this.scene.extent() ?? this.covered]));
     const wanted = far ? new Set() : this.#near(this.covered);
     for (const key of this.#pinned()) wanted.add(key);
     if (far || !moving || this.items.size > MOST_MOUNTED) {
@@ -66,7 +83,7 @@ export class Painter {
   dim() {
     this.looks += 1;
     const isDim = this.marks.get("lit").size > 0;
-    for (const name of ["links", "edges", "nodes", "chips"]) this.layers[name].classList.toggle("dim", isDim);
+    for (const [name, layer] of Object.entries(this.layers)) layer.classList.toggle("dim", isDim && name !== "above");
   }
 
   /** Redraws what changed; `near` are the nodes whose edges may want another way, `ground` is where boxes came or left. */
@@ -77,7 +94,7 @@ export class Painter {
     }
     for (const keys of this.marks.values()) for (const key of gone) keys.delete(key);
     for (const key of near) this.router.forgetAround(key);
-    const focused = this.svg.getRootNode().activeElement?.dataset?.key;
+    const focused = this.sheets[0].getRootNode().activeElement?.dataset?.key;
     for (const key of touched) {
       if (!this.items.has(key)) continue;
       this.#unmount(key);
@@ -101,12 +118,11 @@ export class Painter {
     this.router.isHasty = false;
   }
 
-  /** The hand let go: labels that were placed in haste look for the best places. */
-  tidy() {
+  /** The hand let go: labels that were placed in haste look for the best places; boxes left or came to some rectangles. */
+  tidy(rects = []) {
     const edges = [...this.router.hasty].map((key) => this.scene.edges.get(key)).filter(Boolean);
     this.router.hasty.clear();
-    for (const edge of edges) this.router.forget(edge);
-    for (const edge of edges) this.#placeEdge(edge);
+    this.#route(new Set([...edges, ...this.#passing(rects)]));
   }
 
   /** Puts everything where the scene has it now. */
@@ -119,14 +135,32 @@ export class Painter {
 
   /** Boxes came to rest or left: edges that pass there are routed again. */
   settle(rects) {
-    const passing = new Set(rects.flatMap((rect) => this.router.passing(rect)));
-    for (const edge of passing) this.router.forget(edge);
-    for (const edge of passing) this.#placeEdge(edge);
+    this.#route(this.#passing(rects));
+  }
+
+  #passing(rects) {
+    return new Set(rects.flatMap((rect) => this.router.passing(rect)));
+  }
+
+  #route(edges) {
+    for (const edge of edges) this.router.forget(edge);
+    for (const edge of edges) this.#placeEdge(edge);
   }
 
   focus(key) {
     const item = this.items.get(key);
     (item?.node ?? item?.line)?.focus({ preventScroll: true });
+  }
+
+  /**
+   * Lays an invisible ground under each sheet. The browser notes for every element where it hears wheel and touch, and
+   * joins all these rectangles whenever the bounds of a sheet change: 30 ms with 700 things. A ground holds them all.
+   */
+  #spread(rect) {
+    if (this.ground && covers(this.ground, rect)) return;
+    this.ground = grow(rect, GROUND);
+    const { x, y, w, h } = this.ground;
+    for (const element of this.grounds) for (const [name, value] of Object.entries({ x, y, width: w, height: h })) element.setAttribute(name, value);
   }
 
   #near(rect) {
@@ -205,12 +239,20 @@ export class Painter {
     if (name === "stop") showStop(this.items.get(key), this.scene.find(key), on);
     for (const part of Object.values(this.items.get(key) ?? {})) {
       if (!part) continue;
-      part.classList.toggle(name, on);
+      if (name === "held") this.#hold(part, on);
+      else part.classList.toggle(name, on);
       if (name in TOLD && part.role === "button") describeMarks(part);
-      if (on && name === "lit" && part.nextSibling) bringForward(part);
+      if (on && name === "lit" && part.nextSibling) moveTo(part, part.parentNode);
     }
   }
+
+  #hold(part, on) {
+    moveTo(part, this.twins.get(part.parentNode));
+    if (!on) rest(part);
+  }
 }
+
+const layer = (name) => svg("g", { class: name, role: HEARD[name] && "group", "aria-label": HEARD[name] });
 
 /** Marks are told beside the name, which stays what it is. */
 function describeMarks(part) {
@@ -226,9 +268,9 @@ function hatching() {
   return svg("defs", {}, [svg("pattern", names, parts)]);
 }
 
-/** Moving an element takes the focus away from it; it is given back. */
-function bringForward(part) {
+/** In front of all others of a layer. Moving an element takes the focus away from it; it is given back. */
+function moveTo(part, layer) {
   const focused = part.getRootNode().activeElement === part;
-  part.parentNode.append(part);
+  layer.append(part);
   if (focused) part.focus({ preventScroll: true });
 }

@@ -131,7 +131,7 @@ export class Router {
   #freeLabel(edge, curve, wanted) {
     let best = { cost: Infinity };
     for (const chip of [wanted, ...shorterChips(edge, wanted)]) {
-      const place = placeLabel(edge, curve, chip, (rect) => this.#crowd(rect, edge.key));
+      const place = placeLabel(edge, curve, chip, (rect, limit) => this.#crowd(rect, edge.key, limit));
       if (this.isHasty) this.hasty.add(edge.key);
       if (place.cost < best.cost) best = { ...place, chip };
       if (best.cost < COST.label) break;
@@ -139,8 +139,8 @@ export class Router {
     return best;
   }
 
-  /** What lies under a rectangle, or would be under a label there. */
-  #crowd(rect, own) {
+  /** What lies under a rectangle, or would be under a label there; as soon as it is too much, no more is looked for. */
+  #crowd(rect, own, limit) {
     let sum = 0;
     for (const key of this.scene.nodeGrid.query(rect)) {
       const node = this.scene.nodes.get(key);
@@ -149,8 +149,9 @@ export class Router {
     for (const key of this.labels.query(rect)) {
       if (key !== own && overlaps(grow(this.labelRects.get(key), 2), rect)) sum += COST.label;
     }
-    if (this.isHasty) return sum;
+    if (this.isHasty || sum >= limit) return sum;
     for (const key of this.lines.query(rect)) {
+      if (sum >= limit) return sum;
       if (key !== own && crosses(this.ways.get(key).points, rect)) sum += key.startsWith(LINKS) ? COST.link : COST.line;
     }
     return sum;

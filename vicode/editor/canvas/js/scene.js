@@ -124,10 +124,10 @@ export class Scene {
     const key = keyOf(of, id);
     const old = this.nodes.get(key);
     const node = { key, of, id, data, x: data.x, y: data.y, ...sizeOf(of, data) };
-    this.near.add(key);
     this.nodes.set(key, node);
-    if (!old) this.ground.push(rectOf(node));
-    else if (["x", "y", "w"].some((name) => old[name] !== node[name])) this.ground.push(rectOf(old), rectOf(node));
+    if (old && isSamePlace(old, node)) return key;
+    this.near.add(key);
+    this.ground.push(...[old, node].filter(Boolean).map(rectOf));
     return key;
   }
 
@@ -184,6 +184,10 @@ export function sizeOf(of, data) {
   const room = Math.max(textWidth(label, "name"), textWidth(second, "small")) + (of === "components" ? 64 : 44);
   return { w: Math.max(120, Math.ceil(room / 20) * 20), h: NODE_HEIGHT, label, second };
 }
+
+/** Whether arrows and labels may stay where they are; the mark of the first state takes room beside its box. */
+const isSamePlace = (old, node) =>
+  ["x", "y", "w", "h"].every((name) => old[name] === node[name]) && Boolean(old.data.initial) === Boolean(node.data.initial);
 
 function transitionOf(data) {
   const source = data.source === COMMON_ID ? "common" : keyOf("states", data.source);

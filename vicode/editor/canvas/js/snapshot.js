@@ -105,11 +105,8 @@ export class Snapshot {
 
   #drawShape(pen, element, style) {
     if (!style.fill && !style.stroke) return;
-    const by = offsetOf(element);
-    pen.translate(by.x, by.y);
     if (element.tagName === "text") writeText(pen, element, style);
     else drawPath(pen, pathOf(element), style);
-    pen.translate(-by.x, -by.y);
   }
 
   /** The style of an element; things of the same classes look the same. */
@@ -164,7 +161,6 @@ function writeText(pen, element, style) {
 function pathOf(element) {
   const number = (name) => numberOf(element, name);
   if (element.tagName === "path") return new Path2D(element.getAttribute("d"));
-  if (element.tagName === "polygon") return new Path2D(`M${element.getAttribute("points")}Z`);
   const path = new Path2D();
   if (element.tagName === "rect") path.roundRect(number("x"), number("y"), number("width"), number("height"), number("rx"));
   if (element.tagName === "circle") path.arc(number("cx"), number("cy"), number("r"), 0, 2 * Math.PI);

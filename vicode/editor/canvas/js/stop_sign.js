@@ -1,4 +1,5 @@
 // The sign of a breakpoint: a disc with a square in it, at a corner of a box or before a label.
+import { middleOf, shift } from "./standing.js";
 import { svg } from "./svg.js";
 
 const R = 7;
@@ -9,20 +10,17 @@ export function showStop(item, thing, on) {
   if (!part) return;
   part.querySelector(":scope > .stop-sign")?.remove();
   if (!on) return;
-  part.append(svg("g", { class: "stop-sign", transform: placeOf(item, thing), "aria-hidden": "true" }, [
-    svg("circle", { r: R }),
-    svg("rect", { x: -2.5, y: -2.5, width: 5, height: 5 }),
-  ]));
+  const shapes = [svg("circle", { r: R }), svg("rect", { x: -2.5, y: -2.5, width: 5, height: 5 })];
+  const { x, y } = placeOf(item, thing);
+  part.append(shift(svg("g", { class: "stop-sign", "aria-hidden": "true" }, shapes), x, y));
 }
 
 function placeOf(item, thing) {
-  if (item.node) return `translate(${3 - thing.w / 2} ${thing.h / 2 - 3})`;
-  if (!item.chip) return halfway(item.line.children[1]);
+  if (!item.node && !item.chip) return halfway(item.line.children[1]);
+  const { x, y } = middleOf(item.node ?? item.chip);
+  if (item.node) return { x: x + 3 - thing.w / 2, y: y + thing.h / 2 - 3 };
   const plate = item.chip.querySelector(".plate");
-  return plate ? `translate(${Number(plate.getAttribute("x")) - R + 3} 0)` : "translate(-18 0)";
+  return { x: plate ? Number(plate.getAttribute("x")) - R + 3 : x - 18, y };
 }
 
-function halfway(path) {
-  const { x, y } = path.getPointAtLength(path.getTotalLength() / 2);
-  return `translate(${x} ${y})`;
-}
+const halfway = (path) => path.getPointAtLength(path.getTotalLength() / 2);
