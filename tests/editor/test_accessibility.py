@@ -1,14 +1,19 @@
 """Everybody can use it: axe finds nothing on any view of the pages, and what axe cannot see is tried by hand."""
 
 from collections.abc import Iterator
+from pathlib import Path
 
 import pytest
 from axe_playwright_python.sync_playwright import Axe
 from playwright.sync_api import Page, expect
 
+from tests.editor.player_page import select_state
+
 PLAYER = "design/forward/Player"
 AXE = Axe()
 OPTIONS = {"resultTypes": ["violations"]}
+# Of dialogs that are made of the same parts one is enough by day; the nightly run reads them all.
+MADE_APART = ("Write the generated code?", "player.yaml was changed by another program")
 
 expect.set_options(timeout=20_000)
 
@@ -71,6 +76,72 @@ def test_axe_finds_nothing(editor: str, page: Page, colours: str) -> None:
     found["home"] = complaints(page)
     text = "\n".join(f"{where}: {line}" for where, lines in found.items() for line in lines)
     assert not text, text
+
+
+@pytest.mark.parametrize("colours", ["light", pytest.param("dark", marks=pytest.mark.nightly)])
+def test_axe_finds_nothing_in_what_opens_over_the_page(editor: str, page: Page, project: Path, colours: str) -> None:
+    page.emulate_media(color_scheme="dark" if colours == "dark" else "light", reduced_motion="reduce")
+    open_player(page, editor)
+    found: dict[str, list[str]] = {}
+
+    def look(name: str) -> None:
+        dialog = page.get_by_role("dialog", name=name)
+        expect(dialog).to_be_visible()
+        expect(dialog.get_by_role("heading", name=name)).to_be_visible()
+        if colours == "dark" or name in MADE_APART:
+            found[name] = complaints(page, ".q-dialog")
+        page.keyboard.press("Escape")
+        expect(page.get_by_role("dialog")).to_have_count(0)
+
+    page.keyboard.press("?")
+    look("Keys and gestures")
+    page.keyboard.press("u")
+    look("Use a component")
+    page.keyboard.press("Control+Shift+E")
+    look("Export Player")
+    page.get_by_role("button", name="More for Turn").focus()
+    page.keyboard.press("Enter")
+    page.get_by_role("menuitem", name="Rename everywhere").click()
+    look("Rename Turn")
+    page.keyboard.press("Control+k")
+    page.keyboard.type("ball")
+    expect(page.get_by_role("option").first).to_be_visible()
+    found["palette"] = complaints(page, ".palette")
+    page.keyboard.press("Escape")
+    page.get_by_role("button", name="Generate").click()
+    look("Write the generated code?")
+    select_state(page, "Kick")
+    page.get_by_label("Doc").fill("mine")
+    page.get_by_label("Doc").blur()
+    expect(page.get_by_text("Unsaved changes")).to_be_visible()
+    file = project / "forward" / "player.yaml"
+    file.write_text(file.read_text().replace("Kick, with the eyes on the ball.", "theirs"))
+    page.get_by_role("button", name="Choose …").click()
+    look("player.yaml was changed by another program")
+    text = "\n".join(f"{where}: {line}" for where, lines in found.items() for line in lines)
+    assert not text, text
+
+
+def test_marks_are_told_apart_in_forced_colours_and_by_ear(editor: str, page: Page) -> None:
+    page.emulate_media(forced_colors="active")
+    open_player(page, editor)
+    # States are heard before the arrows between them, though they are painted after them.
+    spoken = page.context.new_cdp_session(page).send("Accessibility.getFullAXTree")["nodes"]
+    names = [each.get("name", {}).get("value", "") for each in spoken if each.get("role", {}).get("value") == "group"]
+    assert names.index("Drawing") < names.index("States and components") < names.index("Transitions")
+    box = page.locator('g[data-id="Kick"] rect.box')
+    look = "(each) => [getComputedStyle(each).stroke, getComputedStyle(each).strokeWidth].join()"
+    before = box.evaluate(look)
+    page.locator('g[data-id="Kick"] text.name').click(force=True)
+    expect(page.locator('g[data-id="Kick"]').first).to_have_attribute("aria-description", "selected")
+    assert box.evaluate(look) != before
+    # The focus of a button is a frame, and what is pressed has one.
+    page.get_by_role("button", name="Find anything").focus()
+    page.keyboard.press("Tab")
+    frame = "(each) => getComputedStyle(each).outlineStyle"
+    assert page.locator(":focus").evaluate(frame) == "solid"
+    assert page.get_by_role("button", name="Drawing").evaluate(frame) == "solid"
+    assert page.get_by_role("button", name="Table").evaluate(frame) == "none"
 
 
 def test_a_link_leads_past_everything_to_the_design(editor: str, page: Page) -> None:

@@ -9,6 +9,7 @@ from nicegui.events import GenericEventArguments
 from vicode.editor.panels.code_editor import CodeEditors
 
 _SHEET = Path(__file__).parent / "look.css"
+_ABOUT = "vicode: state machines of robots, drawn, checked, simulated and turned into code"
 _COOKIE = "vicode_colours"
 _MODES = {"dark": True, "light": False}
 _NEXT = {None: True, True: False, False: None}
@@ -33,7 +34,7 @@ def add_look() -> ui.dark_mode:
     """Give the page its style sheet and its colours; returns what switches between light and dark."""
     request = ui.context.client.request
     chosen = _MODES.get(request.cookies.get(_COOKIE, ""))
-    ui.add_head_html(f"<style>{_FIRST_PAINT[chosen]}</style>")
+    ui.add_head_html(f'<style>{_FIRST_PAINT[chosen]}</style><meta name="description" content="{_ABOUT}">')
     ui.colors(primary="#1d4ed8", negative="#b91c1c", positive="#166534", warning="#92400e", info="#1d4ed8")
     ui.add_css(_SHEET.read_text(encoding="utf-8"))
     _open_the_frame()

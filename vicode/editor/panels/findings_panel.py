@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 from itertools import islice
+from pathlib import PurePath
 
 from nicegui import ui
 
@@ -86,7 +87,7 @@ class FindingsPanel:
                 ui.label(f"{severity} {finding.rule.code}").classes("finding-code mono")
                 ui.label(words).classes("finding-thing" + ("" if is_first else " is-same"))
                 # What was wrong when the file was read stands in the file, not in the drawing.
-                line = f"{finding.place.file}, line {finding.place.line}: " if finding.place else ""
+                line = f"{PurePath(finding.place.file).name}, line {finding.place.line}: " if finding.place else ""
                 ui.label(line + finding.message).classes("finding-message")
                 ui.label(finding.mend).classes("finding-mend")
             row.on("click", lambda: self.problems.open(finding))

@@ -9,7 +9,7 @@ _GRIPS = """
   const GRIPS = {
     side: {
       at: "clientX", least: 280, most: () => Math.min(1200, innerWidth - 480),
-      usual: () => (innerWidth <= 1100 ? 312 : 368), keys: { ArrowLeft: 32, ArrowRight: -32 },
+      usual: () => (innerWidth <= 1100 ? 312 : innerWidth < 2560 ? 368 : 448), keys: { ArrowLeft: 32, ArrowRight: -32 },
     },
     dock: {
       at: "clientY", least: 64, most: () => Math.min(640, innerHeight - 320),

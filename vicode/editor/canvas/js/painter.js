@@ -252,7 +252,7 @@ export class Painter {
   }
 }
 
-const layer = (name) => svg("g", { class: name, role: HEARD[name] && "group", "aria-label": HEARD[name] });
+const layer = (name) => svg("g", { class: name, id: HEARD[name] && name, role: HEARD[name] && "group", "aria-label": HEARD[name] });
 
 /** Marks are told beside the name, which stays what it is. */
 function describeMarks(part) {

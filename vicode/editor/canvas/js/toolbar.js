@@ -29,6 +29,7 @@ export class Toolbar {
 
   show(zoom) {
     this.zoom.textContent = `${Math.round(zoom * 100)}%`;
+    this.zoom.setAttribute("aria-label", `${this.zoom.textContent}: life size (0)`);
   }
 }
 

@@ -2,6 +2,8 @@
 const MIN_ZOOM = 0.02;
 const MAX_ZOOM = 4;
 const REST_MS = 200;
+// From this width on things are drawn larger than life, or they would be lost on a wall of pixels.
+const WIDE = 1900;
 // So much is left free at each side: the buttons lie to the right, words and the switch at the top.
 const CLEAR = { left: 40, right: 64, top: 56, bottom: 32 };
 
@@ -79,13 +81,13 @@ export class Viewport {
     this.set({ k, x: this.width / 2 - x * k, y: this.height / 2 - y * k });
   }
 
-  /** Shows a whole rectangle, never larger than life, clear of the controls in the corners. */
+  /** Shows a whole rectangle, clear of the controls in the corners; larger than life only where there is much more room. */
   fit(rect) {
     const side = (wish, room) => Math.min(wish, room / 10);
     const [left, right] = [side(CLEAR.left, this.width), side(CLEAR.right, this.width)];
     const [top, bottom] = [side(CLEAR.top, this.height), side(CLEAR.bottom, this.height)];
     const [w, h] = [this.width - left - right, this.height - top - bottom];
-    const k = Math.max(MIN_ZOOM, Math.min(1, w / rect.w, h / rect.h));
+    const k = Math.max(MIN_ZOOM, Math.min(Math.max(1, this.width / WIDE), w / rect.w, h / rect.h));
     this.set({ k, x: left + w / 2 - (rect.x + rect.w / 2) * k, y: top + h / 2 - (rect.y + rect.h / 2) * k });
   }
 
