@@ -3,10 +3,11 @@
 import json
 import shutil
 from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import Any
 
 import pytest
-from playwright.sync_api import Browser, BrowserContext, FloatRect, Locator, Page, expect
+from playwright.sync_api import Browser, BrowserContext, FloatRect, Locator, Page, StorageState, expect
 
 from tests.editor.conftest import ROOT, started_editor
 
@@ -192,14 +193,27 @@ def sketches(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
         yield url
 
 
+@pytest.fixture(scope="session")
+def person() -> StorageState:
+    """By what the editor knows one person from module to module, as nobody can take back what another one left."""
+    return {"cookies": []}
+
+
 @pytest.fixture(scope="module")
-def window(chromium: Browser) -> Iterator[BrowserContext]:
+def window(chromium: Browser, person: StorageState) -> Iterator[BrowserContext]:
     """A window with a clipboard; one for the module, as opening it anew for each test would take most of the time."""
-    context = chromium.new_context(
-        viewport={"width": 1366, "height": 768}, permissions=["clipboard-read", "clipboard-write"]
-    )
+    clipboard = ["clipboard-read", "clipboard-write"]
+    with opened_window(chromium, person, viewport={"width": 1366, "height": 768}, permissions=clipboard) as context:
+        yield context
+
+
+@contextmanager
+def opened_window(chromium: Browser, person: StorageState, **how: Any) -> Iterator[BrowserContext]:
+    """A window of the one person."""
+    context = chromium.new_context(storage_state=person, **how)
     context.set_default_timeout(WAIT_MS)
     yield context
+    person["cookies"] = context.storage_state()["cookies"]
     context.close()
 
 

@@ -3,9 +3,9 @@
 from collections.abc import Iterator
 
 import pytest
-from playwright.sync_api import Browser, BrowserContext, CDPSession, Page, expect
+from playwright.sync_api import Browser, BrowserContext, CDPSession, Page, StorageState, expect
 
-from tests.editor.gestures.conftest import WAIT_MS, Point, Sketch, box_of, middle
+from tests.editor.gestures.conftest import Point, Sketch, box_of, middle, opened_window
 
 
 class Fingers:
@@ -30,11 +30,9 @@ class Fingers:
 
 
 @pytest.fixture(scope="module")
-def window(chromium: Browser) -> Iterator[BrowserContext]:
-    context = chromium.new_context(viewport={"width": 1180, "height": 820}, has_touch=True)
-    context.set_default_timeout(WAIT_MS)
-    yield context
-    context.close()
+def window(chromium: Browser, person: StorageState) -> Iterator[BrowserContext]:
+    with opened_window(chromium, person, viewport={"width": 1180, "height": 820}, has_touch=True) as context:
+        yield context
 
 
 @pytest.fixture
