@@ -6,10 +6,18 @@ import sys
 from collections.abc import Sequence
 
 from vicode import __version__
-from vicode.cli import check, edit, export, gen, run, schema
+from vicode.cli import check, edit, export, gen, run, schema, xabsl
 from vicode.cli.printing import describe_os_error
 
-COMMANDS = {"edit": edit, "gen": gen, "check": check, "run": run, "export": export, "schema": schema}
+COMMANDS = {
+    "edit": edit,
+    "gen": gen,
+    "check": check,
+    "run": run,
+    "export": export,
+    "schema": schema,
+    "xabsl": xabsl,
+}
 SOUND, FOUND, FAILED, INTERRUPTED = 0, 1, 2, 130
 
 

@@ -83,6 +83,31 @@ _ERRORS = {
     "G501": ("edited-outside", "a generated file whose code was edited by hand"),
     "G502": ("stale-output", "a generated file that is not what the design gives"),
     "G503": ("broken-marks", "region marks that do not match"),
+    # Reading the files of an XABSL behavior
+    "X601": ("illegal-character", "a character that no word of the language has, or a text that is never closed"),
+    "X602": ("open-comment", "a comment that is never closed"),
+    "X603": ("stray-comment-end", "the end of a comment that was not begun"),
+    "X604": ("not-xabsl", "words in an order that the language does not have"),
+    "X605": ("unexpected-end", "a file that ends too early"),
+    "X606": ("missing-file", "an include of a file that cannot be read"),
+    "X607": ("wrong-extension", "a file whose name does not end in .xabsl"),
+    "X609": ("nothing-defined", "a file, or a behavior, without what it is there for"),
+    "X610": ("several-definitions", "more than one option or namespace in a file, or agents in two"),
+    # What an XABSL behavior declares and means
+    "X621": ("unknown-word", "a name that nothing declares here"),
+    "X622": ("ambiguous-word", "a name that may mean two things"),
+    "X623": ("declared-twice", "two declarations of one kind with one name"),
+    "X624": ("wrong-use", "a symbol that cannot be used so"),
+    "X625": ("wrong-kind", "a decimal, bool or enum where another is wanted"),
+    "X626": ("wrong-enumeration", "a value of another enumeration"),
+    "X627": ("given-twice", "a parameter that is given twice in a call"),
+    "X628": ("no-initial", "an option without initial state"),
+    "X629": ("two-initials", "an option with more than one initial state"),
+    "X630": ("mixed-namespace", "symbols and basic behaviors in one namespace"),
+    "X632": ("needless-else", "a decision that begins with else where no common decision is"),
+    "X633": ("stay-in-common", "stay in a common decision"),
+    "X635": ("parameter-without-at", "a parameter of an option without @"),
+    "X636": ("option-cycle", "options that call each other in a circle"),
 }
 
 _WARNINGS = {
@@ -93,10 +118,22 @@ _WARNINGS = {
     "D425": ("stepped-twice", "a component that may be stepped twice in an iteration"),
     "D426": ("never-stepped", "a component that is read, but that nobody steps here"),
     "D427": ("outside-range", "a literal outside the declared range"),
+    "X608": ("included-twice", "one file included twice by another"),
+    "X631": ("empty-namespace", "a namespace that declares nothing"),
+    "X634": ("needless-range", "a range or unit of something that is no decimal"),
+    "X643": ("unreached-state", "a state that no decision leads to"),
+    "X645": ("never-set", "an internal symbol that is read, and that no action sets"),
+    "X646": ("out-of-range", "a number outside the declared range"),
+    "X647": ("active-twice", "an option that may be executed twice in a cycle"),
+    "X641": ("missing-else", "a decision that does not begin with else, though a common one goes before it"),
     "D428": ("unused-use", "a used component that no state requires, modulates or reads"),
 }
 
 _NOTES = {
+    "X644": ("unused-word", "something declared that nothing uses"),
+    "X642": ("not-given", "a parameter that a call does not give"),
+    "X652": ("bool-choice", "a choice between bools, which no original engine reads"),
+    "X651": ("slip", "a spelling that the original compiler does not read"),
     "D430": ("no-effect", "a transition that changes nothing"),
 }
 

@@ -31,7 +31,8 @@ MENDED_ELSEWHERE = {"P204", "P205", "P206", "D404", "D405", "D406", "D416", "E30
 
 
 def test_every_rule_has_fixes_or_a_reason_for_none() -> None:
-    assert set(FIXERS) | set(UNFIXED) == set(RULES)
+    of_designs = {code for code in RULES if not code.startswith("X")}
+    assert set(FIXERS) | set(UNFIXED) == of_designs
     assert not set(FIXERS) & set(UNFIXED)
 
 

@@ -1,0 +1,44 @@
+"""Whole behaviors compile to the original's code, and run as its engine ran them."""
+
+import json
+
+import pytest
+
+from tests.xabsl.cases_of import CASES, PROGRAMS, read_case, words
+from vicode.xabsl.compiler import Compiled, compile_source, symbols_of
+from vicode.xabsl.engine.reading import read_code
+from vicode.xabsl.engine.replaying import read_rows, replay
+from vicode.xabsl.engine.symbols import read_symbols, write_symbols
+from vicode.xabsl.engine.writing import write_code
+from vicode.xabsl.sources import load
+
+
+def compiled_case(name: str) -> Compiled:
+    return compile_source(load(CASES / "programs" / name / "agents.xabsl"))
+
+
+@pytest.mark.parametrize("name", PROGRAMS)
+def test_code_and_symbols_are_the_originals(name: str) -> None:
+    compiled = compiled_case(name)
+    assert compiled.program
+    assert words(write_code(compiled.program)) == words(read_case(name, "intermediate.dat"))
+    assert write_symbols(symbols_of(compiled.table)) == read_case(name, "symbols.txt")
+
+
+@pytest.mark.parametrize("name", PROGRAMS)
+def test_what_is_written_is_read_again(name: str) -> None:
+    program = read_code(read_case(name, "intermediate.dat"))
+    assert read_code(write_code(program)) == program
+    compiled = compiled_case(name).program
+    assert compiled
+    assert compiled.options == program.options
+
+
+@pytest.mark.parametrize("name", PROGRAMS)
+def test_every_cycle_is_the_original_engines(name: str) -> None:
+    program, symbols = read_code(read_case(name, "intermediate.dat")), read_symbols(read_case(name, "symbols.txt"))
+    rows = read_rows(read_case(name, "inputs.csv").splitlines())
+    wanted = [json.loads(line) for line in read_case(name, "trace.jsonl").splitlines()]
+    assert len(rows) == len(wanted)
+    for line, want in zip(replay(program, symbols, rows), wanted, strict=True):
+        assert json.loads(line) == want

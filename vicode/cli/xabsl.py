@@ -1,0 +1,199 @@
+"""Check, compile, run and format XABSL behaviors."""
+
+import argparse
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from vicode.cli.printing import count_findings, describe_os_error, print_findings
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable, Sequence
+
+    from vicode.findings import Finding
+    from vicode.xabsl.compiler import Compiled
+
+_SLIPS = {"X651", "X652"}
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Declare the commands of `vicode xabsl`."""
+    commands = parser.add_subparsers(title="commands", metavar="COMMAND", required=True)
+    for name, add, act in (
+        ("check", _add_check, _check),
+        ("compile", _add_compile, _compile),
+        ("run", _add_run, _run),
+        ("format", _add_format, _format),
+    ):
+        summary = (act.__doc__ or "").split("\n")[0]
+        command = commands.add_parser(name, help=summary, description=summary)
+        add(command)
+        command.set_defaults(act=act)
+
+
+def run(args: argparse.Namespace) -> int:
+    """Run one of the commands."""
+    act: Callable[[argparse.Namespace], int] = args.act
+    return act(args)
+
+
+def _add_check(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("agents", metavar="AGENTS.xabsl", type=Path, help="the file with the agents")
+    parser.add_argument("--json", action="store_true", help="print the findings as JSON")
+    parser.add_argument("--strict", action="store_true", help="refuse what the original compiler does not read")
+
+
+def _check(args: argparse.Namespace) -> int:
+    """Tell what is wrong with a behavior, all of it at once."""
+    compiled = _compiled(args.agents)
+    if args.json:
+        from vicode.findings import render_json
+
+        print(render_json(_shown(compiled.findings, args.agents)), end="")
+    else:
+        _tell(compiled.findings, args.agents, to_stderr=False)
+        print(count_findings(compiled.findings))
+    return _code_of(compiled, strict=args.strict)
+
+
+def _add_compile(parser: argparse.ArgumentParser) -> None:
+    _add_check(parser)
+    parser.add_argument("--output", "-o", metavar="FILE", type=Path, help="where the intermediate code goes")
+    parser.add_argument("--symbols", metavar="FILE", type=Path, help="where a list of all symbols goes")
+
+
+def _compile(args: argparse.Namespace) -> int:
+    """Compile a behavior to the intermediate code of the original compiler."""
+    from vicode.findings import Severity
+    from vicode.output import write_atomically
+    from vicode.xabsl.compiler import symbols_of
+    from vicode.xabsl.engine.symbols import write_symbols
+    from vicode.xabsl.engine.writing import write_code
+
+    compiled = _compiled(args.agents)
+    # Notes are what `check` is for; here they would hide what matters.
+    _tell([each for each in compiled.findings if args.strict or each.severity is not Severity.NOTE], args.agents)
+    code = _code_of(compiled, strict=args.strict)
+    if code or compiled.program is None:
+        print(f"nothing written: {count_findings(compiled.findings)}", file=sys.stderr)
+        return code
+    text = write_code(compiled.program)
+    if args.output is None:
+        print(text, end="")
+    else:
+        write_atomically(args.output, text)
+    if args.symbols is not None:
+        write_atomically(args.symbols, write_symbols(symbols_of(compiled.table)))
+    return 0
+
+
+def _add_run(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("code", metavar="CODE", type=Path, help="intermediate code")
+    parser.add_argument("--symbols", metavar="FILE", type=Path, required=True, help="the list of all symbols")
+    parser.add_argument("--inputs", metavar="CSV", type=Path, required=True, help="a row of inputs for every cycle")
+    parser.add_argument("--trace", metavar="JSONL", type=Path, help="where the trace goes, a line a cycle")
+    parser.add_argument("--strict", action="store_true", help="as the second version of the original engine")
+    parser.add_argument("--team", metavar="N", type=int, default=0, help="run N robots, columns named 0:time …")
+    parser.add_argument("--ticks", metavar="T", type=int, default=0, help="cycles until the others have answered")
+    parser.add_argument("--bench", metavar="N", type=int, default=0, help="run all inputs N times and tell how fast")
+
+
+def _run(args: argparse.Namespace) -> int:
+    """Run a compiled behavior on recorded inputs."""
+    from vicode.output import write_atomically
+    from vicode.xabsl.engine import CodeError, LoadError, ReplayError, SymbolListError
+    from vicode.xabsl.engine.reading import read_code
+    from vicode.xabsl.engine.replaying import bench, read_rows, replay, replay_team
+    from vicode.xabsl.engine.symbols import read_symbols
+
+    file = args.code
+    try:
+        program = read_code(args.code.read_text(encoding="utf-8"))
+        file = args.symbols
+        symbols = read_symbols(args.symbols.read_text(encoding="utf-8"))
+        file = args.inputs
+        rows = read_rows(args.inputs.read_text(encoding="utf-8").splitlines())
+        if args.bench:
+            print(f"{bench(program, symbols, rows, args.bench, strict=args.strict):.0f} cycles a second of CPU")
+            return 0
+        if args.team:
+            lines = replay_team(program, symbols, rows, args.team, args.ticks, strict=args.strict)
+        else:
+            lines = replay(program, symbols, rows, strict=args.strict)
+        text = "".join(f"{line}\n" for line in lines)
+    except LoadError as error:
+        for problem in error.problems:
+            print(f"{args.code}: {problem}", file=sys.stderr)
+        return 1
+    except (CodeError, SymbolListError, ReplayError, UnicodeDecodeError) as error:
+        print(f"{file}: {error}", file=sys.stderr)
+        return 1
+    if args.trace is None:
+        print(text, end="")
+    else:
+        write_atomically(args.trace, text)
+    return 0
+
+
+def _add_format(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("paths", metavar="PATH", nargs="+", type=Path, help="a file, or a folder of them")
+    parser.add_argument("--check", action="store_true", help="write nothing; tell which files would change")
+
+
+def _format(args: argparse.Namespace) -> int:
+    """Lay files out in one way; comments stay, and so does what they mean."""
+    from vicode.output import write_atomically
+    from vicode.xabsl.sources import format_file
+
+    code = 0
+    for path in _files(args.paths):
+        try:
+            outcome = format_file(path)
+        except OSError as error:
+            print(f"vicode: {describe_os_error(error)}", file=sys.stderr)
+            code = 2
+            continue
+        if outcome.findings:
+            print_findings(outcome.findings, to_stderr=True)
+            print(f"{path}: not formatted, as it cannot be read whole", file=sys.stderr)
+            code = code or 1
+        elif outcome.text != outcome.before:
+            print(f"{path}: {'would change' if args.check else 'formatted'}")
+            code = code or int(args.check)
+            if not args.check:
+                write_atomically(path, outcome.text)
+    return code
+
+
+def _files(paths: "Iterable[Path]") -> "list[Path]":
+    found: list[Path] = []
+    for path in paths:
+        found += sorted(path.rglob("*.xabsl")) if path.is_dir() else [path]
+    return found
+
+
+def _compiled(agents: Path) -> "Compiled":
+    from vicode.xabsl.compiler import compile_source
+    from vicode.xabsl.sources import load
+
+    return compile_source(load(agents))
+
+
+def _shown(findings: "Sequence[Finding]", agents: Path) -> "tuple[Finding, ...]":
+    """Findings with the paths of files as they are seen from here."""
+    from dataclasses import replace
+
+    folder = agents.parent
+    return tuple(
+        replace(each, place=replace(each.place, file=str(folder / each.place.file)) if each.place else None)
+        for each in findings
+    )
+
+
+def _tell(findings: "Sequence[Finding]", agents: Path, *, to_stderr: bool = True) -> None:
+    print_findings(_shown(findings, agents), to_stderr=to_stderr)
+
+
+def _code_of(compiled: "Compiled", *, strict: bool) -> int:
+    slips = strict and any(each.rule.code in _SLIPS for each in compiled.findings)
+    return int(compiled.program is None or slips)

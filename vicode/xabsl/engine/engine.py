@@ -1,0 +1,291 @@
+"""Runs compiled programs. Standard library only; the folder can be copied to a robot."""
+
+import time
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, field
+from types import SimpleNamespace
+from typing import Any
+
+from .arithmetic import divide, remainder
+from .generating import Generator
+from .linking import NEVER, BehaviorRecord, Linker
+from .loading import LoadError, check_loops, check_structure, check_symbols, symbols_of, used_of
+from .program import Program
+from .symbols import Symbols
+from .team import CapacityState, CoopState, StrictSynchronizedState, SynchronizedState, Team, TeamMessage
+
+_MASK = 0xFFFFFFFF
+
+
+class Record:
+    """What an engine keeps of an option: the function of its state, when and in which cycles it ran, parameters."""
+
+    __slots__ = ("__dict__", "activated", "last", "run", "since", "target", "was")
+
+    def __init__(self, parameters: Iterable[object]) -> None:
+        self.run: Callable[[int, int], None]
+        self.last, self.was, self.target = NEVER, False, False
+        self.activated = self.since = 0
+        for number, value in enumerate(parameters):
+            setattr(self, f"p{number}", value)
+
+
+@dataclass(slots=True)
+class OptionView:
+    """An option as it is now. Times in milliseconds, since it and its state were activated."""
+
+    name: str
+    is_active: bool
+    state: str
+    option_time: int
+    state_time: int
+    parameters: dict[str, Any]
+
+
+@dataclass(slots=True)
+class Trace:
+    """What happened in a cycle: nodes as in `vicode.xabsl.engine.replaying`, and the symbols that were set."""
+
+    nodes: list[Any] = field(default_factory=list)
+    values: dict[str, Any] = field(default_factory=dict)
+
+
+def milliseconds() -> int:
+    """The time of a clock that never goes back."""
+    return time.monotonic_ns() // 1_000_000
+
+
+class Engine:
+    """Executes a program for one robot, cycle by cycle.
+
+    Args:
+        program: what a compiler made, or `read_code` read.
+        world: gives and takes symbols by attributes named like them, dots as underscores. An input that is callable is
+            called; its parameters are keywords. Enumerations are texts: their elements' own names.
+        behaviors: basic behaviors by name, called with keywords; those not given are looked up in `world`.
+        symbols: all that the robot program has. Without them only what the program uses is known, and parameters that
+            no call gives are left to Python's defaults.
+        clock: tells milliseconds.
+        strict: what may be active twice in a cycle is refused when loading, as the original's second version does.
+        traced: note what happens in each cycle, in `trace`.
+
+    Raises:
+        LoadError: The program cannot run here; the error says all reasons.
+    """
+
+    def __init__(
+        self,
+        program: Program,
+        world: object,
+        *,
+        behaviors: Mapping[str, Callable[..., object]] | None = None,
+        symbols: Symbols | None = None,
+        clock: Callable[[], int] = milliseconds,
+        strict: bool = False,
+        traced: bool = False,
+    ) -> None:
+        self.program, self.world, self.clock = program, world, clock
+        self.symbols = used_of(symbols, program) if symbols is not None else symbols_of(program)
+        self.errors: list[str] = []
+        """What went wrong in the last cycle."""
+        self.errors_occurred = False
+        """Whether something went wrong since the beginning, or since `reset`."""
+        self.trace = Trace()
+        self.messages: list[str] = []
+        """What robots that got in each other's way were told in the last cycle."""
+        self.cycle = 0
+        self.team = Team()
+        self.memory = SimpleNamespace()
+        problems = check_structure(program)
+        if not problems and symbols is not None:
+            problems = check_symbols(program, symbols)
+        problems = problems or check_loops(program, strict=strict)
+        if problems:
+            raise LoadError(problems)
+        self._is_traced = traced
+        self._linker = Linker(program, self.symbols, world, behaviors or {}, self.memory)
+        zero = self._linker.zero
+        self._records = [Record([zero(slot) for slot in option.parameters]) for option in program.options]
+        self._numbers = {option.name: number for number, option in enumerate(program.options)}
+        self._functions = self._linker.functions
+        self._load(strict=strict, traced=traced)
+        self.agent = program.agents[0][0] if program.agents else ""
+        self._roots: list[tuple[Callable[[int, int], None], str]] = []
+        if program.agents:
+            self.select(self.agent)
+
+    # What a robot program does
+
+    def execute(self) -> None:
+        """Run one cycle: from each root action down, to all that is called there."""
+        now = self.clock() & _MASK
+        self.cycle = cycle = self.cycle + 1
+        if self.errors:
+            self.errors = []
+        if self.messages:
+            self.messages.clear()
+        if self._is_traced:
+            self.trace = Trace()
+        for run, _name in self._roots:
+            run(now, cycle)
+
+    def select(self, agent: str) -> bool:
+        """Go on as another agent; nothing is reset. Returns False, and changes nothing, if none is named so."""
+        root = next((root for name, root in self.program.agents if name == agent), None)
+        if root is None:
+            return False
+        self.agent = agent
+        self.set_root(root)
+        return True
+
+    def set_root(self, name: str, **parameters: Any) -> None:
+        """Execute only one option or basic behavior from now on, with these parameters."""
+        self._roots = []
+        self.add_root(name, **parameters)
+
+    def add_root(self, name: str, **parameters: Any) -> None:
+        """Execute an option or basic behavior beside what is executed already.
+
+        Raises:
+            KeyError: There is none of this name.
+        """
+        number = self._numbers.get(name)
+        if number is None:
+            act = self._linker.callable_of(name)
+
+            def play(_now: int, _cycle: int) -> None:
+                act(**parameters)
+
+            self._roots.append((play, name))
+            return
+        record, slots = self._records[number], self.program.options[number].parameters
+        run = self._functions[f"run{number}"]
+        given = {f"{name}.{key}": value for key, value in parameters.items()}
+        values = [(f"p{at}", given.get(slot.name, self._linker.zero(slot))) for at, slot in enumerate(slots)]
+
+        def call(now: int, cycle: int) -> None:
+            for key, value in values:
+                setattr(record, key, value)
+            run(now, cycle)
+
+        self._roots.append((call if values else run, name))
+
+    def reset(self) -> None:
+        """Begin anew in all initial states with the next cycle; symbols keep their values."""
+        # Two cycles that nobody ran in: what was active is not any more.
+        self.cycle += 2
+        self.errors_occurred = False
+
+    # What the others of a team hear and tell
+
+    def prepare_messages(self) -> None:
+        """Forget what the others told; before their new messages are heard, once a cycle."""
+        for each in self._coop:
+            each.begin()
+
+    def hear(self, message: TeamMessage) -> None:
+        """Take in the message of another robot."""
+        for number in message.executed:
+            self._coop[number].executing += 1
+        for number in message.entering:
+            state = self._coop[number]
+            state.highest = max(state.highest, message.priority) if state.entering else message.priority
+            state.entering += 1
+        for number in message.option_executed:
+            self._coop[number].in_option += 1
+
+    def tell(self) -> TeamMessage:
+        """What the others must hear after this cycle."""
+        executed, entering, near = [], [], []
+        for number, coop in enumerate(self._coop):
+            record = self._records[self._numbers[coop.option]]
+            if record.last != self.cycle:
+                continue
+            near.append(number)
+            if self._states[record.run] == coop.state:
+                executed.append(number)
+            elif coop.is_entering:
+                entering.append(number)
+        return TeamMessage(self.team.priority, tuple(executed), tuple(entering), tuple(near))
+
+    # What a person wants to see
+
+    @property
+    def options(self) -> list[OptionView]:
+        """All options as they were left by the last cycle."""
+        now = self.clock() & _MASK
+        return [self._view(number, now) for number in range(len(self._records))]
+
+    @property
+    def active_options(self) -> list[OptionView]:
+        """The options that the last cycle ran."""
+        return [view for view in self.options if view.is_active]
+
+    def _view(self, number: int, now: int) -> OptionView:
+        option, record = self.program.options[number], self._records[number]
+        is_active = record.last == self.cycle
+        parameters = {slot.name: getattr(record, f"p{at}") for at, slot in enumerate(option.parameters)}
+        state = self._states.get(record.run, option.initial) if record.last != NEVER else option.initial
+        times = (now - record.activated) & _MASK, (now - record.since) & _MASK
+        return OptionView(option.name, is_active, state, *times, parameters)
+
+    # Loading
+
+    def _load(self, *, strict: bool, traced: bool) -> None:
+        generator = Generator(self.program, self._linker.names(), traced=traced, strict=strict)
+        self.source = generator.source()
+        """The Python that runs; to be read where something is not understood."""
+        self._coop = self._coop_states(generator.coop, strict=strict)
+        functions = self._functions
+        functions.update({f"o{number}": record for number, record in enumerate(self._records)})
+        functions.update({f"c{number}": state for number, state in enumerate(self._coop)})
+        functions.update(w=self.world, m=self.memory, divide=divide, remainder=remainder)
+        functions.update(twice=self._twice, begin=self._begin, end=self._end, note=self._note, play=self._play)
+        # All names in it are ours; the program's words are in it as texts only, written by `repr`.
+        exec(compile(self.source, "<behavior>", "exec"), functions)  # noqa: S102
+        self._states = {
+            functions[f"s{number}_{at}"]: state.name
+            for number, option in enumerate(self.program.options)
+            for at, state in enumerate(option.states)
+        }
+
+    def _coop_states(self, numbers: Mapping[tuple[str, str], int], *, strict: bool) -> list[CoopState]:
+        states = {(option.name, state.name): state for option in self.program.options for state in option.states}
+        kinds = {"c": CapacityState, "s": StrictSynchronizedState if strict else SynchronizedState}
+        return [kinds[states[key].mode](*key, states[key].robots, self.team, self.messages) for key in numbers]
+
+    # What traced functions call
+
+    def _twice(self, number: int) -> None:
+        name = self.program.options[number].name
+        self.errors_occurred = True
+        self.errors.append(
+            f'XabslOption::execute(): option "{name}" is executed multiple times. '
+            "This is unsupported. Resulting behavior might be unexpected."
+        )
+
+    def _begin(self, number: int) -> list[Any]:
+        inner: list[Any] = []
+        outer, self.trace.nodes = self.trace.nodes, inner
+        outer.append(["o", self.program.options[number].name, "", 0, 0, {}, inner])
+        return outer
+
+    def _end(self, number: int, outer: list[Any], now: int) -> None:
+        view = self._view(number, now)
+        node = outer[-1]
+        node[2:6] = [view.state, view.option_time, view.state_time, view.parameters]
+        self.trace.nodes = outer
+
+    def _note(self, symbol: str, value: object) -> None:
+        self.trace.nodes.append(["s", symbol, value])
+        self.trace.values[symbol] = value
+
+    def _play(self, record: BehaviorRecord, now: int, cycle: int, given: dict[str, Any]) -> None:
+        if record.last != cycle:
+            record.was = record.last == cycle - 1
+        if not record.was:
+            record.activated = now
+        parameters = {slot.name: given[record.keywords[slot.name]] for slot in record.slots}
+        self.trace.nodes.append(["b", record.name, (now - record.activated) & _MASK, parameters])
+        record.act(**given)
+        record.last = cycle

@@ -1,0 +1,230 @@
+"""What is looked at before a program runs: whether the robot has what it uses, and whether options call themselves."""
+
+from collections.abc import Iterable, Iterator
+
+from .program import Option, Program, Slot, State, Term
+from .symbols import Behavior, Symbol, Symbols
+
+_WORDS = {"d": "decimal", "b": "bool", "e": "enum"}
+
+
+class LoadError(ValueError):
+    """A program that cannot run on this robot. `problems` are all reasons."""
+
+    def __init__(self, problems: Iterable[str]) -> None:
+        self.problems = tuple(dict.fromkeys(problems))
+        super().__init__("; ".join(self.problems))
+
+
+def values_of(program: Program) -> Iterator[tuple[str, Term]]:
+    """All values in a program with the kinds that are wanted of them, each before what is in it."""
+    for option in program.options:
+        for state in option.states:
+            yield from _values_of_tree(state.decision)
+            for action in state.actions:
+                if action[0] in ("o", "a"):
+                    yield from _values_of_given(action[2])
+                else:
+                    yield from _values_in(action[0], action[2])
+
+
+def _values_of_tree(tree: Term) -> Iterator[tuple[str, Term]]:
+    while tree[0] == "i":
+        yield from _values_in("b", tree[1])
+        yield from _values_of_tree(tree[2])
+        tree = tree[3]
+
+
+def _values_of_given(given: Iterable[Term]) -> Iterator[tuple[str, Term]]:
+    for each in given:
+        yield from _values_in(each[0], each[-1])
+
+
+def _values_in(kind: str, term: Term) -> Iterator[tuple[str, Term]]:
+    yield kind, term
+    letter = term[0]
+    if letter == "i":
+        yield from _values_of_given(term[2])
+    elif letter == "q":
+        yield from _values_in("b", term[1])
+        yield from _values_in(kind, term[2])
+        yield from _values_in(kind, term[3])
+    elif letter not in ("v", "c", "o", "p") or (letter == "c" and kind == "b"):
+        inner = kind if letter in ("&", "|", "!") or kind == "d" else "e" if letter == "c" else "d"
+        for each in term[1:]:
+            yield from _values_in(inner, each)
+
+
+def actions_of(program: Program) -> Iterator[tuple[Option, State, Term]]:
+    """All actions of a program with where they stand."""
+    for option in program.options:
+        for state in option.states:
+            for action in state.actions:
+                yield option, state, action
+
+
+def nested_functions(program: Program) -> set[str]:
+    """Input symbols that are read again to give themselves a parameter."""
+    nested: set[str] = set()
+    for _kind, term in values_of(program):
+        if term[0] == "i" and any(
+            each[0] == "i" and each[1] == term[1] for given in term[2] for _, each in _values_in(given[0], given[-1])
+        ):
+            nested.add(term[1])
+    return nested
+
+
+def symbols_of(program: Program) -> Symbols:
+    """The symbols that a program uses, as far as it tells about them."""
+    internal = {slot.name for slot in program.symbols}
+    found: dict[tuple[str, str], Symbol] = {}
+    slots: dict[tuple[str, str], dict[str, Slot]] = {}
+    behaviors: dict[str, dict[str, Slot]] = {}
+    for kind, term in values_of(program):
+        if term[0] == "i":
+            found.setdefault(("input", term[1]), Symbol("input", kind, term[1]))
+            slots.setdefault(("input", term[1]), {}).update(_slots(term[2]))
+        elif term[0] == "o" and term[1] not in internal:
+            found.setdefault(("output", term[1]), Symbol("output", kind, term[1]))
+    for _option, _state, action in actions_of(program):
+        if action[0] == "a":
+            behaviors.setdefault(action[1], {}).update(_slots(action[2]))
+        elif action[0] != "o" and action[1] not in internal:
+            found.setdefault(("output", action[1]), Symbol("output", action[0], action[1]))
+    symbols = tuple(
+        Symbol(each.role, each.kind, each.name, "", tuple(slots.get(key, {}).values())) for key, each in found.items()
+    )
+    return Symbols(symbols=symbols, behaviors=tuple(Behavior(n, tuple(each.values())) for n, each in behaviors.items()))
+
+
+def _slots(given: Iterable[Term]) -> dict[str, Slot]:
+    return {each[-2]: Slot(each[0], each[-2], each[1] if each[0] == "e" else "") for each in given}
+
+
+def used_of(symbols: Symbols, program: Program) -> Symbols:
+    """Those of a robot's symbols that a program uses; the others may be missing in the world."""
+    names = {(each.role, each.name) for each in symbols_of(program).symbols}
+    behaviors = {action[1] for _option, _state, action in actions_of(program) if action[0] == "a"}
+    return Symbols(
+        symbols.enums,
+        symbols.internal_enums,
+        tuple(each for each in symbols.symbols if (each.role, each.name) in names),
+        tuple(each for each in symbols.behaviors if each.name in behaviors),
+    )
+
+
+def check_symbols(program: Program, symbols: Symbols) -> list[str]:
+    """What a program uses and a robot does not have."""
+    known = {(each.role, each.name): each for each in symbols.symbols}
+    behaviors = {each.name: each for each in symbols.behaviors}
+    elements = {each for _name, of in (*symbols.enums, *symbols.internal_enums, *program.enums) for each in of}
+    problems: list[str] = []
+    used = symbols_of(program)
+    for each in used.symbols:
+        own = known.get((each.role, each.name))
+        if own is None or own.kind != each.kind:
+            problems.append(f"{_WORDS[each.kind]} {each.role} symbol {each.name} is not registered")
+            continue
+        problems += _check_slots(f"input symbol {each.name}", each.parameters, own.parameters)
+    for behavior in used.behaviors:
+        if behavior.name not in behaviors:
+            problems.append(f"basic behavior {behavior.name} is not registered")
+            continue
+        given = behaviors[behavior.name].parameters
+        problems += _check_slots(f"basic behavior {behavior.name}", behavior.parameters, given)
+    for kind, term in values_of(program):
+        if kind == "e" and term[0] == "v" and term[1] not in elements:
+            problems.append(f"enum element {term[1]} is not registered")
+    return problems
+
+
+def _check_slots(what: str, used: Iterable[Slot], own: Iterable[Slot]) -> list[str]:
+    known = {(each.kind, each.name) for each in own}
+    return [f"{what} has no parameter {each.name}" for each in used if (each.kind, each.name) not in known]
+
+
+def check_structure(program: Program) -> list[str]:
+    """States and options that are named and not there, and two of one name."""
+    names = [option.name for option in program.options]
+    problems = [f"two options {name}" for name in dict.fromkeys(names) if names.count(name) > 1]
+    problems += [f"agent {agent}: there is no option {root}" for agent, root in program.agents if root not in names]
+    slots = {option.name: {(slot.kind, slot.name) for slot in option.parameters} for option in program.options}
+    for option in program.options:
+        states = {state.name for state in option.states}
+        if option.initial not in states:
+            problems.append(f"option {option.name} has no initial state {option.initial}")
+        for state in option.states:
+            problems += [
+                f"option {option.name} has no state {target}"
+                for target in _targets(state.decision)
+                if target not in states
+            ]
+    for option, state, action in actions_of(program):
+        if action[0] == "o" and action[1] not in slots:
+            problems.append(f"state {state.name} of option {option.name}: there is no option {action[1]}")
+        elif action[0] == "o":
+            known = slots[action[1]]
+            problems += [
+                f"option {action[1]} has no parameter {each[-2]}"
+                for each in action[2]
+                if (each[0], each[-2]) not in known
+            ]
+    own = set().union(*slots.values()) if slots else set()
+    problems += [
+        f"there is no parameter {term[1]}"
+        for kind, term in values_of(program)
+        if term[0] == "p" and (kind, term[1]) not in own
+    ]
+    return problems
+
+
+def _targets(tree: Term) -> Iterator[str]:
+    while tree[0] == "i":
+        yield from _targets(tree[2])
+        tree = tree[3]
+    yield tree[1]
+
+
+def check_loops(program: Program, *, strict: bool) -> list[str]:
+    """Options that lead back to themselves; with `strict` also what may be active twice in a cycle."""
+    options = {option.name: option for option in program.options}
+    problems: list[str] = []
+    reached: dict[str, frozenset[str]] = {}
+
+    def look(option: Option, path: tuple[str, ...]) -> frozenset[str]:
+        """All that an option may activate; what leads back to the path is a problem."""
+        if option.name in reached:
+            return reached[option.name]
+        path, found = (*path, option.name), set[str]()
+        for state in option.states:
+            seen: set[str] = set()
+            for action in state.actions:
+                below = {action[1]} if action[0] in ("o", "a") else set()
+                if action[0] == "o" and action[1] in path:
+                    problems.append(_loop(state, option, action[1]))
+                elif action[0] == "o":
+                    below |= look(options[action[1]], path)
+                problems.extend(_twice(state, option, each) for each in sorted(below & seen) if strict)
+                seen |= below
+            found |= seen
+        reached[option.name] = frozenset(found)
+        return reached[option.name]
+
+    for _agent, root in program.agents:
+        if root in options:
+            look(options[root], ())
+    return problems
+
+
+def _loop(state: State, option: Option, name: str) -> str:
+    return (
+        f'checkForLoops(): state "{state.name}" in option "{option.name}" references subsequent option "{name}". '
+        f'But option "{name}" leads to this state'
+    )
+
+
+def _twice(state: State, option: Option, name: str) -> str:
+    return (
+        f'checkForLoops(): state "{state.name}" in option "{option.name}" references subsequent behavior "{name}", '
+        "which is already included in another possible activation tree"
+    )

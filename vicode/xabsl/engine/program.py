@@ -1,0 +1,59 @@
+"""A compiled program, as intermediate code tells it; inside states it is nested tuples that begin with its letters.
+
+decimal   ("v", number) ("c", text of a constant) ("i", symbol, given) ("o", symbol) ("p", parameter)
+          ("+", a, b) ("-", a, b) ("*", a, b) ("d", a, b) a / b ("%", a, b) ("s",) state_time ("t",) option_time
+          ("q", condition, yes, no)
+boolean   ("v", True) ("i", …) ("o", …) ("p", …) ("t",) action_done ("x",) conflict ("c", enum, enum) equal
+          ("&", a, b, …) ("|", a, b, …) ("!", a) ("=", a, b) ("n", a, b) unequal ("<" "l" ">" "g", a, b) ("q", …)
+enum      ("v", "enum.element") ("i", …) ("o", …) ("p", …) ("q", …)
+given     a tuple of ("d" | "b", parameter, value) and ("e", enum, parameter, value)
+action    ("o", option, given) ("a", behavior, given) ("d" | "b" | "e", symbol, value)
+tree      ("t", state) ("i", condition, then, otherwise)
+"""
+
+from dataclasses import dataclass
+from typing import Any
+
+Term = tuple[Any, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Slot:
+    """A parameter or internal symbol: `kind` is "d", "b" or "e"; only "e" has an enumeration."""
+
+    kind: str
+    name: str
+    enum: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class State:
+    """A state; `mode` is "n", "c" (capacity) or "s" (synchronized), `robots` the number behind it."""
+
+    name: str
+    decision: Term
+    actions: tuple[Term, ...] = ()
+    is_target: bool = False
+    mode: str = "n"
+    robots: int = 0
+
+
+@dataclass(frozen=True, slots=True)
+class Option:
+    """A state machine; parameters have the option's name before their own."""
+
+    name: str
+    initial: str
+    states: tuple[State, ...]
+    parameters: tuple[Slot, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Program:
+    """Everything an engine needs but for the robot's own symbols. Agents are names with their root options."""
+
+    options: tuple[Option, ...]
+    agents: tuple[tuple[str, str], ...]
+    enums: tuple[tuple[str, tuple[str, ...]], ...] = ()
+    symbols: tuple[Slot, ...] = ()
+    title: str = ""

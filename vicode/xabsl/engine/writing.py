@@ -1,0 +1,82 @@
+"""Intermediate code from a program."""
+
+from collections.abc import Iterable, Iterator
+
+from .program import Option, Program, Slot, Term
+
+_LETTERS = {"&", "|"}
+
+
+def write_code(program: Program) -> str:
+    """The text of a program, as the original compiler breaks its lines; comments may stand before it only."""
+    lines = [f"// Intermediate code for the agents of {program.title}", "", str(len(program.enums))]
+    lines += [f"{name} {len(elements)} {' '.join(elements)}" for name, elements in program.enums]
+    lines += [str(len(program.symbols)), *(_slot(each) for each in program.symbols), "", str(len(program.options))]
+    for option in program.options:
+        slots = "".join(f" {_slot(each)}" for each in option.parameters)
+        lines.append(f"{option.name} {len(option.parameters)}{slots}")
+    for option in program.options:
+        lines += _option(option)
+    lines += ["", str(len(program.agents)), *(f"{name} {root}" for name, root in program.agents), ""]
+    return "\n".join(lines)
+
+
+def number_text(number: float) -> str:
+    """A number without needless digits."""
+    return str(int(number)) if number == int(number) else repr(number)
+
+
+def _slot(slot: Slot) -> str:
+    return f"e {slot.enum} {slot.name}" if slot.kind == "e" else f"{slot.kind} {slot.name}"
+
+
+def _option(option: Option) -> Iterator[str]:
+    yield ""
+    yield str(len(option.states))
+    for state in option.states:
+        yield f"{state.name} {state.mode}" + (f" {state.robots}" if state.mode != "n" else "")
+    yield option.initial
+    lines: list[str] = []
+    for state in option.states:
+        lines += [str(int(state.is_target)), str(len(state.actions))]
+        for action in state.actions:
+            _action(action, lines)
+        _term(state.decision, lines)
+    yield from lines
+
+
+def _action(action: Term, lines: list[str]) -> None:
+    lines.append(f"{action[0]} {action[1]}")
+    if action[0] in "oa":
+        _given(action[2], lines)
+    else:
+        _term(action[2], lines)
+
+
+def _given(given: Iterable[Term], lines: list[str]) -> None:
+    given = tuple(given)
+    lines.append(str(len(given)))
+    for each in given:
+        lines.append(" ".join(each[:-1]))
+        _term(each[-1], lines)
+
+
+def _term(term: Term, lines: list[str]) -> None:
+    letter = term[0]
+    if letter == "v":
+        value = term[1]
+        text = value if isinstance(value, str) else str(value).lower() if value is True or value is False else ""
+        lines.append(f"v {text or number_text(value)}")
+    elif letter == "i" and isinstance(term[1], str):
+        lines.append(f"i {term[1]}")
+        _given(term[2], lines)
+    elif letter in _LETTERS:
+        lines.append(f"{letter} {len(term) - 1}")
+        for each in term[1:]:
+            _term(each, lines)
+    elif len(term) > 1 and isinstance(term[1], str):
+        lines.append(f"{letter} {term[1]}")
+    else:
+        lines.append(letter)
+        for each in term[1:]:
+            _term(each, lines)

@@ -1,0 +1,150 @@
+"""Text to tokens. Comments that mean nothing are kept beside them, so that a printer can put them back."""
+
+import re
+from bisect import bisect_right
+from dataclasses import dataclass, field
+from functools import cached_property
+
+from vicode.findings import Finding, Place, rule
+from vicode.xabsl.tokens import DOC, END, INITIAL, KEYWORDS, NAME, NUMBER, RANGE, STRING, TOKEN
+
+_KINDS = {
+    "name": NAME,
+    "number": NUMBER,
+    "string": STRING,
+    "open": STRING,
+    "range": RANGE,
+    "doc": DOC,
+    "initial": INITIAL,
+}
+_BLANK = re.compile(r"\n[ \t\r]*\n\s*")
+_COMMENTS = ("line", "block", "initial", "doc")
+
+
+_COMPLAINTS = {
+    "line": ("X651", "a comment at the end of a file without a line break", "end the line"),
+    "/**/": ("X651", "/**/ opens a description there", "write a blank into it: /* */"),
+    "initial": ("X651", "a comment that begins with /*** stands first in a file only", "begin it with /*"),
+    "name": ("X651", "{}- is read as one name", "write a blank: {} -"),
+    "close": ("X603", "*/ without the /* that it would end", "remove it"),
+    "/*": ("X602", "a comment that is never closed", "end it with */"),
+    "open": ("X601", "a string that is never closed", 'end it with "'),
+    "[": ("X601", "a range that is never closed", "end it with ]"),
+    "&": ("X601", "a single & means nothing", "write && for and"),
+}
+"""What is told of odd tokens: the code of the rule, message and mend."""
+
+
+@dataclass(slots=True)
+class Comment:
+    """A comment without meaning, with its signs; `own_line`: nothing stands before it in its line."""
+
+    text: str
+    own_line: bool
+    after_blank: bool = field(default=False, compare=False)
+    """Whether an empty line stands before it."""
+
+
+@dataclass
+class Tokens:
+    """The tokens of a file as parallel lists, which Python walks fastest; the last is the end of the file.
+
+    `kinds` are the texts themselves for keywords and signs. `comments` stand before the token of that number.
+    """
+
+    file: str
+    text: str
+    kinds: list[str] = field(default_factory=list)
+    texts: list[str] = field(default_factory=list)
+    starts: list[int] = field(default_factory=list)
+    comments: dict[int, list[Comment]] = field(default_factory=dict)
+
+    @cached_property
+    def _lines(self) -> list[int]:
+        """Where each line begins."""
+        return [0, *(match.end() for match in re.finditer("\n", self.text))]
+
+    def place_at(self, start: int, length: int = 1) -> Place:
+        """The place of some characters."""
+        line = self.line_at(start)
+        end = self._lines[line] - 1 if line < len(self._lines) else len(self.text)
+        # What goes on in the next line is underlined to the end of the first.
+        length = max(1, min(length, end - start))
+        return Place(file=self.file, line=line, column=start - self._lines[line - 1] + 1, length=length)
+
+    @cached_property
+    def after_blanks(self) -> frozenset[int]:
+        """The characters that are the first after an empty line."""
+        return frozenset(match.end() for match in _BLANK.finditer(self.text))
+
+    def line_at(self, start: int) -> int:
+        """The line of a character, counted from 1."""
+        return bisect_right(self._lines, start)
+
+    def place(self, number: int, last: int = -1) -> Place:
+        """The place of a token, or of all from it to `last`."""
+        last = max(number, last)
+        return self.place_at(self.starts[number], self.starts[last] + len(self.texts[last]) - self.starts[number])
+
+
+def tokenize(text: str, file: str) -> tuple[Tokens, list[Finding]]:
+    """The tokens of a text, and what is wrong with its characters."""
+    tokens, odd = Tokens(file, text), list[tuple[str, str, int]]()
+    kinds, texts, starts = tokens.kinds, tokens.texts, tokens.starts
+    for match in TOKEN.finditer(text):
+        group = match.lastgroup or END
+        word, start = match[group], match.start(group)
+        kind = word if group == "own" or word in KEYWORDS else _KINDS.get(group, "")
+        if not kind or (group == "initial" and kinds) or (kind == DOC and not word[3:-2].strip()):
+            if group == "end":
+                break
+            if group != "doc":
+                odd.append((group, word, start))
+            if group in _COMMENTS:
+                _keep(tokens, word, start)
+            elif text.startswith("/*", start):
+                # It goes on to the end.
+                break
+            if word != "&":
+                continue
+            kind = "&&"
+        if kind == DOC and kinds and kinds[-1] == DOC:
+            # Of several descriptions the last is the one that stands at what it describes.
+            between = tokens.comments.pop(len(kinds), [])
+            kinds.pop()
+            _keep(tokens, texts.pop(), starts.pop())
+            tokens.comments[len(kinds)] += between
+        if group == "open" or (group == "name" and kind is word and text.startswith("-", start + len(word))):
+            odd.append((group, word, start))
+        kinds.append(kind)
+        texts.append(word)
+        starts.append(start)
+    kinds.append(END)
+    texts.append("")
+    starts.append(len(text))
+    return tokens, [finding for each in odd for finding in _complain(tokens, *each)]
+
+
+def _keep(tokens: Tokens, word: str, start: int) -> None:
+    """Keep a comment, before the token that comes next."""
+    line = tokens.text.rfind("\n", 0, start) + 1
+    is_first = not tokens.text[line:start].strip()
+    comment = Comment(word.rstrip().replace("\r", ""), is_first, start in tokens.after_blanks)
+    tokens.comments.setdefault(len(tokens.kinds), []).append(comment)
+
+
+def _complain(tokens: Tokens, group: str, word: str, start: int) -> list[Finding]:
+    """What is wrong with a token, or would be for the original compiler."""
+    text = tokens.text
+    if group == "line" and start + len(word) < len(text):
+        return []
+    if group == "bad":
+        group = "/*" if text.startswith("/*", start) else word
+    elif group == "block":
+        group = word
+    if group not in _COMPLAINTS and group.startswith("/*"):
+        return []
+    shown = word if word.isprintable() else f"U+{ord(word[0]):04X}"
+    code, message, mend = _COMPLAINTS.get(group, ("X601", "a character that means nothing: {}", "remove it"))
+    place = tokens.place_at(start, len(word))
+    return [Finding(rule=rule(code), message=message.format(shown), mend=mend.format(shown), place=place)]
