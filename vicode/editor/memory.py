@@ -1,31 +1,33 @@
 """Keeps the garbage collector out of people's way, and gives memory back once they are gone.
 
 A window is some ten thousand objects that refer to each other. With fifty of them, a full collection stops the server
-for about a second, every few seconds. So what belongs to an open window is set aside, and looked at again only after
-windows were closed.
+for about a second, every few seconds. So what a slow collection found alive is set aside, and looked at again only
+after windows were closed.
 """
 
 import contextlib
 import ctypes
 import gc
-from collections.abc import Callable
+import time
+from collections.abc import Callable, Mapping
 
 from nicegui import App, core
 
-# Panels are built a moment after their window came.
-_BUILT_S = 3.0
+# A collection that takes longer is felt by who is at work.
+_SLOW_S = 0.05
 # Windows that are closed one after the other go together.
 _GONE_S = 5.0
 
 
 class Memory:
-    """Looks after the memory of a server: `begin` when all is imported, then by itself."""
+    """Looks after the memory of a server: `set_aside` when all is imported, then by itself."""
 
     def __init__(self, app: App) -> None:
-        """Hear of windows that come and go."""
+        """Hear of windows that go, and of collections."""
         self._is_due: set[Callable[[], None]] = set()
-        app.on_connect(lambda: self._later(_BUILT_S, self.set_aside))
+        self._begun_s = 0.0
         app.on_delete(lambda: self._later(_GONE_S, self.give_back))
+        gc.callbacks.append(self._watch)
 
     def set_aside(self) -> None:
         """Leave all that is there now out of collections: it is imported, or belongs to an open window."""
@@ -40,6 +42,15 @@ class Memory:
         with contextlib.suppress(OSError, AttributeError):
             # Only glibc keeps freed pages until it is asked.
             ctypes.CDLL(None).malloc_trim(0)
+
+    def _watch(self, phase: str, info: Mapping[str, int]) -> None:
+        """Hear that a collection begins or ends, in whatever thread."""
+        if phase == "start":
+            self._begun_s = time.perf_counter()
+        elif info["generation"] == 2 and time.perf_counter() - self._begun_s > _SLOW_S and core.loop is not None:
+            with contextlib.suppress(RuntimeError):
+                # A loop that was closed takes nothing any more, and needs nothing.
+                core.loop.call_soon_threadsafe(gc.freeze)
 
     def _later(self, pause_s: float, act: Callable[[], None]) -> None:
         if act in self._is_due or core.loop is None:
