@@ -1,0 +1,163 @@
+"""Whole XABSL behaviors that are valid, as syntax trees."""
+
+from collections.abc import Callable
+
+from hypothesis import strategies as st
+
+from vicode.xabsl import tree
+
+DECIMALS, BOOLS, SIDES = ("in.d1", "in.d2"), ("in.b1", "in.b2"), ("in.e1",)
+OUT = {"d": ("out.d", "int.d"), "b": ("out.b", "int.b"), "e": ("out.e", "int.e")}
+ELEMENTS = ("left", "side.right", "top")
+_KINDS = {"d": "float", "b": "bool", "e": "enum"}
+Draw = Callable[..., object]
+
+
+def name(text: str) -> tree.Name:
+    return tree.Name(text)
+
+
+def type_of(kind: str) -> tree.Type:
+    return tree.Type("enum", name("side")) if kind == "e" else tree.Type(_KINDS[kind])
+
+
+def symbols() -> tree.Namespace:
+    """The symbols of every random behavior."""
+    declared: list[tree.Declaration] = [
+        tree.Enumeration(name("side"), [name("left"), name("right"), name("top")]),
+        tree.Constant(name("limit"), "-2.5"),
+    ]
+    for kind, inputs in (("d", DECIMALS), ("b", BOOLS), ("e", SIDES)):
+        declared += [tree.Symbol("input", name(each), type_of(kind)) for each in inputs]
+        output, internal = OUT[kind]
+        declared.append(tree.Symbol("output", name(output), type_of(kind)))
+        declared.append(tree.Symbol("internal", name(internal), type_of(kind)))
+    return tree.Namespace(name("symbols"), "Symbols", declared)
+
+
+def acts() -> tree.Namespace:
+    """The basic behaviors of every random behavior."""
+    parameters = [tree.Parameter(name(f"p.{kind}"), type_of(kind)) for kind in "dbe"]
+    declared: list[tree.Declaration] = [tree.Behavior(name("act"), parameters), tree.Behavior(name("rest"), [])]
+    return tree.Namespace(name("acts"), "Acts", declared)
+
+
+class _Maker:
+    """Draws the parts of one option. `own` are the kinds of its parameters, `callees` those of later options."""
+
+    def __init__(self, draw: Callable, own: str, callees: dict[str, str], states: list[str]) -> None:
+        self.draw, self.own, self.callees, self.states = draw, own, callees, states
+
+    def pick(self, *choices: object) -> object:
+        return self.draw(st.sampled_from(choices))
+
+    def expression(self, kind: str, depth: int) -> tree.Expression:
+        """An expression of a kind, in parentheses where precedence wants them."""
+        if depth <= 0 or self.pick(0, 0, 1):
+            return self.leaf(kind)
+        if kind == "e" or self.pick(0, 0, 0, 1):
+            inner = tree.Conditional(
+                self.expression("b", depth - 1) if depth > 1 else self.leaf("b"),
+                *(self.operand(kind, depth - 1) for _ in range(2)),
+            )
+            return tree.Parentheses(inner)
+        if kind == "d":
+            if self.pick(0, 0, 1):
+                return tree.Unary("-", self.operand("d", depth - 1))
+            return tree.Binary(str(self.pick(*"+-*/%")), *(self.operand("d", depth - 1) for _ in range(2)))
+        match self.pick("not", "join", "compare", "equal"):
+            case "not":
+                return tree.Unary("!", self.operand("b", depth - 1))
+            case "join":
+                return tree.Binary(str(self.pick("&&", "||")), *(self.operand("b", depth - 1) for _ in range(2)))
+            case "compare":
+                operator = str(self.pick("<", "<=", ">", ">=", "==", "!="))
+                return tree.Binary(operator, *(self.operand("d", depth - 1) for _ in range(2)))
+        left = tree.Ref(str(self.pick(*SIDES, *OUT["e"])))
+        return tree.Binary(str(self.pick("==", "!=")), left, self.leaf("e"))
+
+    def operand(self, kind: str, depth: int) -> tree.Expression:
+        """An expression that can be an operand of anything."""
+        found = self.expression(kind, depth)
+        return tree.Parentheses(found) if isinstance(found, tree.Unary | tree.Binary | tree.Conditional) else found
+
+    def leaf(self, kind: str) -> tree.Expression:
+        own = [f"@p{at}" for at, each in enumerate(self.own) if each == kind]
+        if kind == "d":
+            numbers = [tree.Number(each) for each in ("0", "1", "7.25", "40", "100")]
+            words = [tree.Word("state_time"), tree.Word("option_time")]
+            refs = [tree.Ref(each) for each in (*DECIMALS, *OUT["d"], *own, "limit")]
+            return self.pick(*numbers, *words, *refs)  # type: ignore[return-value]
+        if kind == "b":
+            words = [tree.Word(each) for each in ("true", "false", "action_done")]
+            return self.pick(*words, *(tree.Ref(each) for each in (*BOOLS, *OUT["b"], *own)))  # type: ignore[return-value]
+        return tree.Ref(str(self.pick(*ELEMENTS, *SIDES, *OUT["e"], *own)))
+
+    def decision(self, depth: int) -> tree.Tree:
+        """A decision that ends in goto or stay on every way."""
+        if depth <= 0 or self.pick(0, 1):
+            found: tree.Tree = self.pick(tree.Stay(), *(tree.Goto(name(each)) for each in self.states))  # type: ignore[assignment]
+        else:
+            found = tree.If(
+                self.expression("b", 2), self.decision(depth - 1), self.decision(depth - 1), str(self.pick("", "why"))
+            )
+        return tree.Block(found) if self.pick(0, 0, 1) else found
+
+    def actions(self) -> tree.Actions:
+        return tree.Actions([self.action() for _ in range(self.draw(st.integers(0, 3)))])
+
+    def action(self) -> tree.Action:
+        what = self.pick("set", "act", *(["call"] if self.callees else []))
+        if what == "set":
+            kind = str(self.pick(*"dbe"))
+            return tree.Assignment(name(str(self.pick(*OUT[kind]))), self.expression(kind, 2))
+        if what == "act":
+            callee, kinds, prefix = "act", "dbe", "p."
+            words = [f"{prefix}{kind}" for kind in kinds]
+        else:
+            callee = str(self.pick(*self.callees))
+            kinds = self.callees[callee]
+            words = [f"p{at}" for at in range(len(kinds))]
+        given = [
+            tree.Argument(name(word), self.expression(kind, 1))
+            for word, kind in zip(words, kinds, strict=True)
+            if self.pick(0, 1)
+        ]
+        return tree.Call(name(callee), tree.Arguments(given, bool(given) and bool(self.pick(0, 0, 1))))
+
+
+@st.composite
+def behaviors(draw: Callable) -> dict[str, tree.File]:
+    """The files of a behavior, its agents in agents.xabsl."""
+    names = [f"o{number}" for number in range(draw(st.integers(1, 3)))]
+    kinds = {each: draw(st.text("dbe", max_size=2)) if number else "" for number, each in enumerate(names)}
+    files = {"symbols.xabsl": tree.File(body=[symbols()]), "acts.xabsl": tree.File(body=[acts()])}
+    for number, each in enumerate(names):
+        states = [f"s{at}" for at in range(draw(st.integers(1, 3)))]
+        later = {callee: kinds[callee] for callee in names[number + 1 :]}
+        files[f"{each}.xabsl"] = tree.File(body=[_option(draw, each, kinds[each], later, states)])
+    includes = [tree.Include(each) for each in files]
+    agent = tree.Agent(name("main"), "Main", name("o0"))
+    return {**files, "agents.xabsl": tree.File(includes=includes, body=[agent])}
+
+
+def _option(draw: Callable, own: str, kinds: str, later: dict[str, str], states: list[str]) -> tree.Option:
+    make = _Maker(draw, kinds, later, states)
+    has_common = draw(st.booleans())
+    common = None
+    if has_common:
+        goto = tree.Goto(name(str(make.pick(*states))))
+        common = tree.If(make.expression("b", 1), goto, None)
+    built = [
+        tree.State(
+            name(each),
+            make.actions(),
+            tree.Decision(make.decision(2), has_common) if draw(st.booleans()) else None,
+            is_initial=not number,
+            is_target=draw(st.booleans()),
+        )
+        for number, each in enumerate(states)
+    ]
+    parameters = [tree.Parameter(name(f"@p{at}"), type_of(kind)) for at, kind in enumerate(kinds)]
+    actions = make.actions() if draw(st.booleans()) else None
+    return tree.Option(name(own), parameters, built, common, actions, doc=str(make.pick("", "does something")))
