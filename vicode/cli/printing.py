@@ -8,6 +8,7 @@ from pathlib import Path
 
 from vicode.findings import Finding, Severity, render_text
 
+_MOST_BYTES = 8_000_000
 _COLOURS = {Severity.ERROR: "bold red", Severity.WARNING: "yellow", Severity.NOTE: "cyan"}
 
 
@@ -53,15 +54,13 @@ def describe_os_error(error: OSError) -> str:
 
 
 def _read_lines(file: str) -> tuple[str, ...]:
-    """The lines of a file as far as designs are read: a pipe would keep us waiting, a device may never end."""
-    from vicode.store.nodes import MAXIMUM_BYTES
-
+    """The lines of a file, as far as one would read it: a pipe would keep us waiting, a device may never end."""
     path = Path(file)
     try:
         if not path.is_file():
             return ()
         with path.open("rb") as stream:
-            text = stream.read(MAXIMUM_BYTES).decode(errors="replace")
+            text = stream.read(_MOST_BYTES).decode(errors="replace")
     except OSError:
         return ()
     # Lines end where the reader of designs ends them, not at every separator Unicode knows.

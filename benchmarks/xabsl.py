@@ -1,0 +1,107 @@
+"""XABSL: how long a behavior takes to compile, as a whole process, and how many cycles a second the engine runs.
+
+Run `python -m benchmarks.xabsl [AGENTS.xabsl]`; without a file it takes the largest behavior of the tests. Beside the
+compiler runs the original, if `VICODE_XABSL_ORIGINAL` is a command that takes `-i OUTPUT AGENTS`, such as
+"ruby -I folder folder/xabsl.rb". Beside the engine runs a loop that only calls a function for every active option.
+"""
+
+import os
+import random
+import shlex
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Sequence
+from pathlib import Path
+from statistics import median
+
+from vicode.xabsl.compiler import compile_source, symbols_of
+from vicode.xabsl.engine.replaying import Robot
+from vicode.xabsl.engine.symbols import Symbol
+from vicode.xabsl.sources import load
+
+ROOT = Path(__file__).parents[1]
+LARGEST = ROOT / "tests" / "xabsl" / "cases" / "programs" / "p11" / "agents.xabsl"
+ROUNDS = 7
+CYCLES = 20_000
+
+
+def cpu_s(command: Sequence[str]) -> float:
+    """The CPU time of a process with its children, in seconds."""
+    process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    _pid, status, usage = os.wait4(process.pid, 0)
+    if status:
+        raise RuntimeError(f"{shlex.join(command)} ended with {status}")
+    return usage.ru_utime + usage.ru_stime
+
+
+def measure_compilers(agents: Path) -> None:
+    """Run both compilers in turn."""
+    original = shlex.split(os.environ.get("VICODE_XABSL_ORIGINAL", ""))
+    with tempfile.TemporaryDirectory() as folder:
+        own = [sys.executable, "-m", "vicode", "xabsl", "compile", str(agents), "-o", f"{folder}/own.dat"]
+        own_s, original_s = [], []
+        for _ in range(ROUNDS):
+            own_s.append(cpu_s(own))
+            if original:
+                original_s.append(cpu_s([*original, "-i", f"{folder}/original.dat", str(agents)]))
+    print(f"compile: {median(own_s):.2f} s of CPU")
+    if original:
+        ratios = [theirs / ours for theirs, ours in zip(original_s, own_s, strict=True)]
+        print(f"the original: {median(original_s):.2f} s, {median(ratios):.1f} × as long")
+
+
+def random_number(rng: random.Random, symbol: Symbol) -> float:
+    """A value for a column of inputs."""
+    if symbol.kind == "d":
+        return rng.uniform(-1000, 1000)
+    return rng.randrange(8 if symbol.kind == "e" else 2)
+
+
+def nothing(now: int, cycle: int) -> None:
+    """What the loop beside the engine calls."""
+
+
+def measure_engine(agents: Path) -> None:
+    """Run the engine on inputs of which some change before every cycle, through all agents."""
+    compiled = compile_source(load(agents))
+    if compiled.program is None:
+        raise SystemExit(f"{agents} has errors: vicode xabsl check {agents}")
+    symbols = symbols_of(compiled.table)
+    robot, rng = Robot(compiled.program, symbols, traced=False), random.Random(1)
+    inputs = [each for each in symbols.symbols if each.role == "input"]
+    rates, ratios, active = [], [], 0
+    for _ in range(ROUNDS):
+        spent_s = beside_s = 0.0
+        for cycle in range(CYCLES):
+            if cycle % 50 == 0:
+                robot.engine.select(rng.choice(compiled.program.agents)[0])
+                count = len(robot.engine.active_options)
+                active += count
+            for symbol in rng.sample(inputs, min(4, len(inputs))):
+                robot.world.put(symbol.name, random_number(rng, symbol))
+            robot.now += rng.randrange(10, 100)
+            begun_s = time.perf_counter()
+            robot.engine.execute()
+            ended_s = time.perf_counter()
+            for _option in range(count):
+                nothing(robot.now, cycle)
+            spent_s += ended_s - begun_s
+            beside_s += time.perf_counter() - ended_s
+        rates.append(CYCLES / spent_s)
+        ratios.append(spent_s / beside_s)
+    options = active / (ROUNDS * CYCLES / 50)
+    print(f"engine: {median(rates):.0f} cycles/s with {options:.1f} active options a cycle,")
+    print(f"{median(ratios):.1f} × as long as a loop that calls a function for each")
+
+
+def main() -> None:
+    """Measure both."""
+    agents = Path(sys.argv[1]) if len(sys.argv) > 1 else LARGEST
+    measure_compilers(agents)
+    measure_engine(agents)
+
+
+if __name__ == "__main__":
+    main()
