@@ -8,7 +8,7 @@ from pathlib import Path
 
 from vicode.findings import Finding, Severity, render_text
 
-_MOST_BYTES = 8_000_000
+_MOST_BYTES = 2_000_000
 _COLOURS = {Severity.ERROR: "bold red", Severity.WARNING: "yellow", Severity.NOTE: "cyan"}
 
 
