@@ -25,6 +25,8 @@ ROOM_OF_LIBRARY = {
     "jinja2": "templating",
     "networkx": "check",
     "nicegui": "editor",
+    "lsprotocol": "xabsl",
+    "pygls": "xabsl",
     "pygraphviz": "diagram",
     "regex": "editor",
     "reportlab": "diagram",

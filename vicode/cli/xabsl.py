@@ -24,6 +24,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         ("compile", _add_compile, _compile),
         ("run", _add_run, _run),
         ("format", _add_format, _format),
+        ("lsp", _add_lsp, _lsp),
     ):
         summary = (act.__doc__ or "").split("\n")[0]
         command = commands.add_parser(name, help=summary, description=summary)
@@ -163,6 +164,23 @@ def _format(args: argparse.Namespace) -> int:
             if not args.check:
                 write_atomically(path, outcome.text)
     return code
+
+
+def _add_lsp(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("--grammar", action="store_true", help="print a syntax file for VS Code (TextMate) instead")
+
+
+def _lsp(args: argparse.Namespace) -> int:
+    """Serve text editors by the Language Server Protocol, on standard input and output."""
+    if args.grammar:
+        from vicode.xabsl.server.grammar import grammar_text
+
+        print(grammar_text(), end="")
+        return 0
+    from vicode.xabsl.server.server import make_server
+
+    make_server().start_io()
+    return 0
 
 
 def _files(paths: "Iterable[Path]") -> "list[Path]":

@@ -10,6 +10,7 @@ from vicode.xabsl.printer import print_file
 from vicode.xabsl.tree import Agent
 
 ReadText = Callable[[Path], str]
+ParseText = Callable[[str, str], Parsed]
 _EXTENSIONS = (".xabsl", ".yabsl")
 
 
@@ -46,13 +47,14 @@ def read_text(path: Path) -> str:
         return data.decode("cp1252", errors="replace")
 
 
-def load(main: Path, read: ReadText = read_text) -> Source:
+def load(main: Path, read: ReadText = read_text, parse_text: ParseText = parse) -> Source:
     """Read a program from the file with its agents; what cannot be read is told in the findings."""
     source = Source(main.resolve())
     waiting: list[tuple[Path, Place | None, str]] = [(source.main, None, str(main))]
     while waiting:
         path, place, shown = waiting.pop()
-        parsed = _read(source, path, place, shown, read)
+        text = _read(source, path, place, shown, read)
+        parsed = _parse(source, path, text, parse_text) if text is not None else None
         if parsed is None:
             continue
         source.files[path] = parsed
@@ -101,21 +103,24 @@ def _includes(source: Source, path: Path, parsed: Parsed) -> list[tuple[Path, Pl
     return list(found.values())
 
 
-def _read(source: Source, path: Path, place: Place | None, shown: str, read: ReadText) -> Parsed | None:
+def _read(source: Source, path: Path, place: Place | None, shown: str, read: ReadText) -> str | None:
     if path in source.files:
         return None
     if path.suffix.lower() not in _EXTENSIONS:
         _complain(source, place, "X607", f"{shown} does not end in .xabsl", "rename it", shown=shown)
         return None
     try:
-        text = read(path)
+        return read(path)
     except OSError as error:
         mend = did_you_mean(path.name, _neighbours(path), "check the path, which begins at the including file")
         reason = error.strerror or type(error).__name__
         _complain(source, place, "X606", f"{shown} cannot be read: {reason}", mend, shown=shown)
         return None
+
+
+def _parse(source: Source, path: Path, text: str, parse_text: ParseText) -> Parsed:
     name = str(path.relative_to(source.main.parent)) if path.is_relative_to(source.main.parent) else str(path)
-    parsed = parse(text, name)
+    parsed = parse_text(text, name)
     if not parsed.file.body and not any(each.rule.code in ("X604", "X605") for each in parsed.findings):
         at = parsed.tokens.place(len(parsed.tokens.kinds) - 1)
         _complain(source, at, "X609", "the file defines nothing", "write an option, a namespace or an agent into it")

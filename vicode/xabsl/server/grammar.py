@@ -1,0 +1,45 @@
+"""A syntax file for VS Code and other editors that read TextMate grammars, from the table of the language's words."""
+
+import json
+from typing import Any
+
+from vicode.xabsl.tokens import KEYWORDS, OPERATORS
+
+_CONTROL = ("if", "else", "goto", "stay")
+_VALUES = ("true", "false", "state_time", "option_time", "action_done", "conflict")
+_TYPES = ("float", "bool", "enum", "const", "input", "output", "internal")
+
+
+def _words(words: tuple[str, ...]) -> str:
+    return rf"\b(?:{'|'.join(sorted(words))})\b"
+
+
+def grammar() -> dict[str, Any]:
+    """The grammar, as JSON has it."""
+    others = tuple(KEYWORDS - {*_CONTROL, *_VALUES, *_TYPES})
+    patterns = [
+        {"name": "comment.block.documentation.xabsl", "begin": r"/\*\*(?![*/])", "end": r"\*/"},
+        {"name": "comment.block.xabsl", "begin": r"/\*", "end": r"\*/"},
+        {"name": "comment.line.double-slash.xabsl", "match": r"//.*$"},
+        {"name": "string.quoted.double.xabsl", "begin": '"', "end": '"'},
+        {"name": "constant.other.range.xabsl", "match": r"\[[^\]]*\]"},
+        {"name": "constant.numeric.xabsl", "match": r"\b[0-9]+(?:\.[0-9]*)?"},
+        {"name": "keyword.control.xabsl", "match": _words(_CONTROL)},
+        {"name": "constant.language.xabsl", "match": _words(_VALUES)},
+        {"name": "storage.type.xabsl", "match": _words(_TYPES)},
+        {"name": "keyword.other.xabsl", "match": _words(others)},
+        {"name": "variable.parameter.xabsl", "match": r"@[A-Za-z_][A-Za-z0-9_.]*"},
+        {"name": "entity.name.function.xabsl", "match": r"[A-Za-z_][A-Za-z0-9_.]*(?=\s*\()"},
+        {"name": "keyword.operator.xabsl", "match": "|".join((*OPERATORS, "[<>!+*/%=?:-]")).replace("||", r"\|\|")},
+    ]
+    return {
+        "name": "XABSL",
+        "scopeName": "source.xabsl",
+        "fileTypes": ["xabsl"],
+        "patterns": patterns,
+    }
+
+
+def grammar_text() -> str:
+    """The text of the syntax file."""
+    return json.dumps(grammar(), indent=2) + "\n"
