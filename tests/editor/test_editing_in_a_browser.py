@@ -113,11 +113,32 @@ def test_what_a_person_does(editor: str, page: Page, project: Path) -> None:
     assert after.splitlines()[:5] == before.splitlines()[:5]
 
 
-def test_a_double_click_on_an_arrow_leads_to_its_guard(editor: str, page: Page) -> None:
+def test_a_double_click_on_an_arrow_leads_to_its_guard(editor: str, page: Page, project: Path) -> None:
     open_player(page, editor)
     page.locator('g[data-kind="transition"][data-id="Kick/0"] .plate').first.dblclick(force=True)
     expect(page.get_by_label("When", exact=True)).to_be_focused()
     expect(page.get_by_label("When", exact=True)).to_have_text("not kicker.busy")
+
+    # What was typed just now is taken over by a press on the drawing, and by the key that saves.
+    kick = centre_of(page, "Kick")
+    page.get_by_label("After, seconds in this state").fill("8")
+    page.mouse.click(*kick)
+    expect(page.get_by_label("State", exact=True)).to_have_value("Kick")
+    page.get_by_label("Doc", exact=True).fill("Shoots.")
+    page.keyboard.press("Control+s")
+    expect(page.get_by_text("Saved", exact=True).first).to_be_visible()
+    saved = (project / "forward" / "player.yaml").read_text()
+    assert "after: 8" in saved
+    assert "doc: Shoots." in saved
+
+    # A press elsewhere takes a name over, and what it selects stays selected: here nothing.
+    select_state(page, "GetUp")
+    page.keyboard.press("F2")
+    page.locator("input.rename").fill("StandUp")
+    page.mouse.click(kick[0], kick[1] + 70)
+    expect(page.get_by_label("Frequency, Hz")).to_be_visible()
+    expect(state(page, "StandUp")).to_be_visible()
+    expect(page.locator("g.selected")).to_have_count(0)
 
 
 def test_what_is_asked_before_the_page_can_speak_is_done_when_it_can(editor: str, page: Page) -> None:

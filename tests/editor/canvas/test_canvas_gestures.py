@@ -122,7 +122,7 @@ def test_a_component_without_parameters_can_only_be_required(show: Callable[[Map
 
 def test_the_end_of_a_selected_transition_is_taken_elsewhere(hand: Hand) -> None:
     hand.click(hand.at("transitions", "Fixmove/0"))
-    assert hand.heard("select") == {"items": [{"of": "transitions", "id": "Fixmove/0"}]}
+    assert hand.heard("select")["items"] == [{"of": "transitions", "id": "Fixmove/0"}]
     hand.page.mouse.move(*hand.at("states", "KickLeft", 0, 150))
     box = hand.page.locator('circle[data-end="target"]').bounding_box()
     assert box is not None

@@ -32,6 +32,7 @@ class Canvas(ui.element, component=CANVAS / "vicode_canvas.js"):
         self._people_seen = self._people_due = True
         self._scene: dict[str, Any] | None = None
         self._selected: list[Item] = []
+        self._heard = 0
         self._links_shown = True
         self._arrival: tuple[Kind, str] | None = None
         self._is_mounted = False
@@ -78,7 +79,7 @@ class Canvas(ui.element, component=CANVAS / "vicode_canvas.js"):
             # The hand may be a selection ahead by now: what it told is not told back to it.
             return
         self._selected = wanted
-        self._call("select", self._selected)
+        self._call("select", self._selected, self._heard)
 
     def centre(self, of: Kind, identity: str) -> None:
         """Bring one thing to the middle, large enough to be read."""
@@ -185,7 +186,7 @@ class Canvas(ui.element, component=CANVAS / "vicode_canvas.js"):
     async def _hear_gesture(self, event: GenericEventArguments) -> None:
         gesture = cast("Gesture", event.args)
         if gesture["kind"] == "select":
-            self._selected = gesture["items"]
+            self._selected, self._heard = gesture["items"], gesture.get("told", 0)
         answer = self._on_gesture(gesture)
         if isawaitable(answer):
             await answer
@@ -201,8 +202,9 @@ class Canvas(ui.element, component=CANVAS / "vicode_canvas.js"):
             self._call("load", self._whole())
         if not (is_new and self._links_shown):
             self._call("showLinks", self._links_shown)
+        self._heard = 0
         if not is_new or self._selected:
-            self._call("select", self._selected)
+            self._call("select", self._selected, self._heard)
         if self._arrival:
             self._call("arriveAt", *self._arrival)
             self._arrival = None

@@ -41,6 +41,8 @@ class Select(TypedDict):
     kind: Literal["select"]
     rev: int
     items: list[Item]
+    told: int
+    """How many selections by hand were told, this one included."""
 
 
 class Move(TypedDict):

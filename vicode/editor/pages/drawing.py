@@ -108,8 +108,9 @@ class Drawing:
         payload = cast("Mapping[str, Any]", gesture)
         match payload["kind"]:
             case "select":
-                things = (Selected(of=str(item["of"]), id=str(item["id"])) for item in payload["items"])
-                self.desk.select(*things)
+                # Pressing a thing may take over a name typed just before, and the thing is called otherwise since.
+                items = (self._brought_up_to_date(payload) or {}).get("items", ())
+                self.desk.select(*(Selected(of=str(item["of"]), id=str(item["id"])) for item in items))
             case "open":
                 self._open(str(payload["of"]), str(payload["id"]))
             case "command":

@@ -23,7 +23,9 @@ document.addEventListener("keydown", (event) => {
   if (!dispatchEvent(new CustomEvent("vicode-wish", { detail: wish.name, cancelable: true }))) return;
   // A page is seen a moment before it can speak to the server; what is asked then is asked a moment later.
   const ask = () => (window.did_handshake ? emitEvent("command-" + wish.name) : setTimeout(ask, 10));
-  ask();
+  // A field tells what is typed after a pause; now it tells at once, at the end of this task, and then it is asked.
+  if (event.target.matches?.("input, textarea")) event.target.dispatchEvent(new Event("change", { bubbles: true }));
+  queueMicrotask(ask);
 }, true);
 </script>
 """

@@ -64,8 +64,8 @@ def _title(desk: Desk, name: str) -> None:
         elif outcome.select:
             desk.select(*outcome.select)
 
-    box.on("keydown.enter", rename)
-    box.on("blur", rename)
+    for name_of_event in ("keydown.enter", "change", "blur"):
+        box.on(name_of_event, rename)
 
 
 def _bound(name: str, label: str, attribute: str) -> Bound:

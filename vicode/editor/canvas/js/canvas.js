@@ -40,6 +40,7 @@ class Canvas {
     this.emit = emit;
     this.table = table;
     this.activeSeq = -1;
+    this.told = 0;
     this.fitPending = true;
     this.nudged = null;
     this.frame = new Frame();
@@ -76,7 +77,9 @@ class Canvas {
     this.#sceneChanged();
   }
 
-  select(items) {
+  /** What Python wishes to be selected; it is too late when the hand selected anew before Python `heard` of it. */
+  select(items, heard = this.told) {
+    if (heard !== this.told) return;
     this.selection.set(items.map(({ of, id }) => keyOf(of, id)), { quiet: true });
   }
 
@@ -207,7 +210,7 @@ class Canvas {
   /** The selection changed, by Python's wish (`quiet`) or by hand. */
   selectionChanged(quiet) {
     this.handles.refresh();
-    if (!quiet) this.report("select", { items: this.selection.items() });
+    if (!quiet) this.report("select", { items: this.selection.items(), told: ++this.told });
     this.levels.selectionChanged();
   }
 

@@ -6,7 +6,9 @@ export default {
   props: { commands: { type: Array, default: () => [] }, scene: { type: Array, default: () => [] } },
   template: `<div class="vicode-canvas"></div>`,
   mounted() {
-    this.canvas = mountCanvas(this.$el, (event, payload) => this.$emit(event, payload), this.commands);
+    // A press takes the focus from a field, which tells at the end of this task what was typed there: first that, then the press.
+    const emit = (event, payload) => queueMicrotask(() => this.$emit(event, payload));
+    this.canvas = mountCanvas(this.$el, emit, this.commands);
     // Not as Vue's watched copies, of which every look at a state would make another.
     const [scene] = toRaw(this.scene);
     if (scene) this.canvas.load(scene);
@@ -22,8 +24,8 @@ export default {
     apply(changes) {
       this.canvas.apply(changes);
     },
-    select(items) {
-      this.canvas.select(items);
+    select(items, heard) {
+      this.canvas.select(items, heard);
     },
     centre(of, id) {
       this.canvas.centre(of, id);
