@@ -101,8 +101,16 @@ def _do_nothing(**_given: object) -> None:
 
 
 def read_rows(lines: Iterable[str]) -> list[dict[str, str]]:
-    """The rows of a table of inputs: `time` in ms, perhaps `agent` and `reset`, and symbols; empty keeps the last."""
-    return list(csv.DictReader(lines))
+    """The rows of a table of inputs: `time` in ms, perhaps `agent` and `reset`, and symbols; empty keeps the last.
+
+    Raises:
+        ReplayError: A row has more cells than the first names.
+    """
+    rows = list(csv.DictReader(lines, restkey=""))
+    for number, row in enumerate(rows, 2):
+        if "" in row:
+            raise ReplayError(f"line {number}: more cells than columns")
+    return rows
 
 
 class Robot:
