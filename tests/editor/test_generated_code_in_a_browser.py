@@ -55,6 +55,7 @@ def test_what_would_be_written_is_shown_first(editor: str, page: Page, project: 
     dialog = page.get_by_role("dialog")
     page.get_by_role("button", name="Generate", exact=True).click()
     expect(dialog.get_by_role("listitem").filter(has_text="player.py")).to_contain_text("new")
+    expect(dialog.get_by_role("listitem").first).to_contain_text("player.py")
     dialog.get_by_role("button", name="Cancel").click()
     expect(dialog).to_have_count(0)
     assert not code(project).exists()

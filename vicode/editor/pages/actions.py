@@ -97,7 +97,7 @@ class Actions:
             if prepared is None:
                 return
             if prepared.changes and (prepared.edits or not await is_unasked()):
-                ask_before_writing(prepared, self._write_answered)
+                ask_before_writing(prepared, desk.design.component, self._write_answered)
             else:
                 await self._write(is_forced=False)
 

@@ -24,7 +24,7 @@ class DesignDialogs:
         """A new design, from a template."""
         choices = templates.list_templates()
         titles = {each.name: f"{each.title}: {each.doc}" for each in choices}
-        with titled_dialog("New design") as dialog:
+        with titled_dialog(f"New design in {workspace.project.name}") as dialog:
             name = _name_field("Component", "", "FollowBall")
             ui.label("Begin with").classes("field-label")
             begin = ui.radio(titles, value=choices[0].name).classes("template-choice")

@@ -1,6 +1,7 @@
 """Before code is written: which files are new, changed or edited by hand, each with its differences."""
 
 from collections.abc import Callable
+from pathlib import Path
 
 from nicegui import ui
 
@@ -23,9 +24,12 @@ async def is_unasked() -> bool:
         return False
 
 
-def ask_before_writing(prepared: Prepared, write: Callable[[bool], None]) -> None:
-    """Show what would change; `write` is called with whether edited files are to be set aside, or not at all."""
-    changes = prepared.changes
+def ask_before_writing(prepared: Prepared, component: str, write: Callable[[bool], None]) -> None:
+    """Show what would change; `write` is called with whether edited files are to be set aside, or not at all.
+
+    The files of the open component come first, as it is what was worked on.
+    """
+    changes = tuple(sorted(prepared.changes, key=lambda each: _plain(Path(each.path).stem) != _plain(component)))
     unchanged = len(prepared.differences) - len(changes)
     with titled_dialog("Write the generated code?", "generate-dialog") as dialog:
         rest = f"; {unchanged} more {'is' if unchanged == 1 else 'are'} up to date" if unchanged else ""
@@ -84,3 +88,8 @@ def _file(change: Difference, *, is_edited: bool) -> ui.element:
 
 def _count(number: int) -> str:
     return f"{number} file{'s' * (number != 1)} would change"
+
+
+def _plain(name: str) -> str:
+    """A name as all languages write it, but for case and underscores."""
+    return name.replace("_", "").casefold()
