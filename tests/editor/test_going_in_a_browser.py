@@ -31,6 +31,11 @@ def test_a_state_of_this_design_is_found_by_its_letters(editor: str, page: Page)
     expect(palette(page)).to_be_hidden()
     expect(page.get_by_label("State", exact=True)).to_have_value("WatchBall")
     expect(page).to_have_url(re.compile(r"\?select=WatchBall$"))
+    # A new design needs no mouse either.
+    open_palette(page, "new design")
+    expect(selected_option(page)).to_contain_text("New design")
+    page.keyboard.press("Enter")
+    expect(page.get_by_role("dialog", name="New design in Forward")).to_be_visible()
 
 
 def test_keys_choose_among_what_is_found(editor: str, page: Page) -> None:

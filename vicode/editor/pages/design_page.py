@@ -57,7 +57,8 @@ class DesignPage:
         self.keeping = Keeping(desk, keeper)
         self.tour = Tour(desk, lambda: self.stage.shows_table, begins=way.tour)
         going = Going(desk, way.index, way.trail)
-        own = (*problems.commands(), *going.commands(), *self.keeping.commands(), *self.tour.commands())
+        new = Command("new-design", "New design", lambda: dialogs.ask_new(workspace), Place.DESIGN, icon="add")
+        own = (new, *problems.commands(), *going.commands(), *self.keeping.commands(), *self.tour.commands())
         commands = self._commands(theme, own)
         going.palette.commands = commands
         with head:
