@@ -129,6 +129,17 @@ def test_a_design_goes_to_the_trash_and_comes_back(editor: str, page: Page, proj
     page.get_by_role("button", name="Undo").click()
     expect(card(page, "Turn")).to_be_visible()
     assert file.read_text() == before
+    # From its own page one is sent home, where Undo is offered still.
+    card(page, "Turn").click()
+    expect(state(page, "Turning")).to_be_visible()
+    page.get_by_role("link", name="Turn").click(button="right")
+    page.get_by_role("menuitem", name="Move to trash").click()
+    page.get_by_role("dialog").get_by_role("button", name="Move to trash").click()
+    expect(card(page, "Body")).to_contain_text("error")
+    expect(card(page, "Turn")).to_have_count(0)
+    page.get_by_role("button", name="Undo").click()
+    expect(card(page, "Turn")).to_be_visible()
+    assert file.read_text() == before
 
 
 def test_the_list_beside_the_drawing_does_the_same(editor: str, page: Page, project: Path) -> None:

@@ -25,10 +25,10 @@ def add_pages(library: Library, keeper: Keeper | None = None, *, tour: bool = Fa
     serve_thumbnails(library)
 
     @ui.page("/", title="vicode")
-    def home() -> None:
+    def home(request: Request) -> None:
         from vicode.editor.pages.home import HomePage
 
-        HomePage(library, index)
+        HomePage(library, index, request.query_params.get("gone", ""))
 
     @ui.page("/design/{key}/{component}", title="vicode")
     def design(key: str, component: str, request: Request) -> None:

@@ -2,6 +2,7 @@
 
 import contextlib
 from collections.abc import Callable
+from urllib.parse import quote
 
 from nicegui import core, ui
 
@@ -94,7 +95,9 @@ class DesignPage:
         became = self.desk.workspace.gone.get(self.desk.design.component)
         if became is not None:
             key = self.desk.workspace.key
-            ui.navigate.to(design_address(key, became) if became else HOME)
+            # The home offers to put back what was thrown away: the offer here goes with the page.
+            away = f"{HOME}?gone={quote(key)}/{quote(self.desk.design.component)}"
+            ui.navigate.to(design_address(key, became) if became else away)
 
     def _hear(self, by: Document) -> None:
         """Follow a change: at once if it was made here, else a moment later, so that many come as one."""
@@ -109,7 +112,7 @@ class DesignPage:
         if act not in self._is_due and core.loop is not None:
             self._is_due.add(act)
             # The more windows there are, the more edits each takes at once. Generating reads beside the event loop.
-            pause_s *= max(1.0, len(self.desk.company.all) / 8)
+            pause_s *= max(1.0, len(self.desk.company.all) / 12)
             core.loop.call_soon_threadsafe(core.loop.call_later, pause_s, act)
 
     def _draw(self) -> None:

@@ -30,8 +30,8 @@ _SHEET = Path(__file__).parent / "home.css"
 class HomePage:
     """One window on a folder; built anew when something in it has changed."""
 
-    def __init__(self, library: Library, index: Index) -> None:
-        """Build the page for the browser that asks for it."""
+    def __init__(self, library: Library, index: Index, gone: str = "") -> None:
+        """Build the page for the browser that asks for it; `gone`, PROJECT/COMPONENT, is what it came from."""
         self.library = library
         self.shape: object = None
         self.wanted = ""
@@ -58,7 +58,16 @@ class HomePage:
         self.dialogs = DesignDialogs(say=say, offer_undo=self.undo.offer)
         listen_to_keys(self.commands)
         self._refresh()
+        self._offer_back(gone)
         ui.timer(1.0, self._follow_disk)
+
+    def _offer_back(self, gone: str) -> None:
+        """Offer to put back the design that was thrown away while this window showed it."""
+        key, _slash, component = gone.partition("/")
+        workspace = self.library.workspace(key)
+        thrown = workspace.thrown_away.get(component) if workspace else None
+        if workspace is not None and thrown is not None:
+            self.dialogs.offer_back(workspace, thrown)
 
     def _head(self) -> None:
         with ui.element("header").classes("head"):

@@ -8,6 +8,7 @@ from nicegui import ui
 from vicode.editor.panels.dialogs import titled_dialog
 from vicode.editor.panels.rows import primary_button
 from vicode.editor.session import Workspace, renaming, templates, trash
+from vicode.editor.session.workspace import ThrownAway
 from vicode.editor.view.address import design_address
 
 Say = Callable[[str, str], None]
@@ -110,13 +111,16 @@ class DesignDialogs:
             _buttons(dialog, "Move to trash", remove, None)
 
     def _throw_away(self, workspace: Workspace, component: str) -> None:
-        thrown = trash.throw_away(workspace, component)
+        self.offer_back(workspace, trash.throw_away(workspace, component))
+
+    def offer_back(self, workspace: Workspace, thrown: ThrownAway) -> None:
+        """Offer to put a design back that was thrown away."""
 
         def undo() -> None:
             refused = trash.put_back(workspace, thrown)
-            self.say(_sentence(refused) or f"{component} is back", "warning" if refused else "positive")
+            self.say(_sentence(refused) or f"{thrown.component} is back", "warning" if refused else "positive")
 
-        self.offer_undo(f"{component} is in the trash", undo)
+        self.offer_undo(f"{thrown.component} is in the trash", undo)
 
     def _rename(self, workspace: Workspace, planned: renaming.Renaming) -> bool:
         def rename() -> None:

@@ -187,7 +187,8 @@ def _rename(document: Document, payload: Payload) -> Outcome:
     if old == new:
         return Outcome()
     if not is_state_name(new):
-        return Outcome(refused=f"'{new[:40]}' is no name: use letters, digits and underscores")
+        mend = "it is longer than 80 characters" if len(new) > 80 else "use letters, digits and underscores"
+        return Outcome(refused=f"'{new[:40]}' is no name: {mend}")
     if document.design.state(new) is not None:
         return Outcome(refused=f"there is already a state '{new}'")
     document.edit(f"rename {old} to {new}", lambda design: rename_state(design, old, new))

@@ -1,21 +1,11 @@
 """Takes design files away into the system's trash, and makes new ones from old; nothing is lost either way."""
 
-from dataclasses import dataclass, replace
-from pathlib import Path
+from dataclasses import replace
 
-from vicode.editor.session.workspace import Workspace
+from vicode.editor.session.workspace import ThrownAway, Workspace
 from vicode.model.edits import free_name
 from vicode.model.names import is_name, snake_case
 from vicode.store import save_design, write_text
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class ThrownAway:
-    """A design that was taken away: enough to put it back as it was."""
-
-    component: str
-    file: Path
-    content: bytes
 
 
 def refuse_throwing_away(workspace: Workspace, component: str) -> str:
@@ -44,6 +34,7 @@ def throw_away(workspace: Workspace, component: str) -> ThrownAway:
     file = workspace.files[component]
     thrown = ThrownAway(component=component, file=file, content=file.read_bytes())
     send2trash(file.resolve())
+    workspace.thrown_away[component] = thrown
     workspace.forget(component)
     workspace.follow_disk()
     return thrown
@@ -58,6 +49,7 @@ def put_back(workspace: Workspace, thrown: ThrownAway) -> str:
     if thrown.file.exists():
         return f"there is another {thrown.file.name} now; {thrown.component} is still in the trash"
     write_text(thrown.file, thrown.content.decode("utf-8"))
+    workspace.thrown_away.pop(thrown.component, None)
     workspace.follow_disk()
     return ""
 

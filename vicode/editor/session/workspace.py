@@ -26,6 +26,15 @@ class ChangedOnDiskError(Exception):
     """The file of a design was changed by another program, and what it says now touches unsaved work."""
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ThrownAway:
+    """A design that was taken away: enough to put it back as it was."""
+
+    component: str
+    file: Path
+    content: bytes
+
+
 @dataclass(eq=False)
 class Workspace:
     """A project being worked on. `project` always holds the designs as they are in the open documents."""
@@ -39,6 +48,7 @@ class Workspace:
     broken_files: dict[str, Path] = field(init=False)
     files: dict[str, Path] = field(init=False)
     gone: dict[str, str] = field(init=False, default_factory=dict)
+    thrown_away: dict[str, ThrownAway] = field(init=False, default_factory=dict)
     _glanced_s: float = field(init=False, default=0.0)
     _texts: dict[str, str] = field(init=False)
     _reading: dict[str, tuple[Finding, ...]] = field(init=False)
