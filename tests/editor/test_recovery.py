@@ -1,5 +1,6 @@
 """Unsaved work outlives its server: journals of the dead are offered, those of the living are not."""
 
+import os
 from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
@@ -111,6 +112,62 @@ def test_what_no_file_can_hold_keeps_the_journal_before_it(keeper: Keeper, proje
     again.recovery.close()
 
 
+def test_work_on_a_file_that_cannot_be_read_waits_until_it_can(keeper: Keeper, project: Path, tmp_path: Path) -> None:
+    edit(keeper, "mine")
+    journal(keeper)
+    file = project / "forward" / "player.yaml"
+    text = file.read_text()
+    file.write_text(f"<<<<<<< HEAD\n{text}")
+    again = killed(keeper, project, tmp_path)
+    (workspace,) = again.library.workspaces
+    assert again.lost(workspace) == ()
+    file.write_text(text)
+    workspace.follow_disk()
+    (lost,) = again.lost(workspace)
+    assert "mine" in lost.text
+    again.recovery.close()
+
+
+def test_work_on_a_file_that_is_gone_makes_it_again(keeper: Keeper, project: Path, tmp_path: Path) -> None:
+    edit(keeper, "mine")
+    journal(keeper)
+    file = project / "forward" / "player.yaml"
+    file.unlink()
+    again = killed(keeper, project, tmp_path)
+    (workspace,) = again.library.workspaces
+    (lost,) = again.lost(workspace)
+    assert again.recover(workspace, lost, "ana") == 0
+    assert "mine" in file.read_text()
+    assert again.lost(workspace) == ()
+    again.recovery.close()
+
+
+def test_ending_in_order_keeps_the_last_moment(keeper: Keeper, project: Path, tmp_path: Path) -> None:
+    edit(keeper, "mine")
+    keeper.close()
+    again = Keeper(Library(project), Recovery(tmp_path / "state"))
+    (workspace,) = again.library.workspaces
+    (lost,) = again.lost(workspace)
+    assert "mine" in lost.text
+    again.recovery.forget(lost)
+    again.set_autosave(edit(again, "saved"), is_on=True)
+    again.close()
+    assert "saved" in (project / "forward" / "player.yaml").read_text()
+    assert list((tmp_path / "state" / "unsaved").iterdir()) == []
+
+
+def test_a_journal_that_could_not_be_written_is_tried_again(keeper: Keeper, monkeypatch: pytest.MonkeyPatch) -> None:
+    def refuse(_descriptor: int) -> None:
+        raise OSError(28, "No space left on device")
+
+    edit(keeper, "mine")
+    with monkeypatch.context() as full:
+        full.setattr(os, "fsync", refuse)
+        with pytest.raises(OSError, match="No space"):
+            journal(keeper)
+    assert (journal(keeper), journal(keeper)) == (1, 0)
+
+
 @pytest.mark.parametrize("text", ["", "[]", "{}", '{"project": 1}', "\x00"])
 def test_a_file_that_is_no_journal_is_passed_over(keeper: Keeper, project: Path, tmp_path: Path, text: str) -> None:
     folder = tmp_path / "state" / "unsaved" / "dead"
@@ -135,6 +192,35 @@ def test_projects_that_save_by_themselves_wait_for_a_rest(keeper: Keeper, projec
     keeper.save_rested()
     assert document.is_saved
     assert "mine" in document.file.read_text()
+
+
+def test_saving_by_itself_goes_on_after_a_restart(keeper: Keeper, project: Path, tmp_path: Path) -> None:
+    (workspace,) = keeper.library.workspaces
+    keeper.set_autosave(workspace, is_on=True)
+    again = killed(keeper, project, tmp_path)
+    (workspace,) = again.library.workspaces
+    assert workspace.autosave
+    again.set_autosave(workspace, is_on=False)
+    last = killed(again, project, tmp_path)
+    assert not last.library.workspaces[0].autosave
+    last.close()
+
+
+def test_what_cannot_be_saved_by_itself_is_told_once(keeper: Keeper, project: Path) -> None:
+    workspace = edit(keeper, "mine")
+    document = workspace.document("Player")
+    assert document is not None
+    keeper.set_autosave(workspace, is_on=True)
+    told: list[str] = []
+    document.watch(lambda by: told.append(by.sheet.news.text))
+    document.file.chmod(0o444)
+    keeper.clock = lambda: document.history.present.at_s + 5
+    keeper.save_rested()
+    keeper.save_rested()
+    assert told == ["player.yaml cannot be saved: the file is read-only"]
+    document.file.chmod(0o644)
+    keeper.save_rested()
+    assert document.is_saved
 
 
 def test_the_state_folder_can_be_chosen(tmp_path: Path) -> None:

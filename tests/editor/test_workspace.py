@@ -237,6 +237,31 @@ def test_a_design_whose_file_is_gone_is_kept_until_it_is_saved_again(workspace: 
     assert "component: Turn" in document.file.read_text()
 
 
+def test_a_file_that_is_gone_is_made_again_with_its_comments(workspace: Workspace) -> None:
+    document = opened(workspace, "Turn")
+    document.file.write_text(f"# by hand\n{document.file.read_text()}")
+    workspace.follow_disk()
+    with_doc(document, "mine")
+    document.file.unlink()
+    workspace.follow_disk()
+    # As the dialog does it.
+    workspace.settle(document)
+    workspace.save(document)
+    assert document.file.read_text().startswith("# by hand\n")
+    assert "mine" in document.file.read_text()
+    assert document.is_saved
+
+
+def test_a_file_that_is_no_text_is_put_aside_too(workspace: Workspace) -> None:
+    document = opened(workspace, "Player")
+    with_doc(document, "mine")
+    document.file.write_bytes(b"doc: f\xfcnf\n")
+    workspace.follow_disk()
+    workspace.settle(document)
+    assert document.file.with_name("player.yaml.edited").read_bytes() == b"doc: f\xfcnf\n"
+    assert "mine" in document.file.read_text()
+
+
 def test_generate_takes_other_designs_as_they_were_saved(workspace: Workspace) -> None:
     player, face_ball = opened(workspace, "Player"), opened(workspace, "FaceBall")
     face_ball.edit("doc", lambda design: replace(design, doc="not yet"))

@@ -62,6 +62,15 @@ def test_a_failure_leaves_the_old_file_alone(tmp_path: Path, monkeypatch: pytest
     assert [each.name for each in tmp_path.iterdir()] == ["a.yaml"]
 
 
+def test_what_is_read_only_is_not_replaced(tmp_path: Path) -> None:
+    path = tmp_path / "a.yaml"
+    path.write_text("old")
+    path.chmod(0o444)
+    with pytest.raises(PermissionError, match="read-only"):
+        write_text(path, "new")
+    assert path.read_text() == "old"
+
+
 def test_killed_while_saving(tmp_path: Path) -> None:
     _kill_while_saving(tmp_path, times=25)
 

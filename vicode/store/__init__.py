@@ -6,7 +6,7 @@ from vicode.store.projects import OpenProject, design_files, find_projects, open
 from vicode.store.saving import save_design, save_project_file
 from vicode.store.schema import design_schema, project_schema
 from vicode.store.sources import SourceMap
-from vicode.store.writing import write_text
+from vicode.store.writing import is_read_only, write_text
 
 __all__ = [
     "OpenProject",
@@ -16,6 +16,7 @@ __all__ = [
     "design_files",
     "design_schema",
     "find_projects",
+    "is_read_only",
     "locate",
     "open_project",
     "place_of",

@@ -12,6 +12,7 @@ from vicode.editor.panels.command import Command, Place
 from vicode.editor.panels.desk import Desk
 from vicode.editor.panels.save_dialog import ask_about_disk
 from vicode.editor.session import ChangedOnDiskError, Document, apply_gesture
+from vicode.editor.session.wording import reason_of
 
 T = TypeVar("T")
 
@@ -49,7 +50,7 @@ class Actions:
             return False
         except (OSError, ValueError) as error:
             # A design may hold for a while what no file can: two declarations of one name.
-            desk.say(f"Not saved: {error}", "negative")
+            desk.say(f"{desk.document.file.name} is not saved: {reason_of(error)}", "negative")
             return False
         desk.say("Saved", "positive")
         return True

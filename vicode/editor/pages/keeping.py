@@ -1,5 +1,6 @@
 """What keeps a window's work from being lost: recovery after a crash, saving by itself, and news of what others do."""
 
+import contextlib
 import time
 
 from nicegui import app, run
@@ -26,12 +27,13 @@ def keep_all(keeper: Keeper) -> None:
             return
         for snapshot in keeper.due():
             # Writing a large design takes a while; the next look waits for it.
-            await run.io_bound(keeper.recovery.write, snapshot)
+            with contextlib.suppress(OSError):
+                await run.io_bound(keeper.recovery.write, snapshot)
         ended_s = time.perf_counter()
         rests_until_s = ended_s + _SHARE * (ended_s - begun_s)
 
     app.timer(_TICK_S, look)
-    app.on_shutdown(keeper.recovery.close)
+    app.on_shutdown(keeper.close)
 
 
 class Keeping:
@@ -39,7 +41,7 @@ class Keeping:
 
     def __init__(self, desk: Desk, keeper: Keeper | None) -> None:
         """Begin with the news of now; an offer, if there is something to recover, comes with the page."""
-        self.desk = desk
+        self.desk, self.keeper = desk, keeper
         self.told = desk.document.sheet.news
         if keeper is not None:
             from vicode.editor.panels.recovery_dialog import offer_recovery
@@ -56,7 +58,10 @@ class Keeping:
     def toggle(self) -> None:
         """Save this project by itself from now on, or no more; for everybody who works on it."""
         workspace = self.desk.workspace
-        workspace.autosave = not workspace.autosave
+        if self.keeper is None:
+            workspace.autosave = not workspace.autosave
+        else:
+            self.keeper.set_autosave(workspace, is_on=not workspace.autosave)
         words = "saves by itself now" if workspace.autosave else "is saved only when asked now"
         self.desk.say(f"{workspace.project.name} {words}", "info")
         self.desk.tell()

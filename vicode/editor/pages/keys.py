@@ -27,6 +27,11 @@ document.addEventListener("keydown", (event) => {
   if (event.target.matches?.("input, textarea")) event.target.dispatchEvent(new Event("change", { bubbles: true }));
   queueMicrotask(ask);
 }, true);
+// What is typed when the page is left or loaded again is told, too: the pause would be cut short.
+addEventListener("beforeunload", () => {
+  const field = document.activeElement;
+  if (field?.matches("input, textarea")) field.dispatchEvent(new Event("change", { bubbles: true }));
+});
 </script>
 """
 

@@ -9,6 +9,7 @@ from vicode.editor.panels.dialogs import titled_dialog
 from vicode.editor.panels.rows import primary_button
 from vicode.editor.session.keeper import Keeper, difference_of
 from vicode.editor.session.recovery import Lost
+from vicode.editor.session.wording import reason_of
 
 _TODAY_S = 18 * 3600
 
@@ -36,7 +37,11 @@ def _offer(desk: Desk, keeper: Keeper, lost: Lost, dialog: ui.dialog) -> None:
                 dialog.close()
 
         def recover() -> None:
-            overruled = keeper.recover(desk.workspace, lost, desk.document.person)
+            try:
+                overruled = keeper.recover(desk.workspace, lost, desk.document.person)
+            except OSError as error:
+                desk.say(f"Not recovered: {reason_of(error)}", "negative")
+                return
             more = f"; in {overruled} places the file says otherwise, one undo away" if overruled else ""
             done(f"Recovered the changes of {lost.component}{more}", "positive")
 
@@ -45,7 +50,9 @@ def _offer(desk: Desk, keeper: Keeper, lost: Lost, dialog: ui.dialog) -> None:
             done(f"Discarded the changes of {lost.component}", "info")
 
         with ui.row().classes("recovery-ask"):
-            ui.label(f"Recover the unsaved changes of {lost.component} from {_time_of(lost)}?")
+            is_gone = desk.workspace.project.design(lost.component) is None
+            again = " Its file is gone: it is made again." if is_gone else ""
+            ui.label(f"Recover the unsaved changes of {lost.component} from {_time_of(lost)}?{again}")
             ui.button("Discard", on_click=discard).props("flat no-caps color=negative")
             primary_button("Recover", recover)
         with ui.expansion("See the differences").props("dense").classes("section"):

@@ -8,7 +8,7 @@ from vicode.editor.panels.desk import Desk
 from vicode.editor.panels.dialogs import titled_dialog
 from vicode.editor.panels.rows import primary_button
 from vicode.editor.session import ChangedOnDiskError
-from vicode.editor.session.wording import words_of_path, words_of_value
+from vicode.editor.session.wording import reason_of, words_of_path, words_of_value
 from vicode.findings import Path
 from vicode.model.merging import Conflict
 
@@ -20,7 +20,7 @@ def ask_about_disk(desk: Desk) -> None:
     clash = desk.document.sheet.clash
     if clash is None:
         return
-    name, is_gone = desk.document.file.name, not clash.disk.text
+    name, is_gone = desk.document.file.name, desk.document.file_is_gone
     if clash.disk.design is not None:
         with titled_dialog(f"{name} was changed by another program", "clash") as dialog:
             _ask_for_choices(desk, dialog, clash.conflicts)
@@ -95,7 +95,7 @@ def _settle(desk: Desk, dialog: ui.dialog, theirs_at: list[Path] | tuple[()], sa
         desk.workspace.settle(desk.document, theirs_at)
         desk.workspace.save(desk.document)
     except (OSError, ValueError) as error:
-        desk.say(f"Not saved: {error}", "negative")
+        desk.say(f"{desk.document.file.name} is not saved: {reason_of(error)}", "negative")
         return
     except ChangedOnDiskError:
         # It was changed once more while the dialog was open.

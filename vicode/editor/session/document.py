@@ -171,6 +171,11 @@ class Document:
         return self.sheet.file
 
     @property
+    def file_is_gone(self) -> bool:
+        """Whether there is no such file any more, or nothing in it; one that is no text is there."""
+        return not self.file.is_file() or not self.file.stat().st_size
+
+    @property
     def is_saved(self) -> bool:
         """Whether the file holds the design as it is now."""
         return self.design == self.sheet.saved

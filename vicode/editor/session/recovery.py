@@ -19,6 +19,7 @@ from vicode.output import write_atomically
 from vicode.store import save_design
 
 STATE = "VICODE_STATE"
+_AUTOSAVED = "autosaved"
 _LARGEST_BYTES = 20_000_000
 _MOST_JOURNALS = 200
 
@@ -100,25 +101,13 @@ class Recovery:
         """Bring a journal up to date; slow for large designs, and safe beside the event loop.
 
         Raises:
-            OSError: It cannot be written.
+            OSError: It cannot be written; it is due again then.
         """
-        file = self._own / _name(snapshot.project, snapshot.component)
-        if snapshot.design is None:
-            file.unlink(missing_ok=True)
-            return
         try:
-            text = save_design(snapshot.design, snapshot.base_text)
-        except ValueError:
-            # Two things of one name, which no file can hold: the journal keeps what it had until that is mended.
-            return
-        said = {
-            "project": str(snapshot.project.resolve()),
-            "component": snapshot.component,
-            "at": snapshot.at_s,
-            "base": snapshot.base_text,
-            "text": text,
-        }
-        write_atomically(file, json.dumps(said))
+            self._write(snapshot)
+        except OSError:
+            self._seen.pop((snapshot.project, snapshot.component), None)
+            raise
 
     def lost(self, project: Path) -> tuple[Lost, ...]:
         """The unsaved work on a project that was left behind, the newest of each design, by component."""
@@ -138,6 +127,44 @@ class Recovery:
         """End in order: what is still unsaved stays to be recovered."""
         self._lock.close()
         self._tidy(self._own)
+
+    @property
+    def saving_by_themselves(self) -> frozenset[str]:
+        """The projects that are saved by themselves, as they were noted last."""
+        try:
+            return frozenset((self.folder / _AUTOSAVED).read_text(encoding="utf-8").splitlines())
+        except (OSError, UnicodeDecodeError):
+            return frozenset()
+
+    def note_autosave(self, project: Path, *, is_on: bool) -> None:
+        """Note for the next servers whether a project is saved by itself.
+
+        Raises:
+            OSError: It cannot be written.
+        """
+        own = frozenset({str(project.resolve())})
+        known = self.saving_by_themselves
+        noted = known | own if is_on else known - own
+        write_atomically(self.folder / _AUTOSAVED, "".join(f"{each}\n" for each in sorted(noted)))
+
+    def _write(self, snapshot: Snapshot) -> None:
+        file = self._own / _name(snapshot.project, snapshot.component)
+        if snapshot.design is None:
+            file.unlink(missing_ok=True)
+            return
+        try:
+            text = save_design(snapshot.design, snapshot.base_text)
+        except ValueError:
+            # Two things of one name, which no file can hold: the journal keeps what it had until that is mended.
+            return
+        said = {
+            "project": str(snapshot.project.resolve()),
+            "component": snapshot.component,
+            "at": snapshot.at_s,
+            "base": snapshot.base_text,
+            "text": text,
+        }
+        write_atomically(file, json.dumps(said))
 
     def _left_behind(self) -> list[Path]:
         """The journals in folders that no living server holds."""

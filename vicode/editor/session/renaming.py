@@ -7,7 +7,7 @@ from vicode.editor.session.workspace import Workspace
 from vicode.model.design import Design
 from vicode.model.names import is_name, snake_case
 from vicode.model.project import Project
-from vicode.store import project_file_in, read_project_file, save_design, save_project_file, write_text
+from vicode.store import is_read_only, project_file_in, read_project_file, save_design, save_project_file, write_text
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -88,6 +88,9 @@ def _refuse(workspace: Workspace, old: str, new: str) -> str:
     unsaved = sorted(touched & set(workspace.unsaved))
     if unsaved:
         return f"{', '.join(unsaved)} {'has' if len(unsaved) == 1 else 'have'} unsaved changes: save or undo them first"
+    locked = [workspace.files[name].name for name in sorted(touched) if is_read_only(workspace.files[name])]
+    if locked:
+        return f"{', '.join(locked)} cannot be changed: read-only"
     stale = [name for name in sorted(touched) if not workspace.is_as_read(name)]
     return f"{workspace.files[stale[0]].name} was just changed by another program: look again" if stale else ""
 

@@ -82,3 +82,8 @@ def _text(value: object) -> str:
             return ", ".join(f"{part:g}" for part in value)
         return "; ".join(_text(part).replace("\n", ", ") for part in value)
     return str(value) if value != "" else "(empty)"
+
+
+def reason_of(error: OSError | ValueError) -> str:
+    """Why something could not be done, in words."""
+    return (error.strerror or str(error)) if isinstance(error, OSError) else str(error)

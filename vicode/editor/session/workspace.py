@@ -143,35 +143,33 @@ class Workspace:
             ValueError: No file can hold the design as it is now.
         """
         text = _read(document.file)
-        if text != document.sheet.disk_text:
+        if (text or "") != document.sheet.disk_text:
             self._meet(document.sheet, _on_disk(document, text))
         if document.sheet.clash is not None:
             if not over:
                 raise ChangedOnDiskError
             self.settle(document)
             text = _read(document.file)
-        new = save_design(document.design, text or "")
-        if new != text:
-            write_text(document.file, new)
-        reading = read_design(new, document.file.name).findings
-        document.take_disk(OnDisk(text=new, design=document.design, reading=reading), "save")
+        self._write(document, text, text or "")
 
     def settle(self, document: Document, theirs_at: Collection[Way] = ()) -> None:
         """End a clash with the file: both sides' work is kept, and at `theirs_at` the file's where both touched.
 
-        A file that holds no design any more is put aside before it is written over.
+        A file that holds no design any more is put aside and written over; one that is gone is made again.
 
         Raises:
-            OSError: The file cannot be put aside.
+            OSError: The file cannot be put aside or written.
+            ValueError: No file can hold the design as it is now.
         """
         clash = document.sheet.clash
         if clash is None:
             return
         disk = clash.disk
         if disk.design is None:
-            if disk.text:
+            if not document.file_is_gone:
                 set_aside(document.file)
-            document.take_disk(replace(disk, design=document.design), "save")
+            # What was read last has the comments and the order of the keys.
+            self._write(document, None, document.sheet.disk_text)
             return
         merged = merge(document.sheet.saved, document.design, disk.design, theirs_at=theirs_at)
         document.take_disk(disk, "merge with disk", merged.design)
@@ -184,6 +182,10 @@ class Workspace:
         document.take_disk(disk, "reload from disk")
         return ""
 
+    def may_create(self, component: str) -> bool:
+        """Whether a new design of this name has a file of its own to go to."""
+        return not self._file_for(component).exists()
+
     def create(self, component: str, text: str = "") -> Document:
         """Make a new design with a file of its own: of a text that holds it, else with one state.
 
@@ -191,7 +193,7 @@ class Workspace:
             FileExistsError: There is already a file of its name.
             OSError: The file cannot be written.
         """
-        file = self.folder / f"{snake_case(component)}.yaml"
+        file = self._file_for(component)
         if file.exists():
             raise FileExistsError(file)
         design = Design(component=component, initial="Start", states=(State(name="Start", at=(160, 120)),))
@@ -245,6 +247,17 @@ class Workspace:
             OSError: A file cannot be written.
         """
         return generating.write(self.prepare(document), is_forced=is_forced)
+
+    def _write(self, document: Document, text: str | None, patched: str) -> None:
+        """Write a design by patching a text; `text` is what the file holds."""
+        new = save_design(document.design, patched)
+        if new != text:
+            write_text(document.file, new)
+        reading = read_design(new, document.file.name).findings
+        document.take_disk(OnDisk(text=new, design=document.design, reading=reading), "save")
+
+    def _file_for(self, component: str) -> Path:
+        return self.folder / f"{snake_case(component)}.yaml"
 
     def _take(self, opened: OpenProject) -> None:
         """Make a project as read the one that is worked on."""
