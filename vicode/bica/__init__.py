@@ -8,7 +8,9 @@ from .component import RESERVED_NAMES, Component, State
 from .errors import ComponentError, CyclicUseError, ErrorRecord
 from .observer import IterationRecord, Observer, StepRecord
 from .root import Root
+from .team import Team, TeamMessage
 from .timing import CycleTimes
+from .xabsl import XabslComponent
 
 __all__ = [
     "RESERVED_NAMES",
@@ -25,4 +27,7 @@ __all__ = [
     "SimulatedClock",
     "State",
     "StepRecord",
+    "Team",
+    "TeamMessage",
+    "XabslComponent",
 ]

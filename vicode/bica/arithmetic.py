@@ -35,6 +35,18 @@ def modulo(a: float, b: float) -> float:
         return math.nan
 
 
+def xabsl_divide(a: float, b: float) -> float:
+    """Return a / b as XABSL's engine does, which divides by 1e-7 instead of 0."""
+    return a / (b or 1e-7)
+
+
+def xabsl_remainder(a: float, b: float) -> float:
+    """Return the remainder of whole parts as XABSL's engine does, with the sign of a; 0 for b below 1."""
+    if not (math.isfinite(a) and math.isfinite(b)) or not int(b):
+        return 0.0
+    return math.fmod(int(a), int(b))
+
+
 def power(a: float, b: float) -> float:
     """Return a to the power of b as C's pow."""
     x, y = float(a), float(b)

@@ -10,11 +10,14 @@ from .errors import ComponentError, make_error_record
 
 if TYPE_CHECKING:
     from .root import Root
+    from .team import CooperativeState
 
 # All other names without a leading underscore belong to the design: aliases, parameters, outputs and variables.
 RESERVED_NAMES = frozenset(
     {
+        "action_done",
         "component_time",
+        "conflict",
         "design_file",
         "frequency_hz",
         "is_done",
@@ -39,6 +42,9 @@ class State:
         run: decides and then acts; called with `False` it only acts.
         requires: stepped before the component works in this state.
         final: the component is done in this state.
+        calls: components that it calls, when the component asks whether they are done.
+        capacity: so many robots of a team may be in it at once.
+        synchronized: so many robots of a team enter it at once.
     """
 
     name: str
@@ -47,6 +53,9 @@ class State:
     enter: Callable[[], None] | None = None
     leave: Callable[[], None] | None = None
     final: bool = False
+    calls: tuple[Component, ...] = ()
+    capacity: int | None = None
+    synchronized: int | None = None
 
 
 class Component:
@@ -72,6 +81,7 @@ class Component:
         "_started_ns",
         "_states",
         "_stepped_in",
+        "_together",
         "_transition",
         "_worked_ns",
         "root",
@@ -88,6 +98,7 @@ class Component:
         self._initial = self._current = State("", self.work)
         self._called: list[tuple[Component, dict[str, Any]]] = []
         self._left: State | None = None
+        self._together: dict[str, CooperativeState] = {}
         self._transition: str | None = None
         self._stepped_in = -1
         self._started_ns = self._entered_ns = self._worked_ns = 0
@@ -135,6 +146,17 @@ class Component:
         return self._current.final and self.root.iteration - self._stepped_in <= 1
 
     @property
+    def action_done(self) -> bool:
+        """Whether a component that the active state calls is done."""
+        return any(component.is_done for component in self._current.calls)
+
+    @property
+    def conflict(self) -> bool:
+        """Whether as many other robots are in the active state as may be in it."""
+        together = self._together.get(self.state)
+        return together is not None and together.is_crowded
+
+    @property
     def state_time(self) -> float:
         """Seconds since the active state was entered."""
         return (self.root.now_ns - self._entered_ns) / 1e9
@@ -149,10 +171,17 @@ class Component:
         self._states = {state.name: state for state in states}
         self._initial = self._current = states[0]
         self.state = states[0].name
+        for state in states:
+            if state.capacity is not None or state.synchronized is not None:
+                join = self.root.team.join
+                number = state.synchronized or 0
+                self._together[state.name] = join(self, state.name, capacity=state.capacity, synchronized=number)
 
     def _change_to(self, name: str, transition: str | None = None) -> None:
         """Leave the active state for another, enter that and act in it; a change to the active state only acts."""
         old, new = self._current, self._states[name]
+        if self._together and not self._may_enter(name):
+            new = old
         run = new.run
         if new is not old:
             leave, enter = old.leave, new.enter
@@ -171,8 +200,15 @@ class Component:
                         component.step()
         run(False)
 
+    def _may_enter(self, name: str) -> bool:
+        together = self._together.get(name)
+        return together is None or together.may_enter()
+
     def _stay(self) -> None:
         """End the decision without a change: act in the active state."""
+        if self._together:
+            # The others are asked for leave to stay too; only what they are told by it counts.
+            self._may_enter(self.state)
         self._current.run(False)
 
     def _call(self, component: Component, /, **parameters: Any) -> None:

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, Literal, TypeVar, cast
 from .clock import Clock, RealClock
 from .component import Component
 from .errors import ComponentError, CyclicUseError, ErrorRecord
+from .team import Team
 from .timing import CycleTimes, measure_steps
 
 if TYPE_CHECKING:
@@ -44,6 +45,7 @@ class Root:
     ) -> None:
         self.clock: Clock = clock if clock is not None else RealClock()
         self.world = world
+        self.team = Team()
         self.iteration = 0
         self.now_ns = 0
         self.errors: Counter[tuple[str, str, int]] = Counter()

@@ -64,13 +64,6 @@ def range_problem(declaration: Declaration, value: float | None) -> str:
     return f"{value:g} is outside the range of '{declaration.name}', {low:g} to {high:g}{unit}"
 
 
-def find_arithmetic_not_generated(context: Context) -> Iterator[Finding]:
-    """D417: code with other results than the design asks for would be worse than none."""
-    if context.design.arithmetic:
-        message = f"no generator writes the arithmetic of '{context.design.arithmetic}'"
-        yield context.find("D417", ("arithmetic",), message, "leave it out: results are then those of IEEE 754")
-
-
 def find_unused_declarations(context: Context) -> Iterator[Finding]:
     """D424: parameters never read, variables and outputs neither read nor set."""
     used = context.words.union(*(expression.parsed.names for expression in context.expressions))
@@ -91,7 +84,6 @@ def find_unused_declarations(context: Context) -> Iterator[Finding]:
 RULES = (
     find_bad_declarations,
     find_bad_frequency,
-    find_arithmetic_not_generated,
     find_values_outside,
     find_unused_declarations,
 )

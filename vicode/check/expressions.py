@@ -1,14 +1,14 @@
 """Rules about expressions: names, types, what may be set, what must be known before the component runs."""
 
 import math
-from collections.abc import Collection, Iterator
+from collections.abc import Iterator
 
 from vicode.check.context import Context
 from vicode.check.named import with_article
 from vicode.check.readings import Expression, Place, literal_value
 from vicode.findings import Finding, did_you_mean
 from vicode.model.design import Assign
-from vicode.model.expressions import Done, Kind, Minus, Node, Number, Reading, Time, Variable, walk
+from vicode.model.expressions import Done, Kind, Minus, Node, Number, Reading, Status, Time, Variable, walk
 
 
 def find_mistakes(context: Context) -> Iterator[Finding]:
@@ -33,7 +33,7 @@ def changing_parts(tree: Node) -> Iterator[tuple[str, Node]]:
         match node:
             case Variable(name=name, kind=kind) if kind != Kind.CONSTANT:
                 yield f"'{name}' is {with_article(kind)}: it has no value yet", node
-            case Time() | Done() | Reading():
+            case Time() | Status() | Done() | Reading():
                 yield "this is known only while the component runs", node
             case _:
                 pass
@@ -65,23 +65,26 @@ def _time_problem(expression: Expression, context: Context) -> str:
 
 
 def find_wrong_assignments(context: Context) -> Iterator[Finding]:
-    """E303, E307: `set` of something that is not an own variable or output."""
-    settable = {each.name: each for each in (*context.design.variables, *context.design.outputs)}
+    """E303, E307: `set` of something that is no own variable or output, nor a variable of a used component."""
     for placed in context.actions:
         if not isinstance(placed.action, Assign):
             continue
         for name, _text in placed.action.values:
             path = (*placed.path, "set", name)
-            declaration = settable.get(name)
+            declaration = context.scope.settable(name)
             if declaration is None:
-                code, message, mend = _explain_not_settable(name, settable, context)
+                code, message, mend = _explain_not_settable(name, context)
                 yield context.find(code, path, message, mend, of_key=True)
             elif declaration.arguments is not None:
                 mend = "write its code in 'members'"
                 yield context.find("E307", path, f"'{name}' takes arguments, so it cannot be set", mend, of_key=True)
 
 
-def _explain_not_settable(name: str, settable: Collection[str], context: Context) -> tuple[str, str, str]:
+def _explain_not_settable(name: str, context: Context) -> tuple[str, str, str]:
+    alias, dot, variable = name.partition(".")
+    if dot:
+        return _explain_not_settable_there(alias, variable, context)
+    settable = [each.name for each in (*context.design.variables, *context.design.outputs)]
     symbol = context.scope.symbols.get(name)
     if symbol is not None:
         mend = did_you_mean(name, settable, "only own variables and outputs are set; declare one")
@@ -90,6 +93,20 @@ def _explain_not_settable(name: str, settable: Collection[str], context: Context
         return "E307", f"'{name}' is a used component, it cannot be set", f"call it: call: {name}"
     mend = did_you_mean(name, settable, f"declare it: variables: {{{name}: 0}}")
     return "E303", f"'{name}' is not declared", mend
+
+
+def _explain_not_settable_there(alias: str, variable: str, context: Context) -> tuple[str, str, str]:
+    if alias not in context.scope.uses:
+        mend = did_you_mean(alias, context.scope.uses, "declare it in 'uses'")
+        return "E303", f"'{alias}' is not a used component", mend
+    interface = context.scope.uses[alias]
+    known = [each.name for each in interface.variables] if interface else []
+    if interface is not None and interface.output(variable):
+        mend = did_you_mean(variable, known, "what it may be told are its variables and parameters")
+        return "E307", f"'{alias}.{variable}' is an output, it can only be read", mend
+    component = interface.component if interface else alias
+    mend = did_you_mean(variable, known, f"declare it in 'variables' of {component}")
+    return "E303", f"'{component}' has no variable '{variable}'", mend
 
 
 RULES = (find_mistakes, find_changing_first_values, find_bad_times, find_wrong_assignments)

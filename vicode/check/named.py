@@ -13,7 +13,7 @@ from vicode.model.project import Project
 
 _MEMBERS = {"alias", "parameter", "output", "variable"}
 _WITH_SELF = {*_MEMBERS, "argument"}
-_TIMES = frozenset({"state_time", "component_time"})
+_TIMES = frozenset({"state_time", "component_time", "action_done", "conflict"})
 _OWN_WORDS = {
     **dict.fromkeys(FUNCTIONS, "a function of expressions"),
     **dict.fromkeys(("done", "True", "False", "true", "false", *_TIMES), "a word of expressions"),
@@ -64,7 +64,7 @@ def names_of_project(project: Project) -> Iterator[Named]:
     for interface in project.components:
         path = ("components", interface.component)
         yield Named(name=interface.component, what="hand-written component", path=path)
-        for section in ("parameters", "outputs"):
+        for section in ("parameters", "outputs", "variables"):
             for declaration in getattr(interface, section):
                 here = (*path, section, declaration.name)
                 yield from _declared(declaration, section.removesuffix("s"), here, is_shared=False)
@@ -99,7 +99,7 @@ def _reserved_problem(named: Named) -> Problem | None:
     name, what = named.name, named.what
     mend = f"choose another name, such as {name}_value"
     # Parameters of hand-written components are handed over by name and need not become attributes.
-    is_member = what in _MEMBERS and (named.is_shared or what == "output")
+    is_member = what in _MEMBERS and (named.is_shared or what in ("output", "variable"))
     is_taken = (is_member and name in RESERVED_NAMES) or (what in _WITH_SELF and name == "self")
     if is_taken or (what, name) == ("element", "mro"):
         return "D405", f"'{name}' is a name of the runtime", mend

@@ -94,12 +94,12 @@ def find_duplicate_components(project: Project) -> Iterator[Finding]:
 def find_bad_implementations(project: Project) -> Iterator[Finding]:
     """P203: an implementation or world that does not name a class in a module."""
     mend = "write module:Class, such as field.perception:Perception"
-    add = "add implementation: module:Class"
+    add = "add implementation: module:Class, or implementation: world"
     for interface in project.components:
         path: Path = ("components", interface.component)
         if not interface.implementation:
             yield _find("P203", path, f"'{interface.component}' has no implementation", add)
-        elif not _CLASS_IN_MODULE.match(interface.implementation):
+        elif not interface.is_handed_on and not _CLASS_IN_MODULE.match(interface.implementation):
             message = f"'{interface.implementation}' does not name a class in a module"
             yield _find("P203", (*path, "implementation"), message, mend)
     if project.world and not _CLASS_IN_MODULE.match(project.world):
@@ -169,7 +169,7 @@ def _declarations(project: Project) -> Iterator[tuple[Declaration, Path, Reader]
         yield constant, ("constants", constant.name), plain_reader(scope_of(before, None))
     reader = reader_of(project, None)
     for interface in project.components:
-        for section in ("parameters", "outputs"):
+        for section in ("parameters", "outputs", "variables"):
             for declaration in getattr(interface, section):
                 yield declaration, ("components", interface.component, section, declaration.name), reader
 

@@ -136,9 +136,8 @@ def read_expressions(
             yield _read(Place.GUARD, (*located.path, "when"), guard.when, reader, expected=BOOL)
         if guard.after:
             yield _read(Place.TIME, (*located.path, "after"), guard.after, reader, expected=FLOAT)
-    own = {declaration.name: declaration for _section, declaration in design.declarations()}
     for placed in actions:
-        yield from _read_action(placed, own, reader)
+        yield from _read_action(placed, reader)
 
 
 def read_first_values(declaration: Declaration, path: Path, reader: Reader) -> Iterator[Expression]:
@@ -171,12 +170,12 @@ def _number(text: str) -> float | None:
         return None
 
 
-def _read_action(placed: PlacedAction, own: dict[str, Declaration], reader: Reader) -> Iterator[Expression]:
+def _read_action(placed: PlacedAction, reader: Reader) -> Iterator[Expression]:
     match placed.action:
         case Assign(values=values):
             for name, text in values:
                 path = (*placed.path, "set", name)
-                yield _read(Place.ASSIGNED, path, text, reader, receiver=own.get(name))
+                yield _read(Place.ASSIGNED, path, text, reader, receiver=reader.scope.settable(name))
         case Call(alias=alias, arguments=arguments):
             interface: Interface | None = reader.scope.uses.get(alias)
             middle = () if placed.phase == "modulates" else ("with",)

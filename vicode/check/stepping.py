@@ -1,7 +1,7 @@
 """Rules about who steps what in an iteration: twice, or never although it is read."""
 
 import re
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Collection, Iterable, Iterator
 from functools import cache, partial
 from itertools import combinations
 
@@ -10,7 +10,7 @@ import networkx as nx
 from vicode.check.context import Context
 from vicode.check.graphs import Step
 from vicode.findings import Finding, Note
-from vicode.model.design import COMMON
+from vicode.model.design import COMMON, Use
 from vicode.model.expressions import Done, Reading, walk
 
 Reach = Callable[[str, str], frozenset[str]]
@@ -89,7 +89,7 @@ def find_never_stepped(context: Context) -> Iterator[Finding]:
     stepped = {step.component for step in context.steps} | _stepped_by_code(context)
     for component in tuple(stepped):
         stepped |= context.graphs.stepped_below(component)
-    idle = {use.alias: use.component for use in context.design.uses if use.component not in stepped}
+    idle = {use.alias: use.component for use in context.design.uses if _is_idle(context, use, stepped)}
     if not idle:
         return
     for expression in context.expressions:
@@ -98,6 +98,12 @@ def find_never_stepped(context: Context) -> Iterator[Finding]:
                 message = f"'{node.alias}' is read, but nothing here steps {idle[node.alias]}"
                 mend = f"add requires: [{node.alias}] to the states that read it"
                 yield context.find("D426", expression.path, message, mend, span=node.span)
+
+
+def _is_idle(context: Context, use: Use, stepped: Collection[str]) -> bool:
+    """Nobody steps it, and it is not one that only hands on what it is asked."""
+    interface = context.project.interface(use.component)
+    return use.component not in stepped and not (interface is not None and interface.is_handed_on)
 
 
 def _stepped_by_code(context: Context) -> set[str]:

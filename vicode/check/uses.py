@@ -6,7 +6,7 @@ import networkx as nx
 
 from vicode.check.context import Context
 from vicode.findings import Finding, Path, did_you_mean
-from vicode.model.design import Call
+from vicode.model.design import Assign, Call
 
 
 def find_unknown_components(context: Context) -> Iterator[Finding]:
@@ -67,6 +67,8 @@ def find_circles(context: Context) -> Iterator[Finding]:
 def find_unused_uses(context: Context) -> Iterator[Finding]:
     """D428: an alias that no state requires, calls, reads or mentions in code."""
     used = {alias for alias, _path, _of_key in _named_aliases(context)}
+    assigned = (placed.action.values for placed in context.actions if isinstance(placed.action, Assign))
+    used |= {name.partition(".")[0] for values in assigned for name, _text in values if "." in name}
     used.update(*(expression.parsed.aliases for expression in context.expressions), context.words)
     for use in context.design.uses:
         if use.alias not in used:

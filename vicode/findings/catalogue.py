@@ -77,7 +77,6 @@ _ERRORS = {
     "D414": ("missing-language", "code that is missing in a language of the project"),
     "D415": ("empty-code", "a predicate without code"),
     "D416": ("bad-frequency", "a frequency that is not above 0"),
-    "D417": ("arithmetic-not-generated", "rules of arithmetic that no generator writes"),
     "D418": ("disabled-initial-state", "an initial state that is disabled"),
     # Generated files
     "G501": ("edited-outside", "a generated file whose code was edited by hand"),

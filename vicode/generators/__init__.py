@@ -117,7 +117,7 @@ def python_class(project: Project, component: str) -> str:
     interface = project.interface(component)
     if interface is None:
         raise UnsoundDesignError(f"nothing declares the component '{component}'")
-    if project.design(component) is None:
+    if project.design(component) is None and not interface.is_handed_on:
         return interface.implementation
     return class_path(plan_package(project, RESERVED_MODULES), component)
 

@@ -49,7 +49,8 @@ class _Renamer:
     def _action(self, action: Action) -> Action:
         match action:
             case Assign():
-                return replace(action, values=self.pairs(action.values))
+                values = ((self.expression(name), text) for name, text in self.pairs(action.values))
+                return replace(action, values=tuple(values))
             case Call():
                 return self.call(action)
             case RunCode():

@@ -113,7 +113,7 @@ Decision = Transition | Stay | Group
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Assign:
-    """Set own variables and outputs, in order: name to expression."""
+    """Set own variables and outputs, and variables of used components (`alias.variable`), in order."""
 
     values: tuple[tuple[str, str], ...]
 
@@ -143,13 +143,17 @@ class State:
 
     `id` outlives a new name, so that code regions follow it. `modulates` are calls done after `actions`.
     A `disabled` state is kept, and works as if it were not there (`vicode.model.enabling`).
+    `capacity` is the number of robots that may be in it, `synchronized` how many must enter at once.
     """
 
     name: str
     id: str = ""
+    xabsl_name: str = ""
     doc: str = ""
     at: Point | None = None
     final: bool = False
+    capacity: float | None = None
+    synchronized: float | None = None
     disabled: bool = False
     requires: tuple[str, ...] = ()
     modulates: tuple[Call, ...] = ()
@@ -179,6 +183,7 @@ class Design:
     """One component as drawn. `frequency_hz` None: it works at every step it is given."""
 
     component: str
+    xabsl_name: str = ""
     doc: str = ""
     frequency_hz: float | None = None
     resume: bool = False

@@ -6,15 +6,24 @@ from dataclasses import dataclass, field
 from vicode.model.design import Declaration, Design
 
 LANGUAGES = ("python", "cpp", "xabsl")
+WORLD, INTERNAL = "world", "internal"
+"""Implementations that vicode writes: one hands everything on to the world, one keeps variables for all."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Enumeration:
-    """A named type; its literals are written `Side.left`. `elements` are pairs of name and doc."""
+    """A named type; its literals are written `Side.left`. `elements` are pairs of name and doc.
+
+    `internal` says that XABSL's engine numbers them, and not the robot's program. `xabsl_elements` are pairs of an
+    element and its name in XABSL, where that is another.
+    """
 
     name: str
     elements: tuple[tuple[str, str], ...]
     doc: str = ""
+    internal: bool = False
+    xabsl_name: str = ""
+    xabsl_elements: tuple[tuple[str, str], ...] = ()
 
     @property
     def element_names(self) -> tuple[str, ...]:
@@ -26,19 +35,37 @@ class Enumeration:
 class Interface:
     """What others see of a component: hand-written ones are declared so, a design has one by itself.
 
-    `implementation` is "module:Class", empty for a component that comes from a design.
+    `implementation` is "module:Class", or WORLD or INTERNAL for one that vicode writes; empty for one that comes from
+    a design. Others may read `outputs` and `variables`, and set the latter.
     """
 
     component: str
+    title: str = ""
     doc: str = ""
+    xabsl_name: str = ""
     implementation: str = ""
     frequency_hz: float | None = None
     parameters: tuple[Declaration, ...] = ()
     outputs: tuple[Declaration, ...] = ()
+    variables: tuple[Declaration, ...] = ()
+
+    @property
+    def is_handed_on(self) -> bool:
+        """Whether its class is written by vicode, for the world or to keep variables."""
+        return self.implementation in (WORLD, INTERNAL)
+
+    @property
+    def readable(self) -> tuple[Declaration, ...]:
+        """What others may read."""
+        return self.outputs + self.variables
 
     def output(self, name: str) -> Declaration | None:
-        """The output of this name."""
-        return next((output for output in self.outputs if output.name == name), None)
+        """The output or variable of this name, which may be read."""
+        return next((output for output in self.readable if output.name == name), None)
+
+    def variable(self, name: str) -> Declaration | None:
+        """The variable of this name, which may be set."""
+        return next((variable for variable in self.variables if variable.name == name), None)
 
     def parameter(self, name: str) -> Declaration | None:
         """The parameter of this name."""
@@ -51,7 +78,9 @@ class Agent:
 
     name: str
     root: str
+    title: str = ""
     doc: str = ""
+    xabsl_name: str = ""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -81,6 +81,7 @@ def build_design(data: Data, otherwise: str) -> Design:
     return Design(
         component=fields.text("component", otherwise),
         doc=fields.text("doc"),
+        xabsl_name=fields.text("xabsl_name"),
         frequency_hz=fields.number("frequency"),
         resume=fields.flag("resume"),
         arithmetic=fields.text("arithmetic"),
@@ -109,13 +110,27 @@ def build_project(data: Data, otherwise: str) -> Project:
         world=fields.text("world"),
         generated=fields.text("generated", "generated"),
         enumerations=tuple(
-            Enumeration(name=name, doc=each.text("doc"), elements=each.texts("elements"))
+            Enumeration(
+                name=name,
+                doc=each.text("doc"),
+                elements=each.texts("elements"),
+                internal=each.flag("internal"),
+                xabsl_name=each.text("xabsl_name"),
+                xabsl_elements=each.texts("xabsl_elements"),
+            )
             for name, each in fields.table("enumerations")
         ),
         constants=_declarations(fields, "constants", "value"),
         components=tuple(_interface(name, each) for name, each in fields.table("components")),
         agents=tuple(
-            Agent(name=name, root=agent.text("root"), doc=agent.text("doc")) for name, agent in fields.table("agents")
+            Agent(
+                name=name,
+                root=agent.text("root"),
+                title=agent.text("title"),
+                doc=agent.text("doc"),
+                xabsl_name=agent.text("xabsl_name"),
+            )
+            for name, agent in fields.table("agents")
         ),
     )
 
@@ -139,11 +154,14 @@ def _declarations(fields: Fields, section: str, value_key: str) -> tuple[Declara
 def _interface(name: str, fields: Fields) -> Interface:
     return Interface(
         component=name,
+        title=fields.text("title"),
         doc=fields.text("doc"),
+        xabsl_name=fields.text("xabsl_name"),
         implementation=fields.text("implementation"),
         frequency_hz=fields.number("frequency"),
         parameters=_declarations(fields, "parameters", "default"),
         outputs=_declarations(fields, "outputs", "initial"),
+        variables=_declarations(fields, "variables", "initial"),
     )
 
 
@@ -160,9 +178,12 @@ def _state(name: str, fields: Fields) -> State:
     return State(
         name=name,
         id=fields.text("id"),
+        xabsl_name=fields.text("xabsl_name"),
         doc=fields.text("doc"),
         at=fields.pair("at"),
         final=fields.flag("final"),
+        capacity=fields.number("capacity"),
+        synchronized=fields.number("synchronized"),
         disabled=fields.flag("disabled"),
         requires=fields.words("requires"),
         modulates=tuple(

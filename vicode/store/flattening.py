@@ -46,6 +46,7 @@ def flatten_design(design: Design) -> Data:
             "vicode": VERSION,
             "component": design.component,
             "doc": design.doc,
+            "xabsl_name": design.xabsl_name,
             "frequency": design.frequency_hz,
             "resume": design.resume,
             "arithmetic": design.arithmetic,
@@ -95,11 +96,20 @@ def _use(use: Use) -> Data:
 
 
 def _agent(agent: Agent) -> Data:
-    return gather(AGENT, {"root": agent.root, "doc": agent.doc})
+    return gather(AGENT, {"root": agent.root, "title": agent.title, "doc": agent.doc, "xabsl_name": agent.xabsl_name})
 
 
 def _enumeration(enumeration: Enumeration) -> Data:
-    return gather(ENUMERATION, {"doc": enumeration.doc, "elements": enumeration.elements})
+    return gather(
+        ENUMERATION,
+        {
+            "doc": enumeration.doc,
+            "elements": enumeration.elements,
+            "internal": enumeration.internal,
+            "xabsl_name": enumeration.xabsl_name,
+            "xabsl_elements": enumeration.xabsl_elements,
+        },
+    )
 
 
 def _interface(interface: Interface) -> Data:
@@ -107,10 +117,13 @@ def _interface(interface: Interface) -> Data:
         INTERFACE,
         {
             "implementation": interface.implementation,
+            "title": interface.title,
+            "xabsl_name": interface.xabsl_name,
             "frequency": interface.frequency_hz,
             "doc": interface.doc,
             "parameters": _declarations(PARAMETER, "default", interface.parameters),
             "outputs": _declarations(OUTPUT, "initial", interface.outputs),
+            "variables": _declarations(VARIABLE, "initial", interface.variables),
         },
     )
 
@@ -138,9 +151,12 @@ def _state(state: State) -> Data:
         STATE,
         {
             "id": state.id,
+            "xabsl_name": state.xabsl_name,
             "doc": state.doc,
             "at": state.at,
             "final": state.final,
+            "capacity": state.capacity,
+            "synchronized": state.synchronized,
             "disabled": state.disabled,
             "requires": state.requires,
             "modulates": tuple((call.alias, call.arguments) for call in state.modulates),

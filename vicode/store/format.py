@@ -14,6 +14,7 @@ TEXT = Leaf(kind=Kind.TEXT)
 NAME = Leaf(kind=Kind.NAME)
 EXPRESSION = Leaf(kind=Kind.EXPRESSION)
 FREQUENCY = Leaf(kind=Kind.NUMBER)
+COUNT = Leaf(kind=Kind.COUNT)
 FLAG = Leaf(kind=Kind.FLAG)
 POSITION = Pair(what="a position [x, y]")
 LABEL_POSITION = Pair(what="a position [part, beside]")
@@ -26,6 +27,8 @@ _VERSION = Key(
     name="vicode", shape=Leaf(kind=Kind.VERSION), required=True, meaning="version of the format; this one is 1"
 )
 _DOC = Key(name="doc", shape=TEXT, meaning="a sentence for people; it becomes the docstring of what is generated")
+_XABSL_NAME = Key(name="xabsl_name", shape=TEXT, meaning="its name in XABSL")
+_TITLE = Key(name="title", shape=TEXT, meaning="a short heading")
 _ID = Key(name="id", shape=NAME, meaning="a name that stays through edits; written by the editor")
 
 
@@ -45,7 +48,7 @@ def _declaration(name: str, value_key: str, meaning: str, *more: Key) -> Record:
                 name="range", shape=Pair(what="a range [low, high]"), meaning="lowest and highest value, both included"
             ),
             _DOC,
-            Key(name="xabsl_name", shape=TEXT, meaning="its name in XABSL"),
+            _XABSL_NAME,
             *more,
         ),
     )
@@ -89,7 +92,7 @@ ACTION = Record(
             name="set",
             shape=ASSIGNMENTS,
             keeps_empty=True,
-            meaning="own variables and outputs, each with its new value",
+            meaning="own variables and outputs, or `used.variable`, each with its new value",
         ),
         Key(name="call", shape=NAME, meaning="the used component to step here"),
         Key(name="with", shape=ARGUMENTS, meaning="its parameters; those left out take their defaults"),
@@ -147,8 +150,11 @@ STATE = Record(
         _DOC,
         Key(name="at", shape=POSITION, meaning="centre on the canvas"),
         Key(name="final", shape=FLAG, implied=False, meaning="a target state: the component reports that it is done"),
+        Key(name="capacity", shape=COUNT, keeps_empty=True, meaning="so many robots of a team may be in it at once"),
+        Key(name="synchronized", shape=COUNT, keeps_empty=True, meaning="so many robots of a team enter it at once"),
         Key(name="disabled", shape=FLAG, implied=False, meaning="kept, but neither it nor a way to it is there"),
         _ID,
+        _XABSL_NAME,
         Key(name="requires", shape=NAMES, meaning="used components stepped before the state's own work"),
         Key(
             name="modulates",
@@ -186,12 +192,13 @@ DESIGN = Record(
         _VERSION,
         Key(name="component", shape=NAME, required=True, meaning="name of the component, one in the project"),
         _DOC,
+        _XABSL_NAME,
         Key(name="frequency", shape=FREQUENCY, meaning="Hz; left out: works at every step it is given"),
         Key(name="resume", shape=FLAG, implied=False, meaning="`true`: goes on where it was when it is stepped again"),
         Key(
             name="arithmetic",
             shape=Leaf(kind=Kind.NAME, choices=("xabsl",)),
-            meaning="`xabsl`: calculates as XABSL does; left out: as docs/semantics.md says",
+            meaning="`xabsl`: calculates and restarts as XABSL does; left out: as docs/semantics.md says",
         ),
         Key(
             name="time_unit",
@@ -231,17 +238,31 @@ ENUMERATION = Record(
             required=True,
             meaning="its elements, as a list or with a sentence each",
         ),
+        Key(name="internal", shape=FLAG, implied=False, meaning="XABSL: the engine numbers them, not the robot"),
+        _XABSL_NAME,
+        Key(
+            name="xabsl_elements",
+            shape=Table(what="a mapping of elements to names", value=TEXT, width=LINE),
+            meaning="names of elements in XABSL, where they are others",
+        ),
     ),
 )
 INTERFACE = Record(
     name="component",
     what="the declaration of a hand-written component",
     keys=(
-        Key(name="implementation", shape=TEXT, meaning="the class, written module:Class"),
+        Key(
+            name="implementation",
+            shape=TEXT,
+            meaning="the class, written module:Class; `world` or `internal`: vicode writes it",
+        ),
+        _TITLE,
         Key(name="frequency", shape=FREQUENCY, meaning="Hz; left out: works at every step it is given"),
         _DOC,
+        _XABSL_NAME,
         Key(name="parameters", shape=_declarations(PARAMETER), meaning="what others may modulate in it"),
         Key(name="outputs", shape=_declarations(OUTPUT), meaning="what others may read from it"),
+        Key(name="variables", shape=_declarations(VARIABLE), meaning="what others may read and set"),
     ),
 )
 AGENT = Record(
@@ -249,7 +270,12 @@ AGENT = Record(
     what="the name of a root component",
     short="root",
     width=LINE,
-    keys=(Key(name="root", shape=NAME, required=True, meaning="component that is stepped"), _DOC),
+    keys=(
+        Key(name="root", shape=NAME, required=True, meaning="component that is stepped"),
+        _TITLE,
+        _DOC,
+        _XABSL_NAME,
+    ),
 )
 PROJECT = Record(
     name="project",
@@ -293,4 +319,4 @@ PROJECT = Record(
     ),
 )
 RECORDS = (DESIGN, STATE, COMMON, DECISION, ACTION, USE, PARAMETER, OUTPUT, VARIABLE, ARGUMENT)
-PROJECT_RECORDS = (PROJECT, ENUMERATION, CONSTANT, INTERFACE, PARAMETER, OUTPUT, ARGUMENT, AGENT)
+PROJECT_RECORDS = (PROJECT, ENUMERATION, CONSTANT, INTERFACE, PARAMETER, OUTPUT, VARIABLE, ARGUMENT, AGENT)

@@ -86,6 +86,8 @@ class Reader:
                 return self._word(node, shape, path)
             case Kind.NUMBER:
                 return self._number(node, path)
+            case Kind.COUNT:
+                return self._count(node, path)
             case Kind.FLAG | Kind.TRUE:
                 return self._truth(node, shape, path)
             case Kind.VERSION:
@@ -106,6 +108,13 @@ class Reader:
         number = _number_of(node)
         if number is None or number <= 0:
             self._wrong(node, f"expected a number greater than 0, but this is {_kind_of(node)}", path)
+            return None
+        return number
+
+    def _count(self, node: Scalar, path: Path) -> Data | None:
+        number = _number_of(node)
+        if number is None or number < 0 or number != int(number):
+            self._wrong(node, f"expected a whole number from 0 up, but this is {_kind_of(node)}", path)
             return None
         return number
 

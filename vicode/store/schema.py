@@ -46,6 +46,8 @@ def _leaf(shape: Leaf) -> Schema:
     match shape.kind:
         case Kind.NUMBER:
             return {"type": "number", "exclusiveMinimum": 0}
+        case Kind.COUNT:
+            return {"type": "integer", "minimum": 0}
         case Kind.FLAG:
             return {"type": "boolean"}
         case Kind.TRUE:

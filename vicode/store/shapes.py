@@ -15,6 +15,7 @@ class Kind(StrEnum):
     NAME = "name"
     EXPRESSION = "expression"
     NUMBER = "number greater than 0"
+    COUNT = "whole number from 0 up"
     FLAG = "true or false"
     TRUE = "true"
     VERSION = "version"

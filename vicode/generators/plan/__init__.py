@@ -1,5 +1,6 @@
 """The language-neutral plan: names, the order of things and typed trees, decided once for every language."""
 
+from vicode.generators.plan.component import INTERFACES
 from vicode.generators.plan.expressions import UnsoundDesignError, literal_of
 from vicode.generators.plan.project import collect_components, plan_package, plan_project
 from vicode.generators.plan.values import (
@@ -11,7 +12,9 @@ from vicode.generators.plan.values import (
     Change,
     ComponentPlan,
     Condition,
+    Function,
     Holds,
+    InterfacePlan,
     Keep,
     PackagePlan,
     Predicate,
@@ -25,6 +28,7 @@ from vicode.generators.plan.values import (
 )
 
 __all__ = [
+    "INTERFACES",
     "After",
     "Alternative",
     "Body",
@@ -33,7 +37,9 @@ __all__ = [
     "Change",
     "ComponentPlan",
     "Condition",
+    "Function",
     "Holds",
+    "InterfacePlan",
     "Keep",
     "PackagePlan",
     "Predicate",

@@ -46,7 +46,7 @@ from vicode.model.design import (
 from vicode.model.enabling import enabled_part
 from vicode.model.expressions import BOOL, FLOAT, Node, Scope, scope_of
 from vicode.model.project import Project
-from vicode.model.walks import always_holds
+from vicode.model.walks import always_holds, walk_expressions
 
 
 def plan_component(project: Project, design: Design, modules: Mapping[str, str], source: str) -> ComponentPlan:
@@ -76,6 +76,8 @@ def plan_component(project: Project, design: Design, modules: Mapping[str, str],
         frequency_hz=design.frequency_hz,
         resume=design.resume,
         time_unit=design.time_unit or "s",
+        arithmetic=design.arithmetic,
+        asks_done=planner.asks_done(),
         uses=tuple(_plan_use(project, modules, use.alias, use.component) for use in design.uses),
         parameters=plan_values(design.parameters, planner.scope),
         outputs=plan_values(design.outputs, planner.scope),
@@ -110,7 +112,14 @@ def _plan_use(project: Project, modules: Mapping[str, str], alias: str, componen
         raise UnsoundDesignError(f"nothing declares the component '{component}'")
     if component in modules:
         return UsedComponent(alias=alias, component=component, module=modules[component])
-    return UsedComponent(alias=alias, component=component, implementation=interface.implementation)
+    module = INTERFACES if interface.is_handed_on else ""
+    return UsedComponent(
+        alias=alias, component=component, module=module, implementation="" if module else interface.implementation
+    )
+
+
+INTERFACES = "interfaces"
+"""The module of the components that vicode writes without a design."""
 
 
 class _Planner:
@@ -129,10 +138,32 @@ class _Planner:
             final=state.final,
             requires=state.requires,
             enter=self.plan_steps(state.enter, state.name, "enter"),
-            decisions=self.plan_decisions(state.transitions, state.name, ("states", state.name, "transitions")),
+            decisions=self._decisions_of(state),
             act=self.plan_steps(state.all_actions, state.name, "actions"),
             leave=self.plan_steps(state.leave, state.name, "leave"),
+            calls=self._calls(state),
+            capacity=None if state.capacity is None else int(state.capacity),
+            synchronized=None if state.synchronized is None else int(state.synchronized),
         )
+
+    def _decisions_of(self, state: State) -> tuple[Alternative, ...]:
+        planned = self.plan_decisions(state.transitions, state.name, ("states", state.name, "transitions"))
+        is_cooperative = state.capacity is not None or state.synchronized is not None
+        if not is_cooperative or any(always_holds(item) for item in state.transitions):
+            return planned
+        # Who stays asks the others as well, also where no transition says so.
+        return (*planned, Alternative(conditions=(), outcome=Keep()))
+
+    def asks_done(self) -> bool:
+        """Whether an expression of the design says `action_done`."""
+        return any("action_done" in each.text for each in walk_expressions(self.design))
+
+    def _calls(self, state: State) -> tuple[str, ...]:
+        actions = (*self.design.common.actions, *state.all_actions)
+        called = (action.alias for action in actions if isinstance(action, Call))
+        components = {use.alias: use.component for use in self.design.uses}
+        designs = {design.component for design in self.project.designs}
+        return tuple(dict.fromkeys(alias for alias in called if components.get(alias) in designs))
 
     def plan_steps(self, actions: tuple[Action, ...], source: str, phase: str) -> tuple[Step, ...]:
         return tuple(step for action in actions for step in self._plan_action(action, source, phase))
@@ -140,20 +171,19 @@ class _Planner:
     def _plan_action(self, action: Action, source: str, phase: str) -> tuple[Step, ...]:
         match action:
             case Assign(values=values):
-                return tuple(
-                    Set(name=name, value=tree_of(text, self.scope, self._type_of(name))) for name, text in values
-                )
+                return tuple(self._plan_set(name, text) for name, text in values)
             case Call(alias=alias, arguments=arguments):
                 pairs = tuple((name, self._argument(alias, name, text)) for name, text in arguments)
-                return (CallComponent(alias=alias, arguments=(*pairs, *self._defaults(alias, dict(pairs)))),)
+                return (CallComponent(alias=alias, arguments=pairs, defaults=self._defaults(alias, dict(pairs))),)
             case RunCode(code=code, id=given_id):
                 return (Run(body=self.bodies.action(source, phase, code, given_id)),)
 
-    def _type_of(self, name: str) -> str:
-        symbol = self.scope.symbols.get(name)
-        if symbol is None:
+    def _plan_set(self, name: str, text: str) -> Set:
+        declaration = self.scope.settable(name)
+        if declaration is None:
             raise UnsoundDesignError(f"'{name}' is not declared")
-        return symbol.type
+        alias, _dot, own = name.rpartition(".")
+        return Set(name=own, value=tree_of(text, self.scope, self.scope.type_of(declaration)), alias=alias)
 
     def _argument(self, alias: str, name: str, text: str) -> Node:
         interface = self.scope.uses.get(alias)

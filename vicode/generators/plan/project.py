@@ -4,6 +4,7 @@ from collections.abc import Collection, Mapping
 
 from vicode.generators.plan.component import plan_component, plan_values
 from vicode.generators.plan.expressions import UnsoundDesignError, literal_of
+from vicode.generators.plan.interfaces import plan_interface
 from vicode.generators.plan.naming import Names, package_of, stem_of
 from vicode.generators.plan.values import PackagePlan, ProjectPlan
 from vicode.model.expressions import scope_of
@@ -35,6 +36,7 @@ def plan_project(
             for design in project.designs
             if design.component in components
         ),
+        interfaces=tuple(plan_interface(project, each) for each in project.components if each.is_handed_on),
     )
 
 
@@ -46,6 +48,7 @@ def plan_package(project: Project, reserved: frozenset[str]) -> PackagePlan:
         package=package_of(project.name),
         modules={component: names.give(stem_of(component)) for component in components},
         has_declarations=bool(project.enumerations or project.constants),
+        interfaces=frozenset(each.component for each in project.components if each.is_handed_on),
     )
 
 

@@ -23,12 +23,37 @@ class Value:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class UsedComponent:
-    """A component by its alias; from a design it has a `module`, hand-written an `implementation` "module:Class"."""
+    """A component by its alias: what vicode writes has a `module`, what is hand-written an `implementation`."""
 
     alias: str
     component: str
     module: str = ""
     implementation: str = ""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Function:
+    """An output with arguments; `result` tells its type, the arguments have defaults."""
+
+    result: Value
+    arguments: tuple[Value, ...]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class InterfacePlan:
+    """A component that vicode writes without a design: it hands on to the world, or keeps variables (`is_internal`).
+
+    `acts`: it is told its parameters and then does something.
+    """
+
+    component: str
+    doc: str
+    is_internal: bool
+    acts: bool
+    parameters: tuple[Value, ...]
+    outputs: tuple[Value, ...]
+    functions: tuple[Function, ...]
+    variables: tuple[Value, ...]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -104,18 +129,23 @@ class Alternative:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Set:
-    """Give an own variable or output a value."""
+    """Give an own variable or output a value, or with `alias` a variable of a used component."""
 
     name: str
     value: Node
+    alias: str = ""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CallComponent:
-    """Set the parameters of a used component, all of them if it is hand-written, and step it."""
+    """Set the parameters of a used component, and step it; `defaults` are those that the call leaves out.
+
+    A design's own component knows its defaults, so that only hand-written ones are told them.
+    """
 
     alias: str
     arguments: tuple[tuple[str, Node], ...]
+    defaults: tuple[tuple[str, Node], ...] = ()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -130,7 +160,10 @@ Step = Set | CallComponent | Run
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class StatePlan:
-    """A state; `stem` is its name for functions. `modulates` are already at the end of `act`."""
+    """A state; `stem` is its name for functions. `modulates` are already at the end of `act`.
+
+    `calls` are the aliases of designs that it calls, the common actions included.
+    """
 
     name: str
     stem: str
@@ -141,13 +174,17 @@ class StatePlan:
     act: tuple[Step, ...]
     leave: tuple[Step, ...]
     decisions: tuple[Alternative, ...]
+    calls: tuple[str, ...] = ()
+    capacity: int | None = None
+    synchronized: int | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ComponentPlan:
     """One component: the initial state first. `source` is the design's file, `module` the stem of what is written.
 
-    `time_unit` is "s" or "ms": what times in expressions count.
+    `time_unit` is "s" or "ms": what times in expressions count. `arithmetic` is "" or "xabsl". `asks_done` is set
+    where an expression says `action_done`.
     """
 
     component: str
@@ -157,6 +194,8 @@ class ComponentPlan:
     frequency_hz: float | None
     resume: bool
     time_unit: str
+    arithmetic: str
+    asks_done: bool
     uses: tuple[UsedComponent, ...]
     parameters: tuple[Value, ...]
     outputs: tuple[Value, ...]
@@ -170,11 +209,15 @@ class ComponentPlan:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PackagePlan:
-    """Names of what is written for a project: the package, and in it a module for every design, by component."""
+    """Names of what is written for a project: the package, and in it a module for every design, by component.
+
+    `interfaces` are the components that one module more holds, since vicode writes them without a design.
+    """
 
     package: str
     modules: Mapping[str, str]
     has_declarations: bool
+    interfaces: frozenset[str] = frozenset()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -191,3 +234,4 @@ class ProjectPlan:
     constants: tuple[Value, ...]
     never_zero: frozenset[str]
     components: tuple[ComponentPlan, ...]
+    interfaces: tuple[InterfacePlan, ...] = ()

@@ -3,9 +3,10 @@
 from pathlib import Path
 
 import vicode.bica
-from vicode.generators.plan import PackagePlan, ProjectPlan
+from vicode.generators.plan import INTERFACES, PackagePlan, ProjectPlan
 from vicode.generators.python.component import ComponentWriter
 from vicode.generators.python.declarations import declarations_view
+from vicode.generators.python.interfaces import interfaces_view
 from vicode.generators.python.names import RESERVED_MODULES, name_class, name_globals
 from vicode.generators.python.origins import find_origins
 from vicode.generators.python.probes import PROBES, generate_probes
@@ -39,6 +40,10 @@ def generate_python(plan: ProjectPlan, *, standalone: bool) -> tuple[OutputFile,
     if shared is not None:
         text = render("python/declarations.py.jinja", view=shared)
         files.append(OutputFile(path=f"{folder}/declarations.py", text=seal(text, project)))
+    handed_on = interfaces_view(plan, names, runtime)
+    if handed_on is not None:
+        text = render("python/interfaces.py.jinja", view=handed_on)
+        files.append(OutputFile(path=f"{folder}/{INTERFACES}.py", text=seal(text, project)))
     for component in plan.components:
         writer = ComponentWriter(project=plan, component=component, names=names, runtime=runtime)
         text = render("python/component.py.jinja", view=writer.view())
@@ -50,14 +55,17 @@ def generate_python(plan: ProjectPlan, *, standalone: bool) -> tuple[OutputFile,
 def list_paths(package: PackagePlan, *, standalone: bool) -> tuple[str, ...]:
     """Every path that `generate_python` may write for the whole project."""
     folder = f"{LANGUAGE}/{package.package}"
-    modules = ["__init__", "declarations"] if package.has_declarations else ["__init__"]
+    modules = ["__init__"]
+    modules += ["declarations"] if package.has_declarations else []
+    modules += [INTERFACES] if package.interfaces else []
     paths = [f"{folder}/{module}.py" for module in (*modules, *package.modules.values())]
     return (*paths, *(file.path for file in (_copy_runtime(folder) if standalone else ())))
 
 
 def class_path(package: PackagePlan, component: str) -> str:
     """Where the class of a design's component is found: "package.module:Class"."""
-    return f"{package.package}.{package.modules[component]}:{name_class(component)}"
+    module = INTERFACES if component in package.interfaces else package.modules[component]
+    return f"{package.package}.{module}:{name_class(component)}"
 
 
 def _copy_runtime(folder: str) -> tuple[OutputFile, ...]:

@@ -9,13 +9,10 @@ from vicode.generators.plan import (
     StatePlan,
     UnsoundDesignError,
     UsedComponent,
-    Value,
 )
 from vicode.generators.python.imports import Import, import_lines
 from vicode.generators.python.layout import (
-    WIDTH,
     Doc,
-    Group,
     IfBroken,
     Line,
     bracketed,
@@ -26,11 +23,11 @@ from vicode.generators.python.layout import (
 )
 from vicode.generators.python.methods import BODY, METHOD, MethodWriter, python_code
 from vicode.generators.python.names import name_class, words_in_code
+from vicode.generators.python.parameters import modulate_method
 from vicode.generators.python.pieces import statement
 from vicode.generators.python.spelling import Speller, spell_number
 from vicode.generators.python.text import described, docstring, quoted, section
 from vicode.generators.python.views import ComponentView, MethodView
-from vicode.model.expressions import BOOL, FLOAT, INT
 from vicode.regions import wrap
 
 
@@ -46,14 +43,19 @@ class ComponentWriter:
     @property
     def speller(self) -> Speller:
         """Spells this component's expressions."""
-        return Speller(names=self.names, never_zero=self.project.never_zero, time_unit=self.component.time_unit)
+        return Speller(
+            names=self.names,
+            never_zero=self.project.never_zero,
+            time_unit=self.component.time_unit,
+            is_xabsl=self.component.arithmetic == "xabsl",
+        )
 
     def view(self) -> ComponentView:
         """What the template of a component sees."""
         plan = self.component
         methods = (
             self._write_constructor(),
-            *self._write_modulate(),
+            *modulate_method(plan.parameters, self.speller),
             *MethodWriter(component=plan, speller=self.speller).write_states(),
         )
         view = ComponentView(
@@ -62,12 +64,17 @@ class ComponentWriter:
             imports_for_types=tuple(import_lines([Import(module=self.runtime, name="Root")])),
             module_code=_whole(plan.module_code, ""),
             class_name=name_class(plan.component),
+            base=self._base,
             class_docstring=self._write_docstring(),
             settings=self._list_settings(),
             methods=methods,
             members=_whole(plan.members, " " * METHOD),
         )
         return replace(view, imports=self._list_imports(view))
+
+    @property
+    def _base(self) -> str:
+        return "XabslComponent" if self.component.arithmetic == "xabsl" else "Component"
 
     def _write_docstring(self) -> str:
         plan = self.component
@@ -96,28 +103,9 @@ class ComponentWriter:
         lines += [f"{margin}self.{use.alias} = root.component({self._class_of(use)})" for use in plan.uses]
         for value in (*plan.parameters, *plan.outputs, *plan.variables):
             lines += statement(f"self.{value.name} = ", self.speller.spell(value.initial), indent=BODY)
-        states: list[Doc] = [_state(state) for state in plan.states]
+        states: list[Doc] = [_state(state, asks_done=plan.asks_done) for state in plan.states]
         lines += render(call("self._set_states", states, is_broken=True), BODY)
         return MethodView(signature="    def __init__(self, root: Root) -> None:", body="\n".join(lines))
-
-    def _write_modulate(self) -> list[MethodView]:
-        parameters = self.component.parameters
-        if not parameters:
-            return []
-        given: list[Doc] = ["self", "*", *(self._parameter(value) for value in parameters)]
-        signature = render(Group(joined("def modulate(", separated(given, ", "), ") -> None:")), METHOD)
-        if len(signature) > 1 or len(signature[0]) > WIDTH:
-            signature = render(joined(call("def modulate", given, is_broken=True), " -> None:"), METHOD)
-        margin = " " * BODY
-        lines = [docstring("Take the parameters of an activation.", BODY)]
-        lines += [f"{margin}self.{value.name} = {value.name}" for value in parameters]
-        return [MethodView(signature="\n".join(signature), body="\n".join(lines))]
-
-    def _parameter(self, value: Value) -> Doc:
-        return joined(f"{value.name}: {self._type(value.type)} = ", self.speller.spell(value.initial).breakable)
-
-    def _type(self, type_: str) -> str:
-        return type_ if type_ in (BOOL, INT, FLOAT) else self.names[type_]
 
     def _class_of(self, use: UsedComponent) -> str:
         return name_class(use.component)
@@ -125,7 +113,7 @@ class ComponentWriter:
     def _list_imports(self, view: ComponentView) -> tuple[tuple[str, ...], ...]:
         """Sections: the runtime, hand-written modules, the package's own."""
         written = words_in_code([view.module_code, *self._texts(view)])
-        runtime = [Import(module=self.runtime, name=name) for name in ("Component", "State")]
+        runtime = [Import(module=self.runtime, name=name) for name in (self._base, "State")]
         if "arithmetic" in written:
             runtime.append(Import(module=self.runtime, name="arithmetic"))
         hand_written = [self._import_class(use) for use in self.component.uses if use.implementation or not use.module]
@@ -155,7 +143,7 @@ class ComponentWriter:
         return Import(module=module, name=class_name, alias="" if class_name == name else name)
 
 
-def _state(state: StatePlan) -> Doc:
+def _state(state: StatePlan, *, asks_done: bool) -> Doc:
     arguments: list[Doc] = [quoted(state.name), f"self._in_{state.stem}"]
     if state.requires:
         arguments.append(joined("requires=", _tuple([f"self.{alias}" for alias in state.requires])))
@@ -165,6 +153,12 @@ def _state(state: StatePlan) -> Doc:
         arguments.append(f"leave=self._leave_{state.stem}")
     if state.final:
         arguments.append("final=True")
+    if state.capacity is not None:
+        arguments.append(f"capacity={state.capacity}")
+    if state.synchronized is not None:
+        arguments.append(f"synchronized={state.synchronized}")
+    if asks_done and state.calls:
+        arguments.append(joined("calls=", _tuple([f"self.{alias}" for alias in state.calls])))
     return call("State", arguments)
 
 

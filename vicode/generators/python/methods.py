@@ -25,7 +25,7 @@ from vicode.generators.python.pieces import AND, atom, chain, statement
 from vicode.generators.python.spelling import Speller
 from vicode.generators.python.text import comment, docstring, quoted
 from vicode.generators.python.views import MethodView
-from vicode.model.expressions import Binary, Kind, Node, Variable
+from vicode.model.expressions import Binary, Kind, Node, Reading, Variable
 from vicode.regions import wrap
 
 METHOD, BODY = 4, 8
@@ -118,12 +118,24 @@ class MethodWriter:
         match step:
             case Run(body=body):
                 return [" " * BODY + f"self._do_{body.stem}()"]
-            case CallComponent(alias=alias, arguments=arguments):
+            case CallComponent(alias=alias, arguments=arguments, defaults=defaults):
                 given: list[Doc] = [f"self.{alias}"]
-                given += [joined(f"{name}=", self.speller.spell(value).breakable) for name, value in arguments]
+                pairs = (*arguments, *defaults)
+                given += [joined(f"{name}=", self.speller.spell(value).breakable) for name, value in pairs]
                 return render(call("self._call", given), BODY)
+            case Set(name=name, value=value, alias=alias) if alias:
+                return self._set_there(alias, name, value)
             case Set(name=name, value=value):
                 return self._set(name, value)
+
+    def _set_there(self, alias: str, name: str, value: Node) -> list[str]:
+        match value:
+            case Binary(operator="+" | "-" | "*" as operator, left=Reading(alias=there, output=left), right=right) if (
+                there == alias and left == name
+            ):
+                return statement(f"self.{alias}.{name} {operator}= ", self.speller.spell(right), indent=BODY)
+            case _:
+                return statement(f"self.{alias}.{name} = ", self.speller.spell(value), indent=BODY)
 
     def _set(self, name: str, value: Node) -> list[str]:
         match value:

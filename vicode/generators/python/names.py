@@ -6,10 +6,10 @@ import re
 import textwrap
 from collections.abc import Iterable
 
-from vicode.generators.plan import ProjectPlan
+from vicode.generators.plan import INTERFACES, ProjectPlan
 from vicode.model.parsing import parse_module
 
-RESERVED_MODULES = frozenset({*keyword.kwlist, *keyword.softkwlist, "__init__", "bica", "declarations"})
+RESERVED_MODULES = frozenset({*keyword.kwlist, *keyword.softkwlist, "__init__", "bica", "declarations", INTERFACES})
 """What no module of a package may be called."""
 
 # What generated code itself says at the top, in a class body or in a function.
@@ -20,6 +20,7 @@ _OUR_NAMES = frozenset(
         "Final",
         "Root",
         "State",
+        "XabslComponent",
         "TYPE_CHECKING",
         "abs",
         "annotations",
@@ -48,7 +49,8 @@ def name_globals(plan: ProjectPlan) -> dict[str, str]:
     Classes are found under `class_key`, since a component and a constant may share a name: then the constant yields.
     """
     used = [use.component for component in plan.components for use in component.uses]
-    classes = {class_key(component): name_class(component) for component in [*plan.package.modules, *used]}
+    written = [*plan.package.modules, *sorted(plan.package.interfaces), *used]
+    classes = {class_key(component): name_class(component) for component in written}
     names = {"arithmetic": "arithmetic", **classes}
     taken = _OUR_NAMES | set(classes.values())
     for declared in (*(each.name for each in plan.enumerations), *(each.name for each in plan.constants)):

@@ -20,7 +20,7 @@ from vicode.generators.python.spelling import Speller
 from vicode.generators.python.text import docstring, quoted
 from vicode.generators.python.views import GuardView, ProbesView
 from vicode.model.design import COMMON
-from vicode.model.expressions import Done, Node, Reading, Time, Variable, walk
+from vicode.model.expressions import Done, Node, Reading, Status, Time, Variable, walk
 from vicode.model.expressions.scope import Kind
 from vicode.output import OutputFile
 from vicode.templating import render
@@ -35,7 +35,12 @@ def generate_probes(plan: ProjectPlan, component: ComponentPlan) -> OutputFile:
     Guards are found by the ids of their decisions, so those without an id are left out.
     """
     names = name_globals(plan)
-    speller = Speller(names=names, never_zero=plan.never_zero, time_unit=component.time_unit)
+    speller = Speller(
+        names=names,
+        never_zero=plan.never_zero,
+        time_unit=component.time_unit,
+        is_xabsl=component.arithmetic == "xabsl",
+    )
     sources = [(COMMON, component.decide_first), *((state.name, state.decisions) for state in component.states)]
     declared = [*(each.name for each in plan.enumerations), *(each.name for each in plan.constants)]
     imports = import_lines([Import(module="vicode.bica", name="arithmetic")])
@@ -92,6 +97,8 @@ def _name_of(node: Node, speller: Speller) -> str:
             return name
         case Time(of=of):
             return f"{of}_time"
+        case Status(of=of):
+            return of
         case Done(alias=alias):
             return f"done({alias})"
         case Reading(alias=alias, output=output):

@@ -35,6 +35,7 @@ from vicode.model.expressions import (
     Not,
     Number,
     Reading,
+    Status,
     Time,
     Truth,
     Variable,
@@ -43,15 +44,20 @@ from vicode.model.expressions import (
 _BUILTIN = {"abs": "abs", "min": "min", "max": "max", "float": "float"}
 _RENAMED = {"int": "to_int", "round": "round_half_even"}
 _GUARDED = {"/": "divide", "//": "floor_divide", "%": "modulo"}
+_XABSL = {"/": "xabsl_divide", "//": "floor_divide", "%": "xabsl_remainder"}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Speller:
-    """Spells expressions of one component: `names` of constants and enumerations in the module, the unit of times."""
+    """Spells expressions of one component: `names` of constants and enumerations in the module, the unit of times.
+
+    `is_xabsl`: it divides as XABSL does.
+    """
 
     names: Mapping[str, str]
     never_zero: frozenset[str] = frozenset()
     time_unit: str = "s"
+    is_xabsl: bool = False
 
     def spell(self, node: Node) -> Piece:
         """The Python of a typed tree."""
@@ -66,8 +72,8 @@ class Speller:
                 return atom(self.names[name] if kind == Kind.CONSTANT else f"self.{name}")
             case Time(of=of):
                 return self._spell_time(of)
-            case Done(alias=alias):
-                return atom(f"self.{alias}.is_done")
+            case Status(of=of) | Done(alias=of):
+                return atom(f"self.{of}" if isinstance(node, Status) else f"self.{of}.is_done")
             case Reading(alias=alias, output=output, arguments=arguments):
                 return self._spell_reading(f"self.{alias}.{output}", arguments)
             case _:
@@ -134,8 +140,9 @@ class Speller:
 
     def _spell_binary(self, node: Binary) -> Piece:
         operator, left, right = node.operator, node.left, node.right
-        if operator in _GUARDED and not self._is_never_zero(right, operator):
-            name = f"{self.names['arithmetic']}.{_GUARDED[operator]}"
+        guarded = _XABSL if self.is_xabsl else _GUARDED
+        if operator in guarded and not self._is_never_zero(right, operator):
+            name = f"{self.names['arithmetic']}.{guarded[operator]}"
             return call_piece(name, [self.spell(left).breakable, self.spell(right).breakable])
         right_piece = self.spell(_as_float(right)) if operator in ("//", "%") else self.spell(right)
         level = ADDITION if operator in "+-" else MULTIPLICATION
@@ -143,6 +150,8 @@ class Speller:
 
     def _is_never_zero(self, node: Node, operator: str) -> bool:
         """Whether Python's own operator, which raises for zero alone, gives the same before it."""
+        if self.is_xabsl and operator == "%":
+            return False
         if isinstance(node, Variable) and node.kind == Kind.CONSTANT:
             return node.name in self.never_zero and (operator == "/" or node.type == FLOAT)
         return bool(literal_of(node))

@@ -20,6 +20,7 @@ class ComponentView:
     imports_for_types: tuple[str, ...]
     module_code: str
     class_name: str
+    base: str
     class_docstring: str
     settings: tuple[str, ...]
     methods: tuple[MethodView, ...]
@@ -43,6 +44,25 @@ class DeclarationsView:
     imports: tuple[str, ...]
     enumerations: tuple[ClassView, ...]
     constants: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class HandedOnView:
+    """A component without a design."""
+
+    name: str
+    docstring: str
+    methods: tuple[MethodView, ...]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class InterfacesView:
+    """A module with all components that have no design and that nobody wrote; `imports` are its sections."""
+
+    docstring: str
+    imports: tuple[tuple[str, ...], ...]
+    imports_for_types: tuple[str, ...]
+    classes: tuple[HandedOnView, ...]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -74,7 +74,9 @@ class CallBinder:
             return Reading(alias=alias, output=name, arguments=(), type=UNKNOWN, span=span)
         output = interface.output(name)
         if output is None:
-            mend = did_you_mean(name, (each.name for each in interface.outputs), f"declare it in {interface.component}")
+            mend = did_you_mean(
+                name, (each.name for each in interface.readable), f"declare it in {interface.component}"
+            )
             self.binder.report("E303", f"'{interface.component}' has no output '{name}'", mend, syntax.func)
             return None
         if output.arguments is None:

@@ -40,6 +40,16 @@ class Scope:
         """The type of any declaration, seen with this scope's enumerations."""
         return type_of_declaration(declaration, self.enumerations)
 
+    def settable(self, name: str) -> Declaration | None:
+        """What an assignment to a name sets: an own variable or output, or `alias.variable` of a used component."""
+        alias, dot, variable = name.partition(".")
+        if dot:
+            interface = self.uses.get(alias)
+            return interface.variable(variable) if interface else None
+        symbol = self.symbols.get(name)
+        is_own = symbol is not None and symbol.kind in (Kind.VARIABLE, Kind.OUTPUT)
+        return symbol.declaration if symbol is not None and is_own else None
+
 
 def scope_of(project: Project, design: Design | None) -> Scope:
     """What expressions of a design may read; without a design only constants and enumerations."""

@@ -58,6 +58,15 @@ class Time:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class Status:
+    """`action_done` (a component that the active state calls is done) or `conflict` (too many robots are in it)."""
+
+    of: str
+    span: Span
+    type: str = BOOL
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Done:
     """done(alias): the used component was in a final state after its latest work."""
 
@@ -153,6 +162,7 @@ Node = (
     | Element
     | Variable
     | Time
+    | Status
     | Done
     | Reading
     | Not

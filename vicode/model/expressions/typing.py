@@ -23,6 +23,7 @@ from vicode.model.expressions.tree import (
     Not,
     Number,
     Reading,
+    Status,
     Time,
     Truth,
     Variable,
@@ -32,6 +33,7 @@ _BINARY = {ast.Add: "+", ast.Sub: "-", ast.Mult: "*", ast.Div: "/", ast.FloorDiv
 _COMPARISONS = {ast.Lt: "<", ast.LtE: "<=", ast.Gt: ">", ast.GtE: ">=", ast.Eq: "==", ast.NotEq: "!="}
 _TRUTHS = {"True": True, "true": True, "False": False, "false": False}
 _TIMES = {"state_time": "state", "component_time": "component"}
+_STATUSES = frozenset({"action_done", "conflict"})
 _EXACT_INT = 2**53
 
 
@@ -127,13 +129,15 @@ class Binder:
             return Truth(value=_TRUTHS[name], span=span)
         if name in _TIMES:
             return Time(of=_TIMES[name], span=span)
+        if name in _STATUSES:
+            return Status(of=name, span=span)
         if name in self.scope.uses:
             self.report("E303", f"'{name}' is a component", f"read one of its outputs: {name}.…", syntax)
             return None
         if name in self.scope.enumerations:
             self.report("E303", f"'{name}' is an enumeration", f"write one of its elements: {name}.…", syntax)
             return None
-        known = {*self.scope.symbols, *_TIMES, *self.scope.uses}
+        known = {*self.scope.symbols, *_TIMES, *_STATUSES, *self.scope.uses}
         self.report(
             "E303", f"'{name}' is not declared", did_you_mean(name, known, "declare it, or correct the name"), syntax
         )
@@ -168,7 +172,9 @@ class Binder:
             return Reading(alias=alias, output=name, type=UNKNOWN, span=self.span_of(syntax))
         output = interface.output(name)
         if output is None:
-            mend = did_you_mean(name, (each.name for each in interface.outputs), f"declare it in {interface.component}")
+            mend = did_you_mean(
+                name, (each.name for each in interface.readable), f"declare it in {interface.component}"
+            )
             self.report("E303", f"'{interface.component}' has no output '{name}'", mend, syntax)
             return None
         if output.arguments is not None:

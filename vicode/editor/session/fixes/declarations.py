@@ -37,11 +37,6 @@ def fix_bad_frequency(_case: Case) -> list[Fix]:
     return [Fix(label="Work at every step", change=lambda old: replace(old, frequency_hz=None))]
 
 
-def fix_arithmetic(_case: Case) -> list[Fix]:
-    """D417."""
-    return [Fix(label="Use the usual arithmetic", change=lambda old: replace(old, arithmetic=""))]
-
-
 def fix_unused_declaration(case: Case) -> list[Fix]:
     """D424; what other designs may read or set is not removed."""
     section, name = str(case.path[0]), str(case.path[1])
@@ -135,7 +130,6 @@ FIXERS = {
     "P205": fix_unknown_type,
     "P206": fix_bad_range,
     "D416": fix_bad_frequency,
-    "D417": fix_arithmetic,
     "D424": fix_unused_declaration,
     "D427": fix_outside_range,
 }

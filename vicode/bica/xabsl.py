@@ -1,0 +1,42 @@
+"""What designs with the rules of XABSL are made of: they restart, and are done, as the options of its engine."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from .component import Component
+
+if TYPE_CHECKING:
+    from .root import Root
+
+
+class XabslComponent(Component):
+    """A component that works as an option of XABSL's engine does, also where it is stepped twice in an iteration."""
+
+    __slots__ = ("_restarted_in",)
+
+    def __init__(self, root: Root) -> None:
+        super().__init__(root)
+        self._restarted_in = -1
+
+    def step(self) -> None:
+        """Be active; what was not active in the iteration before restarts however often it is stepped in this one."""
+        iteration = self.root.iteration
+        if self._stepped_in == iteration and self._restarted_in == iteration:
+            # To the step this looks as if it had missed an iteration.
+            self._stepped_in = iteration - 2
+        super().step()
+
+    @property
+    def is_done(self) -> bool:
+        """Whether it was active in the previous iteration and is in a final state."""
+        if not self._current.final:
+            return False
+        iteration = self.root.iteration
+        if self._stepped_in == iteration:
+            return self._restarted_in != iteration
+        return self._stepped_in == iteration - 1
+
+    def _start(self, *, is_first: bool) -> None:
+        self._restarted_in = self.root.iteration
+        super()._start(is_first=is_first)
