@@ -113,6 +113,19 @@ def test_what_a_person_does(editor: str, page: Page, project: Path) -> None:
     assert after.splitlines()[:5] == before.splitlines()[:5]
 
 
+def test_who_renames_a_state_types_on_in_the_next_field(editor: str, page: Page) -> None:
+    open_player(page, editor)
+    select_state(page, "Kick")
+    page.get_by_label("State", exact=True).fill("Shoot")
+    page.keyboard.press("Tab")
+    # D disables what is selected, F makes it final, N makes a transition: not while one types.
+    page.keyboard.type(" Defend now.")
+    expect(page.get_by_label("State", exact=True)).to_have_value("Shoot")
+    expect(page.get_by_role("textbox", name="Doc")).to_have_value("Kick, with the eyes on the ball. Defend now.")
+    page.get_by_role("tab", name="History").click()
+    expect(page.get_by_role("group", name="History").get_by_role("button")).to_have_count(3)
+
+
 def test_a_double_click_on_an_arrow_leads_to_its_guard(editor: str, page: Page, project: Path) -> None:
     open_player(page, editor)
     page.locator('g[data-kind="transition"][data-id="Kick/0"] .plate').first.dblclick(force=True)

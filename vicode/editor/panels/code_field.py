@@ -130,10 +130,15 @@ class CodeField(Field):
             self.desk.lints.follow(self)
         self.refresh()
 
+    @property
+    def is_gone(self) -> bool:
+        """Whether the form it stood in was built anew."""
+        return self.element.is_deleted
+
     def refresh(self) -> None:
         """Show what the design holds, and what is wrong with it."""
         super().refresh()
-        if self.element.is_deleted:
+        if self.is_gone:
             return
         text = str(self.element.value or "")
         marks = tuple(self.writing.mark(text))

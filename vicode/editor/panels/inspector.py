@@ -10,6 +10,7 @@ from vicode.editor.panels.several_panel import several_panel
 from vicode.editor.panels.state_panel import state_panel
 from vicode.editor.panels.use_panel import link_panel, use_panel
 from vicode.editor.session import outline
+from vicode.editor.session.following import follow
 from vicode.editor.view import Selected
 
 # Who went into a field by keys gets back by one. A list that is open, or a completion, takes Escape for itself.
@@ -29,12 +30,16 @@ class Inspector:
         self.shape: object = None
         self.fields: list[Field] = []
         self.selected: tuple[Selected, ...] | None = None
+        self.seen = (desk.selected, desk.design)
+        self.number = 0
+        """Of the thing that is shown: a browser keeps the focus in a form as long as it stays the same."""
         self.body = ui.column().classes("inspector")
         self.body.on("keydown.escape", js_handler=_BACK_TO_CANVAS)
         self.later = ui.timer(_LATER_S, self.refresh, active=False)
 
     def refresh(self) -> None:
         """Show the selected thing as it is now."""
+        self._count_things()
         shape = (self.desk.selected, outline.outline_of(self.desk.design, self.desk.only))
         if shape == self.shape:
             self._refresh_fields()
@@ -46,8 +51,16 @@ class Inspector:
             self.shape, self.selected = shape, self.desk.selected
             self.later.deactivate()
             self.body.clear()
+            self.body.props(f"data-form={self.number}")
             with self.body:
                 self.fields = self._build()
+
+    def _count_things(self) -> None:
+        """Tell another thing that is selected from the same one under another name or number."""
+        before, now = self.seen, (self.desk.selected, self.desk.design)
+        self.seen = now
+        if tuple(follow(thing, before[1], now[1]) for thing in before[0]) != now[0]:
+            self.number += 1
 
     def _refresh_fields(self) -> None:
         for field in self.fields:

@@ -15,6 +15,10 @@ from vicode.model.texts import walk_texts
 class Follower(Protocol):
     """A field that shows remarks."""
 
+    @property
+    def is_gone(self) -> bool:
+        """Whether it is on no page any more."""
+
     def refresh(self) -> None:
         """Show what there is now."""
 
@@ -58,4 +62,5 @@ class CodeLints:
         finally:
             self._is_busy = False
         for follower in tuple(self._followers):
-            follower.refresh()
+            if not follower.is_gone:
+                follower.refresh()
