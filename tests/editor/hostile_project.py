@@ -5,6 +5,7 @@ from pathlib import Path
 
 PAYLOADS = {
     "script": "</script><script>window.ran = 'script'</script>",
+    "comment": "<!--<script>",
     "image": "<img src=x onerror=\"window.ran = 'image'\">",
     "drawing": "\"'><svg onload=\"window.ran = 'drawing'\"><text>",
     "template": "{{ window.ran = 'template' }}{{ constructor.constructor('window.ran = 1')() }}",

@@ -1,5 +1,7 @@
 """Texts of strangers stay texts: whatever a project says, on every view nothing of it runs and nothing breaks out."""
 
+import json
+import re
 import urllib.request
 from pathlib import Path
 from urllib.error import HTTPError
@@ -97,6 +99,18 @@ def test_nothing_runs_and_nothing_breaks_out(editor: str, page: Page, payload: s
     assert_harmless(page)
 
     look_at_names(page, editor)
+
+
+def test_a_drawing_that_travels_with_its_page_stays_in_its_script(editor: str, page: Page, payload: str) -> None:
+    address = editor + "design/evil/Player"
+    with urllib.request.urlopen(address, timeout=60) as answer:
+        text = answer.read().decode()
+    found = re.search(r'<script type="application/json" id="scene-\d+">([^<]*)</script>', text)
+    assert found is not None
+    assert payload in [state["doc"] for state in json.loads(found[1])["states"]]
+    page.goto(address)
+    expect(page.locator('g[data-kind="state"][data-id="Seek"]')).to_be_visible()
+    assert page.locator('script[type="application/json"]').count() == 0
 
 
 OUTSIDE = (

@@ -35,7 +35,7 @@ def main(port: int, scene_file: Path, theme: str) -> None:
     @ui.page("/")
     def page() -> None:
         ui.dark_mode({"dark": True, "light": False}.get(theme))
-        ui.context.client.content.classes("p-0")
+        ui.context.client.content.style("padding: 0")
 
         def hear(gesture: Any) -> None:
             heard.append(gesture)
@@ -48,7 +48,18 @@ def main(port: int, scene_file: Path, theme: str) -> None:
         canvases.append(canvas)
         canvas.load(json.loads(scene_file.read_text(encoding="utf-8")))
 
-    ui.run(host="127.0.0.1", port=port, reload=False, show=False, title="canvas", reconnect_timeout=30)
+    # Nothing is packed and no styles are made up by a script, as in the editor.
+    ui.run(
+        host="127.0.0.1",
+        port=port,
+        reload=False,
+        show=False,
+        title="canvas",
+        reconnect_timeout=30,
+        tailwind=False,
+        gzip_middleware_factory=None,
+        ws_per_message_deflate=False,
+    )
 
 
 def answer_to(gesture: dict[str, Any], scene: dict[str, Any]) -> dict[str, Any]:

@@ -5,7 +5,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from inspect import isawaitable
 from typing import Any, cast
 
-from nicegui import ui
+from nicegui import json, ui
 from nicegui.events import GenericEventArguments
 
 from vicode.editor.canvas.commands import as_plain
@@ -37,6 +37,7 @@ class Canvas(ui.element, component=CANVAS / "vicode_canvas.js"):
         self._arrival: tuple[Kind, str] | None = None
         self._is_mounted = False
         self._rev_in_page: int | None = None
+        self._text_in_page = ""
         self.on_shown: Callable[[], None] = lambda: None
         self._active: tuple[list[str], int, list[str]] = ([], -1, [])
         self._stops: list[Item] = []
@@ -53,9 +54,7 @@ class Canvas(ui.element, component=CANVAS / "vicode_canvas.js"):
         """Show a whole scene; the view is kept when it is the same component as before, else all is fitted in."""
         self._scene = {**view, **{kind: {thing["id"]: thing for thing in view.get(kind, ())} for kind in _KINDS}}
         if not self._is_mounted:
-            # It travels with the page, so that it is drawn before the page's socket is open. In a tuple, as NiceGUI
-            # would make watched copies of all its dictionaries, which took longer than drawing them.
-            self._props["scene"], self._rev_in_page = (self._whole(),), view["rev"]
+            self._put_into_page()
         self._call("load", self._whole())
 
     def apply(self, changes: Changes) -> None:
@@ -159,6 +158,28 @@ class Canvas(ui.element, component=CANVAS / "vicode_canvas.js"):
         if self._is_mounted:
             self.run_method(method, *arguments)
 
+    def _put_into_page(self) -> None:
+        """Let the scene travel with the page, so that it is drawn before the page's socket is open.
+
+        As a text beside NiceGUI's elements: what is among them is escaped sign by sign, which took longest of all.
+        """
+        self._take_out_of_page()
+        scene, client = self._whole(), self.client
+        if client._response_built:
+            return
+        # With no such sign nothing in it can end the script, or begin a comment.
+        text = json.dumps(scene).replace("<", "\\u003c")
+        name = f"scene-{self.id}"
+        self._text_in_page = f'<script type="application/json" id="{name}">{text}</script>'
+        client._body_html += self._text_in_page
+        self._props["scene"], self._rev_in_page = name, scene["rev"]
+
+    def _take_out_of_page(self) -> None:
+        """Forget the text, which NiceGUI would keep as long as the page is open."""
+        if self._text_in_page:
+            self.client._body_html = self.client._body_html.replace(self._text_in_page, "")
+        self._text_in_page, self._rev_in_page = "", None
+
     def _whole(self) -> dict[str, Any]:
         assert self._scene is not None
         return {**self._scene, **{kind: list(self._scene[kind].values()) for kind in _KINDS}}
@@ -193,11 +214,9 @@ class Canvas(ui.element, component=CANVAS / "vicode_canvas.js"):
 
     def _hear_ready(self, event: GenericEventArguments) -> None:
         self._is_mounted = True
-        with self._props.suspend_updates():
-            self._props.pop("scene", None)
         # A page that is new shows what came with it, and somebody may have begun to work on that.
         is_new = self._rev_in_page is not None and event.args.get("rev") == self._rev_in_page
-        self._rev_in_page = None
+        self._take_out_of_page()
         if self._scene is not None and not is_new:
             self._call("load", self._whole())
         if not (is_new and self._links_shown):

@@ -19,7 +19,7 @@ import { Router } from "./routing.js";
 import { keyOf, Scene } from "./scene.js";
 import { Selection } from "./selection.js";
 import { html } from "./svg.js";
-import { FONTS, forgetWidths } from "./text.js";
+import { awaitFonts, whenFontsCome } from "./text.js";
 import { Theme } from "./theme.js";
 import { Toolbar } from "./toolbar.js";
 import { Viewport } from "./viewport.js";
@@ -29,7 +29,8 @@ const DIM_MS = 120;
 const TELL_MS = 3000;
 
 const sheet = new CSSStyleSheet();
-sheet.replaceSync(await (await fetch(new URL("./canvas.css", import.meta.url))).text());
+const [look] = await Promise.all([fetch(new URL("./canvas.css", import.meta.url)), awaitFonts()]);
+sheet.replaceSync(await look.text());
 
 /** Draws into `host` (in a shadow root) and reports gestures by `emit(event, payload)`; `table` holds the commands. */
 export const mountCanvas = (host, emit, table) => new Canvas(host, emit, table);
@@ -292,13 +293,10 @@ class Canvas {
     this.viewport.onRest = () => this.#viewRests();
     this.sizes = new ResizeObserver(() => this.#resized());
     this.sizes.observe(this.stage);
-    const fonts = Object.values(FONTS).map((font) => document.fonts.load(font));
-    Promise.allSettled(fonts).then(() => this.#fontsCame());
+    whenFontsCome(() => this.#fontsCame());
   }
 
-  /** What was measured with a stand-in font may be wrong. */
   #fontsCame() {
-    forgetWidths();
     this.scene.remeasure();
     this.router.clear();
     this.painter.refresh({ touched: [...this.painter.items.keys()], gone: [], near: [] });

@@ -34,7 +34,7 @@ export class Scene {
     this.doc = view.doc ?? "";
     this.#upsert(view);
     if (view.common) this.#putNode("common", COMMON_ID, view.common);
-    this.reindex(this.nodes.keys());
+    this.#file(this.nodes.keys(), this.edges.keys());
   }
 
   /**
@@ -51,7 +51,8 @@ export class Scene {
       if (changes.common) touched.push(this.#putNode("common", COMMON_ID, changes.common));
       else if (this.nodes.has("common")) gone.push(this.#dropNode("common"));
     }
-    this.reindex(touched.filter((key) => this.nodes.has(key)));
+    const nodes = touched.filter((key) => this.nodes.has(key));
+    this.#file(nodes, new Set([...this.#edgesAtAll(nodes), ...touched.filter((key) => this.edges.has(key))]));
     return { touched, gone, near: this.near, ground: this.ground };
   }
 
@@ -62,12 +63,8 @@ export class Scene {
   }
 
   reindex(keys) {
-    const edges = new Set();
-    for (const key of keys) {
-      this.nodeGrid.putRect(key, rectOf(this.nodes.get(key)));
-      for (const edge of this.edgesAt.get(key) ?? []) edges.add(edge);
-    }
-    for (const key of edges) this.#fileEdge(this.edges.get(key));
+    const nodes = [...keys];
+    this.#file(nodes, this.#edgesAtAll(nodes));
   }
 
   /** An edge is drawn only when both its ends are there and its kind is shown. */
@@ -149,7 +146,6 @@ export class Scene {
     member(this.edgesAt, edge.source).add(edge.key);
     member(this.edgesAt, edge.target).add(edge.key);
     member(this.pairs, pairOf(edge)).add(edge.key);
-    this.#fileEdge(edge);
     return edge.key;
   }
 
@@ -168,10 +164,18 @@ export class Scene {
     this.pairs.get(pairOf(edge))?.delete(edge.key);
   }
 
-  #fileEdge(edge) {
-    const source = this.nodes.get(edge.source);
-    const target = this.nodes.get(edge.target);
-    if (source && target) this.edgeGrid.putLine(edge.key, source, target);
+  #edgesAtAll(nodes) {
+    return new Set(nodes.flatMap((key) => [...(this.edgesAt.get(key) ?? [])]));
+  }
+
+  /** Notes where nodes and edges lie. */
+  #file(nodes, edges) {
+    for (const key of nodes) this.nodeGrid.putRect(key, rectOf(this.nodes.get(key)));
+    for (const key of edges) {
+      const edge = this.edges.get(key);
+      const [source, target] = [this.nodes.get(edge.source), this.nodes.get(edge.target)];
+      if (source && target) this.edgeGrid.putLine(key, source, target);
+    }
   }
 }
 
@@ -202,6 +206,7 @@ function linkOf(data) {
 }
 
 function member(map, key) {
-  if (!map.has(key)) map.set(key, new Set());
-  return map.get(key);
+  let found = map.get(key);
+  if (!found) map.set(key, (found = new Set()));
+  return found;
 }

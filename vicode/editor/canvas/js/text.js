@@ -6,18 +6,48 @@ export const FONTS = {
   label: '400 12px Roboto, "Segoe UI", system-ui, sans-serif',
 };
 
-const widths = new Map();
-const pen = document.createElement("canvas").getContext("2d");
+const PATIENCE_MS = 300;
 
-export function textWidth(text, font) {
-  const key = `${font}|${text}`;
-  let width = widths.get(key);
-  if (width === undefined) {
-    pen.font = FONTS[font];
-    width = pen.measureText(text).width;
-    widths.set(key, width);
+let areTrue = false;
+const loaded = Promise.allSettled(Object.values(FONTS).map((font) => document.fonts.load(font))).then(() => (areTrue = true));
+
+/** Waits a moment for the web fonts, as what is drawn with others moves when they come. */
+export const awaitFonts = () => Promise.race([loaded, new Promise((done) => setTimeout(done, PATIENCE_MS))]);
+
+/** Does a job when fonts come after all; what was measured before may be wrong then. */
+export function whenFontsCome(job) {
+  if (areTrue) return;
+  loaded.then(() => {
+    rulers.clear();
+    job();
+  });
+}
+
+const rulers = new Map();
+
+export const textWidth = (text, font) => rulerOf(font).measure(text);
+
+// A pen for each font, as choosing another one takes longer than measuring.
+function rulerOf(font) {
+  if (!rulers.has(font)) rulers.set(font, new Ruler(FONTS[font]));
+  return rulers.get(font);
+}
+
+class Ruler {
+  constructor(font) {
+    this.widths = new Map();
+    this.pen = document.createElement("canvas").getContext("2d");
+    this.pen.font = font;
   }
-  return width;
+
+  measure(text) {
+    let width = this.widths.get(text);
+    if (width === undefined) {
+      width = this.pen.measureText(text).width;
+      this.widths.set(text, width);
+    }
+    return width;
+  }
 }
 
 /** The text itself when it fits, else its beginning and an ellipsis. */
@@ -35,6 +65,3 @@ export function shorten(text, font, room) {
   }
   return `${start.slice(0, low).trimEnd()}…`;
 }
-
-/** A web font arrived: what was measured before it may be wrong. */
-export const forgetWidths = () => widths.clear();

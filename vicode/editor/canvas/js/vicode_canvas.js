@@ -1,16 +1,14 @@
 // The Vue shell NiceGUI loads; the canvas itself lives in the ES modules beside it.
-import { toRaw } from "vue";
 import { mountCanvas } from "vicode-canvas";
 
 export default {
-  props: { commands: { type: Array, default: () => [] }, scene: { type: Array, default: () => [] } },
+  props: { commands: { type: Array, default: () => [] }, scene: { type: String, default: "" } },
   template: `<div class="vicode-canvas"></div>`,
   mounted() {
     // A press takes the focus from a field, which tells at the end of this task what was typed there: first that, then the press.
     const emit = (event, payload) => queueMicrotask(() => this.$emit(event, payload));
     this.canvas = mountCanvas(this.$el, emit, this.commands);
-    // Not as Vue's watched copies, of which every look at a state would make another.
-    const [scene] = toRaw(this.scene);
+    const scene = takeScene(this.scene);
     if (scene) this.canvas.load(scene);
     this.$emit("ready", { rev: scene?.rev ?? null });
   },
@@ -68,3 +66,10 @@ export default {
     },
   },
 };
+
+/** The scene that came with the page, in a script of this id; it is there once. */
+function takeScene(id) {
+  const script = document.getElementById(id);
+  script?.remove();
+  return script && JSON.parse(script.textContent);
+}
