@@ -6,7 +6,7 @@ import sys
 from collections.abc import Sequence
 
 from vicode import __version__
-from vicode.cli import check, edit, export, gen, run, schema, xabsl
+from vicode.cli import check, edit, export, gen, importing, run, schema, xabsl
 from vicode.cli.printing import describe_os_error
 
 COMMANDS = {
@@ -15,6 +15,7 @@ COMMANDS = {
     "check": check,
     "run": run,
     "export": export,
+    "import": importing,
     "schema": schema,
     "xabsl": xabsl,
 }

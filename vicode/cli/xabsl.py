@@ -5,12 +5,12 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from vicode.cli.behaviors import compiled_behavior, shown, tell
 from vicode.cli.printing import count_findings, describe_os_error, print_findings
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Sequence
+    from collections.abc import Callable, Iterable
 
-    from vicode.findings import Finding
     from vicode.xabsl.compiler import Compiled
 
 _SLIPS = {"X651", "X652"}
@@ -46,13 +46,13 @@ def _add_check(parser: argparse.ArgumentParser) -> None:
 
 def _check(args: argparse.Namespace) -> int:
     """Tell what is wrong with a behavior, all of it at once."""
-    compiled = _compiled(args.agents)
+    compiled = compiled_behavior(args.agents)
     if args.json:
         from vicode.findings import render_json
 
-        print(render_json(_shown(compiled.findings, args.agents)), end="")
+        print(render_json(shown(compiled.findings, args.agents)), end="")
     else:
-        _tell(compiled.findings, args.agents, to_stderr=False)
+        tell(compiled.findings, args.agents, to_stderr=False)
         print(count_findings(compiled.findings))
     return _code_of(compiled, strict=args.strict)
 
@@ -71,9 +71,9 @@ def _compile(args: argparse.Namespace) -> int:
     from vicode.xabsl.engine.symbols import write_symbols
     from vicode.xabsl.engine.writing import write_code
 
-    compiled = _compiled(args.agents)
+    compiled = compiled_behavior(args.agents)
     # Notes are what `check` is for; here they would hide what matters.
-    _tell([each for each in compiled.findings if args.strict or each.severity is not Severity.NOTE], args.agents)
+    tell([each for each in compiled.findings if args.strict or each.severity is not Severity.NOTE], args.agents)
     code = _code_of(compiled, strict=args.strict)
     if code or compiled.program is None:
         print(f"nothing written: {count_findings(compiled.findings)}", file=sys.stderr)
@@ -188,28 +188,6 @@ def _files(paths: "Iterable[Path]") -> "list[Path]":
     for path in paths:
         found += sorted(path.rglob("*.xabsl")) if path.is_dir() else [path]
     return found
-
-
-def _compiled(agents: Path) -> "Compiled":
-    from vicode.xabsl.compiler import compile_source
-    from vicode.xabsl.sources import load
-
-    return compile_source(load(agents))
-
-
-def _shown(findings: "Sequence[Finding]", agents: Path) -> "tuple[Finding, ...]":
-    """Findings with the paths of files as they are seen from here."""
-    from dataclasses import replace
-
-    folder = agents.parent
-    return tuple(
-        replace(each, place=replace(each.place, file=str(folder / each.place.file)) if each.place else None)
-        for each in findings
-    )
-
-
-def _tell(findings: "Sequence[Finding]", agents: Path, *, to_stderr: bool = True) -> None:
-    print_findings(_shown(findings, agents), to_stderr=to_stderr)
 
 
 def _code_of(compiled: "Compiled", *, strict: bool) -> int:

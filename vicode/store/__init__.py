@@ -3,6 +3,7 @@
 from vicode.store.documents import ReadDesign, ReadProject, read_design, read_project_file
 from vicode.store.locating import locate, place_of
 from vicode.store.projects import OpenProject, design_files, find_projects, open_project, project_file_in
+from vicode.store.remarks import with_remarks
 from vicode.store.saving import save_design, save_project_file
 from vicode.store.schema import design_schema, project_schema
 from vicode.store.sources import SourceMap
@@ -26,5 +27,6 @@ __all__ = [
     "read_project_file",
     "save_design",
     "save_project_file",
+    "with_remarks",
     "write_text",
 ]

@@ -100,6 +100,7 @@ def plan_values(declarations: tuple[Declaration, ...], scope: Scope) -> tuple[Va
             unit=declaration.unit,
             range=declaration.range,
             doc=declaration.doc,
+            xabsl_name=declaration.xabsl_name,
         )
         for declaration in declarations
         if declaration.arguments is None

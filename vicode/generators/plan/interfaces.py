@@ -15,6 +15,7 @@ def plan_interface(project: Project, interface: Interface) -> InterfacePlan:
     is_silent = not interface.readable
     return InterfacePlan(
         component=interface.component,
+        xabsl_name=interface.xabsl_name,
         doc=interface.doc or interface.title,
         is_internal=interface.implementation == INTERNAL,
         acts=bool(interface.parameters) or is_silent,
@@ -33,5 +34,6 @@ def _plan_function(declaration: Declaration, scope: Scope) -> Function:
         unit=declaration.unit,
         range=declaration.range,
         doc=declaration.doc,
+        xabsl_name=declaration.xabsl_name,
     )
     return Function(result=result, arguments=plan_values(declaration.arguments or (), scope))

@@ -19,6 +19,7 @@ class Value:
     unit: str = ""
     range: tuple[float, float] | None = None
     doc: str = ""
+    xabsl_name: str = ""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -47,6 +48,7 @@ class InterfacePlan:
     """
 
     component: str
+    xabsl_name: str
     doc: str
     is_internal: bool
     acts: bool

@@ -32,10 +32,12 @@ def declarations_view(plan: ProjectPlan, names: dict[str, str], runtime: str) ->
 def _enumeration(enumeration: Enumeration, name: str) -> ClassView:
     entries = [(element, doc) for element, doc in enumeration.elements if doc.strip()]
     sections = (section("Attributes", entries, 4),) if entries else ()
+    # The world calls elements as XABSL does.
+    written = dict(enumeration.xabsl_elements)
     return ClassView(
         name=name,
         docstring=docstring(enumeration.doc or f"The enumeration {enumeration.name}.", 4, sections),
-        members=tuple(f"{element} = {quoted(element)}" for element in enumeration.element_names),
+        members=tuple(f"{element} = {quoted(written.get(element, element))}" for element in enumeration.element_names),
     )
 
 

@@ -1,5 +1,6 @@
 """The module with what a project declares but nobody wrote: components that hand on to the world, or keep variables."""
 
+import keyword
 from collections.abc import Iterator
 from dataclasses import dataclass
 
@@ -14,6 +15,7 @@ from vicode.generators.python.spelling import Speller
 from vicode.generators.python.text import described, docstring, section
 from vicode.generators.python.views import HandedOnView, InterfacesView, MethodView
 from vicode.model.expressions import BOOL, FLOAT, INT
+from vicode.model.names import snake_case
 
 _MARGIN = " " * BODY
 
@@ -22,13 +24,15 @@ def interfaces_view(plan: ProjectPlan, names: dict[str, str], runtime: str) -> I
     """What the template of these components sees; None when there are none."""
     if not plan.interfaces:
         return None
+    # A property may have the name of its type, which inside the class would then be the property.
+    shared = [each.name for each in plan.enumerations] + [each.name for each in plan.constants]
+    names = names | {name: f"declarations.{names[name]}" for name in shared}
     speller = Speller(names=names, never_zero=plan.never_zero)
     classes = tuple(_Writer(each, speller).view() for each in plan.interfaces)
     texts = [f"{method.signature}\n{method.body}" for each in classes for method in each.methods]
     written = words_in_code(["\n".join(["class X:", "    pass", *texts])])
-    shared = [names[each.name] for each in plan.enumerations] + [names[each.name] for each in plan.constants]
     imports = [Import(module=runtime, name="Component")]
-    own = [Import(module=".declarations", name=name) for name in dict.fromkeys(shared) if name in written]
+    own = [Import(module=".", name="declarations")] if "declarations" in written else []
     return InterfacesView(
         docstring=docstring(f"What the components of the project {plan.name} have of the world, and keep for all.", 0),
         imports=tuple(tuple(import_lines(each)) for each in (imports, own) if each),
@@ -77,13 +81,13 @@ class _Writer:
 
     def _reading(self, value: Value) -> Iterator[MethodView]:
         signature = f"    @property\n    def {value.name}(self) -> {type_name(value.type, self.speller)}:"
-        yield MethodView(signature=signature, body=self._returning(value, f"self.world.{value.name}"))
+        yield MethodView(signature=signature, body=self._returning(value, f"self.world.{_world_name(value)}"))
 
     def _setting(self, value: Value) -> MethodView:
         type_ = type_name(value.type, self.speller)
         given = "value" if self._is_plain(value) else "value.value"
         signature = f"    @{value.name}.setter\n    def {value.name}(self, value: {type_}) -> None:"
-        return MethodView(signature=signature, body=f"{_MARGIN}self.world.{value.name} = {given}")
+        return MethodView(signature=signature, body=f"{_MARGIN}self.world.{_world_name(value)} = {given}")
 
     def _function(self, function: Function) -> MethodView:
         result = function.result
@@ -91,10 +95,10 @@ class _Writer:
             result.name, function.arguments, type_name(result.type, self.speller), self.speller
         )
         given: list[Doc] = [
-            joined(f"{each.name}={each.name}" + ("" if self._is_plain(each) else ".value"))
+            joined(f"{_world_name(each)}={each.name}" + ("" if self._is_plain(each) else ".value"))
             for each in function.arguments
         ]
-        asked = "\n".join(render(call(f"self.world.{result.name}", given), BODY)).strip()
+        asked = "\n".join(render(call(f"self.world.{_world_name(result)}", given), BODY)).strip()
         return MethodView(signature=signature, body=self._returning(result, asked))
 
     def _returning(self, value: Value, asked: str) -> str:
@@ -111,15 +115,26 @@ class _Writer:
         if not self.plan.acts:
             return
         given: list[Doc] = [
-            f"{each.name}=self.{each.name}" + ("" if self._is_plain(each) else ".value")
+            f"{_world_name(each)}=self.{each.name}" + ("" if self._is_plain(each) else ".value")
             for each in self.plan.parameters
         ]
-        lines = render(call(f"self.world.{self.plan.component}", given), BODY)
+        asked = _plain(self.plan.xabsl_name or snake_case(self.plan.component))
+        lines = render(call(f"self.world.{asked}", given), BODY)
         yield MethodView(signature="    def work(self) -> None:", body="\n".join(lines))
 
     def _is_plain(self, value: Value) -> bool:
         """Whether the world has it as it is; of elements it has the names."""
         return value.type in (BOOL, INT, FLOAT)
+
+
+def _world_name(value: Value) -> str:
+    """What the world calls it: as an engine of XABSL would, so that one world serves both."""
+    return _plain(value.xabsl_name or value.name)
+
+
+def _plain(name: str) -> str:
+    text = name.replace(".", "_")
+    return f"{text}_" if keyword.iskeyword(text) else text
 
 
 _NOTHING = MethodView(

@@ -1,0 +1,173 @@
+"""Runs an imported behavior twice, as generated Python and by the engine of XABSL, on the same world's inputs."""
+
+import importlib
+import random
+import sys
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from vicode.bica import Root, SimulatedClock
+from vicode.check import check_project
+from vicode.findings import Severity
+from vicode.generators import generate, python_class
+from vicode.importers import Imported, import_behavior
+from vicode.model.project import Project
+from vicode.xabsl.compiler import Compiled, compile_source, symbols_of
+from vicode.xabsl.engine import Engine
+from vicode.xabsl.engine.linking import attribute_of
+from vicode.xabsl.engine.program import Program
+from vicode.xabsl.engine.replaying import World
+from vicode.xabsl.engine.symbols import Symbols
+from vicode.xabsl.sources import Source
+
+Record = dict[str, Any]
+
+
+def imported(source: Source, name: str = "behavior") -> tuple[Imported, Compiled]:
+    """A behavior as designs, without errors."""
+    compiled = compile_source(source)
+    assert compiled.program is not None, compiled.findings
+    made = import_behavior(source, compiled, name)
+    errors = [each for each in check_project(made.project) if each.severity is Severity.ERROR]
+    assert errors == []
+    return made, compiled
+
+
+@dataclass
+class Told:
+    """A world that writes down what its basic behaviors are told."""
+
+    symbols: Symbols
+    program: Program
+    world: World = field(init=False)
+    told: list[tuple[str, Record]] = field(default_factory=list)
+
+    def __post_init__(self) -> None:
+        self.world = World(self.symbols, self.program)
+        for behavior in self.symbols.behaviors:
+            setattr(self.world, attribute_of(behavior.name), self._listener(behavior.name))
+
+    def _listener(self, name: str) -> Any:
+        return lambda **given: self.told.append((name, given))
+
+    def outputs(self) -> Record:
+        """What the robot was set to."""
+        named = [each.name for each in self.symbols.symbols if each.role == "output"]
+        return {name: getattr(self.world, attribute_of(name)) for name in named}
+
+    def take(self) -> list[tuple[str, Record]]:
+        """What was told since the last time."""
+        told, self.told = self.told, []
+        return told
+
+
+class ByEngine:
+    """The engine of XABSL."""
+
+    def __init__(self, compiled: Compiled, agent: str) -> None:
+        assert compiled.program is not None
+        self.program = compiled.program
+        self.symbols = symbols_of(compiled.table)
+        self.told = Told(self.symbols, self.program)
+        self.now = 0
+        self.engine = Engine(self.program, self.told.world, symbols=self.symbols, clock=lambda: self.now)
+        assert self.engine.select(agent)
+
+    def cycle(self, ms: int) -> Record:
+        """One cycle at a time; what was active, set and told."""
+        self.now = ms
+        self.engine.execute()
+        options = {each.name: (each.state, each.option_time, each.state_time) for each in self.engine.active_options}
+        memory = {each.name: getattr(self.engine.memory, name) for each, name in self._memory()}
+        return {"options": options, "set": self.told.outputs(), "kept": memory, "told": self.told.take()}
+
+    def _memory(self) -> Iterator[tuple[Any, str]]:
+        for each in self.program.symbols:
+            found = [name for name in vars(self.engine.memory) if name == attribute_of(each.name)]
+            if found:
+                yield each, found[0]
+
+
+class ByPython:
+    """The Python that is generated from the imported designs."""
+
+    def __init__(self, project: Project, compiled: Compiled, agent: str, folder: Path) -> None:
+        assert compiled.program is not None
+        self.project = project
+        self.told = Told(symbols_of(compiled.table), compiled.program)
+        for file in generate(project, languages=("python",)):
+            path = folder / file.path
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_text(file.text, encoding="utf-8")
+        self.clock = SimulatedClock(0)
+        component = next(each.root for each in project.agents if (each.xabsl_name or each.name) == agent)
+        module, _, name = python_class(project, component).partition(":")
+        for known in [each for each in sys.modules if each.split(".")[0] == module.split(".")[0]]:
+            del sys.modules[known]
+        sys.path.insert(0, str(folder / "python"))
+        try:
+            importlib.invalidate_caches()
+            made = getattr(importlib.import_module(module), name)
+        finally:
+            sys.path.remove(str(folder / "python"))
+        self.now = 0
+        self.root = Root(made, clock=self, world=self.told.world, on_error="stop")
+        self.names = {each.component: each.xabsl_name or each.component for each in project.designs}
+
+    def now_ns(self) -> int:
+        """The time of the root."""
+        return self.now * 1_000_000
+
+    def cycle(self, ms: int) -> Record:
+        """One iteration at a time; what was active, set and told."""
+        self.now = ms
+        self.root.step()
+        options = {}
+        for component in self.root.components:
+            name = type(component).__name__
+            design = next((each for each in self.project.designs if name in (each.component, f"{each.component}_")), None)
+            if design is None or component._stepped_in != self.root.iteration:
+                continue
+            state = design.state(component.state)
+            assert state is not None
+            times = round(component.component_time * 1000), round(component.state_time * 1000)
+            options[self.names[design.component]] = (state.xabsl_name or state.name, *times)
+        return {"options": options, "set": self.told.outputs(), "told": self.told.take()}
+
+
+def rows(symbols: Symbols, seed: int, count: int) -> Iterator[tuple[int, dict[str, float]]]:
+    """Times in ms, and inputs that change now and then."""
+    chance = random.Random(seed)
+    inputs = [each for each in symbols.symbols if each.role == "input"]
+    elements = {name: len(each) for name, each in (*symbols.enums, *symbols.internal_enums)}
+    ms = chance.randrange(1000)
+    for _ in range(count):
+        ms += chance.choice((1, 20, 33, 500, 4000))
+        changed = chance.sample(inputs, min(len(inputs), chance.choice((0, 1, 3, 8))))
+        yield ms, {each.name: _value(each, elements, chance) for each in changed}
+
+
+def _value(symbol: Any, elements: dict[str, int], chance: random.Random) -> float:
+    if symbol.kind == "b":
+        return float(chance.random() < 0.5)
+    if symbol.kind == "e":
+        return float(chance.randrange(max(1, elements.get(symbol.enum, 1))))
+    return chance.choice((0.0, 1.0, -1.0, chance.uniform(-3, 3), chance.uniform(-4000, 4000), float(chance.randrange(-500, 500))))
+
+
+def follow(source: Source, folder: Path, agent: str, *, count: int, seed: int = 1) -> int:
+    """Run both on the same inputs; they do the same in every cycle. Returns how many cycles had no error."""
+    made, compiled = imported(source)
+    first, second = ByEngine(compiled, agent), ByPython(made.project, compiled, agent, folder)
+    done = 0
+    for number, (ms, inputs) in enumerate(rows(first.symbols, seed, count)):
+        for name, value in inputs.items():
+            first.told.world.put(name, value)
+            second.told.world.put(name, value)
+        wanted, got = first.cycle(ms), second.cycle(ms)
+        for key in ("options", "set", "told"):
+            assert got[key] == wanted[key], (agent, number, ms, key)
+        done += not first.engine.errors
+    return done

@@ -1,0 +1,52 @@
+"""Names of XABSL, which may hold dots and begin with an underscore, as names of designs."""
+
+import keyword
+import re
+
+from vicode.bica import RESERVED_NAMES
+from vicode.model.expressions import FUNCTIONS
+from vicode.model.names import is_name
+from vicode.xabsl.tokens import KEYWORDS
+
+_LONGEST = 70
+_TAKEN = frozenset(
+    {
+        *keyword.kwlist,
+        *RESERVED_NAMES,
+        *FUNCTIONS,
+        *KEYWORDS,
+        *("True", "False", "None", "true", "false", "bool", "int", "float", "done", "self", "mro", "action_done"),
+    }
+)
+"""Words that mean something else in designs or in what is generated from them."""
+
+
+class Names:
+    """Gives names out, none twice; case does not tell two apart, as it does not in some file systems."""
+
+    def __init__(self, taken: frozenset[str] = frozenset()) -> None:
+        """Begin with names that nobody gets."""
+        self._taken = {name.casefold() for name in taken}
+
+    def give(self, wanted: str) -> str:
+        """A free name like the one of XABSL."""
+        stem = plain_name(wanted)
+        name, number = stem, 1
+        while name.casefold() in self._taken:
+            number += 1
+            name = f"{stem}_{number}"
+        self._taken.add(name.casefold())
+        return name
+
+
+def plain_name(text: str) -> str:
+    """The nearest name that a design may have."""
+    stem = re.sub(r"[^A-Za-z0-9_]", "_", text).strip("_")[:_LONGEST] or "x"
+    if not is_name(stem):
+        stem = f"x_{stem}"
+    return f"{stem}_" if stem in _TAKEN else stem
+
+
+def other_name(name: str, written: str) -> str:
+    """The name in XABSL where it is another one, else nothing."""
+    return "" if name == written else written
