@@ -127,7 +127,9 @@ class ByPython:
         options = {}
         for component in self.root.components:
             name = type(component).__name__
-            design = next((each for each in self.project.designs if name in (each.component, f"{each.component}_")), None)
+            design = next(
+                (each for each in self.project.designs if name in (each.component, f"{each.component}_")), None
+            )
             if design is None or component._stepped_in != self.root.iteration:
                 continue
             state = design.state(component.state)
@@ -154,7 +156,9 @@ def _value(symbol: Any, elements: dict[str, int], chance: random.Random) -> floa
         return float(chance.random() < 0.5)
     if symbol.kind == "e":
         return float(chance.randrange(max(1, elements.get(symbol.enum, 1))))
-    return chance.choice((0.0, 1.0, -1.0, chance.uniform(-3, 3), chance.uniform(-4000, 4000), float(chance.randrange(-500, 500))))
+    return chance.choice(
+        (0.0, 1.0, -1.0, chance.uniform(-3, 3), chance.uniform(-4000, 4000), float(chance.randrange(-500, 500)))
+    )
 
 
 def follow(source: Source, folder: Path, agent: str, *, count: int, seed: int = 1) -> int:
@@ -171,3 +175,32 @@ def follow(source: Source, folder: Path, agent: str, *, count: int, seed: int = 
             assert got[key] == wanted[key], (agent, number, ms, key)
         done += not first.engine.errors
     return done
+
+
+def follow_team(source: Source, folder: Path, agent: str, *, robots: int, count: int) -> set[str]:
+    """Run teams of both on the same inputs, who hear each other; returns the states that were active."""
+    made, compiled = imported(source)
+    engines = [ByEngine(compiled, agent) for _ in range(robots)]
+    pythons = [ByPython(made.project, compiled, agent, folder / str(number)) for number in range(robots)]
+    for number, (first, second) in enumerate(zip(engines, pythons, strict=True)):
+        first.engine.team.priority = second.root.team.priority = number // 2
+        first.engine.team.ticks = second.root.team.ticks = 2
+    tables = [rows(first.symbols, 100 + number, count) for number, first in enumerate(engines)]
+    seen: set[str] = set()
+    for at in range(count):
+        told = [first.engine.tell() for first in engines], [second.root.team.tell() for second in pythons]
+        for number, (first, second) in enumerate(zip(engines, pythons, strict=True)):
+            first.engine.prepare_messages()
+            second.root.team.prepare()
+            for other in (other for other in range(robots) if other != number and at):
+                first.engine.hear(told[0][other])
+                second.root.team.hear(told[1][other])
+            ms, inputs = next(tables[number])
+            for name, value in inputs.items():
+                first.told.world.put(name, value)
+                second.told.world.put(name, value)
+            wanted, got = first.cycle(ms), second.cycle(ms)
+            assert got["options"] == wanted["options"], (at, number)
+            assert got["set"] == wanted["set"]
+            seen |= {state for state, *_times in wanted["options"].values()}
+    return seen

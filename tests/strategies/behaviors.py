@@ -21,7 +21,18 @@ def type_of(kind: str) -> tree.Type:
     return tree.Type("enum", name("side")) if kind == "e" else tree.Type(_KINDS[kind])
 
 
-def symbols() -> tree.Namespace:
+def functions() -> list[tree.Declaration]:
+    """Input symbols with parameters."""
+    parameters = [tree.Parameter(name(f"a.{kind}"), type_of(kind)) for kind in "edb"]
+    one = [tree.Parameter(name("a"), type_of("d"))]
+    return [
+        tree.Symbol("input", name("fun.d"), type_of("d"), parameters=parameters),
+        tree.Symbol("input", name("fun.b"), type_of("b"), parameters=one),
+        tree.Symbol("input", name("fun.e"), type_of("e"), parameters=one),
+    ]
+
+
+def symbols(*, with_functions: bool = False) -> tree.Namespace:
     """The symbols of every random behavior."""
     declared: list[tree.Declaration] = [
         tree.Enumeration(name("side"), [name("left"), name("right"), name("top")]),
@@ -32,6 +43,7 @@ def symbols() -> tree.Namespace:
         output, internal = OUT[kind]
         declared.append(tree.Symbol("output", name(output), type_of(kind)))
         declared.append(tree.Symbol("internal", name(internal), type_of(kind)))
+    declared += functions() if with_functions else []
     return tree.Namespace(name("symbols"), "Symbols", declared)
 
 
@@ -45,14 +57,19 @@ def acts() -> tree.Namespace:
 class _Maker:
     """Draws the parts of one option. `own` are the kinds of its parameters, `callees` those of later options."""
 
-    def __init__(self, draw: Callable, own: str, callees: dict[str, str], states: list[str]) -> None:
+    def __init__(
+        self, draw: Callable, own: str, callees: dict[str, str], states: list[str], *, has_functions: bool = False
+    ) -> None:
         self.draw, self.own, self.callees, self.states = draw, own, callees, states
+        self.has_functions = has_functions
 
     def pick(self, *choices: object) -> object:
         return self.draw(st.sampled_from(choices))
 
     def expression(self, kind: str, depth: int) -> tree.Expression:
         """An expression of a kind, in parentheses where precedence wants them."""
+        if depth > 0 and self.has_functions and self.pick(0, 1):
+            return self.function(kind, depth - 1)
         if depth <= 0 or self.pick(0, 0, 1):
             return self.leaf(kind)
         if kind == "e" or self.pick(0, 0, 0, 1):
@@ -75,6 +92,12 @@ class _Maker:
                 return tree.Binary(operator, *(self.operand("d", depth - 1) for _ in range(2)))
         left = tree.Ref(str(self.pick(*SIDES, *OUT["e"])))
         return tree.Binary(str(self.pick("==", "!=")), left, self.leaf("e"))
+
+    def function(self, kind: str, depth: int) -> tree.Expression:
+        """An input symbol with some of its arguments, among which it may stand again."""
+        takes = {"d": (("a.e", "e"), ("a.d", "d"), ("a.b", "b"))}.get(kind, (("a", "d"),))
+        given = [tree.Argument(name(word), self.expression(of, depth)) for word, of in takes if self.pick(0, 1, 1)]
+        return tree.Function(name(f"fun.{kind}"), tree.Arguments(given))
 
     def operand(self, kind: str, depth: int) -> tree.Expression:
         """An expression that can be an operand of anything."""
@@ -127,22 +150,29 @@ class _Maker:
 
 
 @st.composite
-def behaviors(draw: Callable) -> dict[str, tree.File]:
-    """The files of a behavior, its agents in agents.xabsl."""
+def behaviors(draw: Callable, *, with_functions: bool = False) -> dict[str, tree.File]:
+    """The files of a behavior, its agents in agents.xabsl; with or without input symbols that take arguments."""
     names = [f"o{number}" for number in range(draw(st.integers(1, 3)))]
     kinds = {each: draw(st.text("dbe", max_size=2)) if number else "" for number, each in enumerate(names)}
-    files = {"symbols.xabsl": tree.File(body=[symbols()]), "acts.xabsl": tree.File(body=[acts()])}
+    files = {
+        "symbols.xabsl": tree.File(body=[symbols(with_functions=with_functions)]),
+        "acts.xabsl": tree.File(body=[acts()]),
+    }
     for number, each in enumerate(names):
         states = [f"s{at}" for at in range(draw(st.integers(1, 3)))]
         later = {callee: kinds[callee] for callee in names[number + 1 :]}
-        files[f"{each}.xabsl"] = tree.File(body=[_option(draw, each, kinds[each], later, states)])
+        files[f"{each}.xabsl"] = tree.File(
+            body=[_option(draw, each, kinds[each], later, states, has_functions=with_functions)]
+        )
     includes = [tree.Include(each) for each in files]
     agent = tree.Agent(name("main"), "Main", name("o0"))
     return {**files, "agents.xabsl": tree.File(includes=includes, body=[agent])}
 
 
-def _option(draw: Callable, own: str, kinds: str, later: dict[str, str], states: list[str]) -> tree.Option:
-    make = _Maker(draw, kinds, later, states)
+def _option(
+    draw: Callable, own: str, kinds: str, later: dict[str, str], states: list[str], *, has_functions: bool
+) -> tree.Option:
+    make = _Maker(draw, kinds, later, states, has_functions=has_functions)
     has_common = draw(st.booleans())
     common = None
     if has_common:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
 
 from .component import Component
 
@@ -13,11 +14,12 @@ if TYPE_CHECKING:
 class XabslComponent(Component):
     """A component that works as an option of XABSL's engine does, also where it is stepped twice in an iteration."""
 
-    __slots__ = ("_restarted_in",)
+    __slots__ = ("_cells", "_restarted_in")
 
     def __init__(self, root: Root) -> None:
         super().__init__(root)
         self._restarted_in = -1
+        self._cells: dict[str, dict[str, Any]] = {}
 
     def step(self) -> None:
         """Be active; what was not active in the iteration before restarts however often it is stepped in this one."""
@@ -36,6 +38,13 @@ class XabslComponent(Component):
         if self._stepped_in == iteration:
             return self._restarted_in != iteration
         return self._stepped_in == iteration - 1
+
+    def _ask(self, function: Callable[..., Any], **given: Callable[[], Any]) -> Any:
+        """Call a function that is called among its own arguments: the inner call changes what was given before."""
+        cells = self._cells.setdefault(function.__name__, {})
+        for name, value in given.items():
+            cells[name] = value()
+        return function(**cells)
 
     def _start(self, *, is_first: bool) -> None:
         self._restarted_in = self.root.iteration

@@ -1,6 +1,7 @@
 """From a design to the plan of its component."""
 
 from collections.abc import Mapping
+from dataclasses import replace
 
 from vicode.findings import Path
 from vicode.generators.plan.bodies import Bodies
@@ -19,6 +20,7 @@ from vicode.generators.plan.values import (
     Change,
     ComponentPlan,
     Condition,
+    Function,
     Holds,
     Keep,
     Predicate,
@@ -107,15 +109,32 @@ def plan_values(declarations: tuple[Declaration, ...], scope: Scope) -> tuple[Va
     )
 
 
+def plan_functions(declarations: tuple[Declaration, ...], scope: Scope) -> tuple[Function, ...]:
+    """Those declarations that take arguments."""
+    return tuple(
+        Function(
+            result=plan_values((replace(each, arguments=None),), scope)[0],
+            arguments=plan_values(each.arguments, scope),
+        )
+        for each in declarations
+        if each.arguments is not None
+    )
+
+
 def _plan_use(project: Project, modules: Mapping[str, str], alias: str, component: str) -> UsedComponent:
     interface = project.interface(component)
     if interface is None:
         raise UnsoundDesignError(f"nothing declares the component '{component}'")
+    functions = plan_functions(interface.readable, scope_of(project, None))
     if component in modules:
         return UsedComponent(alias=alias, component=component, module=modules[component])
     module = INTERFACES if interface.is_handed_on else ""
     return UsedComponent(
-        alias=alias, component=component, module=module, implementation="" if module else interface.implementation
+        alias=alias,
+        component=component,
+        module=module,
+        implementation="" if module else interface.implementation,
+        functions=functions,
     )
 
 

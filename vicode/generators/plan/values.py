@@ -23,21 +23,25 @@ class Value:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class UsedComponent:
-    """A component by its alias: what vicode writes has a `module`, what is hand-written an `implementation`."""
-
-    alias: str
-    component: str
-    module: str = ""
-    implementation: str = ""
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
 class Function:
     """An output with arguments; `result` tells its type, the arguments have defaults."""
 
     result: Value
     arguments: tuple[Value, ...]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class UsedComponent:
+    """A component by its alias: what vicode writes has a `module`, what is hand-written an `implementation`.
+
+    `functions` are its outputs with arguments.
+    """
+
+    alias: str
+    component: str
+    module: str = ""
+    implementation: str = ""
+    functions: tuple[Function, ...] = ()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -25,7 +25,7 @@ from vicode.generators.python.methods import BODY, METHOD, MethodWriter, python_
 from vicode.generators.python.names import name_class, words_in_code
 from vicode.generators.python.parameters import modulate_method
 from vicode.generators.python.pieces import statement
-from vicode.generators.python.spelling import Speller, spell_number
+from vicode.generators.python.spelling import Speller, functions_of, spell_number
 from vicode.generators.python.text import described, docstring, quoted, section
 from vicode.generators.python.views import ComponentView, MethodView
 from vicode.regions import wrap
@@ -48,6 +48,7 @@ class ComponentWriter:
             never_zero=self.project.never_zero,
             time_unit=self.component.time_unit,
             is_xabsl=self.component.arithmetic == "xabsl",
+            functions=functions_of(self.component),
         )
 
     def view(self) -> ComponentView:

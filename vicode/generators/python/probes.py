@@ -16,7 +16,7 @@ from vicode.generators.python.imports import Import, import_lines
 from vicode.generators.python.layout import render as lay_out
 from vicode.generators.python.names import name_globals
 from vicode.generators.python.pieces import Piece
-from vicode.generators.python.spelling import Speller
+from vicode.generators.python.spelling import Speller, functions_of
 from vicode.generators.python.text import docstring, quoted
 from vicode.generators.python.views import GuardView, ProbesView
 from vicode.model.design import COMMON
@@ -40,6 +40,7 @@ def generate_probes(plan: ProjectPlan, component: ComponentPlan) -> OutputFile:
         never_zero=plan.never_zero,
         time_unit=component.time_unit,
         is_xabsl=component.arithmetic == "xabsl",
+        functions=functions_of(component),
     )
     sources = [(COMMON, component.decide_first), *((state.name, state.decisions) for state in component.states)]
     declared = [*(each.name for each in plan.enumerations), *(each.name for each in plan.constants)]

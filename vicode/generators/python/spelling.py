@@ -1,9 +1,9 @@
 """Spells typed trees as Python, with no bracket too many."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 
-from vicode.generators.plan import After, Condition, Holds, literal_of
+from vicode.generators.plan import After, ComponentPlan, Condition, Function, Holds, literal_of
 from vicode.generators.python.layout import Doc, joined
 from vicode.generators.python.pieces import (
     ADDITION,
@@ -21,7 +21,9 @@ from vicode.generators.python.pieces import (
     ternary,
 )
 from vicode.model.expressions import (
+    BOOL,
     FLOAT,
+    INT,
     Apply,
     Binary,
     Choice,
@@ -39,6 +41,7 @@ from vicode.model.expressions import (
     Time,
     Truth,
     Variable,
+    walk,
 )
 
 _BUILTIN = {"abs": "abs", "min": "min", "max": "max", "float": "float"}
@@ -51,13 +54,16 @@ _XABSL = {"/": "xabsl_divide", "//": "floor_divide", "%": "xabsl_remainder"}
 class Speller:
     """Spells expressions of one component: `names` of constants and enumerations in the module, the unit of times.
 
-    `is_xabsl`: it divides as XABSL does.
+    `is_xabsl`: it divides as XABSL does. `functions` are outputs with arguments by alias and name, `asked` those among
+    whose arguments this is.
     """
 
     names: Mapping[str, str]
     never_zero: frozenset[str] = frozenset()
     time_unit: str = "s"
     is_xabsl: bool = False
+    functions: Mapping[tuple[str, str], Function] = field(default_factory=dict)
+    asked: frozenset[tuple[str, str]] = frozenset()
 
     def spell(self, node: Node) -> Piece:
         """The Python of a typed tree."""
@@ -74,8 +80,8 @@ class Speller:
                 return self._spell_time(of)
             case Status(of=of) | Done(alias=of):
                 return atom(f"self.{of}" if isinstance(node, Status) else f"self.{of}.is_done")
-            case Reading(alias=alias, output=output, arguments=arguments):
-                return self._spell_reading(f"self.{alias}.{output}", arguments)
+            case Reading():
+                return self._spell_reading(node)
             case _:
                 return self._spell_operation(node)
 
@@ -110,10 +116,26 @@ class Speller:
         passed = chain([(None, atom("self.root.now_ns")), ("-", since)], ADDITION)
         return chain([(None, passed), ("/", atom("1e6"))], MULTIPLICATION)
 
-    def _spell_reading(self, target: str, arguments: tuple[tuple[str, Node], ...] | None) -> Piece:
+    def _spell_reading(self, reading: Reading) -> Piece:
+        target, arguments = f"self.{reading.alias}.{reading.output}", reading.arguments
         if arguments is None:
             return atom(target)
+        if (reading.alias, reading.output) in self.asked or (self.is_xabsl and _is_nested(reading)):
+            return self._spell_nested(reading)
         return call_piece(target, [_keyword(name, self.spell(value)) for name, value in arguments])
+
+    def _spell_nested(self, reading: Reading) -> Piece:
+        """XABSL keeps the arguments of a function in one place, which a call of it among them changes."""
+        given, function = dict(reading.arguments or ()), (reading.alias, reading.output)
+        inside = replace(self, asked=self.asked | {function})
+        declared = self.functions[function].arguments
+        # Decimals are stored first, then bools, then elements.
+        ordered = sorted(declared, key=lambda each: (each.type == BOOL) + 2 * (each.type not in (BOOL, INT, FLOAT)))
+        arguments: list[Doc] = [f"self.{reading.alias}.{reading.output}"]
+        for each in ordered:
+            value = inside.spell(given.get(each.name, each.initial)).breakable
+            arguments.append(joined(f"{each.name}=lambda: ", value))
+        return call_piece("self._ask", arguments)
 
     def _spell_operation(self, node: Node) -> Piece:
         match node:
@@ -157,6 +179,11 @@ class Speller:
         return bool(literal_of(node))
 
 
+def functions_of(component: ComponentPlan) -> dict[tuple[str, str], Function]:
+    """The outputs with arguments that a component may ask, by alias and name."""
+    return {(use.alias, each.result.name): each for use in component.uses for each in use.functions}
+
+
 def spell_number(value: float) -> str:
     """A number as a formatter leaves it."""
     return repr(value).replace("e+", "e")
@@ -171,6 +198,14 @@ def _as_float(node: Node) -> Node:
             return Minus(operand=_as_float(operand), type=FLOAT, span=span)
         case _:
             return node
+
+
+def _is_nested(reading: Reading) -> bool:
+    """Whether a function is called among its own arguments."""
+    inside = (each for _name, value in reading.arguments or () for each in walk(value))
+    return any(
+        isinstance(each, Reading) and (each.alias, each.output) == (reading.alias, reading.output) for each in inside
+    )
 
 
 def _keyword(name: str, value: Piece) -> Doc:
