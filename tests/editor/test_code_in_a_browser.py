@@ -96,6 +96,8 @@ def test_the_linter_speaks_of_code_and_what_is_declared_is_known(editor: str, pa
     select_state(page, "LookForBall")
     page.get_by_label("Inspector").get_by_role("button", name="Add to actions: Code").first.click()
     code = page.get_by_label("Python", exact=True).first
+    # What was just added is typed at once; its letters are no keys of the drawing.
+    expect(code).to_be_focused()
     retype(page, code, "log.info(Side.left, wrong)")
     expect(page.locator(".squiggle.warning")).to_have_text("wrong")
     expect(page.get_by_label("Inspector").get_by_role("button", name="F821")).to_have_count(1)

@@ -207,7 +207,11 @@ class Reader:
                     "Y102", f"unknown key '{_short(name)}' in {shape.what}", _span(key_node), mend=mend, path=path
                 )
                 continue
-            parts[name] = self.read(value, shape.value, (*path, name), key_node)
+            if shape.value == Leaf(kind=Kind.EXPRESSION) and _is_blank(value):
+                # One that is not written yet is told by the rules, and kept, so that half a work can be saved.
+                parts[name] = Read(shape=shape.value, node=value, value="", key=key_node)
+            else:
+                parts[name] = self.read(value, shape.value, (*path, name), key_node)
             members[-1] = name
         # A state that could not be read is still a state: only texts have no empty value to go on with.
         pairs = [(name, _or_empty(read)) for name, read in parts.items()]
@@ -345,6 +349,10 @@ def _is_left_out(value: Node, key: Key, record: Record) -> bool:
 
 def _is_nothing(node: Node) -> bool:
     return isinstance(node, Scalar) and not node.style and node.text in _NOTHING
+
+
+def _is_blank(node: Node) -> bool:
+    return isinstance(node, Scalar) and not node.refused and not node.text.strip()
 
 
 def _or_empty(read: Read) -> Data | None:

@@ -9,6 +9,7 @@ from vicode.store.documents import read_record
 from vicode.store.emitting import Layout, document_text, layout_of
 from vicode.store.flattening import flatten_design, flatten_project
 from vicode.store.format import DESIGN, PROJECT
+from vicode.store.oddities import without_oddities
 from vicode.store.patching import CannotPatchError, Patcher
 from vicode.store.reading import Read
 from vicode.store.shapes import Data, Record
@@ -21,18 +22,31 @@ _DEPTHS = (sys.maxsize, 3, 2)
 def save_design(design: Design, old_text: str = "") -> str:
     """The new text of a design file: the old one with what differs replaced; without an old one a fresh text.
 
+    Where an expression is nothing but spaces none is written, as none could be read.
+
     Raises:
-        ValueError: Two states, uses or declarations of the design have one name, which no mapping can hold.
+        ValueError: Two states, uses or declarations of the design have one name, which no mapping can hold; or a name
+            is longer than YAML allows.
     """
-    return _save(DESIGN, flatten_design(design), old_text)
+    text = _save(DESIGN, flatten_design(design), old_text)
+    if text is None:
+        text = _save(DESIGN, flatten_design(without_oddities(design)), old_text)
+    return _said(text)
 
 
 def save_project_file(project: Project, old_text: str = "") -> str:
     """The new text of a project.yaml, like `save_design`; the designs of the project are not part of it."""
-    return _save(PROJECT, flatten_project(project), old_text)
+    return _said(_save(PROJECT, flatten_project(project), old_text))
 
 
-def _save(shape: Record, data: Data, old_text: str) -> str:
+def _said(text: str | None) -> str:
+    if text is None:
+        raise ValueError("something in it is more than YAML can hold, such as a name of a thousand letters")
+    return text
+
+
+def _save(shape: Record, data: Data, old_text: str) -> str | None:
+    """The text that says the data; None when no text does."""
     _report, old = read_record(old_text, "", shape)
     if old is None:
         return _fresh(shape, data, old_text)
@@ -75,10 +89,9 @@ def _says(shape: Record, text: str, data: Data) -> bool:
     return read is not None and read.value == data
 
 
-def _fresh(shape: Record, data: Data, old_text: str) -> str:
-    """A text without a model; the comments that an old one began with are kept."""
+def _fresh(shape: Record, data: Data, old_text: str) -> str | None:
+    """A text without a model, None if it says something else; the comments that an old one began with are kept."""
     lines = itertools.takewhile(lambda line: line.startswith("#") or not line.strip(), old_text.splitlines())
     header = "".join(f"{line}\n" for line in lines if line.isprintable())
     new = header.lstrip("\n") + document_text(Wishing("").wish(shape, data), Layout())
-    assert _says(shape, new, data), "a fresh text must say what it was written for"
-    return new
+    return new if _says(shape, new, data) else None

@@ -17,7 +17,9 @@ document.addEventListener("keydown", (event) => {
   const key = event.key.length === 1 ? event.key.toUpperCase() : event.key;
   const wish = (WISHES)[[...held.filter(([, is]) => is).map(([name]) => name), key].join("+")];
   const types = event.target.closest?.("input, textarea, [contenteditable=true], .canvas");
-  if (!wish || (types && !wish.typing)) return;
+  // In the table a letter begins to type into the cell.
+  const writes = event.key.length === 1 && !event.ctrlKey && !event.metaKey && !event.altKey;
+  if (!wish || (types && !wish.typing) || (writes && event.target.closest?.(".vicode-table"))) return;
   event.preventDefault();
   // What can begin in the browser alone does so, and calls the event off.
   if (!dispatchEvent(new CustomEvent("vicode-wish", { detail: wish.name, cancelable: true }))) return;

@@ -13,6 +13,15 @@ from vicode.findings import Path
 from vicode.model.design import Action, Assign, Call, Code, Declaration, Design, RunCode
 from vicode.model.edits import update_actions
 
+# Whoever adds an action types it next; without the focus the letters would be commands of the drawing.
+_FOCUS_LAST = """
+(function focus(left) {
+  const field = document.querySelector('[data-adds="LIST"]')?.previousElementSibling?.querySelector(".cm-content");
+  if (field) field.focus();
+  else if (left > 0) setTimeout(() => focus(left - 1), 50);
+})(100);
+"""
+
 
 def actions_panel(desk: Desk, path: Path, actions: tuple[Action, ...], *, calls: bool = True) -> list[Field]:
     """Show the actions a path leads to, each editable, with buttons to add, move and remove."""
@@ -28,7 +37,7 @@ def actions_panel(desk: Desk, path: Path, actions: tuple[Action, ...], *, calls:
                     remove=_remover(desk, path, index),
                 )
             fields += _action_fields(desk, path, index, action)
-    with ui.row().classes("adders"):
+    with ui.row().classes("adders").props(f"data-adds={path[-1]}-{len(actions)}"):
         _adder(desk, path, "Set", "edit_note", lambda: Assign(values=((_first_settable(desk.design), "0"),)))
         if calls and desk.design.uses:
             _adder(desk, path, "Call", "call_made", lambda: Call(alias=desk.design.uses[0].alias))
@@ -161,8 +170,11 @@ def _first_settable(design: Design) -> str:
 
 def _adder(desk: Desk, path: Path, label: str, icon: str, make: Callable[[], Action]) -> None:
     def add() -> None:
-        action = make()
+        action, client = make(), ui.context.client
         desk.edit(f"add {label.lower()}", lambda design: update_actions(design, path, lambda old: (*old, action)))
+        # The form with the new action comes a moment later.
+        count = len(_actions_at(desk.design, path))
+        client.run_javascript(_FOCUS_LAST.replace("LIST", f"{path[-1]}-{count}"))
 
     add_button(label, f"Add to {path[-1]}: {label}", add, icon=icon)
 

@@ -29,6 +29,8 @@ function jobOf(table, event) {
     Backspace: () => clear(table, row, column),
   };
   if (event.key === " ") return column.kind === "flag" ? () => table.act() : null;
+  // Letters typed on a flag say nothing, neither to it nor to the page.
+  if (column.kind === "flag" && /^\p{L}$/u.test(event.key)) return () => {};
   // A key that writes begins to type over what stands there, as in a spreadsheet; a choice is only opened.
   if (event.key.length === 1) return () => table.act({ text: column.name === "name" && row.kind === "transition" ? null : event.key });
   return jobs[event.key];

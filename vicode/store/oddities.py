@@ -1,0 +1,25 @@
+"""Texts of a design as a file can hold them: what forms and browsers may send is more than that."""
+
+import re
+from dataclasses import fields, is_dataclass, replace
+from typing import Any
+
+from vicode.model.design import Design
+
+_HALF = re.compile("[\ud800-\udfff]")
+
+
+def without_oddities(design: Design) -> Design:
+    """The design with nothing where a text is blank, and a replacement sign for half a character."""
+    tidied: Design = _tidied(design)
+    return tidied
+
+
+def _tidied(value: Any) -> Any:
+    if isinstance(value, str):
+        return _HALF.sub("\ufffd", value) if value.strip() else ""
+    if isinstance(value, tuple):
+        return tuple(_tidied(each) for each in value)
+    if is_dataclass(value) and not isinstance(value, type):
+        return replace(value, **{each.name: _tidied(getattr(value, each.name)) for each in fields(value) if each.init})
+    return value
