@@ -208,8 +208,9 @@ class OptionImporter:
             case tree.Binary(operator=">=", left=tree.Word(text="state_time"), right=tree.Number() as number):
                 return self.wording.spell(number)
             case tree.Binary(operator=">=", left=tree.Word(text="state_time"), right=tree.Ref() as ref):
-                is_constant = self._meaning(self.parsed.tokens, ref.at).role == "const"
-                return self.wording.spell(ref) if is_constant else ""
+                named = self._meaning(self.parsed.tokens, ref.at).node
+                is_time = isinstance(named, tree.Constant) and not named.number.startswith("-")
+                return self.wording.spell(ref) if is_time else ""
             case _:
                 return ""
 
