@@ -126,6 +126,18 @@ def test_who_renames_a_state_types_on_in_the_next_field(editor: str, page: Page)
     expect(page.get_by_role("group", name="History").get_by_role("button")).to_have_count(3)
 
 
+def test_escape_calls_off_a_dialog_that_is_still_on_its_way(editor: str, page: Page) -> None:
+    open_player(page, editor)
+    page.keyboard.press("Control+Shift+E")
+    page.keyboard.press("Escape")
+    # When this is answered, the dialog has come.
+    page.evaluate("emitEvent('command-save')")
+    expect(page.locator(".q-notification").get_by_text("Saved", exact=True)).to_be_visible()
+    expect(page.get_by_role("dialog")).to_have_count(0)
+    page.keyboard.press("Control+Shift+E")
+    expect(page.get_by_role("dialog")).to_be_visible()
+
+
 def test_a_double_click_on_an_arrow_leads_to_its_guard(editor: str, page: Page, project: Path) -> None:
     open_player(page, editor)
     page.locator('g[data-kind="transition"][data-id="Kick/0"] .plate').first.dblclick(force=True)

@@ -32,6 +32,12 @@ def test_the_tour_follows_what_is_done(editor: str, page: Page, project: Path) -
     expect_step(page, 1, "A state machine")
     page.keyboard.press("Enter")
     expect_step(page, 2, "Select a state")
+    # To make one is not what was asked.
+    page.keyboard.press("s")
+    page.locator("input.rename").fill("Early")
+    page.keyboard.press("Enter")
+    expect(page.get_by_label("State", exact=True)).to_have_value("Early")
+    expect_step(page, 2, "Select a state")
     box = page.locator('g[data-id="Kick"] rect.box').bounding_box()
     assert box is not None
     page.mouse.click(box["x"] + box["width"] / 2, box["y"] + 8)
@@ -46,7 +52,7 @@ def test_the_tour_follows_what_is_done(editor: str, page: Page, project: Path) -
     page.get_by_label("Inspector").get_by_role("button", name="Transition").click()
     page.get_by_text("to Kick", exact=True).click()
     expect_step(page, 5, "Take it back")
-    for _edit in range(3):
+    for _edit in range(5):
         page.get_by_role("button", name="Undo").click()
     expect_step(page, 6, "Findings")
     page.get_by_role("button", name="Next").click()

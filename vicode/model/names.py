@@ -1,6 +1,7 @@
 """What may be a name, and names in other spellings."""
 
 import re
+import unicodedata
 
 _NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*\Z", re.ASCII)
 _STATE_NAME = re.compile(r"[A-Za-z0-9_]+\Z", re.ASCII)
@@ -15,6 +16,15 @@ def is_name(text: str) -> bool:
 def is_state_name(text: str) -> bool:
     """A state's name may also begin with a digit: `1e3`, `on`, `2_steps`."""
     return bool(_STATE_NAME.match(text)) and len(text) <= 80
+
+
+def name_like(text: str) -> str:
+    """The name that a text comes nearest to: `My robot` as `MyRobot`; empty if there is none."""
+    plain = unicodedata.normalize("NFKD", text).encode("ascii", "ignore").decode()
+    words = re.findall(r"[A-Za-z0-9_]+", plain)
+    name = "".join(word[:1].upper() + word[1:] for word in words).lstrip("0123456789_")
+    name = name[:1].upper() + name[1:]
+    return name if is_name(name) else ""
 
 
 def snake_case(name: str) -> str:

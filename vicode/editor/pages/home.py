@@ -1,6 +1,7 @@
 """The home of a folder: its designs as cards, what they use, what is broken; the place to begin and to come back to."""
 
 import contextlib
+from functools import partial
 from pathlib import Path
 
 from nicegui import ui
@@ -50,7 +51,7 @@ class HomePage:
                 icon="contrast",
             ),
         )
-        palette.commands = self.commands
+        self.palette = palette
         with ui.element("div").classes("home"):
             self._head()
             self.body = ui.element("main").classes("home-body")
@@ -100,12 +101,29 @@ class HomePage:
         if shape == self.shape:
             return
         self.shape = shape
+        self.palette.commands = (*self.commands, *self._makers())
         self.body.clear()
         with self.body:
             if not overviews:
                 self._empty()
             for overview in overviews:
                 self._project(overview)
+
+    def _makers(self) -> list[Command]:
+        """A new design, in each of the projects."""
+        workspaces = self.library.workspaces
+        if not workspaces:
+            return [Command("new-design", "New design", self._make_first, Place.DESIGN, icon="add")]
+        return [
+            Command(
+                f"new-design-{workspace.key}",
+                "New design" if len(workspaces) == 1 else f"New design in {workspace.project.name}",
+                partial(self.dialogs.ask_new, workspace),
+                Place.DESIGN,
+                icon="add",
+            )
+            for workspace in workspaces
+        ]
 
     def _empty(self) -> None:
         with ui.column().classes("home-empty"):

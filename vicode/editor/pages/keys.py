@@ -10,7 +10,24 @@ from vicode.editor.panels.command import Command
 # Part of the page, so that no key comes too early for it. Text fields and the canvas undo in ways of their own.
 _LISTEN = """
 <script>
+// A dialog that was asked for by keys comes a moment later. Escape pressed meanwhile was meant for it.
+let askedMs = -Infinity, isCalledOff = false;
+const isPending = () => performance.now() - askedMs < 2000 && !document.querySelector(".q-dialog");
+const callOff = (left) => {
+  if (left > 0 && document.querySelector(".q-dialog")) {
+    dispatchEvent(new KeyboardEvent("keydown", { key: "Escape", keyCode: 27, bubbles: true }));
+    dispatchEvent(new KeyboardEvent("keyup", { key: "Escape", keyCode: 27, bubbles: true }));
+    setTimeout(callOff, 50, left - 1);
+  }
+};
+new MutationObserver(() => {
+  if (!isCalledOff || !document.querySelector(".q-dialog")) return;
+  if (performance.now() - askedMs < 2000) callOff(20);
+  isCalledOff = false;
+}).observe(document.body, { childList: true });
+document.addEventListener("pointerdown", () => (isCalledOff = false), true);
 document.addEventListener("keydown", (event) => {
+  isCalledOff = event.key === "Escape" && isPending();
   // Signs are named as they are printed, whatever must be held to reach them.
   const isSign = event.key.length === 1 && !/[\\p{L} ]/u.test(event.key);
   const held = [["Ctrl", event.ctrlKey || event.metaKey], ["Alt", event.altKey], ["Shift", event.shiftKey && !isSign]];
@@ -21,6 +38,7 @@ document.addEventListener("keydown", (event) => {
   const writes = event.key.length === 1 && !event.ctrlKey && !event.metaKey && !event.altKey;
   if (!wish || (types && !wish.typing) || (writes && event.target.closest?.(".vicode-table"))) return;
   event.preventDefault();
+  askedMs = performance.now();
   // What can begin in the browser alone does so, and calls the event off.
   if (!dispatchEvent(new CustomEvent("vicode-wish", { detail: wish.name, cancelable: true }))) return;
   // A page is seen a moment before it can speak to the server; what is asked then is asked a moment later.

@@ -10,6 +10,7 @@ from vicode.editor.panels.rows import primary_button
 from vicode.editor.session import Workspace, renaming, templates, trash
 from vicode.editor.session.workspace import ThrownAway
 from vicode.editor.view.address import design_address
+from vicode.model.names import is_name, name_like
 
 Say = Callable[[str, str], None]
 
@@ -36,6 +37,7 @@ class DesignDialogs:
                 refused = trash.refuse_name(workspace, wanted)
                 if refused or not self._does(lambda: workspace.create(wanted, _text_of(template, wanted, workspace))):
                     self._refuse(refused)
+                    _offer_like(name)
                     return
                 dialog.close()
                 ui.navigate.to(design_address(workspace.key, wanted))
@@ -52,6 +54,7 @@ class DesignDialogs:
                 refused = trash.refuse_name(workspace, wanted)
                 if refused or not self._does(lambda: trash.duplicate(workspace, component, wanted)):
                     self._refuse(refused)
+                    _offer_like(name)
                     return
                 dialog.close()
                 self.say(f"{wanted} is a copy of {component}", "positive")
@@ -85,6 +88,7 @@ class DesignDialogs:
                 planned = plan()
                 if planned.refused or not self._rename(workspace, planned):
                     self._refuse(planned.refused)
+                    _offer_like(name)
                     return
                 dialog.close()
 
@@ -163,6 +167,13 @@ def _name_field(label: str, value: str, example: str) -> ui.input:
     field = ui.input(label, value=value, placeholder=example).classes("dialog-field")
     field.props("outlined dense stack-label autofocus maxlength=80")
     return field
+
+
+def _offer_like(field: ui.input) -> None:
+    """Put the nearest name there is into a field whose text is none; one press more takes it."""
+    wanted = str(field.value).strip()
+    if not is_name(wanted) and name_like(wanted):
+        field.set_value(name_like(wanted))
 
 
 def _buttons(dialog: ui.dialog, label: str, act: Callable[[], object], field: ui.input | None) -> None:

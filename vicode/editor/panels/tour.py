@@ -106,9 +106,11 @@ class Tour(ui.element, component="vicode_tour.js"):
 
     def _facts(self) -> dict[str, object]:
         design, only = self._desk.design, self._desk.only
+        names = [state.name for state in design.states]
         return {
             "states": len(design.states),
             "transitions": sum(1 for _each in walk_transitions(design)),
-            "selected": only is not None and only.of == "states",
+            # Its number in the list: one that is made comes last, and is called otherwise a moment later.
+            "selected": names.index(only.id) if only is not None and only.of == "states" and only.id in names else -1,
             "table": self._shows_table(),
         }

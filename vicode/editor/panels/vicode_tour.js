@@ -105,7 +105,7 @@ const drawing = () => document.querySelector(".vicode-canvas[data-ready]")?.shad
 /** Whether what a step asks for was done; facts are compared with those of its begin, and of the tour's. */
 function isDone(wish, { now, here, before }) {
   const checks = {
-    selected: () => now.selected,
+    selected: () => now.selected >= 0 && now.selected < here.states,
     "state-more": () => now.states > here.states,
     "transition-more": () => now.transitions > here.transitions,
     "as-at-start": () => now.states === before.states && now.transitions === before.transitions,

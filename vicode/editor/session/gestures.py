@@ -32,7 +32,7 @@ from vicode.model.edits import (
     update_state,
 )
 from vicode.model.enabling import disable
-from vicode.model.names import is_name, is_state_name
+from vicode.model.names import is_name, is_state_name, name_like
 from vicode.model.walks import decision_at, walk_decisions
 
 Payload = Mapping[str, Any]
@@ -188,6 +188,8 @@ def _rename(document: Document, payload: Payload) -> Outcome:
         return Outcome()
     if not is_state_name(new):
         mend = "it is longer than 80 characters" if len(new) > 80 else "use letters, digits and underscores"
+        if len(new) <= 80 and name_like(new):
+            mend += f", such as {name_like(new)}"
         return Outcome(refused=f"'{new[:40]}' is no name: {mend}")
     if document.design.state(new) is not None:
         return Outcome(refused=f"there is already a state '{new}'")

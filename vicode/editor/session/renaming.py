@@ -5,7 +5,7 @@ from pathlib import Path
 
 from vicode.editor.session.workspace import Workspace
 from vicode.model.design import Design
-from vicode.model.names import is_name, snake_case
+from vicode.model.names import is_name, name_like, snake_case
 from vicode.model.project import Project
 from vicode.store import is_read_only, project_file_in, read_project_file, save_design, save_project_file, write_text
 
@@ -79,7 +79,7 @@ def rename_component(workspace: Workspace, plan: Renaming) -> str:
 def _refuse(workspace: Workspace, old: str, new: str) -> str:
     """Why a renaming cannot be done, in words; empty if it can."""
     if not is_name(new):
-        return "a component is named in letters, digits and underscores, such as FollowBall"
+        return f"a component is named in letters, digits and underscores, such as {name_like(new) or 'FollowBall'}"
     if new == old:
         return "that is its name already"
     if workspace.project.interface(new) is not None:

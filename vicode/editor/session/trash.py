@@ -4,7 +4,7 @@ from dataclasses import replace
 
 from vicode.editor.session.workspace import ThrownAway, Workspace
 from vicode.model.edits import free_name
-from vicode.model.names import is_name, snake_case
+from vicode.model.names import is_name, name_like, snake_case
 from vicode.store import save_design, write_text
 
 
@@ -62,7 +62,7 @@ def name_for_copy(workspace: Workspace, component: str) -> str:
 def refuse_name(workspace: Workspace, name: str) -> str:
     """Why a new design cannot be called so, in words; empty if it can."""
     if not is_name(name):
-        return "a component is named in letters, digits and underscores, such as FollowBall"
+        return f"a component is named in letters, digits and underscores, such as {name_like(name) or 'FollowBall'}"
     if workspace.project.interface(name) is not None:
         return f"there is already a component {name}"
     file = workspace.folder / f"{snake_case(name)}.yaml"
