@@ -10,6 +10,8 @@ from tests.editor.player_page import open_player, state
 def test_a_broken_file_is_mended_in_the_browser(editor: str, page: Page, project: Path) -> None:
     file = project / "forward" / "wave.yaml"
     file.write_text("vicode: 1\ncomponent: Wave\ninitial: Up\nstates: {Up: {}\n")
+    page.goto(f"{editor}design/forward/Wave")
+    expect(page.get_by_role("link", name="wave.yaml")).to_be_visible()
     open_player(page, editor)
     page.get_by_role("link", name="wave.yaml").click()
     text = page.get_by_label("Text of wave.yaml")

@@ -50,9 +50,12 @@ def _wait_for_journal(page: Page, state: Path, text: str) -> None:
     raise AssertionError("no journal was written")
 
 
-def test_a_clash_with_the_file_is_settled_place_by_place(editor: str, page: Page, project: Path) -> None:
+def test_a_clash_with_the_file_is_settled_place_by_place(
+    editor: str, page: Page, second_window: Page, project: Path
+) -> None:
     file = project / "forward" / "player.yaml"
     open_player(page, editor)
+    second_window.goto(page.url)
     select_state(page, "LookForBall")
     type_doc(page, "mine of LookForBall")
     select_state(page, "Kick")
@@ -64,6 +67,7 @@ def test_a_clash_with_the_file_is_settled_place_by_place(editor: str, page: Page
     # It is said at once, and nothing is taken before somebody chooses.
     expect(page.get_by_text("Changed on disk, too")).to_be_visible()
     page.get_by_role("button", name="Choose …").click()
+    second_window.get_by_role("button", name="Choose …").click()
     dialog = page.get_by_role("dialog")
     expect(dialog.get_by_text("doc of state LookForBall")).to_be_visible()
     dialog.get_by_role("button", name="On disk").nth(1).click()
@@ -73,6 +77,11 @@ def test_a_clash_with_the_file_is_settled_place_by_place(editor: str, page: Page
     assert "mine of LookForBall" in after
     assert "theirs of Kick" in after
     assert "frequency: 20  # faster" in after
+
+    # Whoever answers too late is told so, and changes nothing.
+    second_window.get_by_role("button", name="Keep yours").click()
+    expect(second_window.get_by_text("It was settled meanwhile")).to_be_visible()
+    assert file.read_text() == after
 
     # What was not taken is in the history.
     page.get_by_role("tab", name="History").click()

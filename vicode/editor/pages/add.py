@@ -13,7 +13,7 @@ from vicode.editor.panels.thumbnails import serve_thumbnails
 from vicode.editor.session import Library, Workspace
 from vicode.editor.session.finding_things import Index
 from vicode.editor.session.keeper import Keeper
-from vicode.editor.view.address import trail_of_text
+from vicode.editor.view.address import broken_address, trail_of_text
 
 
 def add_pages(library: Library, keeper: Keeper | None = None, *, tour: bool = False) -> None:
@@ -35,7 +35,7 @@ def add_pages(library: Library, keeper: Keeper | None = None, *, tour: bool = Fa
         workspace = _workspace_as_on_disk(library, key)
         document = workspace.document(component) if workspace else None
         if workspace is None or document is None:
-            _nothing(f"There is no design {component[:80]} here", "It may have been renamed or removed.")
+            _nothing(f"There is no design {component[:80]} here", "It may have been renamed or removed.", workspace)
             return
         ui.page_title(f"{component} – vicode")
         query = request.query_params
@@ -66,9 +66,14 @@ def _workspace_as_on_disk(library: Library, key: str) -> Workspace | None:
     return workspace
 
 
-def _nothing(title: str, hint: str) -> None:
+def _nothing(title: str, hint: str, workspace: Workspace | None = None) -> None:
+    """Say that there is nothing at an address; what is sought may be in a file that cannot be read."""
     add_look()
     with ui.element("main").classes("nothing"):
         ui.label(title).classes("dialog-title").props("role=heading aria-level=1")
         ui.label(hint).classes("empty")
+        if workspace is not None and workspace.broken:
+            ui.label("Or it is in a file that cannot be read just now:").classes("empty")
+            for file in workspace.broken:
+                ui.link(file, broken_address(workspace.key, file))
         ui.link("Show the designs", "/")

@@ -90,15 +90,28 @@ def _selected_states(desk: Desk) -> frozenset[str]:
 
 
 def _look(desk: Desk, form: Format, wish: Wish) -> None:
-    """A picture as a picture, a text as a text."""
+    """A picture as a picture, a text as a text; it comes when it is drawn."""
     if len(desk.design.states) > _MOST_LOOKED_AT:
         ui.label(f"{len(desk.design.states)} states: too many to look at here").classes("empty")
-    elif form in _TEXTS:
-        ui.label(_exported(desk, form, wish).decode()).classes("mono export-text")
-    else:
-        picture = base64.b64encode(_exported(desk, Format.SVG, wish)).decode()
-        image = ui.element("img").props('alt="The drawing as it would come out"')
-        image.props["src"] = f"data:image/svg+xml;base64,{picture}"
+        return
+
+    async def draw() -> None:
+        content = await run.io_bound(_exported, desk, form if form in _TEXTS else Format.SVG, wish)
+        # Another choice may have been made meanwhile, or the dialog closed.
+        if content is None or place.is_deleted:
+            return
+        place.clear()
+        with place:
+            if form in _TEXTS:
+                ui.label(content.decode()).classes("mono export-text")
+            else:
+                image = ui.element("img").props('alt="The drawing as it would come out"')
+                image.props["src"] = f"data:image/svg+xml;base64,{base64.b64encode(content).decode()}"
+
+    with ui.element("div").style("display: contents") as place:
+        ui.label("Drawing …").classes("empty").props('role="status"')
+    # A large drawing takes seconds; nobody waits for it.
+    background_tasks.create(draw(), name="look")
 
 
 def _copier(desk: Desk, form: Format) -> Callable[[], None]:

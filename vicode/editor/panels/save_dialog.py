@@ -1,6 +1,7 @@
 """What to do when the file was changed on disk where unsaved work was done: one choice for each place, or for all."""
 
 from collections.abc import Callable
+from dataclasses import dataclass
 
 from nicegui import ui
 
@@ -8,6 +9,7 @@ from vicode.editor.panels.desk import Desk
 from vicode.editor.panels.dialogs import titled_dialog
 from vicode.editor.panels.rows import primary_button
 from vicode.editor.session import ChangedOnDiskError
+from vicode.editor.session.document import Clash
 from vicode.editor.session.wording import reason_of, words_of_path, words_of_value
 from vicode.findings import Path
 from vicode.model.merging import Conflict
@@ -23,23 +25,24 @@ def ask_about_disk(desk: Desk) -> None:
     name, is_gone = desk.document.file.name, desk.document.file_is_gone
     if clash.disk.design is not None:
         with titled_dialog(f"{name} was changed by another program", "clash") as dialog:
-            _ask_for_choices(desk, dialog, clash.conflicts)
+            _ask_for_choices(desk, dialog, clash)
         return
     what = "was deleted by another program" if is_gone else "holds no design any more"
     with titled_dialog(f"{name} {what}", "clash") as dialog:
-        _ask_to_write(desk, dialog, is_gone=is_gone)
+        _ask_to_write(desk, dialog, clash, is_gone=is_gone)
 
 
-def _ask_to_write(desk: Desk, dialog: ui.dialog, *, is_gone: bool) -> None:
+def _ask_to_write(desk: Desk, dialog: ui.dialog, clash: Clash, *, is_gone: bool) -> None:
     name = desk.document.file.name
     aside = "" if is_gone else f" What it holds now is put aside as {name}.edited."
     ui.label(f"Your design is here. Saving writes the file anew.{aside}")
     with ui.row().classes("dialog-buttons"):
         ui.button("Cancel", on_click=dialog.close).props("flat no-caps")
-        primary_button("Write the file", lambda: _settle(desk, dialog, (), "Saved"))
+        primary_button("Write the file", lambda: _settle(_Asked(desk, dialog, clash), (), "Saved"))
 
 
-def _ask_for_choices(desk: Desk, dialog: ui.dialog, conflicts: tuple[Conflict, ...]) -> None:
+def _ask_for_choices(desk: Desk, dialog: ui.dialog, clash: Clash) -> None:
+    conflicts = clash.conflicts
     chosen: dict[Path, str] = {conflict.path: "mine" for conflict in conflicts}
     count = "one place" if len(conflicts) == 1 else f"{len(conflicts)} places"
     ui.label(f"It touches your unsaved work in {count}; all other changes of both come together.").classes("small")
@@ -50,7 +53,7 @@ def _ask_for_choices(desk: Desk, dialog: ui.dialog, conflicts: tuple[Conflict, .
     def settle(side: str, said: str) -> Callable[[], None]:
         def act() -> None:
             taken = [path for path, choice in chosen.items() if (side or choice) == "theirs"]
-            _settle(desk, dialog, taken, said)
+            _settle(_Asked(desk, dialog, clash), taken, said)
 
         return act
 
@@ -90,7 +93,24 @@ def _conflict(conflict: Conflict, chosen: dict[Path, str]) -> None:
     choose("mine")()
 
 
-def _settle(desk: Desk, dialog: ui.dialog, theirs_at: list[Path] | tuple[()], said: str) -> None:
+@dataclass(frozen=True, slots=True)
+class _Asked:
+    """Which question a dialog asked."""
+
+    desk: Desk
+    dialog: ui.dialog
+    clash: Clash
+
+
+def _settle(asked: _Asked, theirs_at: list[Path] | tuple[()], said: str) -> None:
+    desk, dialog = asked.desk, asked.dialog
+    if desk.document.sheet.clash != asked.clash:
+        # Somebody else has answered, or the file was changed once more: this answer is for what was asked.
+        dialog.close()
+        if desk.document.sheet.clash is None:
+            desk.say("It was settled meanwhile: History has what was not taken", "info")
+        ask_about_disk(desk)
+        return
     try:
         desk.workspace.settle(desk.document, theirs_at)
         desk.workspace.save(desk.document)
