@@ -1,7 +1,7 @@
-"""The forward's hand-written package and the generated one beside it can be imported, as when it runs."""
+"""Hand-written packages of the designs and the generated ones beside them can be imported, as when they run."""
 
 import sys
 from pathlib import Path
 
 ROOT = Path(__file__).parents[2]
-sys.path[:0] = [str(ROOT / "designs" / "forward"), str(ROOT / "generated" / "python")]
+sys.path[:0] = [str(ROOT / "designs" / "forward"), str(ROOT / "designs" / "rescue"), str(ROOT / "generated" / "python")]

@@ -78,10 +78,14 @@ class _Maker:
                 *(self.operand(kind, depth - 1) for _ in range(2)),
             )
             return tree.Parentheses(inner)
-        if kind == "d":
-            if self.pick(0, 0, 1):
-                return tree.Unary("-", self.operand("d", depth - 1))
-            return tree.Binary(str(self.pick(*"+-*/%")), *(self.operand("d", depth - 1) for _ in range(2)))
+        return self.decimal(depth) if kind == "d" else self.boolean(depth)
+
+    def decimal(self, depth: int) -> tree.Expression:
+        if self.pick(0, 0, 1):
+            return tree.Unary("-", self.operand("d", depth - 1))
+        return tree.Binary(str(self.pick(*"+-*/%")), *(self.operand("d", depth - 1) for _ in range(2)))
+
+    def boolean(self, depth: int) -> tree.Expression:
         match self.pick("not", "join", "compare", "equal"):
             case "not":
                 return tree.Unary("!", self.operand("b", depth - 1))

@@ -38,7 +38,7 @@ def actions_panel(desk: Desk, path: Path, actions: tuple[Action, ...], *, calls:
                 )
             fields += _action_fields(desk, path, index, action)
     with ui.row().classes("adders").props(f"data-adds={path[-1]}-{len(actions)}"):
-        _adder(desk, path, "Set", "edit_note", lambda: Assign(values=((_first_settable(desk.design), "0"),)))
+        _adder(desk, path, "Set", "edit_note", lambda: Assign(values=((_first_settable(desk), "0"),)))
         if calls and desk.design.uses:
             _adder(desk, path, "Call", "call_made", lambda: Call(alias=desk.design.uses[0].alias))
         _adder(desk, path, "Code", "code", lambda: RunCode(code=python("pass\n")))
@@ -109,7 +109,7 @@ def _action_fields(desk: Desk, path: Path, index: int, action: Action) -> list[F
                 read=lambda design: _values_of(read(design)),
                 write=write(_set_values),
             )
-            return [pairs_field(desk, bound, lambda: (*desk.design.variables, *desk.design.outputs))]
+            return [pairs_field(desk, bound, lambda: settable_of(desk))]
         case Call():
             bound = Bound(
                 label="parameter = expression, a line each",
@@ -119,6 +119,16 @@ def _action_fields(desk: Desk, path: Path, index: int, action: Action) -> list[F
                 hint=", ".join(each.name for each in parameters_of(desk, action.alias)),
             )
             return [pairs_field(desk, bound, lambda: parameters_of(desk, action.alias))]
+
+
+def settable_of(desk: Desk) -> tuple[Declaration, ...]:
+    """What may be set: own variables and outputs, and variables of used components as `alias.variable`."""
+    found = [*desk.design.variables, *desk.design.outputs]
+    for use in desk.design.uses:
+        interface = desk.workspace.project.interface(use.component)
+        variables = interface.variables if interface else ()
+        found += [replace(each, name=f"{use.alias}.{each.name}") for each in variables]
+    return tuple(found)
 
 
 def parameters_of(desk: Desk, alias: str) -> tuple[Declaration, ...]:
@@ -163,8 +173,8 @@ def _set_values(action: Action, text: str) -> Action:
             return action
 
 
-def _first_settable(design: Design) -> str:
-    settable = [*design.variables, *design.outputs]
+def _first_settable(desk: Desk) -> str:
+    settable = settable_of(desk)
     return settable[0].name if settable else "name"
 
 

@@ -8,6 +8,7 @@ from vicode.editor.panels.rows import heading, panel_title
 from vicode.editor.view import Selected
 from vicode.model.design import Declaration
 from vicode.model.edits import remove_uses, unlink
+from vicode.model.project import INTERNAL, WORLD
 
 
 def use_panel(desk: Desk, alias: str) -> list[Field]:
@@ -27,9 +28,12 @@ def use_panel(desk: Desk, alias: str) -> list[Field]:
             "flat no-caps dense"
         )
     else:
-        ui.label(f"Hand-written: {interface.implementation}").classes("mono small")
+        ui.label(_ORIGINS.get(interface.implementation, f"Hand-written: {interface.implementation}")).classes("small")
     heading(f"Outputs, read as {alias}.…")
     _table(interface.outputs)
+    if interface.variables:
+        heading(f"Variables, read and set as {alias}.…")
+        _table(interface.variables)
     heading("Parameters")
     _table(interface.parameters)
 
@@ -39,6 +43,9 @@ def use_panel(desk: Desk, alias: str) -> list[Field]:
 
     ui.button("Stop using it", icon="delete", on_click=remove).props("flat dense no-caps color=negative")
     return []
+
+
+_ORIGINS = {WORLD: "Handed on to the world", INTERNAL: "A memory that all designs share"}
 
 
 def _table(declarations: tuple[Declaration, ...]) -> None:

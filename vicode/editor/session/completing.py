@@ -11,9 +11,13 @@ from vicode.model.project import Enumeration, Interface, Project
 
 # What is being typed: a name, perhaps with what stands before its dots.
 _TYPED = re.compile(r"(?:(?P<owner>[A-Za-z_][\w.]*)\.)?(?P<word>[A-Za-z_]\w*)?\Z", re.ASCII)
-_LINE_START = re.compile(r"\s*(?P<word>[A-Za-z_]\w*)?\Z", re.ASCII)
+_LINE_START = re.compile(r"\s*(?P<word>[A-Za-z_][\w.]*)?\Z", re.ASCII)
 
 _TIMES = (("state_time", "time in the state"), ("component_time", "time since the component started"))
+_STATUSES = (
+    ("action_done", "whether a design that the state calls is done"),
+    ("conflict", "whether as many robots of the team are in the state as may be"),
+)
 _WORDS = ("and", "or", "not", "if", "else", "True", "False")
 _OF_COMPONENTS = ("is_done", "state", "state_time", "component_time", "step", "restart")
 
@@ -90,6 +94,7 @@ def _names_in_expressions(project: Project, design: Design, scope: Scope) -> Ite
     yield from _enumerations(project)
     unit = design.time_unit or "s"
     yield from (Option(label=name, kind="property", detail=unit, doc=doc) for name, doc in _TIMES)
+    yield from (Option(label=name, kind="property", detail="bool", doc=doc) for name, doc in _STATUSES)
     yield Option(label="done", kind="function", detail="(component) bool", doc="whether a component is done")
     for function in FUNCTIONS.values():
         takes = ", ".join(function.takes) + (", …" if function.more else "")
@@ -121,6 +126,7 @@ def _below(owner: str, scope: Scope, project: Project, *, in_code: bool = False)
     interface: Interface | None = scope.uses.get(owner)
     if interface is not None:
         yield from (_declared(output, scope, "property", "output") for output in interface.outputs)
+        yield from (_declared(variable, scope, "property", "variable") for variable in interface.variables)
         if in_code:
             yield from (_declared(each, scope, "property", "parameter") for each in interface.parameters)
             yield from _of_runtime()

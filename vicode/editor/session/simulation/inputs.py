@@ -65,7 +65,7 @@ def inputs_of(project: Project, design: Design, stood_in: tuple[str, ...]) -> tu
         interface = project.interface(component)
         if interface is None:
             continue
-        inputs += [_input(project, component, output) for output in interface.outputs]
+        inputs += [_input(project, component, output) for output in interface.readable]
         own = project.design(component)
         if own is not None and any(state.final for state in own.states):
             doc = f"{component} is in a final state."

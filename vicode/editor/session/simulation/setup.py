@@ -11,7 +11,7 @@ from vicode.findings import Path as DesignPath
 from vicode.findings import Severity
 from vicode.generators import collect_components, generate, python_class, python_probes
 from vicode.model.design import Decision, Design, Group, State, Transition
-from vicode.model.project import Interface, Project
+from vicode.model.project import INTERNAL, Interface, Project
 from vicode.output import OutputFile
 from vicode.simulation import Setup
 from vicode.simulation.stand_ins import MODULE
@@ -57,8 +57,9 @@ def used_components(project: Project, design: Design) -> tuple[str, ...]:
 
 
 def hand_written(project: Project, design: Design) -> frozenset[str]:
-    """Those of the used components that no design makes."""
-    return frozenset(name for name in used_components(project, design) if project.design(name) is None)
+    """Those of the used components that no design makes; memories that vicode keeps are none."""
+    kept = {each.component for each in project.components if each.implementation == INTERNAL}
+    return frozenset(name for name in used_components(project, design) if project.design(name) is None) - kept
 
 
 def stood_in_of(project: Project, design: Design, wish: Wish) -> frozenset[str]:
@@ -149,7 +150,7 @@ def _functions(project: Project, design: Design, stood_in: tuple[str, ...]) -> t
     found = []
     for use in design.uses:
         interface = project.interface(use.component)
-        outputs = interface.outputs if interface and use.component not in stood_in else ()
+        outputs = interface.readable if interface and use.component not in stood_in else ()
         names = tuple(output.name for output in outputs if output.arguments is not None)
         found += [(use.alias, names)] if names else []
     return tuple(found)

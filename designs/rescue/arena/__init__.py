@@ -1,0 +1,1 @@
+"""Where the rescue robot drives: a corridor with walls that its laser sees."""
