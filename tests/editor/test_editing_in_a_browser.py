@@ -126,6 +126,13 @@ def test_who_renames_a_state_types_on_in_the_next_field(editor: str, page: Page)
     expect(page.get_by_role("group", name="History").get_by_role("button")).to_have_count(3)
 
 
+def test_a_declaration_without_a_name_is_told_and_not_taken(editor: str, page: Page) -> None:
+    open_player(page, editor)
+    page.get_by_role("group", name="variable kick").get_by_role("textbox", name="Name").fill("")
+    expect(page.get_by_text("it needs a name")).to_be_visible()
+    expect(page.get_by_text("Unsaved changes")).to_have_count(0)
+
+
 def test_escape_calls_off_a_dialog_that_is_still_on_its_way(editor: str, page: Page) -> None:
     open_player(page, editor)
     page.keyboard.press("Control+Shift+E")

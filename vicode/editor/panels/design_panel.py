@@ -151,13 +151,16 @@ def _declaration_bound(section: str, index: int, name: str, what: tuple[str, str
         return str(getattr(declarations[index], attribute)) if index < len(declarations) else ""
 
     def write(design: Design, value: str) -> Design:
-        if attribute == "name" and not value.strip():
-            return design
         return _updated(design, section, index, {attribute: value.strip() if attribute != "doc" else value})
 
     key = {"initial": "default" if section == "parameters" else "initial"}.get(attribute, attribute)
     path = (section, name) if attribute == "name" else (section, name, key)
-    return Bound(label=label, path=path, read=read, write=write)
+    refuse = _refuse_nameless if attribute == "name" else (lambda _value: "")
+    return Bound(label=label, path=path, read=read, write=write, refuse=refuse)
+
+
+def _refuse_nameless(value: Any) -> str:
+    return "" if str(value or "").strip() else "it needs a name"
 
 
 def _updated(design: Design, section: str, index: int, changes: dict[str, Any]) -> Design:
