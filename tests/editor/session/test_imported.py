@@ -1,5 +1,7 @@
 """A behavior of XABSL that was imported is edited like any project: drawn, listed, completed, previewed, saved."""
 
+from dataclasses import replace
+
 import pytest
 
 from tests.xabsl.cases_of import CASES
