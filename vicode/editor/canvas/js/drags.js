@@ -108,15 +108,14 @@ export class Move {
   }
 
   end() {
-    this.#put();
     this.#release();
     if (this.by.x || this.by.y) this.canvas.reportMove([...this.places.keys()], this.rects);
   }
 
   cancel() {
     this.by = { x: 0, y: 0 };
-    this.#put();
     this.#release();
+    this.canvas.painter.tidy();
   }
 
   /** Python changed the scene meanwhile: what is still there keeps following the hand. */
@@ -126,8 +125,12 @@ export class Move {
   }
 
   #put() {
+    this.#place();
+    this.canvas.painter.carry([...this.places.keys()], this.by);
+  }
+
+  #place() {
     for (const [key, { x, y }] of this.places) this.canvas.scene.move(key, x + this.by.x, y + this.by.y);
-    this.canvas.painter.follow(this.ghost ? [] : [...this.places.keys()]);
   }
 
   #lift() {
@@ -137,6 +140,7 @@ export class Move {
     painter.mark("held", held);
     stage.classList.add("lifting");
     this.canvas.cull();
+    painter.lift(this.places.keys());
   }
 
   #raiseGhost() {
@@ -147,11 +151,12 @@ export class Move {
 
   #release() {
     const { painter, stage } = this.canvas;
+    this.#place();
+    painter.putDown([...this.places.keys()]);
     painter.mark("held", []);
     stage.classList.remove("lifting");
     this.guides?.close();
     this.ghost?.remove();
-    if (this.ghost) painter.follow([...this.places.keys()]);
     this.ghost = null;
   }
 }

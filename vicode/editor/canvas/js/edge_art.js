@@ -27,12 +27,17 @@ export function drawEdge(edge, route, ends) {
 }
 
 export function placeEdge({ line, chip }, { curve, at }) {
-  const [hit, stroke, head] = line.children;
+  line.children[0].setAttribute("d", pathOf(curve, { x: curve[6], y: curve[7] }));
+  placeLine({ line }, curve);
+  if (chip) stand(chip, round(at.x), round(at.y));
+}
+
+/** Places only what is seen of the line. */
+export function placeLine({ line }, curve) {
+  const [, stroke, head] = line.children;
   const { tip, base } = headOf(curve);
-  hit.setAttribute("d", pathOf(curve, { x: curve[6], y: curve[7] }));
   stroke.setAttribute("d", pathOf(curve, base));
   head.setAttribute("d", tip);
-  if (chip) stand(chip, round(at.x), round(at.y));
 }
 
 /** The path of a curve, drawn to `end` instead of its own last point. */

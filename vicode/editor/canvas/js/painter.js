@@ -1,15 +1,18 @@
 // Keeps in the DOM what is near enough to be seen, and nothing else; knows the marks on every thing.
-import { drawEdge, placeEdge } from "./edge_art.js";
+import { Carried } from "./carried.js";
+import { drawEdge, placeEdge, placeLine } from "./edge_art.js";
 import { bounds, covers, grow, overlaps, rectOf } from "./geometry.js";
 import { drawNode, placeNode } from "./node_art.js";
 import { rest } from "./standing.js";
 import { showStop } from "./stop_sign.js";
-import { svg } from "./svg.js";
+import { moveTo, svg } from "./svg.js";
 
 // Marked things stay mounted also where the overview bitmap stands for the rest, up to this many of each mark.
 export const MOST_PINNED = 150;
 const PINNED = { selected: MOST_PINNED, active: MOST_PINNED, taken: 1, drop: 1, lit: 200, held: 1500 };
 
+// So many edges look for a good way, and a place for their label, whenever a hand moves; with more it would stutter.
+const MOST_CAREFUL = 40;
 const MOST_MOUNTED = 2500;
 // So far arrows may bow, and boxes be dragged, beyond what was there before.
 const GROUND = 1000;
@@ -37,6 +40,7 @@ export class Painter {
     this.sheets = SHEETS.map((names, index) => svg("svg", { role: "presentation" }, [this.grounds[index], ...names.map((name) => this.layers[name])]));
     this.sheets[0].prepend(hatching());
     this.twins = new Map(TWINS.flatMap((pair) => [pair, pair.toReversed()]).map((pair) => pair.map((name) => this.layers[name])));
+    this.carried = new Carried(TWINS.map(([, held]) => this.layers[held]));
     this.covered = null;
     this.ground = null;
     this.far = false;
@@ -107,15 +111,39 @@ export class Painter {
 
   /** Follows nodes that are being moved, with the edges at them. */
   follow(nodeKeys) {
-    this.revision += 1;
+    this.#placeNodes(nodeKeys);
     this.router.isHasty = true;
-    for (const key of nodeKeys) {
-      const item = this.items.get(key);
-      if (item) placeNode(item.node, this.scene.nodes.get(key));
-      this.router.forgetAround(key);
-    }
-    this.#placeEdges(nodeKeys);
+    const edges = this.#loose(nodeKeys);
+    for (const edge of edges) this.router.forget(edge);
+    for (const edge of edges) this.#placeEdge(edge);
     this.router.isHasty = false;
+  }
+
+  /** Makes one of held nodes and the edges between them, which `carry` moves. */
+  lift(nodeKeys) {
+    const nodes = new Set(nodeKeys);
+    const inner = this.#edgesAt(nodes).filter((edge) => nodes.has(edge.source) && nodes.has(edge.target));
+    const keys = [...nodes, ...inner.map((edge) => edge.key)];
+    this.carried.lift(new Map(keys.filter((key) => this.items.has(key)).map((key) => [key, this.items.get(key)])));
+  }
+
+  /** Follows nodes that moved `by` since they were lifted. Edges to others are led anew, many of them without labels. */
+  carry(nodeKeys, by) {
+    this.carried.move(by);
+    const edges = this.#loose(nodeKeys);
+    const isRough = edges.length > MOST_CAREFUL;
+    this.layers["held chips"].classList.toggle("rough", isRough);
+    if (!isRough) return this.follow(nodeKeys);
+    this.#placeNodes(nodeKeys);
+    for (const [key, curve] of this.router.rough(edges)) if (this.items.has(key)) placeLine(this.items.get(key), curve);
+  }
+
+  /** Ends carrying: what was carried stands where the scene has it, and its edges are routed by `tidy`. */
+  putDown(nodeKeys) {
+    this.carried.putDown();
+    this.layers["held chips"].classList.remove("rough");
+    this.#placeNodes(nodeKeys);
+    for (const edge of this.#edgesAt(nodeKeys)) this.router.hasty.add(edge.key);
   }
 
   /** The hand let go: labels that were placed in haste look for the best places; boxes left or came to some rectangles. */
@@ -214,12 +242,28 @@ export class Painter {
     if (!item) return;
     for (const part of Object.values(item)) part?.remove();
     this.items.delete(key);
+    if (this.carried.drop(key) && item.line) this.router.drop(key);
+  }
+
+  #placeNodes(nodeKeys) {
+    this.revision += 1;
+    for (const key of nodeKeys) {
+      const item = this.items.get(key);
+      if (item && !this.carried.has(key)) placeNode(item.node, this.scene.nodes.get(key));
+    }
   }
 
   #placeEdges(nodeKeys) {
-    const edges = new Set();
-    for (const key of nodeKeys) for (const edge of this.scene.edgesOf(key)) edges.add(edge);
-    for (const edge of edges) this.#placeEdge(edge);
+    for (const edge of this.#loose(nodeKeys)) this.#placeEdge(edge);
+  }
+
+  /** The edges at nodes that are not carried. */
+  #loose(nodeKeys) {
+    return this.#edgesAt(nodeKeys).filter((edge) => !this.carried.has(edge.key));
+  }
+
+  #edgesAt(nodeKeys) {
+    return [...new Set([...nodeKeys].flatMap((key) => this.scene.edgesOf(key)))];
   }
 
   #placeEdge(edge) {
@@ -266,11 +310,4 @@ function hatching() {
   const names = { id: "hatch", width: 8, height: 8, patternUnits: "userSpaceOnUse", patternTransform: "rotate(45)" };
   const parts = [svg("rect", { class: "hatch-ground", width: 8, height: 8 }), svg("path", { class: "hatch-line", d: "M0 0V8" })];
   return svg("defs", {}, [svg("pattern", names, parts)]);
-}
-
-/** In front of all others of a layer. Moving an element takes the focus away from it; it is given back. */
-function moveTo(part, layer) {
-  const focused = part.getRootNode().activeElement === part;
-  layer.append(part);
-  if (focused) part.focus({ preventScroll: true });
 }

@@ -3,7 +3,7 @@ import { Grid } from "./grid.js";
 import { bounds, crosses, curveBounds, grow, lengthOf, overlaps, pointAt, pointsOf, rectAround, rectOf } from "./geometry.js";
 import { chipOf, labelAt, placeLabel, shorterChips } from "./labels.js";
 import { LINKS, pairOf } from "./scene.js";
-import { fan, loops, readingOrder } from "./ways.js";
+import { fan, loops, readingOrder, straightFan } from "./ways.js";
 
 // What a label would hide, dearer first. A place farther along its line costs less than hiding a line.
 const COST = { box: 12, label: 8, line: 1.4, link: 0.7 };
@@ -32,6 +32,20 @@ export class Router {
     if (!this.routes.has(edge.key)) this.#plan();
     if (!this.routes.has(edge.key)) this.#label(edge);
     return this.routes.get(edge.key);
+  }
+
+  /** Straight curves, as `[key, curve]`, for edges that hands pull along with many others; they want a second look then. */
+  rough(edges) {
+    const pairs = new Set(edges.map((edge) => this.scene.isDrawable(edge) && pairOf(edge)));
+    pairs.delete(false);
+    for (const edge of edges) {
+      this.forget(edge);
+      this.hasty.add(edge.key);
+    }
+    return [...pairs].flatMap((pair) => {
+      const { edges: lanes, curves } = this.#curves(pair, straightFan);
+      return lanes.map(({ key }, index) => [key, curves[index]]);
+    });
   }
 
   /** The curve alone, which needs no neighbours. */
@@ -82,17 +96,21 @@ export class Router {
   }
 
   #routePair(pair) {
-    const edges = this.#lanes(pair);
-    const [{ source, target }] = edges;
-    const [from, to] = [this.scene.nodes.get(source), this.scene.nodes.get(target)];
-    const chips = edges.map((edge) => chipOf(edge, from, to, edges.length));
-    const curves = (source === target ? loops : fan)(edges, chips, this.scene);
+    const { edges, chips, curves } = this.#curves(pair, fan);
     edges.forEach(({ key }, index) => {
       const length = lengthOf(curves[index]);
       const way = { curve: curves[index], chip: chips[index], length, points: pointsOf(curves[index], length) };
       this.ways.set(key, way);
       this.lines.putPath(key, way.points);
     });
+  }
+
+  #curves(pair, spread) {
+    const edges = this.#lanes(pair);
+    const [{ source, target }] = edges;
+    const [from, to] = [this.scene.nodes.get(source), this.scene.nodes.get(target)];
+    const chips = edges.map((edge) => chipOf(edge, from, to, edges.length));
+    return { edges, chips, curves: (source === target ? loops : spread)(edges, chips, this.scene) };
   }
 
   /** The shown edges of a pair as they are read: those to the right or downwards first, each way by its order in the design. */

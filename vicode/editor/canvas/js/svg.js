@@ -19,3 +19,10 @@ function fill(element, attributes, children) {
   element.append(...children);
   return element;
 }
+
+/** In front of all others of a layer. Moving an element takes the focus away from it; it is given back. */
+export function moveTo(part, layer) {
+  const focused = part.getRootNode().activeElement === part;
+  layer.append(part);
+  if (focused) part.focus({ preventScroll: true });
+}

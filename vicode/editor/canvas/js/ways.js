@@ -19,20 +19,27 @@ const SIDES = [
 
 /** Curves for edges between two nodes, in lane order; `chips` are their labels, which the lanes make room for. */
 export function fan(edges, chips, scene) {
-  const [a, b] = [scene.nodes.get(edges[0].source), scene.nodes.get(edges[0].target)];
-  const [from, to] = readingOrder(a, b);
-  const pair = { from, to, normal: normalOf(from, to) };
-  const lanes = lanesOf(chips, pair.normal);
+  const { pair, bent } = lanesBetween(edges, chips, scene);
   let best = null;
   for (const bow of BOWS) {
     for (const flat of Math.abs(bow) < FLAT_FROM ? [false] : [false, true]) {
-      const curves = edges.map((edge, index) => bend(edge, pair, { lane: lanes[index], bow, flat }));
+      const curves = bent(bow, flat);
       const blocked = curves.reduce((sum, curve) => sum + boxesUnder(curve, pair, scene), 0);
       if (!best || blocked < best.blocked) best = { curves, blocked };
       if (blocked === 0) return curves;
     }
   }
   return best.curves;
+}
+
+/** The same without a look at boxes in the way: straight, but for what lanes need. */
+export const straightFan = (edges, chips, scene) => lanesBetween(edges, chips, scene).bent(0, false);
+
+function lanesBetween(edges, chips, scene) {
+  const [from, to] = readingOrder(scene.nodes.get(edges[0].source), scene.nodes.get(edges[0].target));
+  const pair = { from, to, normal: normalOf(from, to) };
+  const lanes = lanesOf(chips, pair.normal);
+  return { pair, bent: (bow, flat) => edges.map((edge, index) => bend(edge, pair, { lane: lanes[index], bow, flat })) };
 }
 
 /** Self loops take the freest sides; further ones grow around the first. */
