@@ -105,6 +105,11 @@ def seal(text: str, source: str, comment: str = "#") -> str:
     return f"{comment} {SIGNATURE} from {shown} (seal {_seal_of(text, comment)}). {edit}\n{text}"
 
 
+def comment_of(path: str) -> str:
+    """What begins a comment in a generated file."""
+    return "#" if path.endswith(".py") else "//"
+
+
 def is_sealed(text: str) -> bool:
     """Whether a text carries our first line; without it a person wrote it."""
     return SIGNATURE in text.split("\n", 1)[0]

@@ -5,7 +5,19 @@ Nothing here raises, and no code of a project is run or imported.
 
 from collections.abc import Collection
 
-from vicode.check import code, decisions, declarations, expressions, names, project, states, stepping, uses
+from vicode.check import (
+    code,
+    decisions,
+    declarations,
+    expressions,
+    names,
+    project,
+    states,
+    stepping,
+    uses,
+    xabsl,
+    xabsl_project,
+)
 from vicode.check.context import Context, context_of
 from vicode.check.graphs import Graphs, graphs_of
 from vicode.findings import Finding
@@ -14,7 +26,7 @@ from vicode.model.project import Project
 
 __all__ = ["DESIGN_RULES", "PROJECT_RULES", "Context", "check_design", "check_project"]
 
-PROJECT_RULES = project.RULES
+PROJECT_RULES = (*project.RULES, *xabsl_project.RULES)
 DESIGN_RULES = (
     *names.RULES,
     *declarations.RULES,
@@ -24,6 +36,7 @@ DESIGN_RULES = (
     *expressions.RULES,
     *stepping.RULES,
     *code.RULES,
+    *xabsl.RULES,
 )
 
 

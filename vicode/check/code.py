@@ -24,7 +24,7 @@ def find_unparsable_code(context: Context) -> Iterator[Finding]:
         problem = python_problem(text, placed.role) if text else None
         if problem is not None:
             message, span = problem
-            yield context.find("D412", (*placed.path, "python"), message, span=span)
+            yield context.find("D412", (*placed.path, "python"), message, span=span, languages=("python",))
 
 
 def find_missing_languages(context: Context) -> Iterator[Finding]:
@@ -36,7 +36,8 @@ def find_missing_languages(context: Context) -> Iterator[Finding]:
         ]
         if missing and placed.role in ("action", "predicate"):
             names = " and ".join(missing)
-            yield context.find("D414", placed.path, f"this code is not written in {names}", f"add it in {names}")
+            message, mend = f"this code is not written in {names}", f"add it in {names}"
+            yield context.find("D414", placed.path, message, mend, languages=tuple(missing))
 
 
 def find_unknown_languages(context: Context) -> Iterator[Finding]:
@@ -58,7 +59,8 @@ def find_empty_predicates(context: Context) -> Iterator[Finding]:
             if not _without_remarks(text, language).strip():
                 path = (*placed.path, language)
                 mend = "return a condition, or delete 'code' to leave the decision without one"
-                yield context.find("D415", path, "this predicate has no code, so it never holds", mend)
+                message = "this predicate has no code, so it never holds"
+                yield context.find("D415", path, message, mend, languages=(language,))
 
 
 @lru_cache(maxsize=20_000)

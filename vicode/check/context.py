@@ -46,10 +46,12 @@ class Context:
         span: Span | None = None,
         of_key: bool = False,
         notes: Iterable[Note] = (),
+        languages: tuple[str, ...] = (),
     ) -> Finding:
-        """A finding about a thing of this design."""
+        """A finding about a thing of this design, in the way of all languages or of these."""
         thing = self.thing(path, span, of_key=of_key)
-        return Finding(rule=rule(code), message=message, mend=mend, thing=thing, notes=tuple(notes))
+        finding = Finding(rule=rule(code), message=message, mend=mend, thing=thing, notes=tuple(notes))
+        return replace(finding, languages=languages) if languages else finding
 
 
 def context_of(project: Project, design: Design, graphs: Graphs | None = None) -> Context:

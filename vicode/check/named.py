@@ -108,10 +108,15 @@ def _reserved_problem(named: Named) -> Problem | None:
     return None
 
 
-def _keyword_problem(named: Named, languages: tuple[str, ...]) -> Problem | None:
+def keyword_languages(named: Named, languages: tuple[str, ...]) -> tuple[str, ...]:
+    """The languages that keep a name for themselves."""
     # In Python a state's name only ever stands in a string or behind a prefix, an agent's never in code.
     spared = {"state": {"python"}, "agent": set(KEYWORDS)}.get(named.what, set())
-    guilty = [each for each in languages if each not in spared and named.name in KEYWORDS.get(each, ())]
+    return tuple(each for each in languages if each not in spared and named.name in KEYWORDS.get(each, ()))
+
+
+def _keyword_problem(named: Named, languages: tuple[str, ...]) -> Problem | None:
+    guilty = keyword_languages(named, languages)
     if not guilty:
         return None
     shown = " and ".join(SHOWN[each] for each in guilty)

@@ -3,7 +3,7 @@
 from collections.abc import Iterable, Iterator
 
 from vicode.check.context import Context
-from vicode.check.named import Named, name_problem, names_of_design, names_of_project, with_article
+from vicode.check.named import Named, keyword_languages, name_problem, names_of_design, names_of_project, with_article
 from vicode.findings import Finding, Note, Path, Thing
 from vicode.model.design import RunCode
 from vicode.model.names import is_state_name
@@ -15,7 +15,8 @@ def find_bad_names(context: Context) -> Iterator[Finding]:
         problem = name_problem(named, context.project.languages)
         if problem:
             code, message, mend = problem
-            yield context.find(code, named.path, message, mend, of_key=named.of_key)
+            languages = keyword_languages(named, context.project.languages) if code == "D406" else ()
+            yield context.find(code, named.path, message, mend, of_key=named.of_key, languages=languages)
 
 
 def find_duplicate_names(context: Context) -> Iterator[Finding]:

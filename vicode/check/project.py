@@ -9,7 +9,7 @@ from dataclasses import replace
 
 from vicode.check.declarations import declaration_problems, range_problem
 from vicode.check.expressions import changing_parts
-from vicode.check.named import Named, name_problem, names_of_project, with_article
+from vicode.check.named import Named, keyword_languages, name_problem, names_of_project, with_article
 from vicode.check.readings import Expression, Reader, literal_value, plain_reader, read_first_values, reader_of
 from vicode.findings import Finding, Note, Path, Span, Thing, did_you_mean, rule
 from vicode.model.design import Declaration
@@ -25,7 +25,8 @@ def find_unusable_project_names(project: Project) -> Iterator[Finding]:
     reason = _unusable_because(project) if "python" in project.languages else ""
     if reason:
         message = f"the package '{_package_of(project)}' of this project {reason}"
-        yield _find("P208", ("project",), message, "give another name with 'project:' in project.yaml")
+        mend = "give another name with 'project:' in project.yaml"
+        yield replace(_find("P208", ("project",), message, mend), languages=("python",))
 
 
 def _unusable_because(project: Project) -> str:
@@ -52,7 +53,8 @@ def find_bad_names(project: Project) -> Iterator[Finding]:
         problem = name_problem(named, project.languages)
         if problem:
             code, message, mend = problem
-            yield _find(code, named.path, message, mend, of_key=True)
+            languages = keyword_languages(named, project.languages) if code == "D406" else ()
+            yield replace(_find(code, named.path, message, mend, of_key=True), languages=languages)
 
 
 def find_duplicate_names(project: Project) -> Iterator[Finding]:

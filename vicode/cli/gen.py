@@ -87,20 +87,25 @@ def _differences(opened: Opened, folder: Path, args: argparse.Namespace) -> tupl
     return tuple(difference for difference in compared if difference.status not in spared)
 
 
-def _files(opened: Opened, args: argparse.Namespace) -> "tuple[OutputFile, ...]":
-    from vicode.generators import generate
+def _files(opened: Opened, args: argparse.Namespace) -> "list[OutputFile]":
+    """What is to be: of each language all designs that nothing stands in the way of."""
+    from vicode.generators import GENERATORS, generate
 
-    wanted = [name for name in opened.meant if name not in opened.faulty]
-    if not wanted:
-        return ()
-    return generate(
-        opened.opened.project,
-        components=wanted,
-        leave_out=opened.faulty,
-        languages=args.language,
-        standalone=args.standalone,
-        sources=opened.sources,
-    )
+    project = opened.opened.project
+    files: list[OutputFile] = []
+    for language in GENERATORS:
+        faulty = opened.faulty_in(language)
+        wanted = [name for name in opened.meant if name not in faulty]
+        if wanted and language in (args.language or project.languages):
+            files += generate(
+                project,
+                components=wanted,
+                leave_out=faulty,
+                languages=(language,),
+                standalone=args.standalone,
+                sources=opened.sources,
+            )
+    return files
 
 
 def _write(differences: tuple[Difference, ...], folder: Path, *, is_forced: bool) -> int:

@@ -29,11 +29,14 @@ class Opened:
         designs = (design.component for design in self.opened.project.designs)
         return tuple(name for name in designs if self.components is None or name in self.components)
 
-    @property
-    def faulty(self) -> frozenset[str]:
-        """Components that nothing can be generated for; mistakes in project.yaml make all of them so."""
-        guilty = {self._owner(finding) for finding in self.findings if finding.severity is Severity.ERROR}
+    def faulty_in(self, language: str) -> frozenset[str]:
+        """Components that nothing can be generated for in a language; mistakes in project.yaml make all of them so."""
+        guilty = {self._owner(finding) for finding in self.errors_in(language)}
         return frozenset(self.opened.files) if "" in guilty else frozenset(guilty)
+
+    def errors_in(self, language: str) -> tuple[Finding, ...]:
+        """What stands in the way of generating in a language."""
+        return tuple(each for each in self.findings if each.severity is Severity.ERROR and each.concerns(language))
 
     @property
     def sources(self) -> dict[str, str]:

@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING
 from vicode.bica import options
 from vicode.cli.opening import Opened, open_paths
 from vicode.cli.printing import print_findings
-from vicode.findings import Severity
 
 if TYPE_CHECKING:
     from vicode.cli.watching import Watcher
@@ -46,7 +45,7 @@ def run(args: argparse.Namespace) -> int:
         print(f"vicode: {args.path}: there are {len(projects)} projects, name a design", file=sys.stderr)
         return 2
     opened = projects[0]
-    errors = [finding for finding in opened.findings if finding.severity is Severity.ERROR]
+    errors = opened.errors_in("python")
     if errors:
         print_findings(errors, to_stderr=True)
         return 1

@@ -78,6 +78,11 @@ _ERRORS = {
     "D415": ("empty-code", "a predicate without code"),
     "D416": ("bad-frequency", "a frequency that is not above 0"),
     "D418": ("disabled-initial-state", "an initial state that is disabled"),
+    # What a language of the project cannot say
+    "L701": ("not-in-xabsl", "something that XABSL cannot say"),
+    "L702": ("other-result-in-xabsl", "an expression that gives another result in XABSL"),
+    "L703": ("bad-xabsl-name", "a name that XABSL cannot have, or that two things would have there"),
+    "L704": ("code-is-not-xabsl", "code in XABSL that its parser refuses"),
     # Generated files
     "G501": ("edited-outside", "a generated file whose code was edited by hand"),
     "G502": ("stale-output", "a generated file that is not what the design gives"),

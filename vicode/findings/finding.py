@@ -46,7 +46,8 @@ class Note:
 class Finding:
     """A rule broken by one thing.
 
-    `message` says what is wrong, `mend` how to put it right, both in the user's words.
+    `message` says what is wrong, `mend` how to put it right, both in the user's words. With `languages` it stands in
+    the way of generating those alone.
     """
 
     rule: Rule
@@ -55,6 +56,11 @@ class Finding:
     thing: Thing | None = None
     place: Place | None = None
     notes: tuple[Note, ...] = ()
+    languages: tuple[str, ...] = ()
+
+    def concerns(self, language: str) -> bool:
+        """Whether it says something of what is generated in a language."""
+        return not self.languages or language in self.languages
 
     @property
     def severity(self) -> Severity:

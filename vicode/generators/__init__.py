@@ -3,6 +3,7 @@
 from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass
 
+from vicode.generators import xabsl
 from vicode.generators.origins import Origin, in_whole_design
 from vicode.generators.plan import (
     ComponentPlan,
@@ -51,6 +52,12 @@ class Generator:
 GENERATORS: Mapping[str, Generator] = {
     "python": Generator(
         write=generate_python, list_paths=list_paths, reserved_modules=RESERVED_MODULES, find_origins=find_origins
+    ),
+    "xabsl": Generator(
+        write=xabsl.generate_xabsl,
+        list_paths=xabsl.list_paths,
+        reserved_modules=xabsl.RESERVED_MODULES,
+        find_origins=xabsl.find_origins,
     ),
 }
 

@@ -4,33 +4,30 @@ from collections.abc import Iterable, Iterator
 
 from vicode.findings import Finding, Place, rule
 from vicode.output import Difference, Status
-from vicode.regions import Region, checksum_of, find, is_edited, is_sealed, is_touched, without_bodies
+from vicode.regions import Region, checksum_of, comment_of, find, is_edited, is_sealed, is_touched, without_bodies
 
 _MEND = "take it over into the design, or generate with --force: the file is then kept as {name}.edited"
 
 
-def find_hand_edits(differences: Iterable[Difference], *, shown: str = "", comment: str = "#") -> tuple[Finding, ...]:
+def find_hand_edits(differences: Iterable[Difference], *, shown: str = "") -> tuple[Finding, ...]:
     """What would be lost; the arguments are those of `find_edits_by_file`."""
-    by_file = find_edits_by_file(differences, shown=shown, comment=comment)
+    by_file = find_edits_by_file(differences, shown=shown)
     return tuple(finding for findings in by_file.values() for finding in findings)
 
 
-def find_edits_by_file(
-    differences: Iterable[Difference], *, shown: str = "", comment: str = "#"
-) -> dict[str, tuple[Finding, ...]]:
+def find_edits_by_file(differences: Iterable[Difference], *, shown: str = "") -> dict[str, tuple[Finding, ...]]:
     """What would be lost, by the path of the file; files that lose nothing are not in it.
 
     Args:
         differences: Files on disk and the texts to replace them.
         shown: How people call the folder that they are in.
-        comment: What begins a comment in their language.
     """
     found: dict[str, tuple[Finding, ...]] = {}
     for difference in differences:
         if difference.old is None or difference.status is Status.UNCHANGED:
             continue
         file = f"{shown}/{difference.path}" if shown else difference.path
-        findings = tuple(_edits_of(difference.old, difference.new or "", file, comment))
+        findings = tuple(_edits_of(difference.old, difference.new or "", file, comment_of(difference.path)))
         if findings:
             found[difference.path] = findings
     return found

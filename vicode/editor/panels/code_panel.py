@@ -12,7 +12,8 @@ from vicode.editor.session import preview
 from vicode.editor.session.preview import Preview, PreviewFile
 from vicode.editor.view import Selected
 
-_SHOWN_LANGUAGE: dict[str, SUPPORTED_LANGUAGES] = {"python": "Python", "cpp": "C++"}
+_SHOWN_LANGUAGE: dict[str, SUPPORTED_LANGUAGES] = {"python": "Python", "cpp": "C++", "xabsl": "C"}
+"""How code is coloured; of what the editor knows C is next to XABSL."""
 
 
 class CodePanel:

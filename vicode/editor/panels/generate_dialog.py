@@ -36,6 +36,8 @@ def ask_before_writing(prepared: Prepared, component: str, write: Callable[[bool
         ui.label(f"{_count(len(changes))} in {prepared.folder.name}/{rest}.").classes("small")
         with ui.element("div").classes("generate-files"):
             _files(prepared, changes)
+        if prepared.spared:
+            ui.label(prepared.spared).classes("field-finding")
         for path, findings in prepared.edits.items():
             for finding in findings[:3]:
                 ui.label(f"{path}: {finding.message}").classes("field-finding")

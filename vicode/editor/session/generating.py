@@ -1,6 +1,6 @@
 """What the button Generate does: checks, generates, shows what would change, guards what was edited by hand, writes."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -32,10 +32,14 @@ class Job:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Prepared:
-    """What would be written into a folder; `refused` says why nothing would, `edits` what a person edited there."""
+    """What would be written into a folder; `refused` says why nothing would, `edits` what a person edited there.
+
+    `spared` says why a language is left out where others are not.
+    """
 
     folder: Path
     refused: str = ""
+    spared: str = ""
     differences: tuple[Difference, ...] = ()
     edits: Mapping[str, tuple[Finding, ...]]
 
@@ -51,20 +55,29 @@ def prepare(folder: Path, job: Job, component: str) -> Prepared:
     Raises:
         OSError: A file cannot be read.
     """
-    from vicode.generators import collect_components, generate, list_outputs  # noqa: PLC0415 - not for the first page
+    from vicode.generators import GENERATORS, collect_components, generate, list_outputs  # noqa: PLC0415 - later
 
     project = job.project
     wanted = collect_components(project, (component,))
     read = [finding for name in ("", *wanted) for finding in job.reading.get(name, ())]
     errors = [each for each in (*read, *check_project(project, wanted)) if each.severity is Severity.ERROR]
-    if errors:
-        first = errors[0]
-        where = f"{first.thing.component}: " if first.thing and first.thing.component != component else ""
-        more = f" (and {len(errors) - 1} more)" if len(errors) > 1 else ""
-        return Prepared(folder=folder, refused=f"Nothing generated. {where}{first.message}{more}", edits={})
-    files = generate(project, components=(component,), sources=job.sources)
+    languages = [each for each in GENERATORS if each in project.languages]
+    sound = [each for each in languages if not any(error.concerns(each) for error in errors)]
+    reason = _reason(errors, component) if errors else ""
+    if errors and not sound:
+        return Prepared(folder=folder, refused=f"Nothing generated. {reason}", edits={})
+    files = generate(project, components=(component,), languages=sound, sources=job.sources)
     differences = compare(files, folder, keep=list_outputs(project), is_ours=is_sealed)
-    return Prepared(folder=folder, differences=differences, edits=find_edits_by_file(differences))
+    left_out = [each for each in languages if each not in sound]
+    spared = f"Nothing generated for {' and '.join(left_out)}. {reason}" if left_out else ""
+    return Prepared(folder=folder, spared=spared, differences=differences, edits=find_edits_by_file(differences))
+
+
+def _reason(errors: Sequence[Finding], component: str) -> str:
+    first = errors[0]
+    where = f"{first.thing.component}: " if first.thing and first.thing.component != component else ""
+    more = f" (and {len(errors) - 1} more)" if len(errors) > 1 else ""
+    return f"{where}{first.message}{more}"
 
 
 def write(prepared: Prepared, *, is_forced: bool = False) -> Generated:
@@ -81,7 +94,9 @@ def write(prepared: Prepared, *, is_forced: bool = False) -> Generated:
     for path in prepared.edits:
         set_aside(prepared.folder / path)
     touched = apply(prepared.differences, prepared.folder)
-    if not touched:
-        return Generated(words=f"Generated code in {prepared.folder.name} is up to date", is_sound=True)
-    names = ", ".join(path.name for path in touched[:4]) + (", …" if len(touched) > 4 else "")
-    return Generated(words=f"Generated {names} in {touched[0].parent}", is_sound=True, files=touched)
+    words = f"Generated code in {prepared.folder.name} is up to date"
+    if touched:
+        names = ", ".join(path.name for path in touched[:4]) + (", …" if len(touched) > 4 else "")
+        words = f"Generated {names} in {touched[0].parent}"
+    words = f"{words}. {prepared.spared}" if prepared.spared else words
+    return Generated(words=words, is_sound=not prepared.spared, files=touched)

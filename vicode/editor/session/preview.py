@@ -9,7 +9,7 @@ from vicode.generators import GENERATORS, Origin, UnsoundDesignError, generate, 
 from vicode.model.design import Design
 from vicode.model.project import Project
 from vicode.output import OutputFile
-from vicode.regions import checksum_of, find, is_edited, is_sealed
+from vicode.regions import checksum_of, comment_of, find, is_edited, is_sealed
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -36,13 +36,13 @@ class PreviewFile:
 
     def edited_lines(self) -> tuple[int, ...]:
         """The lines of the regions that are another text on disk."""
-        regions = (region for region in find(self.text).regions if region.id in self.edited)
+        regions = (region for region in find(self.text, comment_of(self.path)).regions if region.id in self.edited)
         return tuple(line for region in regions for line in range(region.line, region.end_line + 1))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Preview:
-    """The files to choose from, the component's own first; `note` says why there are none."""
+    """The files to choose from, the component's own first; `note` says why there are none, or none of a language."""
 
     note: str = ""
     files: tuple[PreviewFile, ...] = field(default=())
@@ -62,11 +62,16 @@ def preview_of(project: Project, design: Design, sources: Mapping[str, str], fol
     languages = [language for language in GENERATORS if language in project.languages]
     if not languages:
         return Preview(note=f"No code: this project generates {', '.join(project.languages) or 'nothing'}")
-    try:
-        files = [file for language in languages for file in _files(whole, design.component, language, sources)]
-    except UnsoundDesignError as error:
-        return Preview(note=f"No code yet: {error}")
-    return Preview(files=tuple(replace(file, edited=_edited(file, folder)) if folder else file for file in files))
+    files: list[PreviewFile] = []
+    notes: list[str] = []
+    for language in languages:
+        try:
+            files += _files(whole, design.component, language, sources)
+        except UnsoundDesignError as error:
+            which = f" for {language}" if len(languages) > 1 else ""
+            notes.append(f"No code{which} yet: {error}")
+    edited = (replace(file, edited=_edited(file, folder)) if folder else file for file in files)
+    return Preview(note="; ".join(dict.fromkeys(notes)), files=tuple(edited))
 
 
 def _files(project: Project, component: str, language: str, sources: Mapping[str, str]) -> list[PreviewFile]:
@@ -96,9 +101,9 @@ def _edited(file: PreviewFile, folder: Path) -> tuple[str, ...]:
         return ()
     if not is_sealed(old):
         return ()
-    fresh = {region.id: checksum_of(region.body) for region in find(file.text).regions}
+    fresh = {region.id: checksum_of(region.body) for region in find(file.text, comment_of(file.path)).regions}
     return tuple(
         region.id
-        for region in find(old).regions
+        for region in find(old, comment_of(file.path)).regions
         if is_edited(region) and checksum_of(region.body) != fresh.get(region.id)
     )

@@ -71,6 +71,8 @@ def plan_component(project: Project, design: Design, modules: Mapping[str, str],
     stems = Names()
     states = [initial, *(state for state in design.states if state is not initial)]
     return ComponentPlan(
+        project=project,
+        design=design,
         component=design.component,
         module=modules[design.component],
         source=source,

@@ -25,6 +25,7 @@ def plan_project(
     package = plan_package(project, reserved)
     constants = plan_values(project.constants, scope_of(project, None))
     return ProjectPlan(
+        project=project,
         name=project.name,
         doc=project.doc,
         package=package,
@@ -45,6 +46,7 @@ def plan_package(project: Project, reserved: frozenset[str]) -> PackagePlan:
     names = Names(reserved)
     components = sorted(design.component for design in project.designs)
     return PackagePlan(
+        project=project,
         package=package_of(project.name),
         modules={component: names.give(stem_of(component)) for component in components},
         has_declarations=bool(project.enumerations or project.constants),

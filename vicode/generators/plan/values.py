@@ -4,9 +4,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from vicode.findings import Path
-from vicode.model.design import Code
+from vicode.model.design import Code, Design
 from vicode.model.expressions import Node
-from vicode.model.project import Enumeration
+from vicode.model.project import Enumeration, Project
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -190,9 +190,11 @@ class ComponentPlan:
     """One component: the initial state first. `source` is the design's file, `module` the stem of what is written.
 
     `time_unit` is "s" or "ms": what times in expressions count. `arithmetic` is "" or "xabsl". `asks_done` is set
-    where an expression says `action_done`.
+    where an expression says `action_done`. `design` is what works of the design, in its `project`.
     """
 
+    project: Project
+    design: Design
     component: str
     module: str
     source: str
@@ -220,6 +222,7 @@ class PackagePlan:
     `interfaces` are the components that one module more holds, since vicode writes them without a design.
     """
 
+    project: Project
     package: str
     modules: Mapping[str, str]
     has_declarations: bool
@@ -233,6 +236,7 @@ class ProjectPlan:
     A constant in `never_zero` may stand below a line without care.
     """
 
+    project: Project
     name: str
     doc: str
     package: PackagePlan

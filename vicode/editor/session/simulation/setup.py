@@ -126,7 +126,8 @@ def meaning_of(project: Project, design: Design) -> object:
 
 
 def _refuse_mistakes(project: Project, components: frozenset[str]) -> None:
-    errors = [each for each in check_project(project, components) if each.severity is Severity.ERROR]
+    found = check_project(project, components)
+    errors = [each for each in found if each.severity is Severity.ERROR and each.concerns("python")]
     if errors:
         first = errors[0]
         where = f"{first.thing.component}: " if first.thing and first.thing.component else ""

@@ -1,0 +1,137 @@
+"""What constants and first values come to, computed before anything runs."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+
+from vicode.bica import arithmetic
+from vicode.model.expressions import (
+    UNKNOWN,
+    Apply,
+    Binary,
+    Choice,
+    Comparison,
+    Element,
+    Logic,
+    Minus,
+    Node,
+    Not,
+    Number,
+    Scope,
+    Truth,
+    Variable,
+    parse_expression,
+    scope_of,
+)
+from vicode.model.project import Project
+
+Value = bool | float | str
+"""A truth, a number, or the name of an element."""
+
+_SAME_NAME = (
+    *("clamp", "sign", "floor", "ceil", "sqrt", "exp", "log", "is_nan", "sin", "cos", "tan", "asin", "acos", "atan"),
+    *("atan2", "hypot", "degrees", "radians"),
+)
+_FUNCTIONS: Mapping[str, Callable[..., float]] = {
+    **{name: getattr(arithmetic, name) for name in _SAME_NAME},
+    "abs": abs,
+    "float": float,
+    "min": arithmetic.minimum,
+    "max": arithmetic.maximum,
+    "int": arithmetic.to_int,
+    "round": arithmetic.round_half_even,
+}
+_ARITHMETIC: Mapping[str, Callable[[float, float], float]] = {
+    "+": lambda a, b: a + b,
+    "-": lambda a, b: a - b,
+    "*": lambda a, b: a * b,
+    "/": arithmetic.divide,
+    "//": arithmetic.floor_divide,
+    "%": arithmetic.modulo,
+}
+_ORDER: Mapping[str, Callable[[float, float], bool]] = {
+    "<": lambda a, b: a < b,
+    "<=": lambda a, b: a <= b,
+    ">": lambda a, b: a > b,
+    ">=": lambda a, b: a >= b,
+    "==": lambda a, b: a == b,
+    "!=": lambda a, b: a != b,
+}
+
+
+def constant_values(project: Project) -> dict[str, Value]:
+    """The value of each constant, which may be made from those before it; those with mistakes are left out."""
+    values: dict[str, Value] = {}
+    for index, constant in enumerate(project.constants):
+        scope = scope_of(replace(project, constants=project.constants[:index]), None)
+        value = first_value(constant.initial, scope.type_of(constant), scope, values)
+        if value is not None:
+            values[constant.name] = value
+    return values
+
+
+def first_value(text: str, type_: str, scope: Scope, constants: Mapping[str, Value]) -> Value | None:
+    """The value of an expression; of an empty one false, 0 or the first element; None where it is not known."""
+    if not text:
+        return zero_of(type_, scope)
+    parsed = parse_expression(text, scope, type_)
+    return None if parsed.tree is None or parsed.mistakes else value_of(parsed.tree, constants)
+
+
+def zero_of(type_: str, scope: Scope) -> Value | None:
+    """What a value of a type is where nothing was said: false, 0 or the first element."""
+    if type_ in scope.enumerations:
+        return next(iter(scope.enumerations[type_]), None)
+    return None if type_ == UNKNOWN else False if type_ == "bool" else 0.0
+
+
+def value_of(node: Node, constants: Mapping[str, Value]) -> Value | None:
+    """What a tree of literals and constants comes to, None where that is known only when it runs."""
+    match node:
+        case Number(value=value) | Truth(value=value):
+            return value
+        case Element(element=element):
+            return element
+        case Variable(name=name, kind="constant"):
+            return constants.get(name)
+        case Choice(test=test, then=then, otherwise=otherwise):
+            chosen = value_of(test, constants)
+            return None if chosen is None else value_of(then if chosen else otherwise, constants)
+        case _:
+            return _compute(node, constants)
+
+
+def _compute(node: Node, constants: Mapping[str, Value]) -> Value | None:
+    """The value of an operation on values."""
+    match node:
+        case Not(operand=operand):
+            value = value_of(operand, constants)
+            return None if value is None else not value
+        case Minus(operand=operand):
+            value = value_of(operand, constants)
+            return None if value is None or isinstance(value, str) else -value
+        case Binary(operator=operator, left=left, right=right):
+            return _apply(_ARITHMETIC[operator], (left, right), constants)
+        case Apply(function=function, arguments=arguments):
+            return _apply(_FUNCTIONS[function], arguments, constants)
+        case Comparison(operators=operators, operands=operands):
+            pairs = zip(operators, operands, operands[1:], strict=False)
+            return _all_hold([_apply(_ORDER[operator], (a, b), constants) for operator, a, b in pairs])
+        case Logic(operator=operator, operands=operands):
+            values = [value_of(operand, constants) for operand in operands]
+            return None if None in values else all(values) if operator == "and" else any(values)
+        case _:
+            return None
+
+
+def _all_hold(values: list[Value | None]) -> bool | None:
+    return None if None in values else all(values)
+
+
+def _apply(function: Callable[..., float], operands: tuple[Node, ...], constants: Mapping[str, Value]) -> Value | None:
+    values = [value_of(operand, constants) for operand in operands]
+    if None in values:
+        return None
+    try:
+        return function(*values)
+    except OverflowError:
+        return None
