@@ -22,6 +22,7 @@ WITHOUT_EXAMPLES = {"Y108", "Y110", "D416", "G501", "G502", "G503"}
 TEXT = PAGE.read_text(encoding="utf-8")
 SECTIONS = dict(SECTION.findall(TEXT + "\n##"))
 FRAME = dict(EXAMPLE.findall(TEXT.split("\n## ")[0]))
+LANGUAGES_FRAME = FRAME | dict(EXAMPLE.findall(TEXT.split("\n## L:")[1].split("\n### ")[0]))
 XABSL_FRAME = dict(EXAMPLE.findall(TEXT.split("\n## X:")[1].split("\n### ")[0]))
 # Frames are larger than examples: what they declare and give is not all used where an example replaces a file.
 REMARKS = {"X642", "X644"}
@@ -41,13 +42,13 @@ def test_a_section_begins_with_name_and_severity(rule: Rule) -> None:
 @pytest.mark.parametrize("code", sorted(set(RULES) - WITHOUT_EXAMPLES))
 def test_the_bad_example_breaks_just_this_rule(code: str, tmp_path: Path) -> None:
     assert len(EXAMPLES[code]) == 2
-    codes, shown = _check(*EXAMPLES[code][0], tmp_path)
+    codes, shown = _check(code, *EXAMPLES[code][0], tmp_path)
     assert codes - (REMARKS - {code}) == {code}, shown
 
 
 @pytest.mark.parametrize("code", sorted(set(RULES) - WITHOUT_EXAMPLES))
 def test_the_mended_example_is_clean(code: str, tmp_path: Path) -> None:
-    codes, shown = _check(*EXAMPLES[code][1], tmp_path)
+    codes, shown = _check(code, *EXAMPLES[code][1], tmp_path)
     assert not codes - (REMARKS - {code}), shown
 
 
@@ -56,11 +57,11 @@ def test_what_has_no_example_says_what_to_do(code: str) -> None:
     assert EXAMPLES[code] == []
 
 
-def _check(file: str, text: str, folder: Path) -> tuple[set[str], str]:
+def _check(code: str, file: str, text: str, folder: Path) -> tuple[set[str], str]:
     """The codes found in the page's project with an example put in, and the findings as text."""
     if file.endswith(".xabsl"):
         return _check_xabsl(file, text, folder)
-    for name, frame in FRAME.items():
+    for name, frame in (LANGUAGES_FRAME if code.startswith("L") else FRAME).items():
         content = _put_in(frame, text) if name == (file or "player.yaml") else frame
         (folder / name).write_text(content, encoding="utf-8")
     opened = open_project(folder)

@@ -138,3 +138,45 @@ def test_a_check_tells_of_an_edit_what_to_do_about_it(lamps: Path, capsys: pytes
     assert "region 'Dark.enter' was edited here" in out
     assert "--force" in out
     assert "run 'vicode gen'" not in out
+
+
+BOTH = "vicode: 1\nproject: Both\nlanguages: [python, xabsl]\n"
+ONE = "vicode: 1\ncomponent: One\ninitial: A\nstates: {A: {transitions: [{to: B, after: 1}]}, B: {final: true}}\n"
+
+
+def write_both(folder: Path) -> None:
+    folder.mkdir()
+    (folder / "project.yaml").write_text(BOTH, encoding="utf-8")
+    (folder / "one.yaml").write_text(ONE, encoding="utf-8")
+
+
+def test_two_languages_are_written_and_kept_apart(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    write_both(Path("both"))
+    assert vicode("gen", "both") == 0
+    option = Path("both/generated/xabsl/both/Options/One.xabsl")
+    assert "state_time >= 1000" in option.read_text()
+    assert Path("both/generated/python/both/one.py").exists()
+    assert vicode("gen", "both", "--check") == 0
+    assert vicode("xabsl", "check", "both/generated/xabsl/both/agents.xabsl") == 0
+    option.write_text(option.read_text().replace("1000", "2000"))
+    assert vicode("gen", "both", "--check") == 1
+    assert "One.xabsl:1:1: error G501 edited-outside" in capsys.readouterr().out
+    assert vicode("gen", "both", "--language", "python") == 0
+    assert vicode("gen", "both", "--force") == 0
+    assert "state_time >= 1000" in option.read_text()
+
+
+def test_what_one_language_cannot_say_stops_that_alone(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    write_both(Path("both"))
+    Path("both/one.yaml").write_text(ONE + "resume: true\n", encoding="utf-8")
+    assert vicode("gen", "both") == 1
+    assert "both/one.yaml:5:9: error L701 not-in-xabsl" in capsys.readouterr().err
+    assert Path("both/generated/python/both/one.py").exists()
+    assert not Path("both/generated/xabsl").exists()
+    assert vicode("run", "both/one.yaml", "--ticks", "2", "--plain") == 0

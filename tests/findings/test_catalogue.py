@@ -20,7 +20,7 @@ def test_names_are_unique() -> None:
 
 @pytest.mark.parametrize("each", RULES.values(), ids=lambda each: each.code)
 def test_a_rule_keeps_its_shape(each: Rule) -> None:
-    assert re.fullmatch(r"[YPEDGX]\d{3}", each.code)
+    assert re.fullmatch(r"[YPEDLGX]\d{3}", each.code)
     assert re.fullmatch(r"[a-z]+(-[a-z]+)*", each.name)
     assert each.summary[:1].islower() or each.summary.startswith(("YAML", "Python"))
     assert not each.summary.endswith(".")

@@ -1,6 +1,7 @@
 """Rules about what XABSL can say, for designs of projects with XABSL among their languages."""
 
 import re
+from collections import Counter
 from collections.abc import Iterator
 from functools import partial
 
@@ -11,6 +12,8 @@ from vicode.findings import Finding, Path
 from vicode.model.constants import constant_values
 from vicode.model.design import COMMON
 from vicode.model.enabling import is_working
+from vicode.model.names import is_state_name
+from vicode.model.walks import always_holds
 from vicode.model.xabsl.limits import can_ask_done, find_limits, find_root_limits
 from vicode.model.xabsl.names import component_name, plain_name, symbol_name
 from vicode.model.xabsl.sayable import Sayer, written_depth
@@ -52,21 +55,31 @@ def find_deep_decisions(context: Context) -> Iterator[Finding]:
     """L701: more decisions, one in the `else` of the other, than XABSL's parsers go down."""
     if not _is_wanted(context):
         return
-    counts: dict[str, int] = {}
-    depths: dict[str, int] = {}
+    counts = Counter(located.source for located in context.decisions)
+    guards = {
+        expression.path[:-1]: written_depth(expression.tree)
+        for expression, _state in _said_expressions(context)
+        if expression.place == Place.GUARD and expression.tree is not None
+    }
+    depths: Counter[str] = Counter()
     for located in context.decisions:
-        counts[located.source] = counts.get(located.source, 0) + 1
-    for expression, state in _said_expressions(context):
-        if expression.tree is not None and expression.is_sound and state:
-            depths[state] = max(depths.get(state, 0), written_depth(expression.tree))
+        around = zip(_paths_around(located.path, len(located.groups)), located.groups, strict=True)
+        # What does not end in a group is asked for together with what the group asks.
+        open_ = (path for path, (group, _is_then) in around if not any(map(always_holds, group.then)))
+        depth = sum(guards.get(path, 0) for path in (located.path, *open_))
+        depths[located.source] = max(depths[located.source], depth)
     for source, count in counts.items():
-        common = 0 if source == COMMON else counts.get(COMMON, 0)
-        deepest = max(depths.get(source, 0), depths.get(COMMON, 0))
-        if count + common + deepest > DEEPEST:
+        whole = count + (counts[COMMON] if source != COMMON else 0) + max(depths[source], depths[COMMON])
+        if whole > DEEPEST:
             path: Path = ("common", "transitions") if source == COMMON else ("states", source, "transitions")
             message = "in XABSL each decision stands in the else of the one before it, and these are too deep"
             mend = "put part of them into a state, or a design, of their own"
             yield context.find("L701", path, message, mend, languages=(LANGUAGE,))
+
+
+def _paths_around(path: Path, count: int) -> Iterator[Path]:
+    """The paths of the groups around a decision, the outermost first."""
+    return (path[: len(path) - 2 * level] for level in range(count, 0, -1))
 
 
 def find_bad_names(context: Context) -> Iterator[Finding]:
@@ -75,6 +88,9 @@ def find_bad_names(context: Context) -> Iterator[Finding]:
         return
     known: dict[tuple[str, str], Path] = {}
     for kind, name, path, is_given in _names_of(context):
+        if path and not is_given and not is_state_name(str(path[-1])):
+            # The name itself is wrong in every language.
+            continue
         problem, mend = name_problem(name, is_given=is_given), f"give it another: xabsl_name: my_{name}"
         if not problem and kind and known.setdefault((kind, name), path) is not path:
             problem = f"two {kind} would be called '{name}' in XABSL"

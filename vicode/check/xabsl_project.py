@@ -7,6 +7,7 @@ from vicode.check.xabsl import LANGUAGE, name_problem
 from vicode.findings import Finding, Note, Path, Thing, rule
 from vicode.model.design import Declaration
 from vicode.model.expressions import Scope, scope_of
+from vicode.model.names import is_state_name
 from vicode.model.project import Project
 from vicode.model.xabsl.limits import find_project_limits
 from vicode.model.xabsl.names import (
@@ -45,7 +46,7 @@ def find_bad_names(project: Project) -> Iterator[Finding]:
         return
     known: dict[tuple[str, str], _Name] = {}
     for each in _names_of(project):
-        is_of_project = not each.thing.component
+        is_of_project = not each.thing.component and (each.is_given or is_state_name(str(each.thing.path[-1])))
         problem = name_problem(each.name, is_given=each.is_given) if is_of_project else ""
         notes: tuple[Note, ...] = ()
         first = known.setdefault((each.among, each.name), each) if each.among else each

@@ -6,6 +6,8 @@ from pathlib import Path
 from vicode.editor.session.preview import preview_of
 from vicode.editor.view import Selected
 from vicode.generators import generate
+from vicode.model.design import Design, Guard, State, Transition
+from vicode.model.project import Project
 from vicode.output import apply, compare
 from vicode.store import open_project
 
@@ -38,6 +40,20 @@ def test_lines_and_things_lead_to_each_other() -> None:
     assert file.thing_at(first) == Selected(of="transitions", id="Kick/0")
     assert file.thing_at(1) is None
     assert file.lines_of(Selected(of="states", id="Nobody")) == (0, 0)
+
+
+def test_every_language_is_shown_or_says_why_not() -> None:
+    states = (State(name="A", transitions=(Transition(to="B", guard=Guard(after="1")),)), State(name="B", final=True))
+    design = Design(component="One", initial="A", states=states)
+    project = Project(name="Both", languages=("python", "xabsl"), designs=(design,))
+    shown = preview_of(project, design, {})
+    option = next(file for file in shown.files if file.path == "xabsl/both/Options/One.xabsl")
+    first, last = option.lines_of(Selected(of="transitions", id="A/0"))
+    assert "goto B;" in "\n".join(option.text.split("\n")[first - 1 : last])
+    assert option.thing_at(last) == Selected(of="transitions", id="A/0")
+    shown = preview_of(project, replace(design, resume=True), {})
+    assert {file.language for file in shown.files} == {"python"}
+    assert shown.note.startswith("No code for xabsl yet: ")
 
 
 def test_a_design_with_mistakes_or_without_a_language_says_so() -> None:

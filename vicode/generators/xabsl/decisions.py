@@ -1,23 +1,34 @@
 """Decisions of a design as complete trees: every `if` has its `else`, and what is exhausted stays."""
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import partial
 
 from vicode.findings import Path
 from vicode.generators.plan import Alternative, Branch, Change, Keep
 from vicode.generators.xabsl.expressions import Speller, all_of, negated
+from vicode.generators.xabsl.printing import in_one_line
 from vicode.xabsl import tree
 
 
 @dataclass(frozen=True, slots=True)
 class _Item:
-    """An alternative with all that is asked for it, also by the groups around it."""
+    """An alternative with what is asked for it: by the groups that were opened around it, and by itself."""
 
-    tests: tuple[tree.Expression, ...]
+    around: tuple[tree.Expression, ...]
+    own: tuple[tree.Expression, ...]
     outcome: Change | Keep | Branch
     doc: str
     path: Path
+
+    @property
+    def tests(self) -> tuple[tree.Expression, ...]:
+        """All of it."""
+        return (*self.around, *self.own)
+
+    def inside(self, *tests: tree.Expression) -> "_Item":
+        """The same in a group that asks these."""
+        return replace(self, around=(*tests, *self.around))
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,14 +54,14 @@ class DecisionWriter:
 
     def complete(self, alternatives: Sequence[tuple[str, Alternative]]) -> tree.Tree:
         """The tree of alternatives, each with the state (or COMMON) whose decision it is."""
-        items = [item for state, each in alternatives for item in self._items([each], state, ())]
+        items = [item for state, each in alternatives for item in self._items([each], state)]
         found = self._chain(items, _Follow(tree.Stay, is_leaf=True))
         assert found is not None
         return self._with_doc(found)
 
     def open(self, alternatives: Sequence[Alternative], state: str) -> tree.Tree:
         """The tree of alternatives that `is_open` holds for, which ends where the states go on."""
-        found = self._chain(list(self._items(alternatives, state, ())), _Follow(lambda: None, is_leaf=False))
+        found = self._chain(list(self._items(alternatives, state)), _Follow(lambda: None, is_leaf=False))
         assert found is not None
         return self._with_doc(found)
 
@@ -61,9 +72,7 @@ class DecisionWriter:
             node.doc = ""
         return doc or self._take_words(node)
 
-    def _items(
-        self, alternatives: Sequence[Alternative], state: str, tests: tuple[tree.Expression, ...]
-    ) -> Iterator[_Item]:
+    def _items(self, alternatives: Sequence[Alternative], state: str) -> Iterator[_Item]:
         for each in alternatives:
             own = self.speller.conditions(each.conditions, state)
             outcome = each.outcome
@@ -71,7 +80,7 @@ class DecisionWriter:
                 outcome = _Grown(
                     then=outcome.then, otherwise=outcome.otherwise, then_ends=outcome.then_ends, state=state
                 )
-            yield _Item((*tests, *own), outcome, each.doc, each.path)
+            yield _Item((), own, outcome, in_one_line(each.doc), each.path)
 
     def _chain(self, items: Sequence[_Item], follow: _Follow) -> tree.Tree | None:
         """One item after the other, then what follows."""
@@ -95,15 +104,16 @@ class DecisionWriter:
         return self._followed(node, follow.make())
 
     def _branch(self, item: _Item, branch: "_Grown", follow: _Follow) -> tree.Tree | None:
-        inner = list(self._items(branch.then, branch.state, ()))
-        others = list(self._items(branch.otherwise, branch.state, ()))
+        inner = list(self._items(branch.then, branch.state))
+        others = list(self._items(branch.otherwise, branch.state))
         if not item.tests:
             return self._chain(inner, follow)
         test = all_of(item.tests)
-        if not branch.then_ends and not follow.is_leaf:
+        must_open = not branch.then_ends and not follow.is_leaf
+        if must_open or (item.around and others):
             # What falls through goes on with what follows; said twice, a few groups would become thousands of lines.
-            before = [_Item((test, *each.tests), each.outcome, each.doc, each.path) for each in inner]
-            after = [_Item((negated(test), *each.tests), each.outcome, each.doc, each.path) for each in others]
+            before = [each.inside(test) for each in inner]
+            after = [each.inside(*item.around, negated(all_of(item.own))) for each in others]
             found = self._chain([*before, *after], follow)
             if item.doc and isinstance(found, tree.If) and not found.doc:
                 found.doc = item.doc

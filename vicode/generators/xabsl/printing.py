@@ -24,9 +24,14 @@ class Remark:
 
 def said(text: str, depth: int) -> str:
     """A person's words as a description: in one line, or with its later lines under the first."""
-    words = " ".join(_plain(text).split()).replace("*/", "* /").replace("/*", "/ *")
     margin = " " * (2 * depth + 4)
+    words = in_one_line(text)
     return textwrap.fill(words, _WIDTH, subsequent_indent=margin, break_long_words=False, break_on_hyphens=False)
+
+
+def in_one_line(text: str) -> str:
+    """A person's words as a description."""
+    return " ".join(_plain(text).split()).replace("*/", "* /").replace("/*", "/ *")
 
 
 def title(text: str) -> str:

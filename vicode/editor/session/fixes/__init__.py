@@ -36,6 +36,9 @@ UNFIXED: Mapping[str, str] = {
     "D408": "which component can do without the next, only a person knows",
     "D412": _ONLY_A_PERSON,
     "D414": "code is not translated by itself",
+    **dict.fromkeys(("L701", "L702"), "how else it could be said for one language, only a person knows"),
+    "L703": "a name in XABSL is what a robot's program has, too",
+    "L704": _ONLY_A_PERSON,
     "D425": "where to step a component once, only a person knows",
     **dict.fromkeys(("G501", "G502", "G503"), "generated files are shown, and written, by Generate"),
 }

@@ -1,0 +1,201 @@
+"""Designs in XABSL: the files compile, and their program does what the generated Python does."""
+
+import importlib
+import itertools
+import random
+import sys
+import tempfile
+from collections.abc import Iterator
+from dataclasses import replace
+from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from tests.generators.formatting import write_files
+from tests.generators.portable_designs import portable_projects
+from tests.xabsl.cases_of import load_texts
+from vicode import regions
+from vicode.bica import Component, Root, SimulatedClock
+from vicode.check import check_project
+from vicode.findings import Severity, render_text
+from vicode.generators import generate, list_outputs, origins_of, python_class
+from vicode.model.project import Project
+from vicode.model.walks import decision_at
+from vicode.xabsl.compiler import Compiled, compile_source, symbols_of
+from vicode.xabsl.engine import Engine
+from vicode.xabsl.parser import parse
+from vicode.xabsl.printer import print_file
+
+_NUMBERS = itertools.count()
+# What a random design earns: states that nothing leads to, numbers out of range, what is called twice.
+EARNED = {"X643", "X645", "X646", "X647"}
+
+
+def texts_of(project: Project) -> dict[str, str]:
+    """The files of a project in XABSL, by their names in its folder."""
+    folder = next(path for path in list_outputs(project, languages=["xabsl"]) if path.endswith("/agents.xabsl"))
+    root = folder.removesuffix("agents.xabsl")
+    return {file.path.removeprefix(root): file.text for file in generate(project, languages=["xabsl"])}
+
+
+def compiled_of(project: Project) -> Compiled:
+    return compile_source(load_texts(texts_of(project)))
+
+
+@given(portable_projects())
+def test_what_is_sound_compiles(project: Project) -> None:
+    errors = [each for each in check_project(project) if each.severity is Severity.ERROR]
+    assert not errors, render_text(errors)
+    result = compiled_of(project)
+    bad = [each for each in result.findings if each.severity is not Severity.NOTE and each.rule.code not in EARNED]
+    assert not bad, render_text(bad)
+    assert not any(
+        each.rule.code in ("X651", "X652") for each in result.findings if project.designs[0].arithmetic == ""
+    )
+    assert result.program is not None
+    assert result.program.title == "Law"
+
+
+@given(portable_projects())
+def test_the_files_are_laid_out_and_sealed(project: Project) -> None:
+    files = generate(project, languages=["xabsl"])
+    assert [file.path for file in files] == sorted(list_outputs(project, languages=["xabsl"]))
+    for file in files:
+        assert regions.is_sealed(file.text)
+        assert not regions.is_touched(file.text, "//")
+        assert print_file(parse(file.text).file) == file.text
+    assert files == generate(project, languages=["xabsl"])
+
+
+class World:
+    """What both programs sense and tell: Python by the names of designs, XABSL by those of symbols."""
+
+    def __init__(self) -> None:
+        self.log: list[dict[str, Any]] = []
+        self.seen = self.eyes_seen = False
+        self.distance = self.eyes_distance = 0.0
+        self.side = self.eyes_side = "left"
+        self.led = self.eyes_led = False
+
+    def bearing(self, x: float, y: float) -> float:
+        return x - 2 * y + self.distance / 100
+
+    eyes_bearing = bearing
+
+    def Legs(self, speed: float, side: str) -> None:  # noqa: N802 - named as the component
+        self.log.append({"speed": speed, "side": side})
+
+    def sense(self, *, seen: bool, distance: float, side: str) -> None:
+        self.log.clear()
+        self.seen = self.eyes_seen = seen
+        self.distance = self.eyes_distance = distance
+        self.side = self.eyes_side = side
+
+
+@pytest.fixture(scope="module")
+def folder() -> Iterator[Path]:
+    """Where generated Python is imported from."""
+    with tempfile.TemporaryDirectory() as name:
+        sys.path.insert(0, name)
+        yield Path(name)
+        sys.path.remove(name)
+
+
+def main_of(project: Project, folder: Path) -> Root:
+    """The generated Python, ready to run."""
+    renamed = replace(project, name=f"law{next(_NUMBERS)}")
+    write_files(generate(renamed, languages=["python"]), folder / renamed.name)
+    sys.path.insert(0, str(folder / renamed.name / "python"))
+    try:
+        importlib.invalidate_caches()
+        module, _colon, name = python_class(renamed, "Player").partition(":")
+        return Root(
+            getattr(importlib.import_module(module), name), clock=SimulatedClock(), world=World(), on_error="stop"
+        )
+    finally:
+        sys.path.pop(0)
+
+
+@given(portable_projects(), st.integers(0, 10_000))
+def test_both_programs_do_the_same(folder: Path, project: Project, seed: int) -> None:
+    root, rng = main_of(project, folder), random.Random(seed)
+    result = compiled_of(project)
+    assert result.program is not None
+    world, now = World(), SimpleNamespace(ms=0)
+    engine = Engine(result.program, world, symbols=symbols_of(result.table), clock=lambda: now.ms)
+    components = {type(each).__name__: each for each in root.components}
+    for iteration in range(14):
+        if iteration:
+            step = rng.choice((1, 10, 30, 60))
+            root.clock.advance(step * 1_000_000)  # type: ignore[attr-defined]
+            now.ms += step
+        sensed = {
+            "seen": rng.random() < 0.5,
+            "distance": rng.choice((-5.0, 0.0, 2.0, 300.0)),
+            "side": rng.choice(SIDES),
+        }
+        for each in (world, root.world):
+            each.sense(**sensed)
+        root.step()
+        engine.execute()
+        assert states_of(engine, components) == []
+        assert known(values_of(engine)) == known(values_in(components, engine))
+        assert [known(dict(each)) for each in world.log] == [known(dict(each)) for each in root.world.log]
+        assert world.eyes_led == root.world.led
+
+
+SIDES = ("left", "right")
+
+
+def states_of(engine: Engine, components: dict[str, Component]) -> list[str]:
+    """What differs in the states of what was active."""
+    return [
+        f"{view.name}: {view.state} in XABSL, {components[view.name].state} in Python"
+        for view in engine.active_options
+        if view.state != components[view.name].state
+    ]
+
+
+def values_of(engine: Engine) -> dict[str, Any]:
+    slots = engine.program.symbols
+    return {slot.name: getattr(engine.memory, f"v{number}") for number, slot in enumerate(slots)}
+
+
+def values_in(components: dict[str, Component], engine: Engine) -> dict[str, Any]:
+    """The same values where Python has them; of elements the names."""
+    found = {}
+    for slot in engine.program.symbols:
+        owner, _dot, name = slot.name.partition(".")
+        value = getattr(components[owner.capitalize()], name)
+        found[slot.name] = getattr(value, "name", value)
+    return found
+
+
+def known(values: dict[str, Any]) -> dict[str, Any]:
+    """The values, nan as a word, since that is not equal to itself."""
+    return {name: "nan" if value != value else value for name, value in values.items()}  # noqa: PLR0124
+
+
+@given(portable_projects())
+def test_every_decision_is_found_in_the_lines_of_its_state(project: Project) -> None:
+    for design in project.designs:
+        text = texts_of(project)[f"Options/{design.component}.xabsl"]
+        lines = text.split("\n")
+        origins = origins_of(project, design.component, "xabsl", text)
+        states = {origin.path[1]: origin for origin in origins if len(origin.path) == 2 and origin.path[0] == "states"}
+        assert set(states) == {state.name for state in design.states if not state.disabled}
+        for origin in origins:
+            assert 1 < origin.first <= origin.last < len(lines)
+            located = decision_at(design, origin.path)
+            if located is None:
+                continue
+            block = "\n".join(lines[origin.first - 1 : origin.last])
+            target = getattr(located.decision, "to", located.source)
+            assert "stay;" in block if target == located.source else f"goto {target};" in block
+            if located.source in states:
+                around = states[located.source]
+                assert around.first <= origin.first <= origin.last <= around.last
