@@ -86,8 +86,10 @@ class World:
 
     eyes_bearing = bearing
 
-    def Legs(self, speed: float, side: str) -> None:  # noqa: N802 - named as the component
+    def legs(self, speed: float, side: str) -> None:
         self.log.append({"speed": speed, "side": side})
+
+    Legs = legs
 
     def sense(self, *, seen: bool, distance: float, side: str) -> None:
         self.log.clear()
