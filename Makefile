@@ -34,7 +34,8 @@ check: $(VENV)/.ready-dev  ## format, lint, types, architecture, fast tests (und
 
 nightly: $(VENV)/.ready-test chromium  ## the long runs: kills, fuzzing, many more examples, the browser tests 20 times
 	@VICODE_HYPOTHESIS=nightly $(PYTEST) $(PARALLEL) --timeout 3600 -m "nightly or hypothesis"
-	@VICODE_RUNS=20 $(PYTEST) $(PARALLEL) -m "browser and not nightly"
+	@failed=0; for run in $$(seq 20); do echo "Browser tests, run $$run of 20:"; \
+		VICODE_ONE_TRY=1 $(PYTEST) $(PARALLEL) -m "browser and not nightly" || failed=1; done; exit $$failed
 
 bench: $(VENV)/.ready-bench  ## measure against a hand-written machine and other libraries
 	@$(BIN)/python -m benchmarks

