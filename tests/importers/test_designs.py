@@ -128,10 +128,10 @@ def test_what_is_declared_becomes_enumerations_constants_and_components(project:
         ("ball_distance", "ball.distance", "float"),
         ("ball_odd", "ball.odd", "float"),
         ("class_", "class", "bool"),
-        ("x", "", "float"),
+        ("x", "x", "float"),
         ("x_2", "x", "bool"),
         ("seen", "_seen", "ball_side"),
-        ("angle", "", "float"),
+        ("angle", "angle", "float"),
     ]
     assert ball.outputs[0].range == (0, 9000)
     assert (ball.outputs[1].range, ball.outputs[1].doc) == (None, "[mm]")

@@ -7,6 +7,7 @@ from vicode.findings import Path
 from vicode.importers.names import Names, other_name
 from vicode.model.design import Declaration
 from vicode.model.project import INTERNAL, WORLD, Enumeration, Interface
+from vicode.model.xabsl.names import symbol_name
 from vicode.xabsl import tree
 from vicode.xabsl.declared import BOOLEAN, ENUM, Declared, Table
 from vicode.xabsl.ranges import range_of
@@ -141,7 +142,7 @@ class _Learner:
             assert isinstance(each.node, tree.Symbol)
             name = names.give(each.name)
             self.made.symbols[each] = (component, name)
-            made = self._declaration(each.node, each, name)
+            made = _with_symbol_name(component, self._declaration(each.node, each, name), each.name)
             (outputs if each.role == "input" else variables).append(made)
             section = "outputs" if each.role == "input" else "variables"
             self.made.paths[id(each.node)] = ("components", component, section, name)
@@ -229,3 +230,9 @@ def _with_default(declaration: Declaration, enums: Iterable[Enumeration]) -> Dec
 
 def _number(text: str) -> str:
     return text + "0" if text.endswith(".") else text
+
+
+def _with_symbol_name(component: str, declaration: Declaration, written: str) -> Declaration:
+    """With the name of a symbol where that is not the one it would get in XABSL, which begins with its component's."""
+    plain = replace(declaration, xabsl_name="")
+    return plain if symbol_name(component, plain) == written else replace(plain, xabsl_name=written)

@@ -132,11 +132,14 @@ class SymbolsWriter:
 
 
 def _heading(project: Project) -> Iterator[str]:
-    """The first lines; a doc that begins with a title of its own, as imported ones do, is all of it."""
+    """The first lines: a title, which a doc may begin with, as that of an imported project does, then the doc."""
     lines = project.doc.strip().splitlines()
-    if not any(line.strip().startswith("Title:") for line in lines):
-        yield f"Title: {project.name}"
-    yield from lines
+    has_title = bool(lines) and len(lines[0]) <= _LONGEST_TITLE and not lines[0].endswith(".")
+    yield f"Title: {lines[0] if has_title else project.name}"
+    yield from lines[has_title:]
+
+
+_LONGEST_TITLE = 80
 
 
 def _constant_text(declared: Declaration, value: Value) -> str:

@@ -1,0 +1,64 @@
+"""The law between importing and generating: a behavior that becomes designs, and XABSL again, is the same program."""
+
+from dataclasses import replace
+
+import pytest
+from hypothesis import given
+
+from tests.importers.following import imported
+from tests.strategies.behaviors import behaviors
+from tests.xabsl.cases_of import CASES, PROGRAMS, load_texts, read_probes, words
+from vicode.check import check_project
+from vicode.findings import Severity, render_text
+from vicode.generators import generate
+from vicode.model.project import Project
+from vicode.xabsl import tree
+from vicode.xabsl.compiler import compile_source
+from vicode.xabsl.engine.writing import write_code
+from vicode.xabsl.printer import print_file
+from vicode.xabsl.sources import Source, load
+
+# What designs have no words for: numbers that no other language holds, a range of something that is no number.
+UNIMPORTED = {"big_number", "sym_bool_range"}
+PROBES = {
+    probe.name: probe.files
+    for probe in read_probes()
+    if compile_source(load_texts(probe.files)).program is not None and probe.name not in UNIMPORTED
+}
+
+
+def texts_of(project: Project) -> dict[str, str]:
+    """The files of a project in XABSL, by their names in its folder."""
+    files = generate(project, languages=["xabsl"])
+    root = next(file.path for file in files if file.path.endswith("/agents.xabsl")).removesuffix("agents.xabsl")
+    return {file.path.removeprefix(root): file.text for file in files}
+
+
+def assert_is_the_same(source: Source) -> None:
+    made, before = imported(source)
+    assert before.program is not None
+    project = replace(made.project, languages=("xabsl",))
+    errors = [each for each in check_project(project) if each.severity is Severity.ERROR]
+    assert not errors, render_text(errors)
+    after = compile_source(load_texts(texts_of(project)))
+    assert after.program is not None, render_text(after.findings)
+    assert words(write_code(after.program)) == words(write_code(before.program))
+    assert after.program.title == (before.program.title or "behavior")
+    known = {each.rule.code for each in before.findings}
+    new = [each for each in after.findings if each.rule.code not in known and each.severity is not Severity.NOTE]
+    assert not new, render_text(new)
+
+
+@pytest.mark.parametrize("name", [name for name in PROGRAMS if (CASES / "programs" / name / "agents.xabsl").exists()])
+def test_whole_programs(name: str) -> None:
+    assert_is_the_same(load(CASES / "programs" / name / "agents.xabsl"))
+
+
+@pytest.mark.parametrize("name", sorted(PROBES))
+def test_tiny_programs(name: str) -> None:
+    assert_is_the_same(load_texts(PROBES[name]))
+
+
+@given(behaviors())
+def test_random_programs(files: dict[str, tree.File]) -> None:
+    assert_is_the_same(load_texts({name: print_file(file) for name, file in files.items()}))
