@@ -168,3 +168,11 @@ def test_delete_reports_what_is_selected(hand: Hand) -> None:
     # The edge that led there has no end any more, although nobody removed it.
     expect(hand.group("transition", "LookForBall/2")).to_have_count(0)
     assert hand.selection() == set()
+
+
+def test_a_state_at_the_origin_is_taken_by_its_middle(show: Callable[[Mapping[str, Any]], Hand]) -> None:
+    scene = player()
+    placed = [{**each, "x": 0, "y": 0} if each["id"] == "GetUp" else each for each in scene["states"]]
+    hand = show({**scene, "states": placed})
+    hand.page.mouse.click(*hand.at("states", "GetUp"))
+    hand.wait_for("vicode.selection()[0]?.id === 'GetUp'")
