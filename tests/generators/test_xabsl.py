@@ -17,12 +17,14 @@ from hypothesis import strategies as st
 
 from tests.generators.formatting import write_files
 from tests.generators.portable_designs import portable_projects
+from tests.strategies.designs import designs, projects
 from tests.xabsl.cases_of import load_texts
 from vicode import regions
 from vicode.bica import Component, Root, SimulatedClock
 from vicode.check import check_project
 from vicode.findings import Severity, render_text
-from vicode.generators import generate, list_outputs, origins_of, python_class
+from vicode.generators import UnsoundDesignError, generate, list_outputs, origins_of, python_class
+from vicode.model.design import Common, Decision, Declaration, Design, Group, Guard, State, Stay, Transition
 from vicode.model.project import Project
 from vicode.model.walks import decision_at
 from vicode.xabsl.compiler import Compiled, compile_source, symbols_of
@@ -69,6 +71,65 @@ def test_the_files_are_laid_out_and_sealed(project: Project) -> None:
         assert not regions.is_touched(file.text, "//")
         assert print_file(parse(file.text).file) == file.text
     assert files == generate(project, languages=["xabsl"])
+
+
+def option_of(transitions: tuple[Decision, ...], common: tuple[Decision, ...] = ()) -> str:
+    """The text of an option, one blank between words."""
+    names = ("a", "b", "c", "d", "e")
+    design = Design(
+        component="One",
+        initial="S",
+        variables=tuple(Declaration(name=name, type="bool") for name in names),
+        common=Common(transitions=common),
+        states=(State(name="S", transitions=transitions), *(State(name=name) for name in "XYZ")),
+    )
+    project = Project(name="Law", languages=("xabsl",), designs=(design,))
+    assert not [each for each in check_project(project) if each.severity is Severity.ERROR]
+    assert compiled_of(project).program is not None
+    return " ".join(texts_of(project)["Options/One.xabsl"].replace("one.", "").split())
+
+
+def to(state: str, when: str = "") -> Transition:
+    return Transition(to=state, guard=Guard(when=when))
+
+
+def test_what_falls_through_keeps_the_guards_around_it() -> None:
+    inner = Group(guard=Guard(when="b"), then=(to("X", "c"),), otherwise=(to("Y", "d"),))
+    text = option_of((Group(guard=Guard(when="a"), then=(inner,), otherwise=()), to("Z", "e")))
+    assert "decision { if (a && b && c) goto X; else if (a && !b && d) goto Y; else if (e) goto Z; else stay; }" in text
+
+
+def test_what_ends_stays_nested() -> None:
+    group = Group(guard=Guard(when="a"), then=(to("X", "b"), Stay()), otherwise=(to("Y", "c"),))
+    text = option_of((group, to("Z")))
+    assert "decision { if (a) { if (b) goto X; else stay; } else if (c) goto Y; else goto Z; }" in text
+
+
+def test_common_decisions_are_common_where_xabsl_can_say_them() -> None:
+    ending = Group(guard=Guard(when="a"), then=(to("X", "b"), to("Y")))
+    text = option_of((to("Z", "c"),), (ending, to("X", "d")))
+    assert "common decision { if (a) { if (b) goto X; else goto Y; } else if (d) goto X; }" in text
+    assert "initial state S { decision { else if (c) goto Z; else stay; }" in text
+    text = option_of((to("Z", "c"),), (Stay(guard=Guard(when="a")), to("X", "d")))
+    assert "common" not in text
+    assert "initial state S { decision { if (a) stay; else if (d) goto X; else if (c) goto Z; else stay; }" in text
+    assert "state X { decision { if (a) stay; else if (d) goto X; else stay; }" in text
+
+
+@given(projects, st.lists(designs, max_size=2))
+def test_any_project_is_written_or_called_unsound(project: Project, some: list[Design]) -> None:
+    unique = {design.component: design for design in some}
+    whole = replace(project, languages=("xabsl",), designs=tuple(unique.values()))
+    paths = list_outputs(whole)
+    assert len({path.casefold() for path in paths}) == len(paths)
+    assert all(path.startswith("xabsl/") and ".." not in path.split("/") for path in paths)
+    errors = [each for each in check_project(whole) if each.severity is Severity.ERROR]
+    try:
+        files = generate(whole)
+    except UnsoundDesignError:
+        assert errors
+        return
+    assert {file.path for file in files} == set(paths)
 
 
 class World:

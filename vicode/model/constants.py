@@ -1,9 +1,11 @@
 """What constants and first values come to, computed before anything runs."""
 
 from collections.abc import Callable, Mapping
-from dataclasses import replace
+from functools import lru_cache
+from types import MappingProxyType
 
 from vicode.bica import arithmetic
+from vicode.model.design import Declaration
 from vicode.model.expressions import (
     UNKNOWN,
     Apply,
@@ -22,7 +24,7 @@ from vicode.model.expressions import (
     parse_expression,
     scope_of,
 )
-from vicode.model.project import Project
+from vicode.model.project import Enumeration, Project
 
 Value = bool | float | str
 """A truth, a number, or the name of an element."""
@@ -58,15 +60,21 @@ _ORDER: Mapping[str, Callable[[float, float], bool]] = {
 }
 
 
-def constant_values(project: Project) -> dict[str, Value]:
+def constant_values(project: Project) -> Mapping[str, Value]:
     """The value of each constant, which may be made from those before it; those with mistakes are left out."""
+    return _values(project.constants, project.enumerations)
+
+
+# Every edit asks for them, and hardly ever do they change.
+@lru_cache(maxsize=64)
+def _values(constants: tuple[Declaration, ...], enumerations: tuple[Enumeration, ...]) -> Mapping[str, Value]:
     values: dict[str, Value] = {}
-    for index, constant in enumerate(project.constants):
-        scope = scope_of(replace(project, constants=project.constants[:index]), None)
+    for index, constant in enumerate(constants):
+        scope = scope_of(Project(name="", constants=constants[:index], enumerations=enumerations), None)
         value = first_value(constant.initial, scope.type_of(constant), scope, values)
         if value is not None:
             values[constant.name] = value
-    return values
+    return MappingProxyType(values)
 
 
 def first_value(text: str, type_: str, scope: Scope, constants: Mapping[str, Value]) -> Value | None:

@@ -2,7 +2,6 @@
 
 from collections.abc import Iterator
 
-from vicode.findings import Path
 from vicode.generators.origins import Origin
 from vicode.generators.plan import ComponentPlan
 from vicode.generators.xabsl.options import OptionText, write_option
@@ -16,15 +15,10 @@ def find_origins(plan: ComponentPlan, text: str) -> tuple[Origin, ...]:
     """The origins in the file of an option, the wider before those inside them; none in any other text."""
     parsed, option = read_option(text)
     written = write_option(plan)
-    if option is None or _without_places(option) != _without_places(written.option):
+    if option is None or option != written.option:
         return ()
     found = _origins(written, option, parsed.tokens)
     return tuple(sorted(found, key=lambda origin: (origin.first, -origin.last)))
-
-
-def _without_places(option: tree.Option) -> str:
-    """What two options that were read and made have in common if one was read from the other's text."""
-    return repr([(state.name.text, len(state.actions.actions)) for state in option.states])
 
 
 def _origins(written: OptionText, option: tree.Option, tokens: Tokens) -> Iterator[Origin]:
@@ -37,11 +31,7 @@ def _origins(written: OptionText, option: tree.Option, tokens: Tokens) -> Iterat
             last = node.then.to
         first = _with_words(first, tokens) if not isinstance(node, tree.State | tree.Actions) else first
         start = tokens.line_at(tokens.starts[first])
-        yield Origin(first=_with_comments(start, tokens), last=_last_line(tokens, last), path=_path(path))
-
-
-def _path(path: Path) -> Path:
-    return path
+        yield Origin(first=_with_comments(start, tokens), last=_last_line(tokens, last), path=path)
 
 
 def _with_words(first: int, tokens: Tokens) -> int:

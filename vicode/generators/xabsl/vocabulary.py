@@ -1,6 +1,6 @@
 """The words of one project in XABSL."""
 
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from decimal import Decimal
 
@@ -19,7 +19,7 @@ class Vocabulary:
 
     project: Project
     scope: Scope = field(init=False)
-    constants: dict[str, Value] = field(init=False)
+    constants: Mapping[str, Value] = field(init=False)
     _symbols: frozenset[str] = field(init=False)
     _twofold: frozenset[str] = field(init=False)
 
