@@ -79,7 +79,7 @@ def option_of(transitions: tuple[Decision, ...], common: tuple[Decision, ...] = 
     design = Design(
         component="One",
         initial="S",
-        variables=tuple(Declaration(name=name, type="bool") for name in names),
+        variables=(*(Declaration(name=name, type="bool") for name in names), *map(number, "nm")),
         common=Common(transitions=common),
         states=(State(name="S", transitions=transitions), *(State(name=name) for name in "XYZ")),
     )
@@ -87,6 +87,10 @@ def option_of(transitions: tuple[Decision, ...], common: tuple[Decision, ...] = 
     assert not [each for each in check_project(project) if each.severity is Severity.ERROR]
     assert compiled_of(project).program is not None
     return " ".join(texts_of(project)["Options/One.xabsl"].replace("one.", "").split())
+
+
+def number(name: str) -> Declaration:
+    return Declaration(name=name, type="float")
 
 
 def to(state: str, when: str = "") -> Transition:
@@ -130,6 +134,28 @@ def test_any_project_is_written_or_called_unsound(project: Project, some: list[D
         assert errors
         return
     assert {file.path for file in files} == set(paths)
+
+
+@pytest.mark.parametrize(
+    ("when", "said"),
+    [
+        ("min(n, m) > 1", "(m < n ? m : n) > 1"),
+        ("max(n, m) > 1", "(m > n ? m : n) > 1"),
+        ("clamp(n, 1, m) > 1", "(n < 1 ? 1 : (m < n ? m : n)) > 1"),
+        ("sign(n) > -1", "(n > 0 ? 1 : (n < 0 ? -1 : 0)) > -1"),
+        ("abs(-n) > 1e-3", "(-n < 0 ? -(-n) : -n) > 0.001"),
+        ("is_nan(float(n))", "n != n"),
+        ("a == b", "(a && b) || (!a && !b)"),
+        ("a != b", "(a && !b) || (!a && b)"),
+        ("b if a else c", "(a && b) || (!a && c)"),
+        ("0 < n < m == 3", "0 < n && n < m && m == 3"),
+        ("a and b or not (c or d)", "(a && b) || !(c || d)"),
+        ("(n - (m - 1)) * 2 / 4 > -(n + m)", "(n - (m - 1)) * 2 / 4 > -(n + m)"),
+        ("component_time > 2 and state_time < 3", "option_time / 1000 > 2 && state_time / 1000 < 3"),
+    ],
+)
+def test_expressions_are_written_out(when: str, said: str) -> None:
+    assert f"initial state S {{ decision {{ if ({said}) goto X;" in option_of((to("X", when),))
 
 
 class World:
