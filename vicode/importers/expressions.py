@@ -3,6 +3,7 @@
 from collections.abc import Callable
 from dataclasses import dataclass
 
+from vicode.importers.names import plain_number
 from vicode.xabsl import tree
 from vicode.xabsl.declared import Declared
 from vicode.xabsl.lexer import Tokens
@@ -23,7 +24,7 @@ class Wording:
         """An expression as a design's text."""
         match expression:
             case tree.Number(text=text):
-                return text + "0" if text.endswith(".") else text
+                return plain_number(text)
             case tree.Word(text=text):
                 return _WORDS.get(text, text)
             case tree.Ref():

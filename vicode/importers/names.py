@@ -9,6 +9,7 @@ from vicode.model.names import is_name
 from vicode.xabsl.tokens import KEYWORDS
 
 _LONGEST = 70
+_LARGEST = 2**53
 _TAKEN = frozenset(
     {
         *keyword.kwlist,
@@ -45,6 +46,13 @@ def plain_name(text: str) -> str:
     if not is_name(stem):
         stem = f"x_{stem}"
     return f"{stem}_" if stem in _TAKEN else stem
+
+
+def plain_number(text: str) -> str:
+    """A number as a design may have it; whole ones that not every language holds exactly are decimals."""
+    if text.endswith("."):
+        return f"{text}0"
+    return f"{text}.0" if "." not in text and abs(int(text)) > _LARGEST else text
 
 
 def other_name(name: str, written: str) -> str:

@@ -4,16 +4,16 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field, replace
 
 from vicode.findings import Path
-from vicode.importers.names import Names, other_name
+from vicode.importers.names import Names, other_name, plain_number
 from vicode.model.design import Declaration
 from vicode.model.project import INTERNAL, WORLD, Enumeration, Interface
 from vicode.model.xabsl.names import symbol_name
 from vicode.xabsl import tree
-from vicode.xabsl.declared import BOOLEAN, ENUM, Declared, Table
+from vicode.xabsl.declared import BOOLEAN, DECIMAL, ENUM, Declared, Table
 from vicode.xabsl.ranges import range_of
 from vicode.xabsl.sources import Source
 
-_TYPES = {BOOLEAN: "bool", "d": "float"}
+_TYPES = {BOOLEAN: "bool", DECIMAL: "float"}
 
 Remark = tuple[Path, str]
 """A comment above the thing that a path leads to."""
@@ -177,7 +177,7 @@ class _Learner:
         made = Declaration(
             name=name,
             type="float",
-            initial=_number(item.number),
+            initial=plain_number(item.number),
             unit=item.unit,
             doc=item.doc,
             xabsl_name=other_name(name, declared.name),
@@ -209,7 +209,7 @@ def declaration_of(
     arguments: tuple[Declaration, ...] | None = None,
 ) -> Declaration:
     """A symbol or parameter as a design declares it; a range that is no pair of numbers goes to the words about it."""
-    ends = range_of(item.range)
+    ends = range_of(item.range) if declared.kind == DECIMAL else None
     docs = [item.doc, "" if ends or not item.range else f"[{item.range}]"]
     return Declaration(
         name=name,
@@ -226,10 +226,6 @@ def _with_default(declaration: Declaration, enums: Iterable[Enumeration]) -> Dec
     """An argument that may be left out, as all may in XABSL."""
     firsts = {each.name: f"{each.name}.{each.elements[0][0]}" for each in enums}
     return replace(declaration, initial={"bool": "False", "float": "0", **firsts}[declaration.type])
-
-
-def _number(text: str) -> str:
-    return text + "0" if text.endswith(".") else text
 
 
 def _with_symbol_name(component: str, declaration: Declaration, written: str) -> Declaration:
