@@ -24,6 +24,11 @@ def test_a_behavior_becomes_a_project_that_is_checked_and_generated(
     assert sorted(design.component for design in opened.project.designs) == options
     assert all(state.at for design in opened.project.designs for state in design.states)
     assert main(["check", str(out)]) == 0
+    capsys.readouterr()
+    (root, *_others) = [agent.root for agent in opened.project.agents]
+    (file,) = out.rglob(f"{root}.yaml")
+    assert main(["run", str(file), "--seconds", "1"]) == 0
+    assert "errors: 0" in capsys.readouterr().out
     assert main(["gen", str(out), "--language", "python", "--out", str(tmp_path / "generated")]) == 0
     assert (tmp_path / "generated" / "python" / "ours" / "interfaces.py").exists()
     assert main(["gen", str(out), "--language", "python", "--out", str(tmp_path / "generated"), "--check"]) == 0
@@ -33,12 +38,14 @@ def test_nothing_that_is_there_is_lost(tmp_path: Path, capsys: pytest.CaptureFix
     out = tmp_path / "ours"
     assert main(["import", str(PROGRAM / "agents.xabsl"), "--out", str(out), "--name", "Best"]) == 0
     (out / "project.yaml").write_text("vicode: 1\nproject: Mine\n")
+    (out / "robot.py").write_text("# filled in\n")
     before = {path: path.read_bytes() for path in out.rglob("*.yaml")}
     assert main(["import", str(PROGRAM / "agents.xabsl"), "--out", str(out)]) == 1
     assert "is there already" in capsys.readouterr().err
     assert {path: path.read_bytes() for path in out.rglob("*.yaml")} == before
     assert main(["import", str(PROGRAM / "agents.xabsl"), "--out", str(out), "--name", "Best", "--force"]) == 0
     assert open_project(out).project.name == "Best"
+    assert (out / "robot.py").read_text() == "# filled in\n"
 
 
 def test_a_behavior_with_mistakes_is_not_imported(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -27,7 +27,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(args: argparse.Namespace) -> int:
     """Write the designs; 1 when the behavior has errors, or files are there that would be lost."""
     from vicode.findings import Severity
-    from vicode.importers import import_behavior
+    from vicode.importers import import_behavior, robot_text
     from vicode.store.documents import default_name
     from vicode.xabsl.compiler import compile_source
     from vicode.xabsl.sources import load
@@ -46,6 +46,10 @@ def run(args: argparse.Namespace) -> int:
         print(f"vicode: {args.out / there[0]}{more} is there already; --force writes over it", file=sys.stderr)
         return 1
     _write(args.out, texts)
+    robot = args.out / "robot.py"
+    # It is filled in by hand, so nothing writes over it.
+    if not robot.exists():
+        _write(args.out, {robot.name: robot_text(imported.project)})
     print(_summary(imported, args.out))
     return 0
 

@@ -83,6 +83,8 @@ def _command(opened: Opened, class_path: str, folder: str, args: argparse.Namesp
     command += ["--path", str(opened.opened.folder.resolve()), "--seed", str(args.seed)]
     if opened.opened.project.world:
         command += ["--world", opened.opened.project.world]
+    else:
+        _tell_of_no_world(opened)
     seconds = args.seconds
     if seconds is None and args.ticks is None and not args.real_time:
         seconds = _DEFAULT_SECONDS
@@ -91,6 +93,15 @@ def _command(opened: Opened, class_path: str, folder: str, args: argparse.Namesp
     command += ["--on-error", args.on_error]
     flags = {"--values": args.values, "--real-time": args.real_time, "--until-done": args.until_done}
     return command + [name for name, is_given in flags.items() if is_given]
+
+
+def _tell_of_no_world(opened: Opened) -> None:
+    """Say who will ask a world that is not there."""
+    asking = [each.component for each in opened.opened.project.components if each.implementation == "world"]
+    if asking:
+        more = f" and {len(asking) - 1} more" if len(asking) > 1 else ""
+        mend = "write world: module:Class, a class with what they declare"
+        print(f"vicode: project.yaml names no world, which {asking[0]}{more} will ask; {mend}", file=sys.stderr)
 
 
 def _watch(command: list[str], *, is_plain: bool) -> int:

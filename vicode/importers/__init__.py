@@ -7,13 +7,17 @@ from pathlib import Path
 from vicode.importers.comments import Anchor, place_remarks
 from vicode.importers.names import Names, other_name
 from vicode.importers.options import OptionImporter
+from vicode.importers.robot import robot_text
 from vicode.importers.vocabulary import Remark, Vocabulary, learn
 from vicode.model.project import Agent, Project
 from vicode.xabsl import tree
 from vicode.xabsl.compiler import Compiled
 from vicode.xabsl.sources import Source, header_of
 
-__all__ = ["Imported", "ImportedDesign", "import_behavior"]
+__all__ = ["ROBOT", "Imported", "ImportedDesign", "import_behavior", "robot_text"]
+
+ROBOT = "robot:Robot"
+"""The world of an imported project, which `robot_text` is the beginning of."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -63,6 +67,7 @@ def import_behavior(source: Source, compiled: Compiled, name: str) -> Imported:
         name=name,
         doc=_doc(source),
         languages=("python", "xabsl"),
+        world=ROBOT,
         enumerations=tuple(vocabulary.enumerations),
         constants=tuple(vocabulary.constants),
         components=tuple(vocabulary.interfaces),

@@ -1,5 +1,6 @@
 """What may be a name, and names in other spellings."""
 
+import keyword
 import re
 import unicodedata
 
@@ -30,3 +31,9 @@ def name_like(text: str) -> str:
 def snake_case(name: str) -> str:
     """`LookForBall` as `look_for_ball`."""
     return _WORD_BORDER.sub("_", name).lower()
+
+
+def attribute_name(name: str) -> str:
+    """A name of XABSL as an attribute of Python: `ball.seen` as `ball_seen`, `class` as `class_`."""
+    plain = name.replace(".", "_")
+    return f"{plain}_" if keyword.iskeyword(plain) else plain

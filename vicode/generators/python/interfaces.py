@@ -1,6 +1,5 @@
 """The module with what a project declares but nobody wrote: components that hand on to the world, or keep variables."""
 
-import keyword
 from collections.abc import Iterator
 from dataclasses import dataclass
 
@@ -15,7 +14,7 @@ from vicode.generators.python.spelling import Speller
 from vicode.generators.python.text import described, docstring, section
 from vicode.generators.python.views import HandedOnView, InterfacesView, MethodView
 from vicode.model.expressions import BOOL, FLOAT, INT
-from vicode.model.names import snake_case
+from vicode.model.names import attribute_name, snake_case
 
 _MARGIN = " " * BODY
 
@@ -118,7 +117,7 @@ class _Writer:
             f"{_world_name(each)}=self.{each.name}" + ("" if self._is_plain(each) else ".value")
             for each in self.plan.parameters
         ]
-        asked = _plain(self.plan.xabsl_name or snake_case(self.plan.component))
+        asked = attribute_name(self.plan.xabsl_name or snake_case(self.plan.component))
         lines = render(call(f"self.world.{asked}", given), BODY)
         yield MethodView(signature="    def work(self) -> None:", body="\n".join(lines))
 
@@ -129,12 +128,7 @@ class _Writer:
 
 def _world_name(value: Value) -> str:
     """What the world calls it: as an engine of XABSL would, so that one world serves both."""
-    return _plain(value.xabsl_name or value.name)
-
-
-def _plain(name: str) -> str:
-    text = name.replace(".", "_")
-    return f"{text}_" if keyword.iskeyword(text) else text
+    return attribute_name(value.xabsl_name or value.name)
 
 
 _NOTHING = MethodView(
