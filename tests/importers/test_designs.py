@@ -96,7 +96,7 @@ def texts() -> dict[str, str]:
         "Options/Skills/helper.xabsl": HELPER.replace("@a =", "a ="),
     }
     files["Options/main.xabsl"] = files["Options/main.xabsl"].replace("@a = 1", "a = 1")
-    agents = "/*** Title: Ball player\n Platform: none */\n"
+    agents = "/*** Title: Ball player\n Platform: none\n Written in a night. */\n"
     agents += "".join(f'include "{each}";\n' for each in files)
     return {**files, "agents.xabsl": agents + '/** the one */ agent player.one("A player", main);\n// the end\n'}
 
@@ -159,7 +159,7 @@ def test_agents_have_titles(project: Project) -> None:
         "the one",
         "main",
     )
-    assert project.doc == "Ball player\nPlatform: none"
+    assert project.doc == "Ball player\nPlatform: none\nWritten in a night."
 
 
 def test_trees_stay_trees(main: Design) -> None:

@@ -12,7 +12,7 @@ from vicode.importers.vocabulary import Remark, Vocabulary, learn
 from vicode.model.project import Agent, Project
 from vicode.xabsl import tree
 from vicode.xabsl.compiler import Compiled
-from vicode.xabsl.sources import Source, header_of
+from vicode.xabsl.sources import Source
 
 __all__ = ["ROBOT", "Imported", "ImportedDesign", "import_behavior", "robot_text"]
 
@@ -86,9 +86,9 @@ def _path(source: Source, file: Path) -> str:
 
 def _doc(source: Source) -> str:
     """What the first comment of a behavior says, its title first."""
-    header = header_of(source.files[source.main].file.initial)
-    title = header.pop("Title", "")
-    return "\n".join(each for each in (title, *(f"{key}: {value}" for key, value in header.items() if value)) if each)
+    lines = [line.strip() for line in source.files[source.main].file.initial.splitlines()]
+    others = [line for line in lines if line and line.partition(":")[0].strip() != "Title"]
+    return "\n".join([*([source.title] if source.title else []), *others])
 
 
 def _agents(source: Source, compiled: Compiled, vocabulary: Vocabulary) -> Iterator[Agent]:
