@@ -1,4 +1,7 @@
-"""The one Jinja environment: templates of a folder fill in finished strings, an unknown name in one is an error."""
+"""The one Jinja environment: templates of a folder fill in finished strings, an unknown name in one is an error.
+
+In templates of HTML every string is escaped; what is HTML already is told so by the template.
+"""
 
 from functools import lru_cache
 from pathlib import Path
@@ -13,16 +16,28 @@ def render(template: str, **views: object) -> str:
     return _environment().get_template(template).render(**views)
 
 
+def text_of(path: str) -> str:
+    """A file that stands among the templates and is no template, `docsite/site.css`."""
+    return (_folder() / path).read_text(encoding="utf-8")
+
+
 @lru_cache(maxsize=1)
 def _environment() -> Environment:
-    # In an installed package the templates lie inside it, in a checkout beside it.
-    installed = _HERE / "_templates"
-    folder = installed if installed.is_dir() else _HERE.parent / "templates"
     return Environment(
-        loader=FileSystemLoader(folder),
+        loader=FileSystemLoader(_folder()),
         undefined=StrictUndefined,
-        autoescape=False,
+        autoescape=_is_html,
         trim_blocks=True,
         lstrip_blocks=True,
         keep_trailing_newline=True,
     )
+
+
+def _is_html(template: str | None) -> bool:
+    return template is not None and template.endswith(".html.jinja")
+
+
+def _folder() -> Path:
+    # In an installed package the templates lie inside it, in a checkout beside it.
+    installed = _HERE / "_templates"
+    return installed if installed.is_dir() else _HERE.parent / "templates"

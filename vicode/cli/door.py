@@ -6,13 +6,14 @@ import sys
 from collections.abc import Sequence
 
 from vicode import __version__
-from vicode.cli import check, edit, export, gen, importing, run, schema, xabsl
+from vicode.cli import check, docs, edit, export, gen, importing, run, schema, xabsl
 from vicode.cli.printing import describe_os_error
 
 COMMANDS = {
     "edit": edit,
     "gen": gen,
     "check": check,
+    "docs": docs,
     "run": run,
     "export": export,
     "import": importing,

@@ -80,11 +80,12 @@ class _Artist:
     def node(self, node: Node) -> Group:
         """A state, a used component or the badge of common transitions."""
         drawers = {"state": self._state, "component": self._component, "common": self._common}
-        return Group(title=node.title, kind=node.of, shapes=tuple(drawers[node.of](node)), href=node.href)
+        shapes = tuple(drawers[node.of](node))
+        return Group(title=node.title, kind=node.of, shapes=shapes, href=node.href, key=node.key)
 
     def arrow(self, route: Route) -> Group:
         """A curve with its head."""
-        pal, arrow = self.palette, route.arrow
+        pal, arrow, ends = self.palette, route.arrow, (route.arrow.source, route.arrow.target)
         tip, base = _head(route.curve)
         shaft = curve((*route.curve[:6], *base))
         if arrow.of == "requires":
@@ -98,7 +99,10 @@ class _Artist:
             colour = pal.common if is_common else pal.edge
             drawn = Path(steps=shaft, stroke=colour, width=1.6, dash=_dash(arrow))
             head = Path(steps=tip, fill=colour)
-        return Group(title=arrow.title, kind=arrow.of, shapes=(drawn, head))
+        is_echo = route.chip is not None
+        return Group(
+            title=arrow.title, kind=arrow.of, shapes=(drawn, head), href=arrow.href, ends=ends, is_echo=is_echo
+        )
 
     def chip(self, chip: Chip | None, route: Route) -> Group:
         """The label of an arrow."""
@@ -117,7 +121,9 @@ class _Artist:
             is_off = route.arrow.disabled
             colour = pal.muted if is_off else pal.text
             shapes.append(Text(x=x, y=y, text=chip.text, fill=colour, letters=LABEL, is_struck=is_off))
-        return Group(title=route.arrow.title, kind="label", shapes=tuple(shapes))
+        arrow = route.arrow
+        ends = (arrow.source, arrow.target)
+        return Group(title=arrow.title, kind="label", shapes=tuple(shapes), href=arrow.href, ends=ends)
 
     def _state(self, node: Node) -> Iterable[Path | Text]:
         pal, (x, y), size = self.palette, node.at, node.size

@@ -38,7 +38,10 @@ class Node:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Arrow:
-    """A transition or a link: `of` is transition, requires or modulates; `order` is 0 for one that is alone."""
+    """A transition or a link: `of` is transition, requires or modulates; `order` is 0 for one that is alone.
+
+    `href` is where a click leads, nothing for nowhere.
+    """
 
     key: str
     of: str
@@ -50,6 +53,7 @@ class Arrow:
     kind: Kind = Kind.ALWAYS
     disabled: bool = False
     label_at: Point | None = None
+    href: str = ""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -39,12 +39,19 @@ class Text:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Group:
-    """Shapes that are one thing; `title` is its tip and its name for screen readers, `href` where a click leads."""
+    """Shapes that are one thing; `title` is its tip and its name for screen readers, `href` where a click leads.
+
+    `key` names a node, `ends` are the keys of the nodes an arrow joins. An echo says again what another group says:
+    keys and screen readers pass it over.
+    """
 
     title: str
     kind: str
     shapes: tuple[Path | Text, ...]
     href: str = ""
+    key: str = ""
+    ends: tuple[str, ...] = ()
+    is_echo: bool = False
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

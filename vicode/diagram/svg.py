@@ -12,30 +12,40 @@ _NOT_XML = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 _MIDDLE = 0.36
 
 
-def write_svg(drawing: Drawing) -> str:
-    """The text of the file."""
+def write_svg(drawing: Drawing, *, is_part: bool = False) -> str:
+    """The text of the file; as a part of a page it also says which groups belong together."""
     left, top, width, height = map(_number, (drawing.left, drawing.top, drawing.width, drawing.height))
     families = ", ".join(f"'{name}'" if " " in name else name for name in FAMILIES)
     place = f'width="{width}" height="{height}" viewBox="{left} {top} {width} {height}"'
     # A picture of one piece hides from screen readers the links that are in it.
     role = "group" if any(group.href for group in drawing.groups) else "img"
+    # As a title the name of a page's part would stand beside the pointer everywhere in it.
+    name = f" aria-label={quoteattr(_NOT_XML.sub('', drawing.title))}" if is_part else ""
     lines = [
-        f'<svg xmlns="http://www.w3.org/2000/svg" {place} font-family="{families}" role="{role}">',
-        f"<title>{_text(drawing.title)}</title>",
+        f'<svg xmlns="http://www.w3.org/2000/svg" {place} font-family="{families}" role="{role}"{name}>',
+        *([] if is_part else [f"<title>{_text(drawing.title)}</title>"]),
         *([f"<desc>{_text(drawing.doc)}</desc>"] if drawing.doc else ()),
         f'<rect x="{left}" y="{top}" width="{width}" height="{height}" fill="{drawing.paper}"/>',
-        *(line for group in drawing.groups for line in _group(group)),
+        *(line for group in drawing.groups for line in _group(group, is_part=is_part)),
         "</svg>",
     ]
     return "\n".join(lines) + "\n"
 
 
-def _group(group: Group) -> list[str]:
+def _group(group: Group, *, is_part: bool) -> list[str]:
     shapes = [_path(shape) if isinstance(shape, Path) else _line_of_text(shape) for shape in group.shapes]
     inner = [f"<title>{_text(group.title)}</title>", *shapes]
+    about = f'class="{group.kind}"' + (_relations(group) if is_part else "")
     if group.href:
-        return [f'<a class="{group.kind}" href={quoteattr(_NOT_XML.sub("", group.href))}>', *inner, "</a>"]
-    return [f'<g class="{group.kind}">', *inner, "</g>"]
+        return [f"<a {about} href={quoteattr(_NOT_XML.sub('', group.href))}>", *inner, "</a>"]
+    return [f"<g {about}>", *inner, "</g>"]
+
+
+def _relations(group: Group) -> str:
+    names = {"data-key": group.key} if group.key else {}
+    names |= dict(zip(("data-from", "data-to"), group.ends, strict=False))
+    words = "".join(f" {name}={quoteattr(_NOT_XML.sub('', value))}" for name, value in names.items())
+    return words + (' tabindex="-1" aria-hidden="true"' if group.is_echo else "")
 
 
 def _path(path: Path) -> str:

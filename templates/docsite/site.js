@@ -1,0 +1,306 @@
+/* vicode docs: search, and drawings that can be moved. Without it every page can be read all the same. */
+(() => {
+  "use strict";
+
+  const MOST_FOUND = 30;
+  const ZOOM_STEP = 1.25;
+  const PAN_STEP = 60;
+
+  // ---- Search ----
+
+  const box = document.querySelector(".search");
+  const field = document.getElementById("search");
+  const list = document.getElementById("found");
+  let chosen = 0;
+  let loading = null;
+
+  function loadEntries() {
+    loading ??= new Promise((resolve) => {
+      const script = document.createElement("script");
+      script.src = "search.js";
+      script.onload = () => resolve(window.vicodeEntries);
+      document.head.append(script);
+    });
+    return loading;
+  }
+
+  // The better the earlier: the name, its beginning, its inside, then docs, then code. Every word must be somewhere.
+  function rank(entry, words) {
+    let worst = 0;
+    const [name, kind, where, , doc, code] = entry.map((text) => text.toLowerCase());
+    for (const word of words) {
+      let place = 6;
+      if (name === word) place = 0;
+      else if (name.startsWith(word)) place = 1;
+      else if (name.includes(word)) place = 2;
+      else if (kind === word || where.includes(word)) place = 3;
+      else if (doc.includes(word)) place = 4;
+      else if (code.includes(word)) place = 5;
+      worst = Math.max(worst, place);
+    }
+    return worst;
+  }
+
+  function find(entries, text) {
+    const words = text.toLowerCase().split(/\s+/).filter(Boolean);
+    if (!words.length) return [];
+    return entries
+      .map((entry, index) => ({ entry, index, rank: rank(entry, words) }))
+      .filter((each) => each.rank < 6)
+      .sort((a, b) => a.rank - b.rank || a.index - b.index)
+      .slice(0, MOST_FOUND)
+      .map((each) => each.entry);
+  }
+
+  // What stands around the first word that was found, so that a reader sees why.
+  function excerpt(entry, text) {
+    const [, , where, , doc, code] = entry;
+    const word = text.toLowerCase().split(/\s+/).filter(Boolean)[0] ?? "";
+    for (const body of [doc, code]) {
+      const at = body.toLowerCase().indexOf(word);
+      if (at >= 0) return (at > 40 ? "… " : "") + body.slice(Math.max(0, at - 40), at + 80);
+    }
+    return doc.slice(0, 120) || where;
+  }
+
+  function row(entry, index, text) {
+    const item = document.createElement("li");
+    item.id = `found-${index}`;
+    item.role = "option";
+    const name = document.createElement("bdi");
+    name.textContent = entry[0];
+    const kind = document.createElement("span");
+    kind.className = "kind";
+    kind.textContent = ["component", "interface"].includes(entry[1]) ? entry[1] : `${entry[1]} of ${entry[2]}`;
+    const about = document.createElement("span");
+    about.className = "about";
+    about.textContent = excerpt(entry, text);
+    item.append(kind, name, about);
+    item.addEventListener("mousedown", (event) => event.preventDefault());
+    item.addEventListener("click", () => go(entry[3]));
+    return item;
+  }
+
+  function go(address) {
+    close();
+    field.blur();
+    location.href = address;
+  }
+
+  function close() {
+    list.hidden = true;
+    field.setAttribute("aria-expanded", "false");
+    field.removeAttribute("aria-activedescendant");
+  }
+
+  function choose(index) {
+    const items = [...list.querySelectorAll("[role=option]")];
+    if (!items.length) return;
+    chosen = (index + items.length) % items.length;
+    items.forEach((item, at) => item.setAttribute("aria-selected", String(at === chosen)));
+    items[chosen].scrollIntoView({ block: "nearest" });
+    field.setAttribute("aria-activedescendant", items[chosen].id);
+  }
+
+  async function search() {
+    const text = field.value;
+    const entries = await loadEntries();
+    if (text !== field.value) return;
+    const found = find(entries, text);
+    list.replaceChildren(...found.map((entry, index) => row(entry, index, text)));
+    if (text.trim() && !found.length) {
+      const item = document.createElement("li");
+      item.className = "nothing";
+      item.textContent = "Nothing is called so, or says so.";
+      list.append(item);
+    }
+    list.hidden = !text.trim();
+    field.setAttribute("aria-expanded", String(!list.hidden));
+    choose(0);
+  }
+
+  function onSearchKey(event) {
+    if (event.key === "ArrowDown") choose(chosen + 1);
+    else if (event.key === "ArrowUp") choose(chosen - 1);
+    else if (event.key === "Enter") list.querySelector("[aria-selected=true]")?.click();
+    else if (event.key === "Escape") { close(); field.value = ""; field.blur(); }
+    else return;
+    event.preventDefault();
+  }
+
+  if (box) {
+    box.hidden = false;
+    field.addEventListener("focus", loadEntries);
+    field.addEventListener("input", search);
+    field.addEventListener("keydown", onSearchKey);
+    field.addEventListener("blur", close);
+    document.addEventListener("keydown", (event) => {
+      const isTyping = event.target.closest?.("input, textarea, select");
+      if (isTyping || event.ctrlKey || event.metaKey || event.altKey || event.key !== "/") return;
+      event.preventDefault();
+      field.focus();
+    });
+  }
+
+  // ---- Drawings ----
+
+  function frameSign() {
+    const svg = document.createElementNS("http://www.w3.org/2000/svg", "svg");
+    const path = document.createElementNS("http://www.w3.org/2000/svg", "path");
+    svg.setAttribute("viewBox", "0 0 14 14");
+    path.setAttribute("d", "M1 5V1h4M9 1h4v4M13 9v4H9M5 13H1V9");
+    svg.append(path);
+    return svg;
+  }
+
+  class Drawing {
+    constructor(frame) {
+      this.frame = frame;
+      this.sheet = frame.querySelector(".sheet");
+      this.svg = frame.querySelector("svg");
+      if (!this.svg) return;
+      this.whole = this.svg.viewBox.baseVal;
+      this.whole = { x: this.whole.x, y: this.whole.y, width: this.whole.width, height: this.whole.height };
+      this.view = { ...this.whole };
+      frame.classList.add("is-live");
+      this.addTools();
+      this.listen();
+    }
+
+    addTools() {
+      const tools = document.createElement("div");
+      tools.className = "tools";
+      const add = (sign, title, act) => {
+        const button = document.createElement("button");
+        button.type = "button";
+        button.append(sign);
+        button.title = title;
+        button.setAttribute("aria-label", title);
+        button.addEventListener("click", act);
+        tools.append(button);
+      };
+      add("+", "Zoom in (+)", () => this.zoom(1 / ZOOM_STEP));
+      add("−", "Zoom out (-)", () => this.zoom(ZOOM_STEP));
+      add("Fit", "Show all of it (0)", () => this.fit());
+      if (document.fullscreenEnabled) add(frameSign(), "Full screen (F)", () => this.toggleFullScreen());
+      this.frame.prepend(tools);
+    }
+
+    listen() {
+      this.sheet.addEventListener("keydown", (event) => this.onKey(event));
+      // The page scrolls by the wheel; with Ctrl, as a pinch says too, the drawing zooms.
+      this.sheet.addEventListener("wheel", (event) => {
+        if (!event.ctrlKey && !event.metaKey) return;
+        event.preventDefault();
+        this.zoom(Math.exp(Math.max(-60, Math.min(60, event.deltaY)) / 200), this.pointOf(event));
+      }, { passive: false });
+      this.sheet.addEventListener("pointerdown", (event) => this.onDown(event));
+      this.svg.addEventListener("dragstart", (event) => event.preventDefault());
+      for (const node of this.svg.querySelectorAll("[data-key]")) {
+        node.addEventListener("pointerenter", () => this.light(node.dataset.key));
+        node.addEventListener("pointerleave", () => this.light(null));
+        node.addEventListener("focus", () => this.light(node.dataset.key));
+        node.addEventListener("blur", () => this.light(null));
+      }
+    }
+
+    show() {
+      const { x, y, width, height } = this.view;
+      this.svg.setAttribute("viewBox", `${x} ${y} ${width} ${height}`);
+    }
+
+    pixels() {
+      const rect = this.svg.getBoundingClientRect();
+      return Math.max(this.view.width / rect.width, this.view.height / rect.height);
+    }
+
+    pointOf(event) {
+      const rect = this.svg.getBoundingClientRect();
+      return { x: (event.clientX - rect.left) / rect.width, y: (event.clientY - rect.top) / rect.height };
+    }
+
+    zoom(factor, at = { x: 0.5, y: 0.5 }) {
+      const least = Math.min(this.whole.width, 200);
+      const width = Math.max(least, Math.min(this.whole.width * 2, this.view.width * factor));
+      const height = width * this.view.height / this.view.width;
+      this.view.x += (this.view.width - width) * at.x;
+      this.view.y += (this.view.height - height) * at.y;
+      Object.assign(this.view, { width, height });
+      this.show();
+    }
+
+    pan(dx, dy) {
+      const scale = this.pixels();
+      this.view.x += dx * scale;
+      this.view.y += dy * scale;
+      this.show();
+    }
+
+    fit() {
+      this.view = { ...this.whole };
+      this.show();
+    }
+
+    toggleFullScreen() {
+      if (document.fullscreenElement) document.exitFullscreen();
+      else this.frame.requestFullscreen();
+    }
+
+    onKey(event) {
+      if (event.ctrlKey || event.metaKey || event.altKey) return;
+      const acts = {
+        "+": () => this.zoom(1 / ZOOM_STEP), "=": () => this.zoom(1 / ZOOM_STEP), "-": () => this.zoom(ZOOM_STEP),
+        0: () => this.fit(), f: () => this.toggleFullScreen(),
+        ArrowLeft: () => this.pan(-PAN_STEP, 0), ArrowRight: () => this.pan(PAN_STEP, 0),
+        ArrowUp: () => this.pan(0, -PAN_STEP), ArrowDown: () => this.pan(0, PAN_STEP),
+      };
+      if (!acts[event.key]) return;
+      event.preventDefault();
+      acts[event.key]();
+    }
+
+    onDown(event) {
+      // A finger scrolls the page; only a mouse drags the drawing.
+      if (event.button !== 0 || event.pointerType === "touch") return;
+      let last = event;
+      let moved = 0;
+      const onMove = (next) => {
+        moved += Math.abs(next.clientX - last.clientX) + Math.abs(next.clientY - last.clientY);
+        if (moved > 4) {
+          this.frame.classList.add("is-moving");
+          this.pan(last.clientX - next.clientX, last.clientY - next.clientY);
+        }
+        last = next;
+      };
+      const onUp = () => {
+        window.removeEventListener("pointermove", onMove);
+        this.frame.classList.remove("is-moving");
+        // The click that ends a drag follows no link.
+        if (moved > 4) {
+          const stop = (click) => { click.preventDefault(); click.stopPropagation(); };
+          this.svg.addEventListener("click", stop, { capture: true, once: true });
+          setTimeout(() => this.svg.removeEventListener("click", stop, { capture: true }));
+        }
+      };
+      window.addEventListener("pointermove", onMove);
+      window.addEventListener("pointerup", onUp, { once: true });
+    }
+
+    light(key) {
+      this.svg.classList.toggle("is-asked", key !== null);
+      const lit = new Set();
+      for (const each of this.svg.querySelectorAll("[data-from]")) {
+        const isOf = key === each.dataset.from || key === each.dataset.to;
+        each.classList.toggle("is-lit", isOf);
+        if (isOf) lit.add(each.dataset.from).add(each.dataset.to);
+      }
+      lit.add(key);
+      for (const each of this.svg.querySelectorAll("[data-key]")) each.classList.toggle("is-lit", lit.has(each.dataset.key));
+    }
+  }
+
+  for (const frame of document.querySelectorAll("[data-drawing]")) new Drawing(frame);
+
+  // A menu that takes the whole width of a small screen waits to be opened.
+  if (matchMedia("(max-width: 800px)").matches) document.querySelector(".menu details")?.removeAttribute("open");
+})();

@@ -1,0 +1,199 @@
+"""The site of designs and of behaviors: no link leads nowhere, nothing of a stranger runs, the same bytes twice."""
+
+import json
+import re
+from pathlib import Path
+
+import pytest
+
+from tests.docsite.crawling import broken_links, dangers, pages_of, read_page
+from tests.editor.hostile_project import PAYLOADS, write_hostile_project
+from vicode.cli import main
+from vicode.docsite import Subject, build_site
+from vicode.docsite.docs import html_of, summary_of
+from vicode.model.design import Call, Declaration, Design, Group, Guard, State, Stay, Transition, Use
+from vicode.model.project import Project
+from vicode.output import OutputFile
+
+ROOT = Path(__file__).parents[2]
+FORWARD = ROOT / "designs" / "forward"
+BEHAVIOR = ROOT / "tests" / "xabsl" / "cases" / "programs" / "p1" / "agents.xabsl"
+
+
+def site_of(path: Path, out: Path) -> tuple[OutputFile, ...]:
+    """The files that the command writes."""
+    assert main(["docs", str(path), "--out", str(out)]) == 0
+    return files_in(out)
+
+
+def files_in(out: Path) -> tuple[OutputFile, ...]:
+    return tuple(OutputFile(path=file.name, text=file.read_text("utf-8")) for file in sorted(out.iterdir()))
+
+
+@pytest.fixture(scope="module")
+def forward(tmp_path_factory: pytest.TempPathFactory) -> tuple[OutputFile, ...]:
+    return site_of(FORWARD, tmp_path_factory.mktemp("forward"))
+
+
+@pytest.fixture(scope="module")
+def behavior(tmp_path_factory: pytest.TempPathFactory) -> tuple[OutputFile, ...]:
+    return site_of(BEHAVIOR, tmp_path_factory.mktemp("behavior"))
+
+
+def page(files: tuple[OutputFile, ...], path: str) -> str:
+    return next(file.text for file in files if file.path == path)
+
+
+def test_no_link_of_a_project_is_broken(forward: tuple[OutputFile, ...]) -> None:
+    assert not broken_links(forward)
+    assert sum(len(read.links) for read in pages_of(forward).values()) > 1000
+
+
+def test_no_link_of_a_behavior_is_broken(behavior: tuple[OutputFile, ...]) -> None:
+    assert not broken_links(behavior)
+    assert len([file for file in behavior if file.path.startswith("component-")]) == 19
+    assert "option opt0 {" in read_page(page(behavior, "source-opt0.html")).text
+
+
+@pytest.mark.parametrize("name", ["forward", "behavior"])
+def test_no_place_of_a_page_has_two_things(name: str, request: pytest.FixtureRequest) -> None:
+    pages = pages_of(request.getfixturevalue(name))
+    doubled = [f"{path}#{id_}" for path, read in pages.items() for id_, count in read.ids.items() if count > 1]
+    assert not doubled
+
+
+def test_every_thing_is_found(forward: tuple[OutputFile, ...]) -> None:
+    script = page(forward, "search.js")
+    rows = json.loads(re.search(r"= (\[.*\]);\n$", script, re.DOTALL)[1])  # type: ignore[index]
+    found = {(name, kind, where) for name, kind, where, *_rest in rows}
+    assert ("Kick", "state", "Player") in found
+    assert ("Kick", "type", "Forward") in found
+    assert ("net_bearing", "output", "Perception") in found
+    words = next(row[5] for row in rows if row[:3] == ["Kick", "state", "Player"])
+    assert "log.info" in words
+    pages = pages_of(forward)
+    assert all(row[3].partition("#")[2] in {"", *pages[row[3].partition("#")[0]].ids} for row in rows)
+
+
+def test_a_state_says_what_it_does(forward: tuple[OutputFile, ...]) -> None:
+    text = page(forward, "component-Player.html")
+    section = text[text.index('id="state-Kick"') : text.index('id="state-WatchBall"')]
+    words = " ".join(read_page(section).text.split())
+    for expected in (
+        "Kick, with the eyes on the ball.",
+        "AlignFront, AlignDiagonal, AlignLateral",
+        "Requires",
+        "kicks = kicks + 1",
+        "log.info(",
+        "kicker(kick=kick, side=side)",
+        "if not kicker.busy and after 0.5 s kicked go to WatchBall else stay",
+    ):
+        assert expected in words
+    for address in ("interfaces.html#interface-Kicker-output-busy", "source-Player.html#L", "python-Player.html#L"):
+        assert f'href="{address}' in section
+
+
+def test_lines_of_code_lead_back(forward: tuple[OutputFile, ...]) -> None:
+    for path in ("python-Player.html", "source-Player.html"):
+        links = read_page(page(forward, path)).links
+        assert "component-Player.html#state-Kick" in links
+        assert "component-Player.html#state-WatchBall-1" in links
+
+
+def test_drawings_have_no_colours_of_their_own(forward: tuple[OutputFile, ...]) -> None:
+    text = page(forward, "component-Player.html")
+    drawing = text[text.index("<svg") : text.index("</svg>")]
+    assert re.findall(r'(?:fill|stroke)="(?!none|var\(--drawn-)[^"]*"', drawing) == []
+    assert 'href="component-Player.html#state-Kick"' in drawing
+    assert 'href="component-Player.html#state-SearchNet-0-then-1"' in drawing
+
+
+@pytest.mark.parametrize("payload", sorted(PAYLOADS))
+def test_nothing_of_a_stranger_runs(payload: str, tmp_path: Path) -> None:
+    write_hostile_project(tmp_path / "evil", PAYLOADS[payload])
+    main(["docs", str(tmp_path / "evil"), "--out", str(tmp_path / "site")])
+    files = files_in(tmp_path / "site")
+    assert not dangers(files)
+    assert not broken_links(files)
+    assert PAYLOADS[payload].split()[0] in read_page(page(files, "component-Player.html")).text
+
+
+def test_names_of_a_stranger_are_only_names() -> None:
+    evil = '"><script>alert(1)</script>'
+    design = Design(
+        component=evil,
+        uses=(Use(alias=evil, component=evil), Use(alias="b", component="gone")),
+        parameters=(Declaration(name=evil, type=evil, unit=evil, doc=evil),),
+        initial=evil,
+        states=(
+            State(
+                name=evil,
+                doc=evil,
+                requires=(evil, "nobody"),
+                modulates=(Call(alias=evil, arguments=((evil, evil),)),),
+                transitions=(
+                    Transition(to=evil, guard=Guard(when=evil), doc=evil),
+                    Group(guard=Guard(when="a"), then=(Stay(),), otherwise=(Transition(to="nowhere"),)),
+                ),
+            ),
+        ),
+    )
+    files = build_site(Subject(project=Project(name=evil, doc=evil, languages=(), designs=(design,))))
+    assert not dangers(files)
+    assert not broken_links(files)
+
+
+def test_names_that_differ_in_case_alone_keep_their_pages() -> None:
+    designs = tuple(Design(component=name, states=(State(name="A"),)) for name in ("Walk", "walk"))
+    files = build_site(Subject(project=Project(name="p", languages=(), designs=designs)))
+    paths = [file.path.casefold() for file in files]
+    assert len(paths) == len(set(paths))
+    assert len([path for path in paths if path.startswith("component-")]) == 2
+
+
+def test_the_same_project_gives_the_same_bytes(forward: tuple[OutputFile, ...], tmp_path: Path) -> None:
+    assert site_of(FORWARD, tmp_path / "again") == forward
+
+
+def test_docs_are_markdown_without_danger() -> None:
+    html = html_of("# Title\n\n*soft* [evil](javascript:x) [page](gone.html) ![p](http://x/y.png) <b>x</b>\n\n- `a`")
+    assert "<h4>Title</h4>" in html
+    assert "<em>soft</em>" in html
+    assert "<li>" in html
+    assert re.findall(r'href="([^"]*)"', html) == ["http://x/y.png"]
+    assert "<img" not in html
+    assert "<b>" not in html
+    assert '<a href="https://example.org">w</a>' in html_of("[w](https://example.org)")
+    assert summary_of("Looks around. Then it goes.\n\nMore.") == "Looks around."
+
+
+def test_a_second_run_changes_only_what_is_new(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    site_of(FORWARD, tmp_path)
+    (tmp_path / "component-Gone.html").write_text((tmp_path / "index.html").read_text("utf-8"))
+    (tmp_path / "mine.html").write_text("<p>mine")
+    capsys.readouterr()
+    site_of(FORWARD, tmp_path)
+    assert "36 files, 1 changed" in capsys.readouterr().out
+    assert not (tmp_path / "component-Gone.html").exists()
+    assert (tmp_path / "mine.html").exists()
+
+
+def test_pages_of_others_are_not_written_over(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (tmp_path / "index.html").write_text("<p>mine")
+    assert main(["docs", str(FORWARD), "--out", str(tmp_path)]) == 2
+    assert "is no page of ours" in capsys.readouterr().err
+    assert [file.name for file in tmp_path.iterdir()] == ["index.html"]
+
+
+def test_strict_fails_on_findings(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["docs", str(BEHAVIOR), "--out", str(tmp_path), "--strict"]) == 1
+    assert (tmp_path / "index.html").exists()
+    assert "warnings" in capsys.readouterr().out
+
+
+def test_a_behavior_with_errors_gives_no_site(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    file = tmp_path / "agents.xabsl"
+    file.write_text('agent a("A", nobody);\n')
+    assert main(["docs", str(file), "--out", str(tmp_path / "site")]) == 1
+    assert "nobody" in capsys.readouterr().err
+    assert not (tmp_path / "site").exists()

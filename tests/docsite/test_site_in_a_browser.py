@@ -1,0 +1,82 @@
+"""The site as a person opens it, from files: it complains of nothing, finds things, and its drawings can be moved."""
+
+from pathlib import Path
+
+import pytest
+from playwright.sync_api import Page, expect
+
+from tests.editor.hostile_project import PAYLOADS, write_hostile_project
+from vicode.cli import main
+
+FORWARD = Path(__file__).parents[2] / "designs" / "forward"
+
+
+@pytest.fixture(scope="module")
+def site(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("site")
+    assert main(["docs", str(FORWARD), "--out", str(folder)]) == 0
+    return folder
+
+
+def test_from_home_to_a_state(page: Page, site: Path) -> None:
+    page.goto((site / "index.html").as_uri())
+    page.locator(".drawing a.state", has_text="Player").click()
+    expect(page.locator("h1")).to_have_text("Player")
+    page.locator(".drawing a.state", has_text="WatchBall").click()
+    expect(page.locator("#state-WatchBall h3")).to_be_in_viewport()
+    page.locator("#state-WatchBall h3").get_by_text("Python").click()
+    expect(page.locator("tr:target")).to_contain_text("_in_watch_ball")
+
+
+def test_searching_by_keys(page: Page, site: Path) -> None:
+    page.goto((site / "component-Player.html").as_uri())
+    page.keyboard.press("/")
+    page.keyboard.type("rolls half second")
+    expect(page.get_by_role("option").first).to_contain_text("WatchBall")
+    page.keyboard.press("Enter")
+    expect(page).to_have_url((site / "component-Player.html").as_uri() + "#state-WatchBall")
+    page.keyboard.press("/")
+    page.locator("#search").fill("net_bearing")
+    expect(page.get_by_role("option").first).to_contain_text("output of Perception")
+    page.keyboard.press("Enter")
+    expect(page.locator("tr:target")).to_contain_text("net_bearing")
+    page.keyboard.press("/")
+    page.keyboard.type("nobody says this")
+    expect(page.locator("#found")).to_contain_text("Nothing")
+
+
+def test_a_drawing_zooms_and_tells_what_belongs_together(page: Page, site: Path) -> None:
+    page.goto((site / "component-Player.html").as_uri())
+    drawing = page.locator(".drawing svg[viewBox]").and_(page.locator("[role=group]"))
+    whole = drawing.get_attribute("viewBox")
+    page.locator(".sheet").focus()
+    page.keyboard.press("+")
+    assert drawing.get_attribute("viewBox") != whole
+    page.keyboard.press("ArrowRight")
+    page.keyboard.press("0")
+    assert drawing.get_attribute("viewBox") == whole
+    page.locator("a.state[data-key='s:LookForBall']").hover()
+    expect(page.locator("a.state.is-lit", has_text="FollowBall")).to_have_count(1)
+    expect(page.locator("a.state:not(.is-lit)", has_text="AlignFront")).to_have_count(1)
+
+
+def test_it_fits_a_telephone_and_follows_the_system(page: Page, site: Path) -> None:
+    page.set_viewport_size({"width": 390, "height": 800})
+    for name in ("index", "component-Player", "interfaces", "python-Player", "all"):
+        page.goto((site / f"{name}.html").as_uri())
+        assert page.evaluate("document.documentElement.scrollWidth") <= 390, name
+    light = page.evaluate("getComputedStyle(document.body).backgroundColor")
+    page.emulate_media(color_scheme="dark")
+    assert page.evaluate("getComputedStyle(document.body).backgroundColor") != light
+
+
+@pytest.mark.parametrize("payload", ["script", "image", "drawing", "prop"])
+def test_nothing_of_a_stranger_runs(page: Page, tmp_path: Path, payload: str) -> None:
+    write_hostile_project(tmp_path / "evil", PAYLOADS[payload])
+    main(["docs", str(tmp_path / "evil"), "--out", str(tmp_path / "site")])
+    for file in sorted((tmp_path / "site").glob("*.html")):
+        page.goto(file.as_uri())
+        page.keyboard.press("/")
+        page.keyboard.type("p")
+        expect(page.get_by_role("option").first).to_be_visible()
+        assert page.evaluate("window.ran") is None

@@ -1,0 +1,100 @@
+"""Which page and place of the site a thing is found at; all pages lie side by side, so an address holds everywhere."""
+
+import re
+
+from vicode.findings import Path
+from vicode.model.design import COMMON
+from vicode.model.project import Project
+
+HOME, AGENTS, INTERFACES, TYPES, EVERYTHING = "index.html", "agents.html", "interfaces.html", "types.html", "all.html"
+_LONGEST = 60
+_SINGULAR = {"parameters": "parameter", "outputs": "output", "variables": "variable"}
+
+
+def slug(name: str) -> str:
+    """A name as a part of an address."""
+    return re.sub(r"[^A-Za-z0-9_-]+", "-", name)[:_LONGEST].strip("-") or "x"
+
+
+def anchor_of(path: Path) -> str:
+    """The place on a component's page of the thing that a path of its design leads to; "" for the page itself."""
+    match path:
+        case ("states", str(name), "transitions", int(), *_):
+            return f"{state_anchor(name)}-{_steps(path[3:])}"
+        case ("states", str(name), *_):
+            return state_anchor(name)
+        case ("common", "transitions", int(), *_):
+            return f"common-{_steps(path[2:])}"
+        case ("common", *_):
+            return "common"
+        case (str(section), str(name), *_) if section in _SINGULAR:
+            return f"{_SINGULAR[section]}-{slug(name)}"
+        case _:
+            return ""
+
+
+def state_anchor(name: str) -> str:
+    """The place of a state on its page."""
+    return "common" if name == COMMON else f"state-{slug(name)}"
+
+
+def _steps(path: Path) -> str:
+    """The numbers and branches that lead to a decision, without what is inside it."""
+    steps = []
+    for step in path:
+        if not isinstance(step, int) and step not in ("then", "else"):
+            break
+        steps.append(str(step))
+    return "-".join(steps)
+
+
+class Addresses:
+    """The addresses of a project's things; file systems that do not tell cases apart keep all pages."""
+
+    def __init__(self, project: Project) -> None:
+        self._project = project
+        self._stems: dict[str, str] = {}
+        taken: set[str] = set()
+        for design in project.designs:
+            stem, number = slug(design.component), 1
+            while stem.casefold() in taken:
+                number += 1
+                stem = f"{slug(design.component)}-{number}"
+            taken.add(stem.casefold())
+            self._stems[design.component] = stem
+
+    def component(self, name: str) -> str:
+        """Where a component is described: its page, or its part of the one of interfaces; "" for an unknown one."""
+        if name in self._stems:
+            return f"component-{self._stems[name]}.html"
+        return f"{INTERFACES}#interface-{slug(name)}" if self._project.interface(name) else ""
+
+    def thing(self, component: str, path: Path) -> str:
+        """Where a thing of a design is described."""
+        anchor = anchor_of(path)
+        return self.component(component) + (f"#{anchor}" if anchor else "")
+
+    def member(self, component: str, section: str, name: str) -> str:
+        """Where a parameter, output or variable of a component is described."""
+        page = self.component(component)
+        if "#" in page:
+            return f"{page}-{_SINGULAR[section]}-{slug(name)}"
+        return f"{page}#{_SINGULAR[section]}-{slug(name)}" if page else ""
+
+    def code(self, component: str, form: str) -> str:
+        """The page with a text of a component: `form` is source or a language."""
+        return f"{form}-{self._stems[component]}.html" if component else f"{form}.html"
+
+    def enumeration(self, name: str, element: str = "") -> str:
+        """Where a type, or one of its elements, is described; "" for an unknown one."""
+        if self._project.enumeration(name) is None:
+            return ""
+        return f"{TYPES}#enum-{slug(name)}" + (f"-{slug(element)}" if element else "")
+
+    def constant(self, name: str) -> str:
+        """Where a constant is described."""
+        return f"{TYPES}#constant-{slug(name)}"
+
+    def agent(self, name: str) -> str:
+        """Where an agent is described."""
+        return f"{AGENTS}#agent-{slug(name)}"

@@ -1,0 +1,43 @@
+"""Docs as HTML: Markdown of strangers, so without HTML, pictures and addresses other than those of the web."""
+
+import re
+from functools import lru_cache
+
+from markdown_it import MarkdownIt
+
+_ALLOWED = re.compile(r"(?i)(https?://|mailto:)")
+# A doc stands below the headings of its page.
+_DEEPER = 3
+
+
+def html_of(text: str) -> str:
+    """A doc of paragraphs, lists and the like."""
+    tokens = _markdown().parse(text)
+    for token in tokens:
+        if token.type in ("heading_open", "heading_close"):
+            token.tag = f"h{min(6, int(token.tag[1]) + _DEEPER)}"
+    rendered: str = _markdown().renderer.render(tokens, _markdown().options, {})
+    return rendered
+
+
+def line_html_of(text: str) -> str:
+    """A doc within a line or a cell."""
+    return str(_markdown().renderInline(text))
+
+
+def summary_of(text: str) -> str:
+    """The first sentence, as plain words."""
+    paragraph = " ".join(text.strip().split("\n\n")[0].split())
+    end = re.search(r"[.:!?](?= [A-Z])", paragraph)
+    return paragraph[: end.end()] if end else paragraph
+
+
+@lru_cache(maxsize=1)
+def _markdown() -> MarkdownIt:
+    markdown = MarkdownIt("commonmark", {"html": False, "linkify": False}).enable("table").disable("image")
+    markdown.validateLink = _is_allowed  # type: ignore[method-assign]
+    return markdown
+
+
+def _is_allowed(url: str) -> bool:
+    return _ALLOWED.match(url.strip()) is not None

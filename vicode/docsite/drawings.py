@@ -1,0 +1,82 @@
+"""Drawings for pages: laid out where a design gives no place, every box and arrow a link, colours left to the page."""
+
+from collections.abc import Iterable
+from dataclasses import replace
+
+from vicode.diagram.drawing import draw_figure
+from vicode.diagram.figure import Arrow, Figure, Node, figure_of
+from vicode.diagram.layout import LayoutService
+from vicode.diagram.palettes import from_properties
+from vicode.diagram.svg import write_svg
+from vicode.diagram.usage import usage_figure
+from vicode.docsite.addresses import Addresses
+from vicode.model.design import Design
+from vicode.model.edits import move
+from vicode.model.project import Project
+from vicode.model.walks import walk_transitions
+
+_SECONDS = 5.0
+
+
+def laid_out(project: Project) -> Project:
+    """The project with a place for everything in the designs that give none; a place that is given stays."""
+    if all(_has_places(design) for design in project.designs):
+        return project
+    with LayoutService() as service:
+        return replace(project, designs=tuple(_with_places(design, service) for design in project.designs))
+
+
+def draw_design(design: Design, addresses: Addresses) -> str:
+    """The state machine; states and arrows lead to where they are described, used components to their pages."""
+    figure = figure_of(design)
+    components = {use.alias: use.component for use in design.uses}
+    things = {
+        f"t:{'/'.join(map(str, located.path))}": addresses.thing(design.component, located.path)
+        for located in walk_transitions(design)
+    }
+
+    def linked_node(node: Node) -> Node:
+        kind, _colon, name = node.key.partition(":")
+        if kind == "c":
+            return replace(node, href=addresses.component(components[name]))
+        path = ("states", name) if kind == "s" else ("common",)
+        return replace(node, href=addresses.thing(design.component, path))
+
+    def linked_arrow(arrow: Arrow) -> Arrow:
+        if arrow.of == "transition":
+            return replace(arrow, href=things.get(arrow.key, ""))
+        state = arrow.target if arrow.of == "requires" else arrow.source
+        return replace(arrow, href=addresses.thing(design.component, ("states", state.partition(":")[2])))
+
+    nodes = tuple(map(linked_node, figure.nodes))
+    arrows = tuple(map(linked_arrow, figure.arrows))
+    return _svg(Figure(nodes=nodes, arrows=arrows), f"State machine of {design.component}")
+
+
+def draw_uses(project: Project, addresses: Addresses, title: str, only: Iterable[str] | None = None) -> str:
+    """Who uses whom; an arrow leads to its user."""
+    figure = usage_figure(project)
+    shown = {node.key for node in figure.nodes} if only is None else set(only)
+    nodes = tuple(replace(node, href=addresses.component(node.key)) for node in figure.nodes if node.key in shown)
+    arrows = []
+    for arrow in figure.arrows:
+        user = arrow.target if arrow.of == "requires" else arrow.source
+        if {arrow.source, arrow.target} <= shown:
+            arrows.append(replace(arrow, href=f"{addresses.component(user)}#uses"))
+    return _svg(Figure(nodes=nodes, arrows=tuple(arrows)), title) if nodes else ""
+
+
+def _svg(figure: Figure, title: str) -> str:
+    return write_svg(draw_figure(figure, title=title, palette=from_properties()), is_part=True)
+
+
+def _has_places(design: Design) -> bool:
+    return not design.states or any(state.at for state in design.states)
+
+
+def _with_places(design: Design, service: LayoutService) -> Design:
+    if _has_places(design):
+        return design
+    places = service.lay_out(design, timeout_s=_SECONDS).placement
+    common = places.common if design.common.transitions or design.common.actions else None
+    return move(design, places.states, places.uses, common)

@@ -1,0 +1,143 @@
+"""The texts of a component, as pages of code whose lines and things link each other."""
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+
+from vicode.docsite.addresses import Addresses
+from vicode.docsite.listings import TITLES, lines_of
+from vicode.docsite.subject import Subject
+from vicode.docsite.views import CodeLine, CodeView, Part
+from vicode.findings import Path
+from vicode.generators import GENERATORS, UnsoundDesignError, generate, origins_of
+from vicode.model.design import Design
+from vicode.model.project import Project
+from vicode.output import OutputFile
+
+_LINKED = ("states", "common", "parameters", "outputs", "variables")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Text:
+    """A text of a component: `form` is "source" or a language; `lines` are where the things in it begin."""
+
+    component: str
+    form: str
+    path: str
+    text: str
+    language: str
+    lines: Mapping[Path, int]
+
+    @property
+    def title(self) -> str:
+        """What links call it."""
+        return "Source" if self.form == "source" else TITLES.get(self.form, self.form)
+
+
+def texts_of(subject: Subject) -> dict[str, tuple[Text, ...]]:
+    """All texts by component: what somebody wrote, and what is generated where nothing stands in the way."""
+    texts: dict[str, list[Text]] = {}
+    for name, source in subject.sources.items():
+        text = Text(
+            component=name,
+            form="source",
+            path=source.path,
+            text=source.text,
+            language=source.language,
+            lines=source.lines,
+        )
+        texts.setdefault(name, []).append(text)
+    for language in GENERATORS:
+        if language in subject.project.languages:
+            for text in _generated(subject, language):
+                texts.setdefault(text.component, []).append(text)
+    return {name: tuple(found) for name, found in texts.items()}
+
+
+def places_in(texts: tuple[Text, ...], addresses: Addresses) -> dict[Path, tuple[Part, ...]]:
+    """Where each thing of a component stands in its texts."""
+    places: dict[Path, tuple[Part, ...]] = {}
+    for text in texts:
+        page = addresses.code(text.component, text.form)
+        for path, line in text.lines.items():
+            part = Part(text=f"{text.title} {line}", href=f"{page}#L{line}", title=f"{text.path}, line {line}")
+            places[path] = (*places.get(path, ()), part)
+    return places
+
+
+def code_view(text: Text, siblings: tuple[Text, ...], addresses: Addresses, component: Part) -> CodeView:
+    """The page of a text."""
+    begins: dict[int, Path] = {}
+    for path, line in text.lines.items():
+        begins.setdefault(line, path)
+    rows = []
+    for number, html in enumerate(lines_of(text.text, text.language), start=1):
+        path = begins.get(number, ())
+        href = addresses.thing(text.component, path) if path and text.component else ""
+        rows.append(CodeLine(html=html, href=href, title=_name_of(path)))
+    return CodeView(
+        title=f"{text.component or 'Project'}: {text.title}",
+        path=text.path,
+        component=component,
+        texts=text_links(siblings, addresses),
+        lines=tuple(rows),
+    )
+
+
+def text_links(texts: tuple[Text, ...], addresses: Addresses) -> tuple[Part, ...]:
+    """The pages of a component's texts."""
+    return tuple(
+        Part(text=each.title, href=addresses.code(each.component, each.form), title=each.path) for each in texts
+    )
+
+
+def _generated(subject: Subject, language: str) -> Iterator[Text]:
+    """The text of each component, by asking for one at a time: what cannot be said then spoils none of the others."""
+    project, faulty = subject.project, subject.faulty.get(language, frozenset())
+    sources = {name: source.path for name, source in subject.sources.items() if name}
+    names = {design.component for design in project.designs}
+    for design in project.designs:
+        if design.component in faulty:
+            continue
+        without = names - {design.component}
+        try:
+            shared = {file.path for file in generate(project, components=(), languages=(language,))}
+            files = generate(
+                project,
+                components=(design.component,),
+                leave_out=without,
+                languages=(language,),
+                sources=sources,
+            )
+            own = [file for file in files if file.path not in shared]
+            yield max((_text(project, design, language, file) for file in own), key=lambda text: len(text.lines))
+        except UnsoundDesignError:
+            continue
+
+
+def _text(project: Project, design: Design, language: str, file: OutputFile) -> Text:
+    lines = _lines_of(project, design, language, file.text)
+    return Text(
+        component=design.component, form=language, path=file.path, text=file.text, language=language, lines=lines
+    )
+
+
+def _lines_of(project: Project, design: Design, language: str, text: str) -> dict[Path, int]:
+    lines: dict[Path, int] = {}
+    for origin in origins_of(project, design.component, language, text):
+        if origin.path and origin.path[0] in _LINKED and origin.path[-1] != "code":
+            lines.setdefault(origin.path, origin.first)
+    return lines
+
+
+def _name_of(path: Path) -> str:
+    match path:
+        case ("states", str(name), "transitions", *_):
+            return f"a decision of {name}"
+        case ("states", str(name), *_):
+            return f"state {name}"
+        case ("common", *_):
+            return "common to every state"
+        case (_section, str(name), *_):
+            return name
+        case _:
+            return ""

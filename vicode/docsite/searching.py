@@ -1,0 +1,89 @@
+"""What can be found: every name, with its doc and the code below it, as one list for the index and for the search."""
+
+import json
+from collections.abc import Iterable, Iterator
+
+from vicode.docsite.addresses import Addresses
+from vicode.docsite.docs import summary_of
+from vicode.docsite.views import Entry
+from vicode.findings import Path
+from vicode.model.design import Design
+from vicode.model.project import Interface, Project
+from vicode.model.texts import TextKind, walk_texts
+
+_KINDS = {"parameters": "parameter", "outputs": "output", "variables": "variable"}
+
+
+def entries_of(project: Project, addresses: Addresses) -> tuple[Entry, ...]:
+    """Everything that has a name, by name."""
+    entries = [*_of_project(project, addresses)]
+    for design in project.designs:
+        entries += _of_design(design, addresses)
+    for interface in project.components:
+        entries += _of_interface(interface, addresses)
+    return tuple(sorted(entries, key=lambda each: (each.name.casefold(), each.name, each.where, each.href)))
+
+
+def search_script(entries: Iterable[Entry]) -> str:
+    """The list as a script, since a page that was opened as a file may not read other files."""
+    rows = [[each.name, each.kind, each.where, each.href, each.doc, each.words] for each in entries]
+    text = json.dumps(rows, ensure_ascii=True, separators=(",", ":")).replace("],[", "],\n[")
+    return f"/* vicode docs: what can be found */\nwindow.vicodeEntries = {text};\n"
+
+
+def _of_project(project: Project, addresses: Addresses) -> Iterator[Entry]:
+    for agent in project.agents:
+        href = addresses.agent(agent.name)
+        yield Entry(name=agent.name, kind="agent", where=project.name, href=href, doc=agent.doc)
+    for each in project.enumerations:
+        href = addresses.enumeration(each.name)
+        yield Entry(name=each.name, kind="type", where=project.name, href=href, doc=each.doc)
+        for name, doc in each.elements:
+            href = addresses.enumeration(each.name, name)
+            yield Entry(name=name, kind="element", where=each.name, href=href, doc=doc)
+    for constant in project.constants:
+        href = addresses.constant(constant.name)
+        words = constant.initial
+        yield Entry(name=constant.name, kind="constant", where=project.name, href=href, doc=constant.doc, words=words)
+
+
+def _of_design(design: Design, addresses: Addresses) -> Iterator[Entry]:
+    name = design.component
+    words = _words(design)
+    yield Entry(
+        name=name,
+        kind="component",
+        where=summary_of(design.doc),
+        href=addresses.component(name),
+        doc=" ".join(design.doc.split()),
+        words=words.get((), ""),
+    )
+    for section, each in design.declarations():
+        href = addresses.member(name, section, each.name)
+        yield Entry(name=each.name, kind=_KINDS[section], where=name, href=href, doc=each.doc)
+    for state in design.states:
+        path = ("states", state.name)
+        href = addresses.thing(name, path)
+        doc = " ".join(state.doc.split())
+        yield Entry(name=state.name, kind="state", where=name, href=href, doc=doc, words=words.get(path, ""))
+
+
+def _of_interface(interface: Interface, addresses: Addresses) -> Iterator[Entry]:
+    name = interface.component
+    href = addresses.component(name)
+    yield Entry(name=name, kind="interface", where=summary_of(interface.doc), href=href, doc=interface.doc)
+    for section, kind in _KINDS.items():
+        for each in getattr(interface, section):
+            href = addresses.member(name, section, each.name)
+            yield Entry(name=each.name, kind=kind, where=name, href=href, doc=each.doc)
+
+
+def _words(design: Design) -> dict[Path, str]:
+    """The expressions, code and docs of decisions, by the state they are in; () for what is in none."""
+    words: dict[Path, list[str]] = {}
+    for placed in walk_texts(design):
+        path = placed.path[:2] if placed.path[0] == "states" else ()
+        is_own_doc = placed.kind is TextKind.DOC and len(placed.path) <= 3
+        if not is_own_doc:
+            words.setdefault(path, []).append(" ".join(placed.text.split()))
+    return {path: " ".join(found) for path, found in words.items()}

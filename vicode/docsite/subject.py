@@ -1,0 +1,79 @@
+"""What a site is about: a project, what is found in it, and its files as somebody wrote them."""
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
+
+from vicode.findings import Finding, Path
+from vicode.model.design import Design
+from vicode.model.project import Project
+from vicode.model.walks import walk_decisions
+from vicode.store import OpenProject, SourceMap
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SourceText:
+    """A file as it was written: `path` as readers know it, `lines` of the things in it, counted from 1."""
+
+    path: str
+    text: str
+    language: str
+    lines: Mapping[Path, int] = field(default_factory=dict)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class OwnFinding:
+    """A finding with the component it is about, "" for the project, and its line, 0 for none."""
+
+    component: str
+    line: int
+    finding: Finding
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Subject:
+    """All that a site is made from.
+
+    `sources` are by component, "" is the project's own file; `faulty` names by language the components that nothing
+    can be generated for.
+    """
+
+    project: Project
+    findings: tuple[OwnFinding, ...] = ()
+    sources: Mapping[str, SourceText] = field(default_factory=dict)
+    faulty: Mapping[str, frozenset[str]] = field(default_factory=dict)
+
+
+def subject_of(
+    opened: OpenProject, project: Project, findings: Iterable[Finding], faulty: Mapping[str, frozenset[str]]
+) -> Subject:
+    """The subject of a project on disk; `project` may be a part of it."""
+    folder = opened.folder.resolve()
+    sources = {}
+    for name, source in opened.sources.items():
+        design = project.design(name)
+        if name and design is None:
+            continue
+        file = opened.files[name].resolve()
+        shown = file.relative_to(folder).as_posix() if file.is_relative_to(folder) else file.name
+        lines = _lines_of(design, source) if design else {}
+        sources[name] = SourceText(path=shown, text=opened.texts[name], language="yaml", lines=lines)
+    owners = {source.file: name for name, source in opened.sources.items()}
+    own = (_own(finding, owners) for finding in findings)
+    kept = tuple(each for each in own if not each.component or project.design(each.component))
+    return Subject(project=project, findings=kept, sources=sources, faulty=faulty)
+
+
+def _own(finding: Finding, owners: Mapping[str, str]) -> OwnFinding:
+    component = finding.thing.component if finding.thing else ""
+    line = finding.place.line if finding.place else 0
+    if finding.place and not finding.thing:
+        component = owners.get(finding.place.file, "")
+    return OwnFinding(component=component, line=line, finding=finding)
+
+
+def _lines_of(design: Design, source: SourceMap) -> dict[Path, int]:
+    paths: list[Path] = [("common",), *(("states", state.name) for state in design.states)]
+    paths += [(section, declaration.name) for section, declaration in design.declarations()]
+    lines = {path: source.place(path, of_key=True).line for path in paths if source.knows(path)}
+    lines |= {located.path: source.place(located.path).line for located in walk_decisions(design)}
+    return lines

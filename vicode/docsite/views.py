@@ -1,0 +1,251 @@
+"""What templates see: finished strings and lists. A field named `html`, or ending in `_html`, is HTML already."""
+
+from dataclasses import dataclass, field
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Part:
+    """A piece of a line: with `href` a link, `title` its tip, `kind` a class of the style sheet."""
+
+    text: str
+    href: str = ""
+    title: str = ""
+    kind: str = ""
+
+
+Line = tuple[Part, ...]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class CodeBlock:
+    """A piece of code in a language."""
+
+    language: str
+    html: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class DeclarationRow:
+    """A parameter, output, variable or constant."""
+
+    anchor: str
+    name: str
+    arguments: tuple[Line, ...]
+    type: Line
+    initial: Line
+    unit: str
+    range: str
+    doc_html: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class DeclarationTable:
+    """All declarations of one section."""
+
+    title: str
+    initial: str
+    rows: tuple[DeclarationRow, ...]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class TransitionRow:
+    """A row of the transition table: all guards of `guards` must hold."""
+
+    anchor: str
+    order: int
+    source: Part
+    guards: tuple[Line, ...]
+    timer: Line
+    target: Part
+    doc_html: str
+    is_off: bool
+    places: tuple[Part, ...]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PseudoLine:
+    """A line of pseudo code; `blocks` is the code of its guard."""
+
+    depth: int
+    parts: Line
+    doc: str = ""
+    anchor: str = ""
+    is_off: bool = False
+    blocks: tuple[CodeBlock, ...] = ()
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ActionView:
+    """One action: a line, or code."""
+
+    line: Line = ()
+    blocks: tuple[CodeBlock, ...] = ()
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Phase:
+    """What a state does at one occasion."""
+
+    title: str
+    actions: tuple[ActionView, ...]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class StateView:
+    """A state, or what is common to all; `comes_from` are the states that lead here."""
+
+    anchor: str
+    name: str
+    words: tuple[str, ...]
+    doc_html: str
+    requires: Line
+    phases: tuple[Phase, ...]
+    pseudo: tuple[PseudoLine, ...]
+    comes_from: Line
+    places: tuple[Part, ...]
+    tree_svg: str = ""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class UseRow:
+    """A used component, or one that uses this one: the states that require and that modulate it."""
+
+    component: Part
+    alias: str
+    required_in: Line
+    modulated_in: Line
+    doc_html: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FindingRow:
+    """A finding; `severity` is a word and a class."""
+
+    severity: str
+    code: str
+    name: str
+    message: str
+    mend: str
+    component: Part
+    place: Part
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ComponentView:
+    """The page of a design."""
+
+    name: str
+    doc_html: str
+    facts: tuple[Line, ...]
+    svg: str
+    legend: tuple[Part, ...]
+    transitions: tuple[TransitionRow, ...]
+    common: StateView | None
+    states: tuple[StateView, ...]
+    uses: tuple[UseRow, ...]
+    used_by: tuple[UseRow, ...]
+    agents: Line
+    tables: tuple[DeclarationTable, ...]
+    shared_code: tuple[tuple[str, tuple[CodeBlock, ...]], ...]
+    findings: tuple[FindingRow, ...]
+    texts: tuple[Part, ...]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class InterfaceView:
+    """A component that has no design."""
+
+    anchor: str
+    name: str
+    doc_html: str
+    facts: tuple[Line, ...]
+    tables: tuple[DeclarationTable, ...]
+    used_by: tuple[UseRow, ...]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class EnumerationView:
+    """A type: its elements are anchor, name and doc."""
+
+    anchor: str
+    name: str
+    doc_html: str
+    elements: tuple[tuple[str, str, str], ...]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class AgentView:
+    """An agent with the drawing of all that it may activate."""
+
+    anchor: str
+    name: str
+    title: str
+    doc_html: str
+    root: Part
+    reaches: Line
+    svg: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ComponentRow:
+    """A line of the list of components."""
+
+    component: Part
+    summary: str
+    states: int
+    transitions: int
+    findings: int
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class HomeView:
+    """The first page; `numbers` are how many of what."""
+
+    doc_html: str
+    numbers: tuple[tuple[int, Part], ...]
+    svg: str
+    agents: tuple[tuple[Part, Part, str], ...]
+    components: tuple[ComponentRow, ...]
+    findings: tuple[FindingRow, ...]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class CodeLine:
+    """A line of code; `href` leads to what it comes from."""
+
+    html: str
+    href: str = ""
+    title: str = ""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class CodeView:
+    """A page of code; `texts` are all texts of the same component."""
+
+    title: str
+    path: str
+    component: Part
+    texts: tuple[Part, ...]
+    lines: tuple[CodeLine, ...]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Entry:
+    """Something that can be found: `words` are looked through as well."""
+
+    name: str
+    kind: str
+    where: str
+    href: str
+    doc: str = ""
+    words: str = ""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Page:
+    """What every page has; `here` is the address of its entry in the menu."""
+
+    title: str
+    file: str
+    here: str
+    crumbs: tuple[Part, ...] = field(default=())
