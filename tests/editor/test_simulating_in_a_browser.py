@@ -1,6 +1,7 @@
 """A design is simulated as a person does it: inputs set, stepped, played, stopped, gone back in, edited meanwhile."""
 
 import json
+import re
 from pathlib import Path
 
 import pytest
@@ -155,6 +156,7 @@ def test_code_that_never_ends_is_told_with_its_line(editor: str, page: Page, pro
     expect(page.get_by_text("The design has changed")).to_be_visible()
     click_state(page, "WatchBall")
     page.get_by_role("checkbox", name="Initial").click()
+    expect(state(page, "WatchBall")).to_have_attribute("aria-label", re.compile("initial"))
     page.keyboard.press("F10")
     expect(page.locator(".simulation-message")).to_contain_text(
         "Player, state WatchBall, WatchBall.enter, line 1: did not come to an end within 2 s"
