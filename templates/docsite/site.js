@@ -207,6 +207,7 @@
     show() {
       const { x, y, width, height } = this.view;
       this.svg.setAttribute("viewBox", `${x} ${y} ${width} ${height}`);
+      this.frame.classList.toggle("is-zoomed", width < this.whole.width * 0.99);
     }
 
     pixels() {
@@ -260,8 +261,8 @@
     }
 
     onDown(event) {
-      // A finger scrolls the page; only a mouse drags the drawing.
-      if (event.button !== 0 || event.pointerType === "touch") return;
+      // A finger scrolls the page while all of the drawing is shown, and moves the drawing when it is not.
+      if (event.button !== 0 || (event.pointerType === "touch" && !this.frame.classList.contains("is-zoomed"))) return;
       let last = event;
       let moved = 0;
       const onMove = (next) => {

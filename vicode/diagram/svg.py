@@ -34,7 +34,7 @@ def write_svg(drawing: Drawing, *, is_part: bool = False) -> str:
 
 def _group(group: Group, *, is_part: bool) -> list[str]:
     shapes = [_path(shape) if isinstance(shape, Path) else _line_of_text(shape) for shape in group.shapes]
-    inner = [f"<title>{_text(group.title)}</title>", *shapes]
+    inner = [*([f"<title>{_text(group.title)}</title>"] if group.title else ()), *shapes]
     about = f'class="{group.kind}"' + (_relations(group) if is_part else "")
     if group.href:
         return [f"<a {about} href={quoteattr(_NOT_XML.sub('', group.href))}>", *inner, "</a>"]

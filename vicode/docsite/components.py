@@ -7,7 +7,7 @@ from vicode.docsite.addresses import Addresses, anchor_of, state_anchor
 from vicode.docsite.decisions import Places, blocks_of, pseudo_lines, transition_rows
 from vicode.docsite.declarations import tables_of
 from vicode.docsite.docs import html_of
-from vicode.docsite.drawings import draw_design
+from vicode.docsite.drawings import draw_decisions, draw_design
 from vicode.docsite.findings import finding_rows
 from vicode.docsite.linking import Linker, listed, plain
 from vicode.docsite.subject import Subject
@@ -93,6 +93,7 @@ def _state(design: Design, state: State, linker: Linker, made: Made) -> StateVie
             Part(text="every state", href="#common") if source == COMMON else linker.state(source) for source in sources
         ),
         places=made.places.get(("states", state.name), ()),
+        tree_svg=draw_decisions(state.transitions, ("states", state.name, "transitions"), design, made.addresses),
     )
 
 
@@ -108,6 +109,7 @@ def _common(design: Design, linker: Linker, made: Made) -> StateView:
         pseudo=pseudo_lines(design.common.transitions, linker, ("common", "transitions")),
         comes_from=(),
         places=made.places.get(("common",), ()),
+        tree_svg=draw_decisions(design.common.transitions, ("common", "transitions"), design, made.addresses),
     )
 
 

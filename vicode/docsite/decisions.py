@@ -74,7 +74,8 @@ def pseudo_lines(items: tuple[Decision, ...], linker: Linker, path: Path) -> tup
         return lines
     is_common = path[0] == "common"
     last = "what the state itself decides" if is_common else "stay"
-    return (*lines, PseudoLine(depth=0, parts=(Part(text="else ", kind="k"), Part(text=last, kind="k"))))
+    before = "else " if _ends(items[-1]) else ""
+    return (*lines, PseudoLine(depth=0, parts=(Part(text=before + last, kind="k"),)))
 
 
 def _guards(located: Located, linker: Linker) -> Iterator[Line]:
@@ -100,10 +101,13 @@ def _pseudo(items: tuple[Decision, ...], linker: Linker, path: Path, depth: int)
         guard = guard_line(item.guard, linker)
         blocks = blocks_of(item.guard.code) if item.guard.code else ()
         doc = " ".join(item.doc.split())
-        anchor = anchor_of(here) if isinstance(item, Group) else ""
-        deeper = depth + bool(guard)
-        if guard:
-            parts = (Part(text="if ", kind="k"), *guard)
+        is_group = isinstance(item, Group)
+        deeper = depth + (bool(guard) or is_group)
+        before = "else " if index and _ends(items[index - 1]) else ""
+        if guard or is_group:
+            anchor = anchor_of(here) if is_group else ""
+            test = (Part(text=f"{before}if ", kind="k"), *guard)
+            parts = test if guard else (Part(text="always", kind="k"),)
             yield PseudoLine(depth=depth, parts=parts, doc=doc, anchor=anchor, is_off=item.disabled, blocks=blocks)
         if isinstance(item, Group):
             yield from _pseudo(item.then, linker, (*here, "then"), deeper)
@@ -112,11 +116,23 @@ def _pseudo(items: tuple[Decision, ...], linker: Linker, path: Path, depth: int)
                 yield from _pseudo(item.otherwise, linker, (*here, "else"), deeper)
         else:
             yield PseudoLine(
-                depth=deeper, parts=_outcome(item, linker), doc="" if guard else summary_of(doc), is_off=item.disabled
+                depth=deeper,
+                parts=_outcome(item, linker, "" if guard else before),
+                doc="" if guard else summary_of(doc),
+                is_off=item.disabled,
             )
 
 
-def _outcome(decision: Decision, linker: Linker) -> Line:
+def _ends(item: Decision) -> bool:
+    """Whether nothing after a decision is tested when its guard holds."""
+    if item.disabled:
+        return False
+    if isinstance(item, Group):
+        return not item.otherwise and any(always_holds(each) for each in item.then)
+    return True
+
+
+def _outcome(decision: Decision, linker: Linker, before: str) -> Line:
     if isinstance(decision, Transition):
-        return (Part(text="go to ", kind="k"), linker.state(decision.to))
-    return (Part(text="stay", kind="k"),)
+        return (Part(text=f"{before}go to ", kind="k"), linker.state(decision.to))
+    return (Part(text=f"{before}stay", kind="k"),)

@@ -1,6 +1,6 @@
 """Drawings for pages: laid out where a design gives no place, every box and arrow a link, colours left to the page."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
 from vicode.diagram.drawing import draw_figure
@@ -8,9 +8,11 @@ from vicode.diagram.figure import Arrow, Figure, Node, figure_of
 from vicode.diagram.layout import LayoutService
 from vicode.diagram.palettes import from_properties
 from vicode.diagram.svg import write_svg
+from vicode.diagram.tree import Links, draw_tree
 from vicode.diagram.usage import usage_figure
 from vicode.docsite.addresses import Addresses
-from vicode.model.design import Design
+from vicode.findings import Path
+from vicode.model.design import Decision, Design
 from vicode.model.edits import move
 from vicode.model.project import Project
 from vicode.model.walks import walk_transitions
@@ -51,6 +53,19 @@ def draw_design(design: Design, addresses: Addresses) -> str:
     nodes = tuple(map(linked_node, figure.nodes))
     arrows = tuple(map(linked_arrow, figure.arrows))
     return _svg(Figure(nodes=nodes, arrows=arrows), f"State machine of {design.component}")
+
+
+def draw_decisions(items: Sequence[Decision], path: Path, design: Design, addresses: Addresses) -> str:
+    """The decision tree of a state, or the common one; "" where nothing is decided."""
+    is_common = path[0] == "common"
+    links = Links(
+        condition=lambda path: addresses.thing(design.component, path),
+        target=lambda name: addresses.thing(design.component, ("states", name)) if design.state(name) else "",
+        last="what the state itself decides" if is_common else "stay",
+    )
+    title = "Decision tree of every state" if is_common else f"Decision tree of {path[1]}"
+    drawing = draw_tree(items, path, title=title, links=links, palette=from_properties())
+    return write_svg(drawing, is_part=True) if drawing else ""
 
 
 def draw_uses(project: Project, addresses: Addresses, title: str, only: Iterable[str] | None = None) -> str:

@@ -1,0 +1,98 @@
+"""Drawings of decisions: every decision is in them, nothing stands on anything else, no line runs through a box."""
+
+from itertools import combinations, pairwise
+
+from hypothesis import given
+from hypothesis import strategies as st
+
+from vicode.diagram.palettes import LIGHT
+from vicode.diagram.shapes import Drawing
+from vicode.diagram.shapes import Group as Shapes
+from vicode.diagram.tree import MOST_NODES, Links, draw_tree
+from vicode.findings import Path
+from vicode.model.design import Decision, Group, Guard, Stay, Transition
+
+Rect = tuple[float, float, float, float]
+LINKS = Links(condition=lambda path: "#" + "-".join(map(str, path)), target=lambda name: f"#{name}")
+PATH: Path = ("states", "A", "transitions")
+
+guards = st.sampled_from(["", "ball.seen", "ball.distance < 300 and not walk.busy"]).map(lambda when: Guard(when=when))
+leaves = st.one_of(
+    st.builds(Transition, to=st.sampled_from(["B", "LookForBall"]), guard=guards, disabled=st.booleans()),
+    st.builds(Stay, guard=guards),
+)
+decisions = st.recursive(
+    leaves,
+    lambda inner: st.builds(
+        Group,
+        guard=guards,
+        then=st.lists(inner, min_size=1, max_size=3).map(tuple),
+        otherwise=st.lists(inner, max_size=3).map(tuple),
+    ),
+    max_leaves=12,
+)
+
+
+def draw(items: tuple[Decision, ...]) -> Drawing | None:
+    return draw_tree(items, PATH, title="t", links=LINKS, palette=LIGHT)
+
+
+def points_of(group: Shapes) -> list[tuple[float, float]]:
+    steps = [numbers[-2:] for shape in group.shapes[:1] for _letter, numbers in shape.steps if numbers]  # type: ignore[union-attr]
+    return [(x, y) for x, y in steps]
+
+
+def rect_of(group: Shapes) -> Rect:
+    points = points_of(group)
+    return (min(x for x, _ in points), min(y for _, y in points), max(x for x, _ in points), max(y for _, y in points))
+
+
+def test_what_a_tree_says() -> None:
+    near = Guard(when="near")
+    items = (
+        Group(
+            guard=Guard(when="seen"),
+            then=(Transition(to="Kick", guard=near, doc="it is near"),),
+            otherwise=(Transition(to="Look"),),
+        ),
+        Transition(to="Walk", guard=Guard(after="2")),
+    )
+    drawing = draw(items)
+    assert drawing is not None
+    found = [(group.kind, group.title, group.href) for group in drawing.groups if group.kind != "way"]
+    assert found == [
+        ("condition", "seen", "#states-A-transitions-0"),
+        ("condition", "near\nit is near", "#states-A-transitions-0-then-0"),
+        ("target", "go to Kick", "#Kick"),
+        ("target", "go to Look", "#Look"),
+        ("condition", "after 2 s", "#states-A-transitions-1"),
+        ("target", "go to Walk", "#Walk"),
+        ("stay", "stay", ""),
+    ]
+
+
+@given(st.lists(decisions, min_size=1, max_size=4).map(tuple))
+def test_nothing_stands_in_the_way(items: tuple[Decision, ...]) -> None:
+    drawing = draw(items)
+    assert drawing is not None
+    boxes = [rect_of(group) for group in drawing.groups if group.kind != "way"]
+    for one, other in combinations(boxes, 2):
+        assert one[2] < other[0] or other[2] < one[0] or one[3] < other[1] or other[3] < one[1]
+    for group in drawing.groups:
+        if group.kind == "way":
+            for start, end in pairwise(points_of(group)):
+                assert not [box for box in boxes if runs_through(start, end, box)]
+    right, bottom = drawing.left + drawing.width, drawing.top + drawing.height
+    assert all(drawing.left < box[0] and box[2] < right and drawing.top < box[1] and box[3] < bottom for box in boxes)
+
+
+def runs_through(start: tuple[float, float], end: tuple[float, float], box: Rect) -> bool:
+    """Whether a line across or down has a part inside a box; its border may be touched."""
+    left, right = sorted((start[0], end[0]))
+    top, bottom = sorted((start[1], end[1]))
+    return left < box[2] - 1 and right > box[0] + 1 and top < box[3] - 1 and bottom > box[1] + 1
+
+
+def test_nothing_to_decide_and_too_much() -> None:
+    assert draw(()) is None
+    assert draw(tuple(Stay(guard=Guard(when="a")) for _ in range(MOST_NODES))) is None
