@@ -1,8 +1,10 @@
 """The site as a person opens it, from files: it complains of nothing, finds things, and its drawings can be moved."""
 
 from pathlib import Path
+from typing import Literal
 
 import pytest
+from axe_playwright_python.sync_playwright import Axe
 from playwright.sync_api import Page, expect
 
 from tests.editor.hostile_project import PAYLOADS, write_hostile_project
@@ -26,6 +28,15 @@ def test_from_home_to_a_state(page: Page, site: Path) -> None:
     expect(page.locator("#state-WatchBall h3")).to_be_in_viewport()
     page.locator("#state-WatchBall h3").get_by_text("Python").click()
     expect(page.locator("tr:target")).to_contain_text("_in_watch_ball")
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_everybody_can_read_it(page: Page, site: Path, scheme: Literal["light", "dark"]) -> None:
+    page.emulate_media(color_scheme=scheme)
+    for name in ("index", "component-Player", "interfaces", "types", "agents", "all", "source-Player"):
+        page.goto((site / f"{name}.html").as_uri())
+        violations = Axe().run(page, options={"resultTypes": ["violations"]}).response["violations"]
+        assert not [(each["id"], node["html"][:120]) for each in violations for node in each["nodes"]], name
 
 
 def test_searching_by_keys(page: Page, site: Path) -> None:

@@ -1,5 +1,6 @@
 """The pages about the whole project: home, agents, interfaces, types."""
 
+import re
 from collections.abc import Iterator
 
 from vicode.docsite.addresses import AGENTS, EVERYTHING, INTERFACES, TYPES, Addresses, slug
@@ -48,15 +49,15 @@ def home_view(subject: Subject, addresses: Addresses) -> HomeView:
 
 
 def sorted_designs(project: Project) -> list[Design]:
-    """The designs by name."""
-    return sorted(project.designs, key=lambda design: (design.component.casefold(), design.component))
+    """The designs by name, numbers in names by their size."""
+    return sorted(project.designs, key=lambda design: _by_name(design.component))
 
 
 def interface_views(subject: Subject, addresses: Addresses) -> Iterator[InterfaceView]:
     """The components that have no design, by name."""
     project = subject.project
     linker = Linker(project, addresses)
-    for each in sorted(project.components, key=lambda each: each.component.casefold()):
+    for each in sorted(project.components, key=lambda each: _by_name(each.component)):
         anchor = f"interface-{slug(each.component)}"
         yield InterfaceView(
             anchor=anchor,
@@ -92,7 +93,7 @@ def agent_views(project: Project, addresses: Addresses) -> Iterator[AgentView]:
     for agent in project.agents:
         designs = collect_components(project, (agent.root,)) if project.design(agent.root) else frozenset()
         used = {use.component for design in project.designs if design.component in designs for use in design.uses}
-        reached = sorted({agent.root, *designs, *used}, key=str.casefold)
+        reached = sorted({agent.root, *designs, *used}, key=_by_name)
         yield AgentView(
             anchor=f"agent-{slug(agent.name)}",
             name=agent.name,
@@ -102,6 +103,11 @@ def agent_views(project: Project, addresses: Addresses) -> Iterator[AgentView]:
             reaches=listed(linker.component(name) for name in reached),
             svg=draw_uses(project, addresses, f"What {agent.name} may activate", reached),
         )
+
+
+def _by_name(name: str) -> tuple[list[str | int], str]:
+    parts = re.split(r"([0-9]+)", name.casefold())
+    return ([int(part) if index % 2 else part for index, part in enumerate(parts)], name)
 
 
 def _numbers(project: Project) -> Iterator[tuple[int, Part]]:
