@@ -52,7 +52,10 @@ def test_no_link_of_a_project_is_broken(forward: tuple[OutputFile, ...]) -> None
 def test_no_link_of_a_behavior_is_broken(behavior: tuple[OutputFile, ...]) -> None:
     assert not broken_links(behavior)
     assert len([file for file in behavior if file.path.startswith("component-")]) == 19
-    assert "option opt0 {" in read_page(page(behavior, "source-opt0.html")).text
+    source = read_page(page(behavior, "source-opt0.html"))
+    assert "option opt0 {" in source.text
+    assert "component-opt0.html#state-s1" in source.links
+    assert 'href="source-opt0.html#L13"' in page(behavior, "component-opt0.html")
 
 
 @pytest.mark.parametrize("name", ["forward", "behavior"])

@@ -12,8 +12,11 @@ from vicode.findings import Severity
 from vicode.output import Difference, Status, apply, compare
 
 if TYPE_CHECKING:
-    from vicode.docsite import Subject
+    from vicode.docsite import SourceText, Subject
+    from vicode.findings import Path as ThingPath
+    from vicode.model.project import Project
     from vicode.output import OutputFile
+    from vicode.xabsl.sources import Source
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -56,32 +59,18 @@ def _subject_of_behavior(agents: Path) -> "Subject | None":
     """A behavior as a project, with its files of XABSL as sources; None when it cannot be compiled."""
     from vicode.check import check_project
     from vicode.cli.behaviors import tell
-    from vicode.docsite import OwnFinding, SourceText, Subject
+    from vicode.docsite import OwnFinding, Subject
     from vicode.importers import import_behavior
     from vicode.store.documents import default_name
     from vicode.xabsl.compiler import compile_source
-    from vicode.xabsl.sources import load, read_text
-    from vicode.xabsl.tree import Option
+    from vicode.xabsl.sources import load
 
     source = load(agents)
     compiled = compile_source(source)
     if compiled.program is None:
         tell([each for each in compiled.findings if each.severity is Severity.ERROR], agents)
         return None
-    imported = import_behavior(source, compiled, default_name(agents.resolve().parent.name))
-    project = imported.project
-    folder = source.main.parent
-    files = [path for path, parsed in source.files.items() for item in parsed.file.body if isinstance(item, Option)]
-    names = {design.component: path for design, path in zip(project.designs, files, strict=True)}
-    names[""] = source.main
-    sources = {
-        name: SourceText(
-            path=path.relative_to(folder).as_posix() if path.is_relative_to(folder) else path.name,
-            text=read_text(path),
-            language="xabsl",
-        )
-        for name, path in names.items()
-    }
+    project = import_behavior(source, compiled, default_name(agents.resolve().parent.name)).project
     found = [
         OwnFinding(component=each.thing.component if each.thing else "", line=0, finding=each)
         for each in check_project(project)
@@ -91,7 +80,37 @@ def _subject_of_behavior(agents: Path) -> "Subject | None":
         language: frozenset(each.component for each in errors if each.finding.concerns(language))
         for language in project.languages
     }
-    return Subject(project=project, findings=tuple(found), sources=sources, faulty=faulty)
+    return Subject(project=project, findings=tuple(found), sources=_sources(source, project), faulty=faulty)
+
+
+def _sources(source: "Source", project: "Project") -> "dict[str, SourceText]":
+    """The files of a behavior by component, each with the lines of its option's states."""
+    from vicode.docsite import SourceText
+    from vicode.xabsl.sources import read_text
+    from vicode.xabsl.tree import Option
+
+    def text_of(path: Path, lines: "dict[ThingPath, int]") -> SourceText:
+        folder = source.main.parent
+        shown = path.relative_to(folder).as_posix() if path.is_relative_to(folder) else path.name
+        return SourceText(path=shown, text=read_text(path), language="xabsl", lines=lines)
+
+    # Designs stand in the order of the options.
+    options = [
+        (path, parsed.tokens, item)
+        for path, parsed in source.files.items()
+        for item in parsed.file.body
+        if isinstance(item, Option)
+    ]
+    sources = {"": text_of(source.main, {})}
+    for design, (path, tokens, option) in zip(project.designs, options, strict=True):
+        names = {state.xabsl_name or state.name: state.name for state in design.states}
+        lines: dict[ThingPath, int] = {
+            ("states", names[state.name.text]): tokens.line_at(tokens.starts[state.at])
+            for state in option.states
+            if state.name.text in names
+        }
+        sources[design.component] = text_of(path, lines)
+    return sources
 
 
 def _write(subject: "Subject", out: Path, *, is_strict: bool) -> int:
