@@ -9,10 +9,14 @@ expect.set_options(timeout=20_000)
 
 
 def open_player(page: Page, url: str) -> None:
-    """Open the page and wait for its drawing."""
+    """Open the page and wait for its drawing, and until it can speak to the server.
+
+    What is done before reaches the server in any order, within a few milliseconds; nobody's hands are that quick.
+    """
     page.set_viewport_size({"width": 1366, "height": 768})
     page.goto(url + PLAYER)
     expect(state(page, "LookForBall")).to_be_visible()
+    page.wait_for_function("window.did_handshake")
 
 
 def state(page: Page, name: str) -> Locator:

@@ -38,8 +38,8 @@ class Palette(ui.element, component="vicode_palette.js"):
         self.commands: Sequence[Command] = ()
         self._things: list[Thing] = []
         self._told: tuple[str, tuple[Match, ...]] = ("", ())
+        self._opening: object = None
         # Handlers added after the first rendering would make NiceGUI mount the element anew.
-        self.on("opened", self._take_stock)
         self.on("ask", self._hear_ask)
         self.on("choose", self._hear_choose)
 
@@ -47,17 +47,24 @@ class Palette(ui.element, component="vicode_palette.js"):
         """Show it."""
         self.run_method("open")
 
-    def _take_stock(self) -> None:
-        """It was opened, by its keys or by `open`: look at what there is now."""
+    def _take_stock(self, event: GenericEventArguments) -> None:
+        """Look at what there is now, once every time it is opened."""
+        opening = event.args.get("opening") if isinstance(event.args, dict) else None
+        if opening == self._opening:
+            return
+        self._opening = opening
         self._things = [*self._index.things(), *(_thing_of(command) for command in self.commands)]
         self._told = ("", ())
 
     def _hear_ask(self, event: GenericEventArguments) -> None:
-        matches = self._find(_text(event))
+        self._take_stock(event)
+        text = _text(event)
+        matches = self._find(text)
         count = f"{len(matches)} found" if matches else "Nothing found: try fewer or other letters"
-        self.run_method("answer", {"hits": [_hit(match) for match in matches], "words": count})
+        self.run_method("answer", {"text": text, "hits": [_hit(match) for match in matches], "words": count})
 
     def _hear_choose(self, event: GenericEventArguments) -> None:
+        self._take_stock(event)
         matches = self._find(_text(event))
         index = event.args.get("index")
         if not isinstance(index, int) or not 0 <= index < len(matches):

@@ -25,7 +25,7 @@ export default {
         <div class="palette-foot"><span role="status">{{ words }}</span><span aria-hidden="true">↑ ↓ to move, Enter to go there, Esc to leave</span></div>
       </div>
     </dialog>`,
-  data: () => ({ text: "", hits: [], at: 0, words: "" }),
+  data: () => ({ text: "", hits: [], at: 0, words: "", opening: 0 }),
   mounted() {
     // Its keys open it here and now: what is typed next must not fall on the drawing below.
     this.hear = (event) => {
@@ -42,13 +42,14 @@ export default {
     open() {
       if (this.$refs.box.open) return this.$refs.field.select();
       this.text = "";
+      this.opening += 1;
       this.$refs.box.showModal();
       this.$refs.field.focus();
-      this.$emit("opened");
       this.ask();
     },
-    /** What Python found for a text; an answer to an older text is shown until the newer comes. */
-    answer({ hits, words }) {
+    /** What Python found for a text. Questions asked before the page could speak may be heard in any order. */
+    answer({ text, hits, words }) {
+      if (text !== this.text) return;
       this.hits = hits;
       this.words = words;
       this.at = 0;
@@ -56,7 +57,7 @@ export default {
     },
     ask() {
       this.at = 0;
-      this.$emit("ask", { text: this.text });
+      this.$emit("ask", { text: this.text, opening: this.opening });
     },
     press(event) {
       const steps = { ArrowDown: 1, ArrowUp: -1, PageDown: 8, PageUp: -8 };
@@ -77,7 +78,7 @@ export default {
     choose(index) {
       // Python finds again by the text: what is chosen may be newer than what is shown.
       this.$refs.box.close();
-      this.$emit("choose", { text: this.text, index });
+      this.$emit("choose", { text: this.text, opening: this.opening, index });
     },
     leave(event) {
       if (event.target === this.$refs.box) this.$refs.box.close();
