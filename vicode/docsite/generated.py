@@ -95,12 +95,15 @@ def _generated(subject: Subject, language: str) -> Iterator[Text]:
     project, faulty = subject.project, subject.faulty.get(language, frozenset())
     sources = {name: source.path for name, source in subject.sources.items() if name}
     names = {design.component for design in project.designs}
+    try:
+        shared = {file.path for file in generate(project, components=(), languages=(language,))}
+    except UnsoundDesignError:
+        return
     for design in project.designs:
         if design.component in faulty:
             continue
         without = names - {design.component}
         try:
-            shared = {file.path for file in generate(project, components=(), languages=(language,))}
             files = generate(
                 project,
                 components=(design.component,),

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from vicode.model.design import Declaration
 from vicode.model.names import attribute_name, snake_case
 from vicode.model.project import WORLD, Interface, Project
-from vicode.model.xabsl.names import element_name
+from vicode.model.xabsl.names import element_name, is_behavior
 from vicode.templating import render
 
 _ZEROS = {"bool": "False", "float": "0.0", "int": "0"}
@@ -45,7 +45,7 @@ def robot_text(project: Project) -> str:
     """A Python module with the class `Robot`, which has all that components of the world ask for."""
     asked = [each for each in project.components if each.implementation == WORLD]
     symbols = [_symbols(project, each) for each in asked if each.readable]
-    acts = tuple(_act(project, each) for each in asked if each.parameters or not each.readable)
+    acts = tuple(_act(project, each) for each in asked if is_behavior(each))
     if acts:
         symbols.append(_Section(title="What it does", doc=(), values=(), functions=acts))
     return render("importers/robot.py.jinja", view=_View(sections=tuple(symbols)))
