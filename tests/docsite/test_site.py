@@ -58,6 +58,36 @@ def test_no_link_of_a_behavior_is_broken(behavior: tuple[OutputFile, ...]) -> No
     assert 'href="source-opt0.html#L13"' in page(behavior, "component-opt0.html")
 
 
+def test_every_decision_of_a_behavior_leads_to_its_line_and_back(behavior: tuple[OutputFile, ...]) -> None:
+    option = (BEHAVIOR.parent / "Options" / "opt0.xabsl").read_text("utf-8").splitlines()
+    described = read_page(page(behavior, "component-opt0.html"))
+    tested = [number for number, line in enumerate(option, start=1) if re.search(r"\bif\b", line)]
+    assert tested
+    assert {f"source-opt0.html#L{number}" for number in tested} <= set(described.links)
+    back = [link for link in read_page(page(behavior, "source-opt0.html")).links if re.search(r"#(state|common)", link)]
+    assert len(back) >= len(tested)
+    assert {link.partition("#")[2] for link in back} <= set(described.ids)
+
+
+def test_a_language_that_cannot_say_a_design_says_why(tmp_path: Path, forward: tuple[OutputFile, ...]) -> None:
+    body = page(forward, "component-Body.html")
+    section = body[body.index('id="languages"') : body.index('id="findings"')]
+    words = " ".join(read_page(section).text.split())
+    assert "XABSL cannot be written" in words
+    assert "L701" in words
+    assert "works whenever it is called: it has no frequency" in words
+    assert not [file.path for file in forward if file.path.startswith("xabsl-")]
+    assert "python-Body.html" in read_page(section).links
+
+
+def test_languages_that_the_project_did_not_ask_for_are_shown(tmp_path: Path) -> None:
+    design = Design(component="Calm", initial="A", states=(State(name="A", transitions=(Transition(to="A"),)),))
+    files = build_site(Subject(project=Project(name="p", languages=("python",), designs=(design,))))
+    assert "option calm" in read_page(page(files, "xabsl-Calm.html")).text.lower()
+    assert "component-Calm.html#state-A-0" in read_page(page(files, "xabsl-Calm.html")).links
+    assert not broken_links(files)
+
+
 @pytest.mark.parametrize("name", ["forward", "behavior"])
 def test_no_place_of_a_page_has_two_things(name: str, request: pytest.FixtureRequest) -> None:
     pages = pages_of(request.getfixturevalue(name))

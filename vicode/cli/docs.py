@@ -14,7 +14,7 @@ from vicode.output import Difference, Status, apply, compare
 if TYPE_CHECKING:
     from vicode.docsite import SourceText, Subject
     from vicode.findings import Path as ThingPath
-    from vicode.model.project import Project
+    from vicode.importers import Imported
     from vicode.output import OutputFile
     from vicode.xabsl.sources import Source
 
@@ -70,7 +70,8 @@ def _subject_of_behavior(agents: Path) -> "Subject | None":
     if compiled.program is None:
         tell([each for each in compiled.findings if each.severity is Severity.ERROR], agents)
         return None
-    project = import_behavior(source, compiled, default_name(agents.resolve().parent.name)).project
+    imported = import_behavior(source, compiled, default_name(agents.resolve().parent.name))
+    project = imported.project
     found = [
         OwnFinding(component=each.thing.component if each.thing else "", line=0, finding=each)
         for each in check_project(project)
@@ -80,36 +81,27 @@ def _subject_of_behavior(agents: Path) -> "Subject | None":
         language: frozenset(each.component for each in errors if each.finding.concerns(language))
         for language in project.languages
     }
-    return Subject(project=project, findings=tuple(found), sources=_sources(source, project), faulty=faulty)
+    return Subject(project=project, findings=tuple(found), sources=_sources(source, imported), faulty=faulty)
 
 
-def _sources(source: "Source", project: "Project") -> "dict[str, SourceText]":
-    """The files of a behavior by component, each with the lines of its option's states."""
-    from vicode.docsite import SourceText
+def _sources(source: "Source", imported: "Imported") -> "dict[str, SourceText]":
+    """The files of a behavior by component, each with the lines of its option's states, decisions and parameters."""
+    from vicode.docsite import SourceText, described_paths
     from vicode.xabsl.sources import read_text
-    from vicode.xabsl.tree import Option
 
     def text_of(path: Path, lines: "dict[ThingPath, int]") -> SourceText:
         folder = source.main.parent
         shown = path.relative_to(folder).as_posix() if path.is_relative_to(folder) else path.name
         return SourceText(path=shown, text=read_text(path), language="xabsl", lines=lines)
 
-    # Designs stand in the order of the options.
-    options = [
-        (path, parsed.tokens, item)
-        for path, parsed in source.files.items()
-        for item in parsed.file.body
-        if isinstance(item, Option)
-    ]
     sources = {"": text_of(source.main, {})}
-    for design, (path, tokens, option) in zip(project.designs, options, strict=True):
-        names = {state.xabsl_name or state.name: state.name for state in design.states}
-        lines: dict[ThingPath, int] = {
-            ("states", names[state.name.text]): tokens.line_at(tokens.starts[state.at])
-            for state in option.states
-            if state.name.text in names
-        }
-        sources[design.component] = text_of(path, lines)
+    for made, design in zip(imported.designs, imported.project.designs, strict=True):
+        tokens, described = source.files[made.file].tokens, set(described_paths(design))
+        lines: dict[ThingPath, int] = {}
+        for token, path in made.anchors:
+            if path in described:
+                lines.setdefault(path, tokens.line_at(tokens.starts[token]))
+        sources[made.component] = text_of(made.file, lines)
     return sources
 
 

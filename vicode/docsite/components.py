@@ -12,7 +12,7 @@ from vicode.docsite.findings import finding_rows
 from vicode.docsite.linking import Linker, listed, plain
 from vicode.docsite.subject import Subject
 from vicode.docsite.uses import use_rows, user_rows
-from vicode.docsite.views import ActionView, ComponentView, Line, Part, Phase, StateView
+from vicode.docsite.views import ActionView, ComponentView, LanguageView, Line, Part, Phase, StateView
 from vicode.model.design import COMMON, Action, Assign, Call, Design, RunCode, State
 from vicode.model.walks import walk_transitions
 
@@ -27,6 +27,7 @@ class Made:
     addresses: Addresses
     places: Places
     texts: tuple[Part, ...]
+    languages: tuple[LanguageView, ...]
 
 
 def component_view(design: Design, made: Made) -> ComponentView:
@@ -42,7 +43,7 @@ def component_view(design: Design, made: Made) -> ComponentView:
         facts=tuple(_facts(design)),
         svg=draw_design(design, addresses),
         legend=(),
-        transitions=tuple(transition_rows(design, linker, addresses, made.places)),
+        transitions=tuple(transition_rows(design, linker, addresses)),
         common=_common(design, linker, made) if has_common else None,
         states=tuple(_state(design, state, linker, made) for state in design.states),
         uses=tuple(use_rows(design, linker)),
@@ -56,6 +57,7 @@ def component_view(design: Design, made: Made) -> ComponentView:
         shared_code=tuple((title, blocks_of(code)) for title, code in codes if code.texts),
         findings=finding_rows(made.subject, addresses, design.component),
         texts=made.texts,
+        languages=made.languages,
     )
 
 
@@ -88,7 +90,7 @@ def _state(design: Design, state: State, linker: Linker, made: Made) -> StateVie
         doc_html=html_of(state.doc),
         requires=listed(linker.alias(alias) for alias in state.requires),
         phases=tuple(phase for phase in phases if phase.actions),
-        pseudo=pseudo_lines(state.transitions, linker, ("states", state.name, "transitions")),
+        pseudo=pseudo_lines(state.transitions, linker, ("states", state.name, "transitions"), made.places),
         comes_from=listed(
             Part(text="every state", href="#common") if source == COMMON else linker.state(source) for source in sources
         ),
@@ -106,7 +108,7 @@ def _common(design: Design, linker: Linker, made: Made) -> StateView:
         doc_html=html_of(design.common.doc),
         requires=(),
         phases=(Phase(title="At each iteration, first", actions=actions),) if actions else (),
-        pseudo=pseudo_lines(design.common.transitions, linker, ("common", "transitions")),
+        pseudo=pseudo_lines(design.common.transitions, linker, ("common", "transitions"), made.places),
         comes_from=(),
         places=made.places.get(("common",), ()),
         tree_svg=draw_decisions(design.common.transitions, ("common", "transitions"), design, made.addresses),

@@ -2,6 +2,7 @@
 
 from collections import Counter
 from collections.abc import Iterator, Mapping
+from dataclasses import replace
 
 from vicode.docsite.addresses import Addresses, anchor_of
 from vicode.docsite.docs import line_html_of, summary_of
@@ -41,7 +42,7 @@ def guard_line(guard: Guard, linker: Linker) -> Line:
     return tuple(parts)
 
 
-def transition_rows(design: Design, linker: Linker, addresses: Addresses, places: Places) -> Iterator[TransitionRow]:
+def transition_rows(design: Design, linker: Linker, addresses: Addresses) -> Iterator[TransitionRow]:
     """Every transition and every stay, in the order in which they are tested."""
     orders: Counter[str] = Counter()
     off = disabled_states(design)
@@ -55,21 +56,22 @@ def transition_rows(design: Design, linker: Linker, addresses: Addresses, places
         guard = located.decision.guard
         timer = (*linker.expression(guard.after), Part(text=" s")) if guard.after else ()
         yield TransitionRow(
-            anchor=anchor_of(located.path),
-            order=orders[located.source],
+            order=Part(text=str(orders[located.source]), href=f"#{anchor_of(located.path)}"),
             source=source,
             guards=tuple(_guards(located, linker)),
             timer=timer,
             target=_target(located.decision, linker),
             doc_html=line_html_of(located.decision.doc),
             is_off=not is_working(located, off),
-            places=places.get(located.path, ()),
         )
 
 
-def pseudo_lines(items: tuple[Decision, ...], linker: Linker, path: Path) -> tuple[PseudoLine, ...]:
+def pseudo_lines(items: tuple[Decision, ...], linker: Linker, path: Path, places: Places) -> tuple[PseudoLine, ...]:
     """The decisions as code to read; `path` leads to them. Nothing where nothing is decided."""
-    lines = tuple(_pseudo(items, linker, path, 0))
+    lines = tuple(
+        replace(line, anchor=anchor_of(of), places=places.get(of, ())) if of else line
+        for of, line in _pseudo(items, linker, path, 0)
+    )
     if not items or any(always_holds(item) for item in items):
         return lines
     is_common = path[0] == "common"
@@ -95,7 +97,8 @@ def _target(decision: Decision, linker: Linker) -> Part:
     return linker.state(decision.to) if isinstance(decision, Transition) else Part(text="stays", kind="muted")
 
 
-def _pseudo(items: tuple[Decision, ...], linker: Linker, path: Path, depth: int) -> Iterator[PseudoLine]:
+def _pseudo(items: tuple[Decision, ...], linker: Linker, path: Path, depth: int) -> Iterator[tuple[Path, PseudoLine]]:
+    """Lines, each with the path of the decision that begins there, () for none."""
     for index, item in enumerate(items):
         here = (*path, index)
         guard = guard_line(item.guard, linker)
@@ -105,22 +108,18 @@ def _pseudo(items: tuple[Decision, ...], linker: Linker, path: Path, depth: int)
         deeper = depth + (bool(guard) or is_group)
         before = "else " if index and _ends(items[index - 1]) else ""
         if guard or is_group:
-            anchor = anchor_of(here) if is_group else ""
             test = (Part(text=f"{before}if ", kind="k"), *guard)
             parts = test if guard else (Part(text="always", kind="k"),)
-            yield PseudoLine(depth=depth, parts=parts, doc=doc, anchor=anchor, is_off=item.disabled, blocks=blocks)
+            yield here, PseudoLine(depth=depth, parts=parts, doc=doc, is_off=item.disabled, blocks=blocks)
         if isinstance(item, Group):
             yield from _pseudo(item.then, linker, (*here, "then"), deeper)
             if item.otherwise and guard:
-                yield PseudoLine(depth=depth, parts=(Part(text="else", kind="k"),), is_off=item.disabled)
+                parts = (Part(text="else", kind="k"),)
+                yield (), PseudoLine(depth=depth, parts=parts, is_off=item.disabled)
                 yield from _pseudo(item.otherwise, linker, (*here, "else"), deeper)
         else:
-            yield PseudoLine(
-                depth=deeper,
-                parts=_outcome(item, linker, "" if guard else before),
-                doc="" if guard else summary_of(doc),
-                is_off=item.disabled,
-            )
+            parts, doc = _outcome(item, linker, "" if guard else before), "" if guard else summary_of(doc)
+            yield () if guard else here, PseudoLine(depth=deeper, parts=parts, doc=doc, is_off=item.disabled)
 
 
 def _ends(item: Decision) -> bool:

@@ -1,9 +1,9 @@
 """Findings as rows, each with the thing it is about."""
 
 from vicode.docsite.addresses import Addresses
-from vicode.docsite.subject import OwnFinding, Subject
+from vicode.docsite.subject import OwnFinding, SourceText, Subject
 from vicode.docsite.views import FindingRow, Part
-from vicode.findings import Severity
+from vicode.findings import Path, Severity
 
 
 def finding_rows(subject: Subject, addresses: Addresses, component: str | None = None) -> tuple[FindingRow, ...]:
@@ -11,19 +11,21 @@ def finding_rows(subject: Subject, addresses: Addresses, component: str | None =
     wanted = [each for each in subject.findings if component is None or each.component == component]
     ranks = list(Severity)
     wanted.sort(key=lambda each: ranks.index(each.finding.severity))
-    return tuple(_row(each, subject, addresses) for each in wanted)
+    return tuple(row_of(each, subject, addresses) for each in wanted)
 
 
-def _row(own: OwnFinding, subject: Subject, addresses: Addresses) -> FindingRow:
+def row_of(own: OwnFinding, subject: Subject, addresses: Addresses) -> FindingRow:
+    """One finding; where it has no line, the one of the thing it is about."""
     finding = own.finding
     name = own.component or subject.project.name
     path = finding.thing.path if finding.thing else ()
     href = addresses.thing(own.component, path) if own.component else ""
     place = Part(text="")
     source = subject.sources.get(own.component)
-    if source and own.line:
+    line = own.line or (_line_of(source, path) if source else 0)
+    if source and line:
         page = addresses.code(own.component, "source")
-        place = Part(text=f"{source.path}:{own.line}", href=f"{page}#L{own.line}")
+        place = Part(text=f"{source.path}:{line}", href=f"{page}#L{line}")
     return FindingRow(
         severity=str(finding.severity),
         code=finding.rule.code,
@@ -33,3 +35,8 @@ def _row(own: OwnFinding, subject: Subject, addresses: Addresses) -> FindingRow:
         component=Part(text=name, href=href),
         place=place,
     )
+
+
+def _line_of(source: SourceText, path: Path) -> int:
+    """The line of the nearest thing around a path that has one, 0 for none."""
+    return next((source.lines[path[:end]] for end in range(len(path), 0, -1) if path[:end] in source.lines), 0)

@@ -4,6 +4,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
 from vicode.docsite.addresses import Addresses
+from vicode.docsite.languages import Unsaid, faulty_in
 from vicode.docsite.listings import TITLES, lines_of
 from vicode.docsite.subject import Subject
 from vicode.docsite.views import CodeLine, CodeView, Part
@@ -33,7 +34,7 @@ class Text:
         return "Source" if self.form == "source" else TITLES.get(self.form, self.form)
 
 
-def texts_of(subject: Subject) -> dict[str, tuple[Text, ...]]:
+def texts_of(subject: Subject, unsaid: Unsaid) -> dict[str, tuple[Text, ...]]:
     """All texts by component: what somebody wrote, and what is generated where nothing stands in the way."""
     texts: dict[str, list[Text]] = {}
     for name, source in subject.sources.items():
@@ -47,9 +48,8 @@ def texts_of(subject: Subject) -> dict[str, tuple[Text, ...]]:
         )
         texts.setdefault(name, []).append(text)
     for language in GENERATORS:
-        if language in subject.project.languages:
-            for text in _generated(subject, language):
-                texts.setdefault(text.component, []).append(text)
+        for text in _generated(subject, language, faulty_in(subject, language, unsaid)):
+            texts.setdefault(text.component, []).append(text)
     return {name: tuple(found) for name, found in texts.items()}
 
 
@@ -90,9 +90,9 @@ def text_links(texts: tuple[Text, ...], addresses: Addresses) -> tuple[Part, ...
     )
 
 
-def _generated(subject: Subject, language: str) -> Iterator[Text]:
+def _generated(subject: Subject, language: str, faulty: frozenset[str]) -> Iterator[Text]:
     """The text of each component, by asking for one at a time: what cannot be said then spoils none of the others."""
-    project, faulty = subject.project, subject.faulty.get(language, frozenset())
+    project = subject.project
     sources = {name: source.path for name, source in subject.sources.items() if name}
     names = {design.component for design in project.designs}
     try:

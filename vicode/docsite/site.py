@@ -8,6 +8,7 @@ from vicode.docsite.components import Made, component_view
 from vicode.docsite.docs import summary_of
 from vicode.docsite.drawings import laid_out
 from vicode.docsite.generated import Text, code_view, places_in, text_links, texts_of
+from vicode.docsite.languages import Unsaid, language_views, unsaid_in
 from vicode.docsite.overview import (
     agent_views,
     constant_table,
@@ -31,7 +32,8 @@ _ASSETS = ("site.css", "site.js")
 def build_site(subject: Subject) -> tuple[OutputFile, ...]:
     """The files of a site, all in one folder."""
     whole = replace(subject, project=laid_out(subject.project))
-    builder = _Builder(subject=whole, addresses=Addresses(whole.project), texts=texts_of(whole))
+    unsaid = unsaid_in(whole)
+    builder = _Builder(subject=whole, addresses=Addresses(whole.project), texts=texts_of(whole, unsaid), unsaid=unsaid)
     files = [*builder.overview(), *builder.components(), *builder.codes()]
     files += [OutputFile(path=name, text=text_of(f"docsite/{name}")) for name in _ASSETS]
     return tuple(sorted(files, key=lambda file: file.path))
@@ -44,6 +46,7 @@ class _Builder:
     subject: Subject
     addresses: Addresses
     texts: dict[str, tuple[Text, ...]]
+    unsaid: Unsaid
 
     def overview(self) -> Iterator[OutputFile]:
         """The pages about the whole, and what the search looks through."""
@@ -64,11 +67,13 @@ class _Builder:
         for design in self.subject.project.designs:
             name = design.component
             texts = self.texts.get(name, ())
+            written = {text.form: text.path for text in texts}
             made = Made(
                 subject=self.subject,
                 addresses=self.addresses,
                 places=places_in(texts, self.addresses),
                 texts=text_links(texts, self.addresses),
+                languages=tuple(language_views(self.subject, name, written, self.unsaid, self.addresses)),
             )
             view = component_view(design, made)
             yield self._page(self.addresses.component(name), name, "component", view=view)

@@ -1,6 +1,6 @@
 """What a site is about: a project, what is found in it, and its files as somebody wrote them."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 
 from vicode.findings import Finding, Path
@@ -71,9 +71,18 @@ def _own(finding: Finding, owners: Mapping[str, str]) -> OwnFinding:
     return OwnFinding(component=component, line=line, finding=finding)
 
 
+def described_paths(design: Design) -> Iterator[Path]:
+    """The paths of all things in a design that a page describes."""
+    yield ("common",)
+    yield from (("states", state.name) for state in design.states)
+    yield from ((section, declaration.name) for section, declaration in design.declarations())
+    yield from (located.path for located in walk_decisions(design))
+
+
 def _lines_of(design: Design, source: SourceMap) -> dict[Path, int]:
-    paths: list[Path] = [("common",), *(("states", state.name) for state in design.states)]
-    paths += [(section, declaration.name) for section, declaration in design.declarations()]
-    lines = {path: source.place(path, of_key=True).line for path in paths if source.knows(path)}
-    lines |= {located.path: source.place(located.path).line for located in walk_decisions(design)}
-    return lines
+    # A thing with a name begins with it; decisions, which end with a number, have none.
+    return {
+        path: source.place(path, of_key=not isinstance(path[-1], int)).line
+        for path in described_paths(design)
+        if source.knows(path)
+    }

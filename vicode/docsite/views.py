@@ -49,28 +49,27 @@ class DeclarationTable:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TransitionRow:
-    """A row of the transition table: all guards of `guards` must hold."""
+    """A row of the transition table: all guards of `guards` must hold; `order` leads to the line of pseudo code."""
 
-    anchor: str
-    order: int
+    order: Part
     source: Part
     guards: tuple[Line, ...]
     timer: Line
     target: Part
     doc_html: str
     is_off: bool
-    places: tuple[Part, ...]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PseudoLine:
-    """A line of pseudo code; `blocks` is the code of its guard."""
+    """A line of pseudo code; `blocks` is the code of its guard, `places` where its decision stands in other texts."""
 
     depth: int
     parts: Line
     doc: str = ""
     anchor: str = ""
     is_off: bool = False
+    places: tuple[Part, ...] = ()
     blocks: tuple[CodeBlock, ...] = ()
 
 
@@ -131,6 +130,17 @@ class FindingRow:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class LanguageView:
+    """What a language makes of a component: a page, or reasons why not; `is_chosen`: the project asks for it."""
+
+    title: str
+    href: str
+    path: str
+    is_chosen: bool
+    reasons: tuple[FindingRow, ...]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class ComponentView:
     """The page of a design."""
 
@@ -149,6 +159,7 @@ class ComponentView:
     shared_code: tuple[tuple[str, tuple[CodeBlock, ...]], ...]
     findings: tuple[FindingRow, ...]
     texts: tuple[Part, ...]
+    languages: tuple[LanguageView, ...]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

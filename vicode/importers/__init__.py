@@ -22,11 +22,16 @@ ROBOT = "robot:Robot"
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ImportedDesign:
-    """Where a design belongs (relative to the project), and remarks for the things in it."""
+    """Where a design belongs (relative to the project), and remarks for the things in it.
+
+    `file` is what it was read from, `anchors` are the tokens of it that things of the design come from.
+    """
 
     component: str
     path: str
     remarks: tuple[Remark, ...]
+    file: Path
+    anchors: tuple[Anchor, ...]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -58,7 +63,15 @@ def import_behavior(source: Source, compiled: Compiled, name: str) -> Imported:
             importer = OptionImporter(vocabulary, meanings, parsed, options[id(item)])
             design, found = importer.design()
             designs.append(design)
-            placed.append(ImportedDesign(component=design.component, path=_path(source, path), remarks=tuple(found)))
+            placed.append(
+                ImportedDesign(
+                    component=design.component,
+                    path=_path(source, path),
+                    remarks=tuple(found),
+                    file=path,
+                    anchors=tuple(importer.anchors),
+                )
+            )
     agents = tuple(_agents(source, compiled, vocabulary))
     for path, parsed in source.files.items():
         if not any(isinstance(item, tree.Option) for item in parsed.file.body):
