@@ -12,6 +12,21 @@ from vicode.cli import main
 
 FORWARD = Path(__file__).parents[2] / "designs" / "forward"
 
+KINDS = (
+    "index",
+    "agents",
+    "all",
+    "component-Player",
+    "component-Body",
+    "interface-Kicker",
+    "interfaces",
+    "python-Player",
+    "source-Player",
+    "symbols",
+    "types",
+)
+"""A page of every kind."""
+
 
 @pytest.fixture(scope="module")
 def site(tmp_path_factory: pytest.TempPathFactory) -> Path:
@@ -33,7 +48,7 @@ def test_from_home_to_a_state(page: Page, site: Path) -> None:
 @pytest.mark.parametrize("scheme", ["light", "dark"])
 def test_everybody_can_read_it(page: Page, site: Path, scheme: Literal["light", "dark"]) -> None:
     page.emulate_media(color_scheme=scheme)
-    for name in ("index", "component-Player", "interfaces", "types", "agents", "all", "source-Player"):
+    for name in KINDS:
         page.goto((site / f"{name}.html").as_uri())
         violations = Axe().run(page, options={"resultTypes": ["violations"], "preload": False}).response["violations"]
         assert not [(each["id"], node["html"][:120]) for each in violations for node in each["nodes"]], name
@@ -73,7 +88,7 @@ def test_a_drawing_zooms_and_tells_what_belongs_together(page: Page, site: Path)
 
 def test_it_fits_a_telephone_and_follows_the_system(page: Page, site: Path) -> None:
     page.set_viewport_size({"width": 390, "height": 800})
-    for name in ("index", "component-Player", "interfaces", "python-Player", "all"):
+    for name in KINDS:
         page.goto((site / f"{name}.html").as_uri())
         assert page.evaluate("document.documentElement.scrollWidth") <= 390, name
     light = page.evaluate("getComputedStyle(document.body).backgroundColor")

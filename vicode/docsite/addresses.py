@@ -1,12 +1,14 @@
 """Which page and place of the site a thing is found at; all pages lie side by side, so an address holds everywhere."""
 
 import re
+from collections.abc import Iterable
 
 from vicode.findings import Path
 from vicode.model.design import COMMON
 from vicode.model.project import Project
 
-HOME, AGENTS, INTERFACES, TYPES, EVERYTHING = "index.html", "agents.html", "interfaces.html", "types.html", "all.html"
+HOME, AGENTS, INTERFACES = "index.html", "agents.html", "interfaces.html"
+SYMBOLS, TYPES, EVERYTHING = "symbols.html", "types.html", "all.html"
 _LONGEST = 60
 _SINGULAR = {"parameters": "parameter", "outputs": "output", "variables": "variable"}
 
@@ -53,21 +55,14 @@ class Addresses:
 
     def __init__(self, project: Project) -> None:
         self._project = project
-        self._stems: dict[str, str] = {}
-        taken: set[str] = set()
-        for design in project.designs:
-            stem, number = slug(design.component), 1
-            while stem.casefold() in taken:
-                number += 1
-                stem = f"{slug(design.component)}-{number}"
-            taken.add(stem.casefold())
-            self._stems[design.component] = stem
+        self._stems = _stems(design.component for design in project.designs)
+        self._interfaces = _stems(each.component for each in project.components)
 
     def component(self, name: str) -> str:
-        """Where a component is described: its page, or its part of the one of interfaces; "" for an unknown one."""
+        """The page of a component; "" for an unknown one."""
         if name in self._stems:
             return f"component-{self._stems[name]}.html"
-        return f"{INTERFACES}#interface-{slug(name)}" if self._project.interface(name) else ""
+        return f"interface-{self._interfaces[name]}.html" if name in self._interfaces else ""
 
     def thing(self, component: str, path: Path) -> str:
         """Where a thing of a design is described."""
@@ -77,9 +72,11 @@ class Addresses:
     def member(self, component: str, section: str, name: str) -> str:
         """Where a parameter, output or variable of a component is described."""
         page = self.component(component)
-        if "#" in page:
-            return f"{page}-{_SINGULAR[section]}-{slug(name)}"
         return f"{page}#{_SINGULAR[section]}-{slug(name)}" if page else ""
+
+    def symbols(self, component: str) -> str:
+        """Where the symbols of a component are listed with all others."""
+        return f"{SYMBOLS}#symbols-{(self._stems | self._interfaces)[component]}"
 
     def code(self, component: str, form: str) -> str:
         """The page with a text of a component: `form` is source or a language."""
@@ -98,3 +95,17 @@ class Addresses:
     def agent(self, name: str) -> str:
         """Where an agent is described."""
         return f"{AGENTS}#agent-{slug(name)}"
+
+
+def _stems(names: Iterable[str]) -> dict[str, str]:
+    """Names as parts of addresses; none differs from another in case alone."""
+    stems: dict[str, str] = {}
+    taken: set[str] = set()
+    for name in names:
+        stem, number = slug(name), 1
+        while stem.casefold() in taken:
+            number += 1
+            stem = f"{slug(name)}-{number}"
+        taken.add(stem.casefold())
+        stems[name] = stem
+    return stems

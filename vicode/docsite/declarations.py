@@ -14,6 +14,7 @@ _TITLES = {
     "outputs": ("Outputs", "At first"),
     "variables": ("Variables", "At first"),
 }
+_COLUMNS = ("type", "initial", "unit", "range", "doc_html", "arguments", "read_in", "set_in")
 
 
 def tables_of(owner: Design | Interface, linker: Linker, prefix: str = "") -> Iterator[DeclarationTable]:
@@ -22,7 +23,17 @@ def tables_of(owner: Design | Interface, linker: Linker, prefix: str = "") -> It
         declarations = getattr(owner, section)
         if declarations:
             rows = tuple(rows_of(declarations, linker, prefix + section.removesuffix("s") + "-"))
-            yield DeclarationTable(title=title, initial=initial, rows=rows)
+            yield table_of(title, initial, rows)
+
+
+def table_of(title: str, initial: str, rows: tuple[DeclarationRow, ...]) -> DeclarationTable:
+    """A table without empty columns."""
+    return DeclarationTable(title=title, initial=initial, rows=rows, columns=columns_of(rows))
+
+
+def columns_of(rows: Iterable[DeclarationRow]) -> frozenset[str]:
+    """The columns that at least one row has something for."""
+    return frozenset(name for row in rows for name in _COLUMNS if getattr(row, name))
 
 
 def rows_of(declarations: Iterable[Declaration], linker: Linker, prefix: str) -> Iterator[DeclarationRow]:

@@ -1,8 +1,10 @@
 """Findings as rows, each with the thing it is about."""
 
+from collections.abc import Iterable
+
 from vicode.docsite.addresses import Addresses
 from vicode.docsite.subject import OwnFinding, SourceText, Subject
-from vicode.docsite.views import FindingRow, Part
+from vicode.docsite.views import FindingGroup, FindingRow, Part
 from vicode.findings import Path, Severity
 
 
@@ -12,6 +14,17 @@ def finding_rows(subject: Subject, addresses: Addresses, component: str | None =
     ranks = list(Severity)
     wanted.sort(key=lambda each: ranks.index(each.finding.severity))
     return tuple(row_of(each, subject, addresses) for each in wanted)
+
+
+def finding_groups(rows: Iterable[FindingRow]) -> tuple[FindingGroup, ...]:
+    """The same by rule, in the order of the first of each."""
+    groups: dict[tuple[str, str], list[FindingRow]] = {}
+    for row in rows:
+        groups.setdefault((row.severity, row.code), []).append(row)
+    return tuple(
+        FindingGroup(severity=found[0].severity, code=found[0].code, name=found[0].name, rows=tuple(found))
+        for found in groups.values()
+    )
 
 
 def row_of(own: OwnFinding, subject: Subject, addresses: Addresses) -> FindingRow:

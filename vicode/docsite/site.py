@@ -3,20 +3,24 @@
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
-from vicode.docsite.addresses import AGENTS, EVERYTHING, HOME, INTERFACES, TYPES, Addresses
+from vicode.docsite.addresses import AGENTS, EVERYTHING, HOME, INTERFACES, SYMBOLS, TYPES, Addresses
 from vicode.docsite.components import Made, component_view
 from vicode.docsite.docs import summary_of
 from vicode.docsite.drawings import laid_out
 from vicode.docsite.generated import Text, code_view, places_in, text_links, texts_of
-from vicode.docsite.languages import Unsaid, language_views, unsaid_in
-from vicode.docsite.overview import (
-    agent_views,
+from vicode.docsite.interfaces import (
+    Known,
     constant_table,
     enumeration_views,
-    home_view,
+    interface_rows,
     interface_views,
-    sorted_designs,
+    known_of,
+    symbol_count,
+    symbol_groups,
 )
+from vicode.docsite.languages import Unsaid, language_views, unsaid_in
+from vicode.docsite.ordering import sorted_designs
+from vicode.docsite.overview import agent_views, home_view
 from vicode.docsite.searching import entries_of, search_script
 from vicode.docsite.subject import Subject
 from vicode.docsite.views import Page, Part
@@ -54,13 +58,21 @@ class _Builder:
         entries = entries_of(project, addresses)
         yield self._page(HOME, project.name, "home", view=home_view(self.subject, addresses))
         yield self._page(AGENTS, "Agents", "agents", agents=tuple(agent_views(project, addresses)))
-        interfaces = tuple(interface_views(self.subject, addresses))
-        yield self._page(INTERFACES, "Interfaces", "interfaces", interfaces=interfaces)
-        constants = constant_table(project, addresses)
-        types = tuple(enumeration_views(project))
-        yield self._page(TYPES, "Types and constants", "types", enumerations=types, constants=constants)
+        yield from self._interfaces(known_of(self.subject, addresses))
         yield self._page(EVERYTHING, "Everything", "all", entries=entries)
         yield OutputFile(path="search.js", text=search_script(entries))
+
+    def _interfaces(self, known: Known) -> Iterator[OutputFile]:
+        """The pages about what designs know and share."""
+        behaviors, others = interface_rows(known)
+        yield self._page(INTERFACES, "Interfaces", "interfaces", behaviors=behaviors, others=others)
+        for view in interface_views(known):
+            crumb = Part(text="Interfaces", href=INTERFACES)
+            yield self._page(view.file, view.name, "interface", crumbs=(crumb,), view=view)
+        yield self._page(SYMBOLS, "Symbols", "symbols", groups=tuple(symbol_groups(known)))
+        types = tuple(enumeration_views(known))
+        constants = constant_table(known)
+        yield self._page(TYPES, "Types and constants", "types", enumerations=types, constants=constants)
 
     def components(self) -> Iterator[OutputFile]:
         """A page a design."""
@@ -106,6 +118,7 @@ class _Builder:
         menu = [Part(text="Home", href=HOME)]
         menu += [Part(text="Agents", href=AGENTS)] if project.agents else []
         menu += [Part(text="Interfaces", href=INTERFACES)] if project.components else []
+        menu += [Part(text="Symbols", href=SYMBOLS)] if symbol_count(project) else []
         menu += [Part(text="Types and constants", href=TYPES)] if project.enumerations or project.constants else []
         menu.append(Part(text="Everything", href=EVERYTHING))
         menu += [Part(text="Project file", href=self.addresses.code("", "source"))] if "" in self.texts else []

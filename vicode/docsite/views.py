@@ -26,7 +26,10 @@ class CodeBlock:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class DeclarationRow:
-    """A parameter, output, variable or constant."""
+    """A parameter, output, variable or constant; `kind` says which, where a table has several.
+
+    `read_in` and `set_in` are the components that do so, with the states as tips.
+    """
 
     anchor: str
     name: str
@@ -36,15 +39,20 @@ class DeclarationRow:
     unit: str
     range: str
     doc_html: str
+    href: str = ""
+    kind: str = ""
+    read_in: Line = ()
+    set_in: Line = ()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class DeclarationTable:
-    """All declarations of one section."""
+    """All declarations of one section; `columns` are those that say something."""
 
     title: str
     initial: str
     rows: tuple[DeclarationRow, ...]
+    columns: frozenset[str]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -130,6 +138,21 @@ class FindingRow:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class FindingGroup:
+    """All findings of one rule."""
+
+    severity: str
+    code: str
+    name: str
+    rows: tuple[FindingRow, ...]
+
+    @property
+    def count(self) -> int:
+        """How many there are."""
+        return len(self.rows)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class LanguageView:
     """What a language makes of a component: a page, or reasons why not; `is_chosen`: the project asks for it."""
 
@@ -164,24 +187,52 @@ class ComponentView:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class InterfaceView:
-    """A component that has no design."""
+    """The page of a component that has no design; `file` is its address, `kind` what it is."""
 
-    anchor: str
+    file: str
     name: str
+    kind: str
+    title: str
     doc_html: str
     facts: tuple[Line, ...]
     tables: tuple[DeclarationTable, ...]
     used_by: tuple[UseRow, ...]
+    findings: tuple[FindingRow, ...]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class InterfaceRow:
+    """A line of the list of interfaces: `tells` counts what can be read or set, `users` who uses it."""
+
+    component: Part
+    parameters: Line
+    tells: Part
+    users: int
+    summary: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SymbolGroup:
+    """The symbols of one component."""
+
+    anchor: str
+    component: Part
+    title: str
+    rows: tuple[DeclarationRow, ...]
+    columns: frozenset[str]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class EnumerationView:
-    """A type: its elements are anchor, name and doc."""
+    """A type: its elements are anchor, name and doc; `declares` are all things of it, `used_by` who says its name."""
 
     anchor: str
     name: str
     doc_html: str
     elements: tuple[tuple[str, str, str], ...]
+    facts: tuple[Line, ...]
+    declares: Line
+    used_by: Line
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -217,7 +268,12 @@ class HomeView:
     svg: str
     agents: tuple[tuple[Part, Part, str], ...]
     components: tuple[ComponentRow, ...]
-    findings: tuple[FindingRow, ...]
+    findings: tuple[FindingGroup, ...]
+
+    @property
+    def has_agent_docs(self) -> bool:
+        """Whether an agent is described."""
+        return any(doc_html for _agent, _root, doc_html in self.agents)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -1,0 +1,17 @@
+"""The order of names: without regard to case, numbers in names by their size."""
+
+import re
+
+from vicode.model.design import Design
+from vicode.model.project import Project
+
+
+def by_name(name: str) -> tuple[list[str | int], str]:
+    """What to sort by."""
+    parts = re.split(r"([0-9]+)", name.casefold())
+    return ([int(part) if index % 2 else part for index, part in enumerate(parts)], name)
+
+
+def sorted_designs(project: Project) -> list[Design]:
+    """The designs by name."""
+    return sorted(project.designs, key=lambda design: by_name(design.component))
