@@ -2,13 +2,14 @@
 
 import math
 from collections import defaultdict
-from collections.abc import Iterable, Iterator
+from collections.abc import Collection, Iterable
 from dataclasses import dataclass
 
 from vicode.diagram.boxes import Size
 from vicode.model.design import Point
 
 _CELL = 200.0
+_FINE_CELL = 40.0
 # One that is larger than so many cells would be a slip of the pen somewhere far out.
 _MOST_CELLS = 400
 
@@ -54,6 +55,32 @@ class Rects:
         return {key for cell in _cells(rect) for key, other in self._cells.get(cell, ()) if rect.overlaps(other)}
 
 
+class Obstacles:
+    """What lines should not run over: rectangles grown by a clearance, in a grid so fine that most cells are empty."""
+
+    def __init__(self, clearance: float) -> None:
+        self._clearance = clearance
+        self._cells: dict[tuple[int, int], list[tuple[str, float, float, float, float]]] = {}
+
+    def add(self, key: str, rect: Rect) -> None:
+        """Put a rectangle there."""
+        wide = rect.grown(self._clearance)
+        entry = (key, wide.left, wide.top, wide.right, wide.bottom)
+        for cell in _cells(wide, _FINE_CELL):
+            self._cells.setdefault(cell, []).append(entry)
+
+    def count_under(self, points: Iterable[Point], besides: Collection[str], enough: float) -> int:
+        """How many lie under the points of a line, `besides` those of its ends; from `enough` on nobody counts."""
+        cells, hit = self._cells, set[str]()
+        for x, y in points:
+            for key, left, top, right, bottom in cells.get((int(x // _FINE_CELL), int(y // _FINE_CELL)), ()):
+                if left < x < right and top < y < bottom and key not in besides:
+                    hit.add(key)
+                    if len(hit) >= enough:
+                        return len(hit)
+        return len(hit)
+
+
 class Points:
     """Points of lines, to be found by place."""
 
@@ -75,8 +102,11 @@ class Points:
         }
 
 
-def _cells(rect: Rect) -> Iterator[tuple[int, int]]:
-    columns = range(math.floor(rect.left / _CELL), math.floor(rect.right / _CELL) + 1)
-    rows = range(math.floor(rect.top / _CELL), math.floor(rect.bottom / _CELL) + 1)
-    if len(columns) * len(rows) <= _MOST_CELLS:
-        yield from ((column, row) for column in columns for row in rows)
+def _cells(rect: Rect, size: float = _CELL) -> Iterable[tuple[int, int]]:
+    left, right = math.floor(rect.left / size), math.floor(rect.right / size)
+    top, bottom = math.floor(rect.top / size), math.floor(rect.bottom / size)
+    if left == right and top == bottom:
+        return ((left, top),)
+    if (right - left + 1) * (bottom - top + 1) > _MOST_CELLS:
+        return ()
+    return [(column, row) for column in range(left, right + 1) for row in range(top, bottom + 1)]

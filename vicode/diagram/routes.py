@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 from vicode.diagram.chips import Chip, chip_of, shorter_chips
 from vicode.diagram.figure import Arrow, Figure, Node
-from vicode.diagram.ground import Points, Rect, Rects
-from vicode.diagram.ways import Curve, fan, length_of, loops, point_at, reading_order
+from vicode.diagram.ground import Obstacles, Points, Rect, Rects
+from vicode.diagram.ways import CLEARANCE, Curve, fan, length_of, loops, point_at, points_along, reading_order
 from vicode.model.design import Point
 
 # What a label would hide, dearer first. A place farther along its line costs less than hiding a line.
@@ -54,12 +54,15 @@ class _Router:
     def __init__(self, figure: Figure) -> None:
         self.nodes = {node.key: node for node in figure.nodes}
         self.boxes, self.labels, self.lines = Rects(), Rects(), Points()
+        self.obstacles = Obstacles(CLEARANCE)
         self.is_planned = len(figure.arrows) <= _MOST_PLANNED
         self._arrows_at: dict[str, list[Arrow]] = defaultdict(list)
         self._pairs: dict[tuple[str, ...], list[Arrow]] = defaultdict(list)
         self._links = {arrow.key for arrow in figure.arrows if arrow.of != "transition"}
         for node in figure.nodes:
-            self.boxes.add(node.key, Rect.around(node.at, node.size))
+            rect = Rect.around(node.at, node.size)
+            self.boxes.add(node.key, rect)
+            self.obstacles.add(node.key, rect)
         for arrow in figure.arrows:
             self._pairs[tuple(sorted((arrow.source, arrow.target)))].append(arrow)
             for end in {arrow.source, arrow.target}:
@@ -79,11 +82,11 @@ class _Router:
             others = [node for arrow in self._arrows_at[source.key] for node in self._ends(arrow) if node is not source]
             curves = loops(source, chips, others, self.boxes)
         else:
-            curves = fan(arrows, chips, (source, target), self.boxes)
+            curves = fan(arrows, chips, (source, target), self.obstacles)
         for arrow, curve, chip in zip(arrows, curves, chips, strict=True):
             if self.is_planned:
                 count = max(2, math.ceil(length_of(curve) / _BETWEEN_POINTS))
-                self.lines.add(arrow.key, (point_at(curve, step / count) for step in range(count + 1)))
+                self.lines.add(arrow.key, points_along(curve, count))
             yield arrow, curve, chip
 
     def label(self, arrow: Arrow, curve: Curve, wanted: Chip | None) -> Route:

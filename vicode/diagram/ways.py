@@ -1,20 +1,23 @@
 """The curves of the arrows between one pair of nodes: lanes beside each other, around boxes, loops on free sides."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from functools import cache
 from itertools import pairwise
 
 from vicode.diagram.boxes import Size
 from vicode.diagram.chips import Chip
 from vicode.diagram.figure import Arrow, Node
-from vicode.diagram.ground import Rect, Rects
+from vicode.diagram.ground import Obstacles, Rect, Rects
 from vicode.model.design import Point
 
 Curve = tuple[float, float, float, float, float, float, float, float]
 """A cubic one: start, two controls, end."""
 
+Weights = tuple[float, float, float, float]
+
 HEX_SLANT = 16.0
-_CLEARANCE, _LABEL_GAP = 8.0, 6.0
+CLEARANCE, _LABEL_GAP = 8.0, 6.0
 _LEAST_LANE, _MOST_LANE = 24.0, 100.0
 # A line starts at least so far from the corners of its boxes.
 _INSET = (14.0, 12.0)
@@ -27,24 +30,24 @@ _ACROSS = 0.4
 _TINY = 1e-9
 
 
-def fan(arrows: Sequence[Arrow], chips: Sequence[Chip | None], ends: tuple[Node, Node], boxes: Rects) -> list[Curve]:
+def fan(arrows: Sequence[Arrow], chips: Sequence[Chip | None], ends: tuple[Node, Node], boxes: Obstacles) -> list[Curve]:
     """Curves for arrows between two nodes, in lane order; the lanes make room for their labels."""
     first, second = reading_order(*ends)
     pair = (first, second, _normal(first, second))
     lanes = _lanes(chips, pair[2])
-    best: tuple[int, list[Curve]] | None = None
+    own = {first.key, second.key}
+    best: tuple[float, list[Curve]] = math.inf, []
     for bow in _BOWS:
         for is_flat in (False, True) if abs(bow) >= _FLAT_FROM else (False,):
             curves = [
                 _bend(arrow, pair, lane=lane, bow=bow, is_flat=is_flat)
                 for arrow, lane in zip(arrows, lanes, strict=True)
             ]
-            blocked = sum(_boxes_under(curve, {first.key, second.key}, boxes) for curve in curves)
-            if best is None or blocked < best[0]:
+            blocked = _boxes_under(curves, own, boxes, best[0])
+            if blocked < best[0]:
                 best = blocked, curves
             if not blocked:
                 return curves
-    assert best is not None
     return best[1]
 
 
@@ -57,18 +60,17 @@ def loops(node: Node, chips: Sequence[Chip | None], others: Sequence[Node], boxe
 
 def point_at(curve: Curve, t: float) -> Point:
     """The point of a curve at a share of its way."""
-    u = 1 - t
-    a, b, c, d = u * u * u, 3 * u * u * t, 3 * u * t * t, t * t * t
-    return (
-        a * curve[0] + b * curve[2] + c * curve[4] + d * curve[6],
-        a * curve[1] + b * curve[3] + c * curve[5] + d * curve[7],
-    )
+    return next(_points_of(curve, (_weights(t),)))
+
+
+def points_along(curve: Curve, count: int) -> Iterator[Point]:
+    """The points of a curve in so many equal steps, both ends included."""
+    return _points_of(curve, _all_weights(count))
 
 
 def length_of(curve: Curve) -> float:
     """About how long a curve is."""
-    points = [point_at(curve, step / 16) for step in range(17)]
-    return sum(math.dist(one, other) for one, other in pairwise(points))
+    return sum(math.dist(one, other) for one, other in pairwise(points_along(curve, 16)))
 
 
 def reading_order(a: Node, b: Node) -> tuple[Node, Node]:
@@ -152,14 +154,31 @@ def _stretch(value: float, by: float, half: float) -> float:
     return (math.copysign(half, by) - value) / by if by else math.inf
 
 
-def _boxes_under(curve: Curve, own: set[str], boxes: Rects) -> int:
-    """How many boxes a curve runs over, looked up in steps smaller than a box."""
-    steps = min(120, max(8, math.ceil(length_of(curve) / 24)))
-    hit: set[str] = set()
-    for step in range(1, steps):
-        spot = Rect.around(point_at(curve, step / steps), Size(width=2 * _CLEARANCE, height=2 * _CLEARANCE))
-        hit.update(boxes.under(spot))
-    return len(hit - own)
+def _boxes_under(curves: Sequence[Curve], own: set[str], boxes: Obstacles, enough: float) -> float:
+    """How many boxes curves run over, looked up in steps smaller than a box; from `enough` on nobody counts."""
+    blocked = 0
+    for curve in curves:
+        steps = min(120, max(8, math.ceil(length_of(curve) / 24)))
+        blocked += boxes.count_under(_points_of(curve, _all_weights(steps)[1:-1]), own, enough - blocked)
+        if blocked >= enough:
+            break
+    return blocked
+
+
+def _points_of(curve: Curve, weights: Iterable[Weights]) -> Iterator[Point]:
+    x0, y0, x1, y1, x2, y2, x3, y3 = curve
+    return ((a * x0 + b * x1 + c * x2 + d * x3, a * y0 + b * y1 + c * y2 + d * y3) for a, b, c, d in weights)
+
+
+def _weights(t: float) -> Weights:
+    u = 1 - t
+    return (u * u * u, 3 * u * u * t, 3 * u * t * t, t * t * t)
+
+
+@cache
+def _all_weights(count: int) -> tuple[Weights, ...]:
+    """How much of each of its four points is in those along a curve; there are few different counts."""
+    return tuple(_weights(step / count) for step in range(count + 1))
 
 
 def _burden(node: Node, side: Point, others: Sequence[Node]) -> float:
