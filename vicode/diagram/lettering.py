@@ -4,6 +4,7 @@ The widths are those of Helvetica, which Arial, Liberation Sans and, nearly, Rob
 """
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 # In thousandths of the letters' size, from the blank (32) to the tilde (126): Adobe's metrics of Helvetica.
 _WIDTHS = (
@@ -14,6 +15,7 @@ _WIDTHS = (
     260, 334, 584,
 )  # fmt: skip
 _SIGNS = {"…": 1000, "·": 278, "›": 333, "→": 1000, "≤": 549, "≥": 549, "°": 400}
+_KNOWN = {**{chr(32 + index): width for index, width in enumerate(_WIDTHS)}, **_SIGNS}
 _OTHER, _WIDE = 600, 1000
 _WIDE_FROM = 0x2E80
 _BOLDER = 1.07
@@ -38,8 +40,7 @@ LABEL = Letters(size=12)
 
 def text_width(text: str, letters: Letters) -> float:
     """The width in pixels."""
-    thousandths = sum(_width_of(letter) for letter in text)
-    return thousandths / 1000 * letters.size * (_BOLDER if letters.bold else 1)
+    return _in_pixels(_thousandths_of(text), letters)
 
 
 def shorten(text: str, letters: Letters, room: float) -> str:
@@ -48,13 +49,23 @@ def shorten(text: str, letters: Letters, room: float) -> str:
     start = line[:_LONGEST]
     if start == line and text_width(line, letters) <= room:
         return line
-    while start and text_width(f"{start}…", letters) > room:
-        start = start[:-1]
-    return f"{start.rstrip()}…"
+    end, thousandths = 0, _SIGNS["…"]
+    for letter in start:
+        thousandths += _width_of(letter)
+        if _in_pixels(thousandths, letters) > room:
+            break
+        end += 1
+    return f"{start[:end].rstrip()}…"
+
+
+def _in_pixels(thousandths: int, letters: Letters) -> float:
+    return thousandths / 1000 * letters.size * (_BOLDER if letters.bold else 1)
+
+
+@lru_cache(maxsize=1 << 14)
+def _thousandths_of(text: str) -> int:
+    return sum(map(_width_of, text))
 
 
 def _width_of(letter: str) -> int:
-    code = ord(letter)
-    if 32 <= code <= 126:
-        return _WIDTHS[code - 32]
-    return _SIGNS.get(letter, _WIDE if code >= _WIDE_FROM else _OTHER)
+    return _KNOWN.get(letter) or (_WIDE if ord(letter) >= _WIDE_FROM else _OTHER)

@@ -30,7 +30,9 @@ _ACROSS = 0.4
 _TINY = 1e-9
 
 
-def fan(arrows: Sequence[Arrow], chips: Sequence[Chip | None], ends: tuple[Node, Node], boxes: Obstacles) -> list[Curve]:
+def fan(
+    arrows: Sequence[Arrow], chips: Sequence[Chip | None], ends: tuple[Node, Node], boxes: Obstacles
+) -> list[Curve]:
     """Curves for arrows between two nodes, in lane order; the lanes make room for their labels."""
     first, second = reading_order(*ends)
     pair = (first, second, _normal(first, second))

@@ -9,7 +9,6 @@ from vicode.diagram.layout import LayoutService
 from vicode.diagram.palettes import from_properties
 from vicode.diagram.svg import write_svg
 from vicode.diagram.tree import Links, draw_tree
-from vicode.diagram.usage import usage_figure
 from vicode.docsite.addresses import Addresses
 from vicode.findings import Path
 from vicode.model.design import Decision, Design
@@ -68,9 +67,8 @@ def draw_decisions(items: Sequence[Decision], path: Path, design: Design, addres
     return write_svg(drawing, is_part=True) if drawing else ""
 
 
-def draw_uses(project: Project, addresses: Addresses, title: str, only: Iterable[str] | None = None) -> str:
-    """Who uses whom; an arrow leads to its user."""
-    figure = usage_figure(project)
+def draw_uses(figure: Figure, addresses: Addresses, title: str, only: Iterable[str] | None = None) -> str:
+    """Who uses whom, from the figure of the whole; an arrow leads to its user."""
     shown = {node.key for node in figure.nodes} if only is None else set(only)
     nodes = tuple(replace(node, href=addresses.component(node.key)) for node in figure.nodes if node.key in shown)
     arrows = []

@@ -1,6 +1,6 @@
 """The texts of a component, as pages of code whose lines and things link each other."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 
 from vicode.docsite.addresses import Addresses
@@ -9,10 +9,7 @@ from vicode.docsite.listings import TITLES, lines_of
 from vicode.docsite.subject import Subject
 from vicode.docsite.views import CodeLine, CodeView, Part
 from vicode.findings import Path
-from vicode.generators import GENERATORS, UnsoundDesignError, generate, origins_of
-from vicode.model.design import Design
-from vicode.model.project import Project
-from vicode.output import OutputFile
+from vicode.generators import GENERATORS, Origin, texts_of_components
 
 _LINKED = ("states", "common", "parameters", "outputs", "variables")
 
@@ -91,42 +88,18 @@ def text_links(texts: tuple[Text, ...], addresses: Addresses) -> tuple[Part, ...
 
 
 def _generated(subject: Subject, language: str, faulty: frozenset[str]) -> Iterator[Text]:
-    """The text of each component, by asking for one at a time: what cannot be said then spoils none of the others."""
+    """The text of each component that nothing is wrong with."""
     project = subject.project
     sources = {name: source.path for name, source in subject.sources.items() if name}
-    names = {design.component for design in project.designs}
-    try:
-        shared = {file.path for file in generate(project, components=(), languages=(language,))}
-    except UnsoundDesignError:
-        return
-    for design in project.designs:
-        if design.component in faulty:
-            continue
-        without = names - {design.component}
-        try:
-            files = generate(
-                project,
-                components=(design.component,),
-                leave_out=without,
-                languages=(language,),
-                sources=sources,
-            )
-            own = [file for file in files if file.path not in shared]
-            yield max((_text(project, design, language, file) for file in own), key=lambda text: len(text.lines))
-        except UnsoundDesignError:
-            continue
+    wanted = {design.component for design in project.designs} - faulty
+    for component, written in texts_of_components(project, language, wanted, sources):
+        file, lines = written.file, _lines_of(written.origins)
+        yield Text(component=component, form=language, path=file.path, text=file.text, language=language, lines=lines)
 
 
-def _text(project: Project, design: Design, language: str, file: OutputFile) -> Text:
-    lines = _lines_of(project, design, language, file.text)
-    return Text(
-        component=design.component, form=language, path=file.path, text=file.text, language=language, lines=lines
-    )
-
-
-def _lines_of(project: Project, design: Design, language: str, text: str) -> dict[Path, int]:
+def _lines_of(origins: Iterable[Origin]) -> dict[Path, int]:
     lines: dict[Path, int] = {}
-    for origin in origins_of(project, design.component, language, text):
+    for origin in origins:
         if origin.path and origin.path[0] in _LINKED and origin.path[-1] != "code":
             lines.setdefault(origin.path, origin.first)
     return lines

@@ -1,7 +1,7 @@
 """All files of a site: a pure function of its subject, the same bytes every time."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 from vicode.docsite.addresses import AGENTS, EVERYTHING, HOME, INTERFACES, SYMBOLS, TYPES, Addresses
 from vicode.docsite.components import Made, component_view
@@ -51,6 +51,7 @@ class _Builder:
     addresses: Addresses
     texts: dict[str, tuple[Text, ...]]
     unsaid: Unsaid
+    menus: dict[str, str] = field(default_factory=dict)
 
     def overview(self) -> Iterator[OutputFile]:
         """The pages about the whole, and what the search looks through."""
@@ -107,11 +108,18 @@ class _Builder:
             page=page,
             site=project.name,
             about=summary_of(project.doc),
-            menu=self._menu(),
-            machines=self._machines(),
+            menu_html=self._menu_html(page.here),
             **views,
         )
         return OutputFile(path=file, text=text)
+
+    def _menu_html(self, here: str) -> str:
+        """The menu with one of its entries marked; the pages of a component share one."""
+        found = self.menus.get(here)
+        if found is None:
+            found = render("docsite/menu.html.jinja", here=here, menu=self._menu(), machines=self._machines())
+            self.menus[here] = found
+        return found
 
     def _menu(self) -> tuple[Part, ...]:
         project = self.subject.project

@@ -1,20 +1,23 @@
 """From a project of designs to files of code: a pure function, the same for every caller."""
 
-from collections.abc import Callable, Collection, Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Collection, Iterator, Mapping
+from dataclasses import dataclass, replace
 
 from vicode.generators import xabsl
-from vicode.generators.origins import Origin, in_whole_design
+from vicode.generators.origins import ComponentText, Origin, in_whole_design
 from vicode.generators.plan import (
     ComponentPlan,
+    ProjectPlan,
     UnsoundDesignError,
     collect_components,
+    plan_component,
     plan_package,
     plan_project,
 )
 from vicode.generators.python import (
     RESERVED_MODULES,
     class_path,
+    component_writer,
     find_origins,
     generate_probes,
     generate_python,
@@ -33,6 +36,7 @@ __all__ = [
     "origins_of",
     "python_class",
     "python_probes",
+    "texts_of_components",
 ]
 
 
@@ -40,23 +44,30 @@ __all__ = [
 class Generator:
     """A language: what it writes for a plan, and all paths it may write for a project.
 
-    `find_origins` tells which lines of a component's text come from which thing of its design.
+    `component_writer` writes the file of one component after the other; `find_origins` tells which lines of a
+    component's text come from which thing of its design.
     """
 
     write: Callable[..., tuple[OutputFile, ...]]
     list_paths: Callable[..., tuple[str, ...]]
     reserved_modules: frozenset[str]
-    find_origins: Callable[[ComponentPlan, str], tuple[Origin, ...]] = lambda _plan, _text: ()
+    component_writer: Callable[[ProjectPlan], Callable[[ComponentPlan], ComponentText]]
+    find_origins: Callable[[ComponentPlan, str], tuple[Origin, ...]]
 
 
 GENERATORS: Mapping[str, Generator] = {
     "python": Generator(
-        write=generate_python, list_paths=list_paths, reserved_modules=RESERVED_MODULES, find_origins=find_origins
+        write=generate_python,
+        list_paths=list_paths,
+        reserved_modules=RESERVED_MODULES,
+        component_writer=component_writer,
+        find_origins=find_origins,
     ),
     "xabsl": Generator(
         write=xabsl.generate_xabsl,
         list_paths=xabsl.list_paths,
         reserved_modules=xabsl.RESERVED_MODULES,
+        component_writer=xabsl.component_writer,
         find_origins=xabsl.find_origins,
     ),
 }
@@ -90,6 +101,26 @@ def generate(
         plan = plan_project(project, wanted, sources or {}, generator.reserved_modules)
         files += generator.write(plan, standalone=standalone)
     return tuple(sorted(files, key=lambda file: file.path))
+
+
+def texts_of_components(
+    project: Project, language: str, components: Collection[str], sources: Mapping[str, str]
+) -> Iterator[tuple[str, ComponentText]]:
+    """The file of each component as `generate` writes it, one at a time; those that cannot be said are left out."""
+    generator = GENERATORS[language]
+    try:
+        plan = plan_project(project, (), sources, generator.reserved_modules)
+        write = generator.component_writer(plan)
+    except UnsoundDesignError:
+        return
+    for design in project.designs:
+        if design.component in components:
+            try:
+                source = sources.get(design.component, "")
+                written = write(plan_component(project, design, plan.package.modules, source))
+            except UnsoundDesignError:
+                continue
+            yield design.component, replace(written, origins=in_whole_design(design, written.origins))
 
 
 def origins_of(project: Project, component: str, language: str, text: str) -> tuple[Origin, ...]:

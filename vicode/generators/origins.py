@@ -7,6 +7,7 @@ from vicode.findings import Path
 from vicode.model.design import Design
 from vicode.model.enabling import disabled_states, enabled_part, is_working
 from vicode.model.walks import walk_decisions
+from vicode.output import OutputFile
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -16,6 +17,14 @@ class Origin:
     first: int
     last: int
     path: Path
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ComponentText:
+    """The file of one component, and which of its lines come from what."""
+
+    file: OutputFile
+    origins: tuple[Origin, ...]
 
 
 def in_whole_design(design: Design, origins: Iterable[Origin]) -> tuple[Origin, ...]:

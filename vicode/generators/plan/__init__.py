@@ -1,6 +1,6 @@
 """The language-neutral plan: names, the order of things and typed trees, decided once for every language."""
 
-from vicode.generators.plan.component import INTERFACES
+from vicode.generators.plan.component import INTERFACES, plan_component
 from vicode.generators.plan.expressions import UnsoundDesignError, literal_of
 from vicode.generators.plan.project import collect_components, plan_package, plan_project
 from vicode.generators.plan.values import (
@@ -53,6 +53,7 @@ __all__ = [
     "Value",
     "collect_components",
     "literal_of",
+    "plan_component",
     "plan_package",
     "plan_project",
 ]

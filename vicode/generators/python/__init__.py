@@ -1,9 +1,11 @@
 """Python: a module a component, one method a state, on the BICA runtime."""
 
+from collections.abc import Callable
 from pathlib import Path
 
 import vicode.bica
-from vicode.generators.plan import INTERFACES, PackagePlan, ProjectPlan
+from vicode.generators.origins import ComponentText
+from vicode.generators.plan import INTERFACES, ComponentPlan, PackagePlan, ProjectPlan
 from vicode.generators.python.component import ComponentWriter
 from vicode.generators.python.declarations import declarations_view
 from vicode.generators.python.interfaces import interfaces_view
@@ -19,6 +21,7 @@ __all__ = [
     "PROBES",
     "RESERVED_MODULES",
     "class_path",
+    "component_writer",
     "find_origins",
     "generate_probes",
     "generate_python",
@@ -26,12 +29,13 @@ __all__ = [
 ]
 
 LANGUAGE = "python"
+RUNTIME = "vicode.bica"
 
 
 def generate_python(plan: ProjectPlan, *, standalone: bool) -> tuple[OutputFile, ...]:
     """All files of a project; with `standalone` the runtime lies inside the package."""
     names = name_globals(plan)
-    runtime = ".bica" if standalone else "vicode.bica"
+    runtime = ".bica" if standalone else RUNTIME
     folder = f"{LANGUAGE}/{plan.package.package}"
     project = f"the project {plan.name}"
     about = docstring(plan.doc or f"Components of {project}.", 0) + "\n"
@@ -44,12 +48,21 @@ def generate_python(plan: ProjectPlan, *, standalone: bool) -> tuple[OutputFile,
     if handed_on is not None:
         text = render("python/interfaces.py.jinja", view=handed_on)
         files.append(OutputFile(path=f"{folder}/{INTERFACES}.py", text=seal(text, project)))
-    for component in plan.components:
-        writer = ComponentWriter(project=plan, component=component, names=names, runtime=runtime)
-        text = render("python/component.py.jinja", view=writer.view())
-        source = component.source or f"the design of {component.component}"
-        files.append(OutputFile(path=f"{folder}/{component.module}.py", text=seal(text, source)))
+    files += [
+        _module(ComponentWriter(project=plan, component=each, names=names, runtime=runtime)) for each in plan.components
+    ]
     return (*files, *(_copy_runtime(folder) if standalone else ()))
+
+
+def component_writer(plan: ProjectPlan) -> Callable[[ComponentPlan], ComponentText]:
+    """What writes the modules of a project's components, one at a time."""
+    names = name_globals(plan)
+
+    def write(component: ComponentPlan) -> ComponentText:
+        file = _module(ComponentWriter(project=plan, component=component, names=names, runtime=RUNTIME))
+        return ComponentText(file=file, origins=find_origins(component, file.text))
+
+    return write
 
 
 def list_paths(package: PackagePlan, *, standalone: bool) -> tuple[str, ...]:
@@ -66,6 +79,13 @@ def class_path(package: PackagePlan, component: str) -> str:
     """Where the class of a design's component is found: "package.module:Class"."""
     module = INTERFACES if component in package.interfaces else package.modules[component]
     return f"{package.package}.{module}:{name_class(component)}"
+
+
+def _module(writer: ComponentWriter) -> OutputFile:
+    component = writer.component
+    text = render("python/component.py.jinja", view=writer.view())
+    path = f"{LANGUAGE}/{writer.project.package.package}/{component.module}.py"
+    return OutputFile(path=path, text=seal(text, component.source or f"the design of {component.component}"))
 
 
 def _copy_runtime(folder: str) -> tuple[OutputFile, ...]:

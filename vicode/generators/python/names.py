@@ -48,7 +48,8 @@ def name_globals(plan: ProjectPlan) -> dict[str, str]:
 
     Classes are found under `class_key`, since a component and a constant may share a name: then the constant yields.
     """
-    used = [use.component for component in plan.components for use in component.uses]
+    # Of all designs, so that a part of a project finds the names that the whole has.
+    used = [use.component for design in plan.project.designs for use in design.uses]
     written = [*plan.package.modules, *sorted(plan.package.interfaces), *used]
     classes = {class_key(component): name_class(component) for component in written}
     names = {"arithmetic": "arithmetic", **classes}

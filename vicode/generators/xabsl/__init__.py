@@ -1,11 +1,13 @@
 """XABSL: an option a design, symbols for what components offer, and the agents."""
 
 import re
+from collections.abc import Callable
 
-from vicode.generators.plan import PackagePlan, ProjectPlan
+from vicode.generators.origins import ComponentText
+from vicode.generators.plan import ComponentPlan, PackagePlan, ProjectPlan
 from vicode.generators.plan.naming import Names
-from vicode.generators.xabsl.options import write_option
-from vicode.generators.xabsl.origins import find_origins
+from vicode.generators.xabsl.options import OptionText, write_option
+from vicode.generators.xabsl.origins import find_origins, origins_in
 from vicode.generators.xabsl.printing import print_option
 from vicode.generators.xabsl.symbols import SymbolsWriter
 from vicode.generators.xabsl.vocabulary import Vocabulary
@@ -16,7 +18,7 @@ from vicode.regions import seal
 from vicode.xabsl.printer import print_file
 from vicode.xabsl.tree import File
 
-__all__ = ["RESERVED_MODULES", "find_origins", "generate_xabsl", "list_paths"]
+__all__ = ["RESERVED_MODULES", "component_writer", "find_origins", "generate_xabsl", "list_paths"]
 
 LANGUAGE = "xabsl"
 RESERVED_MODULES: frozenset[str] = frozenset()
@@ -29,7 +31,8 @@ def generate_xabsl(plan: ProjectPlan, *, standalone: bool) -> tuple[OutputFile, 
     project, paths = plan.project, _Paths(plan.package)
     if not project.designs:
         return ()
-    writer = SymbolsWriter(Vocabulary(project))
+    vocabulary = Vocabulary(project)
+    writer = SymbolsWriter(vocabulary)
     whole = f"the project {plan.name}"
     files = [_file(paths.agents, writer.agents(paths.includes()), whole)]
     if paths.has_shared:
@@ -41,13 +44,24 @@ def generate_xabsl(plan: ProjectPlan, *, standalone: bool) -> tuple[OutputFile, 
             key = _key(interface.component)
             files.append(_file(paths.symbols[key], writer.interface(interface, paths.namespaces[key]), whole))
     for component in plan.components:
-        key, source = _key(component.component), component.source or f"the design of {component.component}"
+        key = _key(component.component)
         if key in paths.symbols:
-            files.append(_file(paths.symbols[key], writer.design(component.design, paths.namespaces[key]), source))
-        written = write_option(component)
-        text = print_option(written.option, written.remarks)
-        files.append(OutputFile(path=paths.options[component.component], text=seal(text, source, "//")))
+            file = writer.design(component.design, paths.namespaces[key])
+            files.append(_file(paths.symbols[key], file, _source_of(component)))
+        files.append(_option(component, write_option(component, vocabulary), paths))
     return tuple(files)
+
+
+def component_writer(plan: ProjectPlan) -> Callable[[ComponentPlan], ComponentText]:
+    """What writes the options of a project, one at a time."""
+    paths, vocabulary = _Paths(plan.package), Vocabulary(plan.project)
+
+    def write(component: ComponentPlan) -> ComponentText:
+        written = write_option(component, vocabulary)
+        file = _option(component, written, paths)
+        return ComponentText(file=file, origins=origins_in(file.text, written))
+
+    return write
 
 
 def list_paths(package: PackagePlan, *, standalone: bool) -> tuple[str, ...]:
@@ -84,6 +98,15 @@ class _Paths:
     def includes(self) -> list[str]:
         """All files but that of the agents, as it includes them."""
         return [path.removeprefix(f"{self.folder}/") for path in (*self.symbols.values(), *self.options.values())]
+
+
+def _option(component: ComponentPlan, written: OptionText, paths: _Paths) -> OutputFile:
+    text = print_option(written.option, written.remarks)
+    return OutputFile(path=paths.options[component.component], text=seal(text, _source_of(component), "//"))
+
+
+def _source_of(component: ComponentPlan) -> str:
+    return component.source or f"the design of {component.component}"
 
 
 def _file(path: str, file: File, source: str) -> OutputFile:

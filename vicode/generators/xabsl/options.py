@@ -39,8 +39,8 @@ class OptionText:
     places: tuple[tuple[tree.Node, Path], ...]
 
 
-def write_option(plan: ComponentPlan) -> OptionText:
-    """The option of a design.
+def write_option(plan: ComponentPlan, vocabulary: Vocabulary | None = None) -> OptionText:
+    """The option of a design; who writes several hands on the project's vocabulary.
 
     Raises:
         UnsoundDesignError: XABSL cannot say something in it.
@@ -48,15 +48,14 @@ def write_option(plan: ComponentPlan) -> OptionText:
     limit = next(find_limits(plan.project, plan.design), None)
     if limit is not None:
         raise UnsoundDesignError(limit.message)
-    return _OptionWriter(plan).write()
+    return _OptionWriter(plan, vocabulary or Vocabulary(plan.project)).write()
 
 
 class _OptionWriter:
     """Builds the parts of one option, which share names."""
 
-    def __init__(self, plan: ComponentPlan) -> None:
-        self.plan, self.design = plan, plan.design
-        self.vocabulary = Vocabulary(plan.project)
+    def __init__(self, plan: ComponentPlan, vocabulary: Vocabulary) -> None:
+        self.plan, self.design, self.vocabulary = plan, plan.design, vocabulary
         self.components = {"": plan.component, **{use.alias: use.component for use in plan.uses}}
         self.names = {state.name: plain_name(state) for state in self.design.states}
         self.speller = Speller(

@@ -13,8 +13,12 @@ from vicode.xabsl.tokens import DOC
 
 def find_origins(plan: ComponentPlan, text: str) -> tuple[Origin, ...]:
     """The origins in the file of an option, the wider before those inside them; none in any other text."""
+    return origins_in(text, write_option(plan))
+
+
+def origins_in(text: str, written: OptionText) -> tuple[Origin, ...]:
+    """The same of an option that is written already."""
     parsed, option = read_option(text)
-    written = write_option(plan)
     if option is None or option != written.option:
         return ()
     found = _origins(written, option, parsed.tokens)
