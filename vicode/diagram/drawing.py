@@ -5,12 +5,13 @@ from collections.abc import Collection, Iterable
 
 from vicode.diagram.chips import PADDING, Chip
 from vicode.diagram.figure import Arrow, Figure, Node, figure_of
+from vicode.diagram.ground import Curve
 from vicode.diagram.labels import Kind
 from vicode.diagram.lettering import LABEL, NAME, SMALL, Letters, text_width
 from vicode.diagram.palettes import LIGHT, Palette
 from vicode.diagram.routes import Route, routes_of
 from vicode.diagram.shapes import Drawing, Group, Path, Text, box, curve, disc, line, lines
-from vicode.diagram.ways import HEX_SLANT, Curve, point_at
+from vicode.diagram.ways import HEX_SLANT, point_at
 from vicode.model.design import Design, Point
 
 _MARGIN = 24.0

@@ -8,6 +8,12 @@ from dataclasses import dataclass
 from vicode.diagram.boxes import Size
 from vicode.model.design import Point
 
+Curve = tuple[float, float, float, float, float, float, float, float]
+"""A cubic one: start, two controls, end."""
+
+Weights = tuple[float, float, float, float]
+"""How much of each of its four points is in a point of a curve."""
+
 _CELL = 200.0
 _FINE_CELL = 40.0
 # One that is larger than so many cells would be a slip of the pen somewhere far out.
@@ -69,11 +75,14 @@ class Obstacles:
         for cell in _cells(wide, _FINE_CELL):
             self._cells.setdefault(cell, []).append(entry)
 
-    def count_under(self, points: Iterable[Point], besides: Collection[str], enough: float) -> int:
-        """How many lie under the points of a line, `besides` those of its ends; from `enough` on nobody counts."""
-        cells, hit = self._cells, set[str]()
-        for x, y in points:
-            for key, left, top, right, bottom in cells.get((int(x // _FINE_CELL), int(y // _FINE_CELL)), ()):
+    def count_under(self, curve: Curve, weights: Iterable[Weights], besides: Collection[str], enough: float) -> int:
+        """How many lie under the points of a curve, `besides` those at its ends; from `enough` on nobody counts."""
+        find, hit = self._cells.get, set[str]()
+        x0, y0, x1, y1, x2, y2, x3, y3 = curve
+        # Maps of large projects ask this a million times: the points are not made elsewhere.
+        for a, b, c, d in weights:
+            x, y = a * x0 + b * x1 + c * x2 + d * x3, a * y0 + b * y1 + c * y2 + d * y3
+            for key, left, top, right, bottom in find((int(x // _FINE_CELL), int(y // _FINE_CELL)), ()):
                 if left < x < right and top < y < bottom and key not in besides:
                     hit.add(key)
                     if len(hit) >= enough:
@@ -85,20 +94,21 @@ class Points:
     """Points of lines, to be found by place."""
 
     def __init__(self) -> None:
-        self._cells: dict[tuple[int, int], list[tuple[str, Point]]] = defaultdict(list)
+        self._cells: dict[tuple[int, int], list[tuple[str, float, float]]] = defaultdict(list)
 
     def add(self, key: str, points: Iterable[Point]) -> None:
         """Put the points of a line there."""
         for x, y in points:
-            self._cells[math.floor(x / _CELL), math.floor(y / _CELL)].append((key, (x, y)))
+            self._cells[int(x // _FINE_CELL), int(y // _FINE_CELL)].append((key, x, y))
 
     def within(self, rect: Rect) -> set[str]:
         """The keys of all lines with a point in a rectangle."""
+        left, top, right, bottom = rect.left, rect.top, rect.right, rect.bottom
         return {
             key
-            for cell in _cells(rect)
-            for key, (x, y) in self._cells.get(cell, ())
-            if rect.left <= x <= rect.right and rect.top <= y <= rect.bottom
+            for cell in _cells(rect, _FINE_CELL)
+            for key, x, y in self._cells.get(cell, ())
+            if left <= x <= right and top <= y <= bottom
         }
 
 

@@ -7,13 +7,14 @@ from dataclasses import dataclass
 
 from vicode.diagram.chips import Chip, chip_of, shorter_chips
 from vicode.diagram.figure import Arrow, Figure, Node
-from vicode.diagram.ground import Obstacles, Points, Rect, Rects
-from vicode.diagram.ways import CLEARANCE, Curve, fan, length_of, loops, point_at, points_along, reading_order
+from vicode.diagram.ground import Curve, Obstacles, Points, Rect, Rects
+from vicode.diagram.labels import Kind
+from vicode.diagram.ways import CLEARANCE, fan, length_of, loops, point_at, points_along, reading_order
 from vicode.model.design import Point
 
 # What a label would hide, dearer first. A place farther along its line costs less than hiding a line.
 _BOX, _LABEL, _LINE, _LINK = 12.0, 8.0, 1.4, 0.7
-# In a figure of more arrows labels do not look for lines: there are too many to be spared. Links have no labels.
+# In a figure of more arrows labels do not look for lines: there are too many to be spared.
 _MOST_PLANNED = 600
 _BETWEEN_POINTS = 8.0
 # Parts of the way, and how far beside it: 1 is just beside the line, 2 a little farther; the best first.
@@ -55,7 +56,7 @@ class _Router:
         self.nodes = {node.key: node for node in figure.nodes}
         self.boxes, self.labels, self.lines = Rects(), Rects(), Points()
         self.obstacles = Obstacles(CLEARANCE)
-        has_labels = any(arrow.of == "transition" for arrow in figure.arrows)
+        has_labels = any(arrow.label or arrow.order or arrow.kind is not Kind.ALWAYS for arrow in figure.arrows)
         self.is_planned = has_labels and len(figure.arrows) <= _MOST_PLANNED
         self._arrows_at: dict[str, list[Arrow]] = defaultdict(list)
         self._pairs: dict[tuple[str, ...], list[Arrow]] = defaultdict(list)

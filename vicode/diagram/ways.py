@@ -3,18 +3,13 @@
 import math
 from collections.abc import Iterable, Iterator, Sequence
 from functools import cache
-from itertools import pairwise
+from itertools import pairwise, starmap
 
 from vicode.diagram.boxes import Size
 from vicode.diagram.chips import Chip
 from vicode.diagram.figure import Arrow, Node
-from vicode.diagram.ground import Obstacles, Rect, Rects
+from vicode.diagram.ground import Curve, Obstacles, Rect, Rects, Weights
 from vicode.model.design import Point
-
-Curve = tuple[float, float, float, float, float, float, float, float]
-"""A cubic one: start, two controls, end."""
-
-Weights = tuple[float, float, float, float]
 
 HEX_SLANT = 16.0
 CLEARANCE, _LABEL_GAP = 8.0, 6.0
@@ -72,7 +67,7 @@ def points_along(curve: Curve, count: int) -> Iterator[Point]:
 
 def length_of(curve: Curve) -> float:
     """About how long a curve is."""
-    return sum(math.dist(one, other) for one, other in pairwise(points_along(curve, 16)))
+    return sum(starmap(math.dist, pairwise(points_along(curve, 16))))
 
 
 def reading_order(a: Node, b: Node) -> tuple[Node, Node]:
@@ -161,7 +156,7 @@ def _boxes_under(curves: Sequence[Curve], own: set[str], boxes: Obstacles, enoug
     blocked = 0
     for curve in curves:
         steps = min(120, max(8, math.ceil(length_of(curve) / 24)))
-        blocked += boxes.count_under(_points_of(curve, _all_weights(steps)[1:-1]), own, enough - blocked)
+        blocked += boxes.count_under(curve, _all_weights(steps)[1:-1], own, enough - blocked)
         if blocked >= enough:
             break
     return blocked
@@ -179,7 +174,7 @@ def _weights(t: float) -> Weights:
 
 @cache
 def _all_weights(count: int) -> tuple[Weights, ...]:
-    """How much of each of its four points is in those along a curve; there are few different counts."""
+    """For so many equal steps along a curve; there are few different counts."""
     return tuple(_weights(step / count) for step in range(count + 1))
 
 

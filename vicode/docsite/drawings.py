@@ -1,6 +1,6 @@
 """Drawings for pages: laid out where a design gives no place, every box and arrow a link, colours left to the page."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 
 from vicode.diagram.drawing import draw_figure
@@ -9,6 +9,7 @@ from vicode.diagram.layout import LayoutService
 from vicode.diagram.palettes import from_properties
 from vicode.diagram.svg import write_svg
 from vicode.diagram.tree import Links, draw_tree
+from vicode.diagram.usage import usage_figure
 from vicode.docsite.addresses import Addresses
 from vicode.findings import Path
 from vicode.model.design import Decision, Design
@@ -67,15 +68,14 @@ def draw_decisions(items: Sequence[Decision], path: Path, design: Design, addres
     return write_svg(drawing, is_part=True) if drawing else ""
 
 
-def draw_uses(figure: Figure, addresses: Addresses, title: str, only: Iterable[str] | None = None) -> str:
-    """Who uses whom, from the figure of the whole; an arrow leads to its user."""
-    shown = {node.key for node in figure.nodes} if only is None else set(only)
-    nodes = tuple(replace(node, href=addresses.component(node.key)) for node in figure.nodes if node.key in shown)
+def draw_uses(project: Project, addresses: Addresses, title: str) -> str:
+    """Who uses whom in a project or a part of one; an arrow leads to its user."""
+    figure = usage_figure(project)
+    nodes = tuple(replace(node, href=addresses.component(node.key)) for node in figure.nodes)
     arrows = []
     for arrow in figure.arrows:
         user = arrow.target if arrow.of == "requires" else arrow.source
-        if {arrow.source, arrow.target} <= shown:
-            arrows.append(replace(arrow, href=f"{addresses.component(user)}#uses"))
+        arrows.append(replace(arrow, href=f"{addresses.component(user)}#uses"))
     return _svg(Figure(nodes=nodes, arrows=tuple(arrows)), title) if nodes else ""
 
 

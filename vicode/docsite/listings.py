@@ -1,13 +1,16 @@
 """Code as HTML: coloured by classes, line by line."""
 
+import re
+from collections.abc import Iterator
 from functools import lru_cache
+from typing import Any
 
 from pygments import highlight
 from pygments.formatters import HtmlFormatter
-from pygments.lexer import RegexLexer, words
+from pygments.lexer import Lexer
 from pygments.lexers import CppLexer, PythonLexer, YamlLexer
 from pygments.lexers.special import TextLexer
-from pygments.token import Comment, Keyword, Name, Number, Operator, Punctuation, String, Whitespace
+from pygments.token import Comment, Error, Keyword, Name, Number, Operator, Punctuation, String, Whitespace
 
 from vicode.xabsl.tokens import KEYWORDS
 
@@ -16,23 +19,30 @@ _MOST_LETTERS = 400_000
 TITLES = {"python": "Python", "cpp": "C++", "xabsl": "XABSL", "yaml": "YAML"}
 
 
-class _XabslLexer(RegexLexer):  # type: ignore[misc]  # Pygments has no types
+# In this order: one expression for all finds a token at once, where Pygments tries rule after rule.
+_XABSL_TOKENS = (
+    (Whitespace, r"\s+"),
+    (Comment.Single, r"//[^\n]*"),
+    (Comment.Multiline, r"/\*(?s:.*?)(?:\*/|\Z)"),
+    (String, r'"[^"]*"'),
+    (Keyword, rf"\b(?:{'|'.join(map(re.escape, sorted(KEYWORDS)))})(?![\w.])"),
+    (Name, r"@?[A-Za-z_][\w.]*"),
+    (Number, r"\d+(?:\.\d+)?"),
+    (Operator, r"[-+*/%=<>!&|?:]+"),
+    (Punctuation, r"[^\w\s]"),
+    (Error, r"(?s:.)"),
+)
+_XABSL = re.compile("|".join(f"({pattern})" for _kind, pattern in _XABSL_TOKENS))
+
+
+class _XabslLexer(Lexer):  # type: ignore[misc]  # Pygments has no types
     """The words of XABSL."""
 
     name = "XABSL"
-    tokens = {  # noqa: RUF012  # as Pygments has it
-        "root": [
-            (r"\s+", Whitespace),
-            (r"//[^\n]*", Comment.Single),
-            (r"/\*(?s:.*?)(\*/|\Z)", Comment.Multiline),
-            (r'"[^"]*"', String),
-            (words(sorted(KEYWORDS), prefix=r"\b", suffix=r"(?![\w.])"), Keyword),
-            (r"@?[A-Za-z_][\w.]*", Name),
-            (r"\d+(\.\d+)?", Number),
-            (r"[-+*/%=<>!&|?:]+", Operator),
-            (r"[^\w\s]", Punctuation),
-        ]
-    }
+
+    def get_tokens_unprocessed(self, text: str) -> Iterator[tuple[int, Any, str]]:
+        for match in _XABSL.finditer(text):
+            yield match.start(), _XABSL_TOKENS[(match.lastindex or 1) - 1][0], match.group()
 
 
 _LEXERS = {"python": PythonLexer, "cpp": CppLexer, "xabsl": _XabslLexer, "yaml": YamlLexer}

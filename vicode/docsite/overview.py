@@ -1,8 +1,8 @@
 """The pages about the whole project: home and agents."""
 
 from collections.abc import Iterator
+from dataclasses import replace
 
-from vicode.diagram.usage import usage_figure
 from vicode.docsite.addresses import AGENTS, EVERYTHING, INTERFACES, SYMBOLS, TYPES, Addresses, slug
 from vicode.docsite.docs import html_of, line_html_of, summary_of
 from vicode.docsite.drawings import draw_uses
@@ -25,7 +25,7 @@ def home_view(subject: Subject, addresses: Addresses) -> HomeView:
     return HomeView(
         doc_html=html_of(project.doc),
         numbers=tuple(each for each in _numbers(project) if each[0]),
-        svg=draw_uses(usage_figure(project), addresses, f"Who uses whom in {project.name}"),
+        svg=draw_uses(project, addresses, f"Who uses whom in {project.name}"),
         agents=tuple(
             (
                 Part(text=agent.title or agent.name, href=addresses.agent(agent.name)),
@@ -41,10 +41,14 @@ def home_view(subject: Subject, addresses: Addresses) -> HomeView:
 
 def agent_views(project: Project, addresses: Addresses) -> Iterator[AgentView]:
     """The agents, each with what it may activate."""
-    linker, figure = Linker(project, addresses), usage_figure(project)
+    linker = Linker(project, addresses)
     for agent in project.agents:
         designs = collect_components(project, (agent.root,)) if project.design(agent.root) else frozenset()
-        used = {use.component for design in project.designs if design.component in designs for use in design.uses}
+        # A drawing of its own: among the places of the whole it would be lost.
+        part = replace(
+            project, agents=(agent,), designs=tuple(each for each in project.designs if each.component in designs)
+        )
+        used = {use.component for design in part.designs for use in design.uses}
         reached = sorted({agent.root, *designs, *used}, key=by_name)
         yield AgentView(
             anchor=f"agent-{slug(agent.name)}",
@@ -53,7 +57,7 @@ def agent_views(project: Project, addresses: Addresses) -> Iterator[AgentView]:
             doc_html=html_of(agent.doc),
             root=linker.component(agent.root),
             reaches=listed(linker.component(name) for name in reached),
-            svg=draw_uses(figure, addresses, f"What {agent.name} may activate", reached),
+            svg=draw_uses(part, addresses, f"What {agent.name} may activate"),
         )
 
 
