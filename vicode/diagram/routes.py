@@ -112,19 +112,22 @@ class _Router:
             for price, at in _places(arrow, curve, chip):
                 if price >= least:
                     break
-                cost = price + self._crowd(Rect.around(at, chip.size), arrow.key)
+                cost = price + self._crowd(Rect.around(at, chip.size), arrow.key, least - price)
                 if cost < least:
                     best, chosen, least = at, chip, cost
             if least < _LABEL:
                 break
         return chosen, best
 
-    def _crowd(self, rect: Rect, own: str) -> float:
-        """What lies under a rectangle, or would be under a label there."""
+    def _crowd(self, rect: Rect, own: str, enough: float) -> float:
+        """What lies under a rectangle, or would be under a label there; from `enough` on nobody looks further."""
+        wide = rect.grown(2)
+        crowd = _BOX * len(self.boxes.under(wide)) + _LABEL * len(self.labels.under(wide))
+        if crowd >= enough:
+            return crowd
         hidden = self.lines.within(rect) - {own}
         links = len(hidden & self._links)
-        lines = _LINK * links + _LINE * (len(hidden) - links)
-        return lines + _BOX * len(self.boxes.under(rect.grown(2))) + _LABEL * len(self.labels.under(rect.grown(2)))
+        return crowd + _LINK * links + _LINE * (len(hidden) - links)
 
 
 def _places(arrow: Arrow, curve: Curve, chip: Chip) -> Iterator[tuple[float, Point]]:
@@ -149,7 +152,9 @@ def _by_line(curve: Curve, chip: Chip, part: float, side: int) -> Point:
     """So far beside the line that it stays visible."""
     dx, dy = _direction(curve, part)
     reach = (abs(dy) * chip.size.width + abs(dx) * chip.size.height) / 2
-    return _beside(curve, part, math.copysign(reach + (3 if abs(side) == 1 else 9), side))
+    shift = math.copysign(reach + (3 if abs(side) == 1 else 9), side)
+    x, y = point_at(curve, part)
+    return (x - dy * shift, y + dx * shift)
 
 
 def _beside(curve: Curve, part: float, shift: float) -> Point:

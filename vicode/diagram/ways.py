@@ -57,7 +57,9 @@ def loops(node: Node, chips: Sequence[Chip | None], others: Sequence[Node], boxe
 
 def point_at(curve: Curve, t: float) -> Point:
     """The point of a curve at a share of its way."""
-    return next(_points_of(curve, (_weights(t),)))
+    x0, y0, x1, y1, x2, y2, x3, y3 = curve
+    a, b, c, d = _weights(t)
+    return (a * x0 + b * x1 + c * x2 + d * x3, a * y0 + b * y1 + c * y2 + d * y3)
 
 
 def points_along(curve: Curve, count: int) -> Iterator[Point]:
