@@ -9,9 +9,9 @@ from vicode.diagram.drawing import draw_figure
 from vicode.diagram.figure import Figure
 from vicode.diagram.svg import write_svg
 from vicode.diagram.thumbnail import thumbnail
-from vicode.diagram.usage import usage_figure
+from vicode.diagram.usage import leaves_out, usage_figure
 from vicode.model.design import Call, Design, State, Use
-from vicode.model.project import Project
+from vicode.model.project import Interface, Project
 from vicode.store import open_project
 
 FORWARD = Path(__file__).parents[2] / "designs" / "forward"
@@ -49,6 +49,35 @@ def test_circles_end() -> None:
     )
     figure = usage_figure(Project(name="all", designs=designs))
     assert len(figure.nodes) == 30
+
+
+def asking_project(count: int) -> Project:
+    """So many designs that call the next one, ask one interface, and require another."""
+    designs = tuple(
+        Design(
+            component=f"D{index}",
+            uses=(
+                Use(alias="next", component=f"D{index + 1}"),
+                Use(alias="asked", component="Asked"),
+                Use(alias="required", component="Required"),
+            ),
+            states=(State(name="S", requires=("required",), modulates=(Call(alias="next"),)),),
+        )
+        for index in range(count)
+    )
+    return Project(
+        name="p", components=(Interface(component="Asked"), Interface(component="Required")), designs=designs
+    )
+
+
+def test_a_dense_figure_leaves_out_what_is_only_asked() -> None:
+    few, many = asking_project(20), asking_project(60)
+    assert not leaves_out(few)
+    assert usage_figure(few, sparse=True) == usage_figure(few)
+    assert leaves_out(many)
+    names = {node.key for node in usage_figure(many, sparse=True).nodes}
+    assert names == {node.key for node in usage_figure(many).nodes} - {"Asked"}
+    assert len(usage_figure(many, sparse=True).arrows) == len(usage_figure(many).arrows) - 60
 
 
 def test_designs_are_links_and_names_are_only_names() -> None:

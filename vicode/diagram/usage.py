@@ -1,7 +1,7 @@
 """Who uses whom in a project: components in columns by how deep they are used, as a figure to draw."""
 
 from collections import defaultdict
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterator, Mapping
 
 from vicode.diagram.boxes import size_of_use
 from vicode.diagram.figure import Arrow, Figure, Node
@@ -12,14 +12,25 @@ from vicode.model.project import Project
 _BETWEEN_COLUMNS, _ROW = 110.0, 90.0
 _NAME_ROOM = 230.0
 _SWEEPS = 4
+_MOST_ARROWS = 150
 
 Uses = Mapping[str, Mapping[str, frozenset[str]]]
 """By user and used component: "requires", "modulates", neither or both."""
 
 
-def usage_figure(project: Project, address_of: Callable[[str], str] = lambda _component: "") -> Figure:
-    """The figure of all components that use others or are used; `address_of` says where a click on a design leads."""
+def usage_figure(
+    project: Project, address_of: Callable[[str], str] = lambda _component: "", *, sparse: bool = False
+) -> Figure:
+    """The figure of all components that use others or are used.
+
+    Args:
+        project: Whose components.
+        address_of: Where a click on a design leads.
+        sparse: Where there are too many arrows to be followed, leave out what is only asked (`leaves_out`).
+    """
     uses = _uses(project)
+    if sparse and leaves_out(project):
+        uses = _without_asked(uses, {design.component for design in project.designs})
     shown = [name for name in project.interfaces() if name in uses or any(name in used for used in uses.values())]
     shown += [design.component for design in project.designs if design.component not in shown]
     places = _places(shown, uses)
@@ -28,6 +39,21 @@ def usage_figure(project: Project, address_of: Callable[[str], str] = lambda _co
         nodes=tuple(_node(project, name, places[name], address_of, is_root=name in roots) for name in shown),
         arrows=tuple(_arrows(uses, set(shown))),
     )
+
+
+def leaves_out(project: Project) -> bool:
+    """Whether a sparse figure has less than the whole: there are many arrows, some to what is only asked."""
+    uses = _uses(project)
+    count = sum(max(1, len(kinds)) for used in uses.values() for kinds in used.values())
+    designs = {design.component for design in project.designs}
+    return count > _MOST_ARROWS and _without_asked(uses, designs) != uses
+
+
+def _without_asked(uses: Uses, designs: Collection[str]) -> Uses:
+    """The uses without those of hand-written components that are neither required nor modulated."""
+    return {
+        user: {name: kinds for name, kinds in used.items() if kinds or name in designs} for user, used in uses.items()
+    }
 
 
 def _uses(project: Project) -> Uses:

@@ -50,7 +50,9 @@ def draw_design(design: Design, addresses: Addresses) -> str:
         state = arrow.target if arrow.of == "requires" else arrow.source
         return replace(arrow, href=addresses.thing(design.component, ("states", state.partition(":")[2])))
 
-    nodes = tuple(map(linked_node, figure.nodes))
+    # A component that no arrow leads to would only say that it is there, as the table of uses does.
+    ends = {end for arrow in figure.arrows for end in (arrow.source, arrow.target)}
+    nodes = tuple(linked_node(node) for node in figure.nodes if node.of != "component" or node.key in ends)
     arrows = tuple(map(linked_arrow, figure.arrows))
     return _svg(Figure(nodes=nodes, arrows=arrows), f"State machine of {design.component}")
 
@@ -70,7 +72,7 @@ def draw_decisions(items: Sequence[Decision], path: Path, design: Design, addres
 
 def draw_uses(project: Project, addresses: Addresses, title: str) -> str:
     """Who uses whom in a project or a part of one; an arrow leads to its user."""
-    figure = usage_figure(project)
+    figure = usage_figure(project, sparse=True)
     nodes = tuple(replace(node, href=addresses.component(node.key)) for node in figure.nodes)
     arrows = []
     for arrow in figure.arrows:

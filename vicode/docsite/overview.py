@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 from dataclasses import replace
 
+from vicode.diagram.usage import leaves_out
 from vicode.docsite.addresses import AGENTS, EVERYTHING, INTERFACES, SYMBOLS, TYPES, Addresses, slug
 from vicode.docsite.docs import html_of, line_html_of, summary_of
 from vicode.docsite.drawings import draw_uses
@@ -26,6 +27,7 @@ def home_view(subject: Subject, addresses: Addresses) -> HomeView:
         doc_html=html_of(project.doc),
         numbers=tuple(each for each in _numbers(project) if each[0]),
         svg=draw_uses(project, addresses, f"Who uses whom in {project.name}"),
+        is_sparse=leaves_out(project),
         agents=tuple(
             (
                 Part(text=agent.title or agent.name, href=addresses.agent(agent.name)),

@@ -261,11 +261,12 @@ class ComponentRow:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class HomeView:
-    """The first page; `numbers` are how many of what."""
+    """The first page; `numbers` are how many of what, `is_sparse` says that something is not drawn."""
 
     doc_html: str
     numbers: tuple[tuple[int, Part], ...]
     svg: str
+    is_sparse: bool
     agents: tuple[tuple[Part, Part, str], ...]
     components: tuple[ComponentRow, ...]
     findings: tuple[FindingGroup, ...]
