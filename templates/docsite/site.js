@@ -302,6 +302,28 @@
 
   for (const frame of document.querySelectorAll("[data-drawing]")) new Drawing(frame);
 
+  // ---- Decision trees: a box and the line of pseudo code that says the same are shown together ----
+
+  for (const section of document.querySelectorAll(".state")) {
+    const light = (key, on) => {
+      for (const node of section.querySelectorAll(".tree [data-key]")) if (node.dataset.key === key) node.classList.toggle("is-lit", on);
+      document.getElementById(key)?.classList.toggle("is-lit", on);
+    };
+    for (const each of section.querySelectorAll(".tree [data-key], .pseudo li[id]")) {
+      const key = each.dataset.key ?? each.id;
+      for (const [event, on] of [["pointerenter", true], ["pointerleave", false], ["focusin", true], ["focusout", false]]) {
+        each.addEventListener(event, () => light(key, on));
+      }
+    }
+  }
+
+  function showTarget() {
+    const key = decodeURIComponent(location.hash.slice(1));
+    for (const node of document.querySelectorAll(".tree [data-key]")) node.classList.toggle("is-target", node.dataset.key === key);
+  }
+  window.addEventListener("hashchange", showTarget);
+  showTarget();
+
   // A menu that takes the whole width of a small screen waits to be opened.
   if (matchMedia("(max-width: 800px)").matches) document.querySelector(".menu details")?.removeAttribute("open");
 })();

@@ -86,6 +86,22 @@ def test_a_drawing_zooms_and_tells_what_belongs_together(page: Page, site: Path)
     expect(page.locator("a.state:not(.is-lit)", has_text="AlignFront")).to_have_count(1)
 
 
+def test_a_decision_and_its_line_are_shown_together(page: Page, site: Path) -> None:
+    page.goto((site / "source-Player.html").as_uri())
+    page.locator("a[href='component-Player.html#state-SearchNet-0-then-1']").click()
+    expect(page.locator("li:target")).to_contain_text("diagonal_limit")
+    expect(page.locator("li:target")).to_be_in_viewport()
+    tree = page.locator("#state-SearchNet .tree")
+    expect(tree.locator(".is-target", has_text="net ahead to a side")).to_have_count(1)
+    expect(tree.locator(".is-target", has_text="AlignDiagonal")).to_have_count(1)
+    tree.locator("a", has_text="net beside").hover()
+    expect(page.locator("#state-SearchNet-0-then-2")).to_have_class("depth-1 is-lit")
+    page.locator("#state-SearchNet-1").hover()
+    expect(tree.locator("a.is-lit", has_text="no net, or behind")).to_have_count(1)
+    page.locator("li:target").get_by_text("Python").click()
+    expect(page.locator("tr:target")).to_contain_text("net ahead to a side")
+
+
 def test_it_fits_a_telephone_and_follows_the_system(page: Page, site: Path) -> None:
     page.set_viewport_size({"width": 390, "height": 800})
     for name in KINDS:

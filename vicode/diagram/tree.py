@@ -24,11 +24,15 @@ MOST_NODES = 200
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Links:
-    """Where clicks lead: on a condition by its path, on a target by its name; `last` is what stands at the end."""
+    """Where clicks lead: on a condition by its path, on a target by its name; `last` is what stands at the end.
+
+    `key` names a decision by its path, so that a page can find the boxes that belong to it.
+    """
 
     condition: Callable[[ThingPath], str]
     target: Callable[[str], str]
     last: str = "stay"
+    key: Callable[[ThingPath], str] = lambda _path: ""
 
 
 @dataclass(slots=True, kw_only=True)
@@ -39,6 +43,7 @@ class _Node:
     label: str
     title: str
     href: str = ""
+    key: str = ""
     off: bool = False
 
     @property
@@ -90,7 +95,7 @@ class _Grid:
                     entries, row = self.items(item.otherwise, (*here, "else"), (column, row), entries, is_off)
                 entries = [*through, *entries]
             else:
-                self.put(self._outcome(item, beside, off=is_off), follow)
+                self.put(self._outcome(item, here, beside, off=is_off), follow)
                 row += 1
         return entries, row
 
@@ -98,17 +103,17 @@ class _Grid:
         guard, doc = guard_label(item.guard, spelled=True), " ".join(item.doc.split())
         label = doc if 0 < len(doc) <= _SHORT_DOC else guard
         title = "\n".join(part for part in (guard, doc) if part)
-        href = self.links.condition(path)
+        href, key = self.links.condition(path), self.links.key(path)
         shown = shorten(label, LABEL, _ROOM)
-        return _Node(kind="condition", column=at[0], row=at[1], label=shown, title=title, href=href, off=off)
+        return _Node(kind="condition", column=at[0], row=at[1], label=shown, title=title, href=href, key=key, off=off)
 
-    def _outcome(self, item: Decision, at: tuple[int, int], *, off: bool) -> _Node:
+    def _outcome(self, item: Decision, path: ThingPath, at: tuple[int, int], *, off: bool) -> _Node:
+        key = self.links.key(path)
         if isinstance(item, Transition):
             label, href = shorten(item.to, LABEL, _ROOM), self.links.target(item.to)
-            return _Node(
-                kind="target", column=at[0], row=at[1], label=label, title=f"go to {item.to}", href=href, off=off
-            )
-        return _Node(kind="stay", column=at[0], row=at[1], label="stay", title="stay", off=off)
+            title = f"go to {item.to}"
+            return _Node(kind="target", column=at[0], row=at[1], label=label, title=title, href=href, key=key, off=off)
+        return _Node(kind="stay", column=at[0], row=at[1], label="stay", title="stay", key=key, off=off)
 
 
 def draw_tree(
@@ -174,7 +179,7 @@ class _Artist:
         else:
             shape = Path(steps=box((x, y), node.width, _HEIGHT, 10), fill=fill, stroke=pal.box_line, dash=dash)
         label = Text(x=x, y=y, text=node.label, fill=text, letters=LABEL, is_centred=True, is_struck=node.off)
-        return Group(title=node.title, kind=node.kind, shapes=(shape, label), href=node.href)
+        return Group(title=node.title, kind=node.kind, shapes=(shape, label), href=node.href, key=node.key)
 
     def _edge(self, way: _Exit, node: _Node) -> Group:
         pal = self.palette

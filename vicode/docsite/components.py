@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from itertools import groupby
 
 from vicode.docsite.addresses import Addresses, anchor_of, state_anchor
 from vicode.docsite.decisions import Places, blocks_of, pseudo_lines, transition_rows
@@ -36,6 +37,7 @@ def component_view(design: Design, made: Made) -> ComponentView:
     linker = Linker(project, addresses, design)
     common = design.common
     has_common = bool(common.transitions or common.actions or common.doc)
+    transitions = tuple(transition_rows(design, linker, addresses))
     codes = (("Module", design.module), ("Members", design.members))
     return ComponentView(
         name=design.component,
@@ -43,7 +45,8 @@ def component_view(design: Design, made: Made) -> ComponentView:
         facts=tuple(_facts(design)),
         svg=draw_design(design, addresses),
         legend=(),
-        transitions=tuple(transition_rows(design, linker, addresses)),
+        transitions=tuple(tuple(rows) for _source, rows in groupby(transitions, key=lambda row: row.source)),
+        columns=frozenset(name for row in transitions for name in ("timer", "doc_html") if getattr(row, name)),
         common=_common(design, linker, made) if has_common else None,
         states=tuple(_state(design, state, linker, made) for state in design.states),
         uses=tuple(use_rows(design, linker)),

@@ -10,7 +10,7 @@ from vicode.diagram.palettes import from_properties
 from vicode.diagram.svg import write_svg
 from vicode.diagram.tree import Links, draw_tree
 from vicode.diagram.usage import usage_figure
-from vicode.docsite.addresses import Addresses
+from vicode.docsite.addresses import Addresses, anchor_of
 from vicode.findings import Path
 from vicode.model.design import Decision, Design
 from vicode.model.edits import move
@@ -64,6 +64,7 @@ def draw_decisions(items: Sequence[Decision], path: Path, design: Design, addres
         condition=lambda path: addresses.thing(design.component, path),
         target=lambda name: addresses.thing(design.component, ("states", name)) if design.state(name) else "",
         last="what the state itself decides" if is_common else "stay",
+        key=anchor_of,
     )
     title = "Decision tree of every state" if is_common else f"Decision tree of {path[1]}"
     drawing = draw_tree(items, path, title=title, links=links, palette=from_properties())

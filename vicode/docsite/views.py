@@ -165,14 +165,15 @@ class LanguageView:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ComponentView:
-    """The page of a design."""
+    """The page of a design; `transitions` are by source, `columns` those of them that say something."""
 
     name: str
     doc_html: str
     facts: tuple[Line, ...]
     svg: str
     legend: tuple[Part, ...]
-    transitions: tuple[TransitionRow, ...]
+    transitions: tuple[tuple[TransitionRow, ...], ...]
+    columns: frozenset[str]
     common: StateView | None
     states: tuple[StateView, ...]
     uses: tuple[UseRow, ...]
