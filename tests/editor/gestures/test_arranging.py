@@ -100,6 +100,29 @@ def test_a_dragged_box_lines_up_with_others_and_shows_it(sketch: Sketch) -> None
     sketch.undone(2)
 
 
+def test_a_dragged_box_takes_equal_gaps_and_shows_them(sketch: Sketch) -> None:
+    k = sketch.view()["k"]
+    x, y = sketch.state("Rest")
+    # Off the grid, so that a place of equal gaps is none of the grid's.
+    sketch.page.keyboard.down("Alt")
+    sketch.drag((x, y), (x + 14 * k, y))
+    sketch.page.keyboard.up("Alt")
+    sketch.wait_for("vicode.positions()['states/Rest'].x > 125")
+    rest, stop = sketch.place("states/Rest"), sketch.place("states/Stop")
+    middle = round((rest[0] + stop[0]) / 2)
+    assert middle % 10
+    sketch.press("Escape")
+    x, y = sketch.state("Go")
+    (left, row), (right, _row) = sketch.state("Rest"), sketch.state("Stop")
+    sketch.grip((x, y), (x - 30, y + 60), ((left + right) / 2 - 3 * k, row + 23 * k))
+    gaps = sketch.page.locator("path.guide.gap")
+    expect(gaps).to_have_count(2)
+    sketch.page.mouse.up()
+    expect(gaps).to_have_count(0)
+    sketch.wait_for(f"vicode.positions()['states/Go'].x === {middle}")
+    sketch.undone(2)
+
+
 def test_arrow_keys_nudge_as_one_edit(sketch: Sketch) -> None:
     sketch.select("Go", "Stop")
     sketch.press("ArrowRight", "ArrowRight", "Shift+ArrowDown")

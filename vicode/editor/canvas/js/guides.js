@@ -1,10 +1,12 @@
-// Lines that show with which boxes a dragged one lines up, and the small pull towards them.
+// Lines that show with which boxes a dragged one lines up, marks of equal gaps, and the small pull towards both.
 import { grow, rectOf } from "./geometry.js";
+import { spacings } from "./spacing.js";
 import { svg } from "./svg.js";
 
 const PULL = 6;
 const MOST = 400;
 const OVER = 12;
+const TICK = 5;
 
 const AXES = [
   { name: "x", size: "w", across: "y", length: "h" },
@@ -28,10 +30,13 @@ export class Guides {
     return Object.fromEntries(AXES.map((axis) => [axis.name, this.#nearest(rect, axis, reach)]));
   }
 
-  /** Draws a line through everything that is in line with a rectangle. */
+  /** Draws a line through everything that is in line with a rectangle, and a mark in each of its equal gaps. */
   show(rect) {
     this.group.replaceChildren();
     for (const axis of AXES) {
+      for (const { by, gaps } of spacings(rect, this.rects, axis)) {
+        if (Math.abs(by) < 1) this.group.append(...gaps.map((gap) => gapMark(axis, gap, rect, TICK / this.canvas.viewport.k)));
+      }
       for (const at of stops(rect, axis)) {
         const inLine = this.rects.filter((each) => stops(each, axis).some((stop) => Math.abs(stop - at) < 0.5));
         if (inLine.length) this.group.append(line(axis, at, [rect, ...inLine]));
@@ -57,7 +62,9 @@ export class Guides {
         }
       }
     }
-    return best;
+    if (best !== null) return best;
+    const even = spacings(rect, this.rects, axis).map(({ by }) => by).filter((by) => Math.abs(by) <= reach);
+    return even.length ? even.reduce((one, other) => (Math.abs(other) < Math.abs(one) ? other : one)) : null;
   }
 }
 
@@ -68,4 +75,11 @@ function line({ name, across, length }, at, rects) {
   const low = Math.min(...rects.map((rect) => rect[across])) - OVER;
   const high = Math.max(...rects.map((rect) => rect[across] + rect[length])) + OVER;
   return svg("path", { class: "guide", d: name === "x" ? `M${at} ${low}V${high}` : `M${low} ${at}H${high}` });
+}
+
+/** A line across a gap, with a tick at either end. */
+function gapMark({ name, across, length }, [from, to], rect, tick) {
+  const at = rect[across] + rect[length] / 2;
+  const ends = [from, to].map((end) => (name === "x" ? `M${end} ${at - tick}V${at + tick}` : `M${at - tick} ${end}H${at + tick}`));
+  return svg("path", { class: "guide gap", d: `${name === "x" ? `M${from} ${at}H${to}` : `M${at} ${from}V${to}`}${ends.join("")}` });
 }
