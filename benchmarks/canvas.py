@@ -27,6 +27,7 @@ SERVER = ROOT / "tests/editor/canvas/canvas_page.py"
 SIZES = (20, 300, 1000, 3000)
 RUNS = 5
 STROKE_S = 0.7
+DISTANCES = ("fit", "half", "near")
 ARGUMENTS = ("--no-sandbox", "--disable-dev-shm-usage")
 
 COUNT_FRAMES = """seconds => new Promise(done => {
@@ -40,12 +41,12 @@ COUNT_FRAMES = """seconds => new Promise(done => {
 })"""
 START_COUNTING = f"seconds => {{ window.counted = ({COUNT_FRAMES})(seconds); }}"
 
-FIND_MIDDLE = """() => {
+FIND_MIDDLE = """most => {
     const {vicode} = document.querySelector('.vicode-canvas');
     const {x, y, k} = vicode.view();
     const spots = Object.values(vicode.positions()).map(place => [place.x * k + x, place.y * k + y]);
     const far = ([x, y]) => Math.hypot(x - 683, y - 384);
-    return spots.reduce((best, each) => far(each) < far(best) ? each : best);
+    return spots.sort((one, other) => far(one) - far(other)).slice(0, most);
 }"""
 
 Point = Sequence[float]
@@ -60,20 +61,22 @@ class Row:
     open_s: float
     rest_fps: float
     drag: float
+    drag_12: float
+    drag_100: float
     pan: float
     zoom: float
 
 
 def main(sizes: Sequence[int] = SIZES) -> None:
     """Measure every size and print a table."""
-    print("states  view   open s   rest fps   drag    pan    zoom   (share of the frames at rest)")
+    print("states  view   open s   rest fps   drag   of 12  of 100    pan    zoom   (share of the frames at rest)")
     with sync_playwright() as playwright:
         browser = playwright.chromium.launch(executable_path="/usr/bin/chromium", args=list(ARGUMENTS))
         for size in sizes:
             for row in measure(browser, size):
                 print(
                     f"{row.states:6}  {row.distance:4} {row.open_s:8.2f} {row.rest_fps:10.1f}"
-                    f"{row.drag:7.0%}{row.pan:7.0%}{row.zoom:8.0%}",
+                    f"{row.drag:7.0%}{row.drag_12:8.0%}{row.drag_100:8.0%}{row.pan:7.0%}{row.zoom:8.0%}",
                     flush=True,
                 )
         browser.close()
@@ -86,20 +89,21 @@ def measure(browser: Browser, size: int) -> Iterator[Row]:
         page = opened[-1][0]
         for other, _ in opened[:-1]:
             other.close()
-        for distance in ("fit", "near"):
+        for distance in DISTANCES:
             yield measure_gestures(page, size, distance, median(seconds for _, seconds in opened))
         page.close()
 
 
 def measure_gestures(page: Page, size: int, distance: str, open_s: float) -> Row:
     """Measure rest, drag, pan and zoom in turn, several times over."""
-    counts: dict[str, list[float]] = {"rest": [], "drag": [], "pan": [], "zoom": []}
+    strokes = {"drag": (drag, 0), "drag_12": (drag, 12), "drag_100": (drag, 100), "pan": (pan, 0), "zoom": (zoom, 0)}
+    counts: dict[str, list[float]] = {name: [] for name in ("rest", *strokes)}
     for _ in range(RUNS):
         set_view(page, distance)
         rest = page.evaluate(COUNT_FRAMES, STROKE_S)
         counts["rest"].append(rest)
-        for name, stroke in (("drag", drag), ("pan", pan), ("zoom", zoom)):
-            set_view(page, distance)
+        for name, (stroke, selected) in strokes.items():
+            set_view(page, distance, selected)
             counts[name].append(count_during(page, stroke) / rest)
     middle = {name: median(values) for name, values in counts.items()}
     return Row(
@@ -108,6 +112,8 @@ def measure_gestures(page: Page, size: int, distance: str, open_s: float) -> Row
         open_s=open_s,
         rest_fps=middle["rest"],
         drag=middle["drag"],
+        drag_12=middle["drag_12"],
+        drag_100=middle["drag_100"],
         pan=middle["pan"],
         zoom=middle["zoom"],
     )
@@ -115,7 +121,7 @@ def measure_gestures(page: Page, size: int, distance: str, open_s: float) -> Row
 
 def count_during(page: Page, stroke: Callable[[Page, Point, float], None]) -> float:
     """The frames per second while a stroke of the hand is made."""
-    spot = page.evaluate(FIND_MIDDLE)
+    [spot] = page.evaluate(FIND_MIDDLE, 1)
     page.mouse.move(*spot)
     page.evaluate(START_COUNTING, STROKE_S)
     stroke(page, spot, time.monotonic() + STROKE_S)
@@ -155,12 +161,27 @@ def swing(page: Page, spot: Point, until: float) -> None:
         time.sleep(0.008)
 
 
-def set_view(page: Page, distance: str) -> None:
-    """Show everything, or the middle of the scene at life size."""
+def set_view(page: Page, distance: str, selected: int = 0) -> None:
+    """Select states in the middle; show everything, or the middle of the scene at half or at life size."""
     page.keyboard.press("Escape")
     page.locator(".stage").press("1")
-    if distance == "near":
+    wait_until_resting(page)
+    for spot in page.evaluate(FIND_MIDDLE, selected) if selected else ():
+        page.keyboard.down("Shift")
+        page.mouse.click(*spot)
+        page.keyboard.up("Shift")
+    if distance != "fit":
         page.locator(".stage").press("0")
+    if distance == "half":
+        page.mouse.move(683, 384)
+        while page.evaluate("document.querySelector('.vicode-canvas').vicode.view().k") > 0.5:
+            page.mouse.wheel(0, 100)
+            time.sleep(0.03)
+    wait_until_resting(page)
+
+
+def wait_until_resting(page: Page) -> None:
+    """Wait until the view does not move any more."""
     page.wait_for_function("document.querySelector('.vicode-canvas').vicode.view().resting")
     time.sleep(0.3)
 
