@@ -324,6 +324,7 @@
   window.addEventListener("hashchange", showTarget);
   showTarget();
 
-  // A menu that takes the whole width of a small screen waits to be opened.
-  if (matchMedia("(max-width: 800px)").matches) document.querySelector(".menu details")?.removeAttribute("open");
+  // Wide screens show the menu without opening it, where the style sheet can say so.
+  const showsClosed = window.CSS?.supports?.("selector(::details-content)");
+  if (!showsClosed && matchMedia("(min-width: 801px)").matches) document.querySelector(".menu details").open = true;
 })();

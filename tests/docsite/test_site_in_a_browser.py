@@ -112,6 +112,27 @@ def test_it_fits_a_telephone_and_follows_the_system(page: Page, site: Path) -> N
     assert page.evaluate("getComputedStyle(document.body).backgroundColor") != light
 
 
+def test_the_menu_waits_to_be_opened_on_a_telephone(page: Page, site: Path) -> None:
+    page.goto((site / "component-Player.html").as_uri())
+    link = page.get_by_label("Pages").get_by_role("link", name="Symbols")
+    expect(link).to_be_visible()
+    expect(page.get_by_text("Pages", exact=True)).not_to_be_visible()
+    page.set_viewport_size({"width": 390, "height": 800})
+    expect(link).not_to_be_visible()
+    page.get_by_text("Pages", exact=True).click()
+    link.click()
+    expect(page.locator("h1")).to_have_text("Symbols")
+
+
+def test_fingers_find_every_link_on_a_telephone(page: Page, site: Path) -> None:
+    page.set_viewport_size({"width": 390, "height": 800})
+    for name in KINDS:
+        page.goto((site / f"{name}.html").as_uri())
+        options = {"runOnly": ["target-size"], "resultTypes": ["violations"], "preload": False}
+        violations = Axe().run(page, options=options).response["violations"]
+        assert not [node["html"][:120] for each in violations for node in each["nodes"]], name
+
+
 @pytest.mark.parametrize("payload", ["script", "image", "drawing", "prop"])
 def test_nothing_of_a_stranger_runs(page: Page, tmp_path: Path, payload: str) -> None:
     write_hostile_project(tmp_path / "evil", PAYLOADS[payload])

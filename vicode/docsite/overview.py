@@ -27,7 +27,7 @@ def home_view(subject: Subject, addresses: Addresses) -> HomeView:
         doc_html=html_of(project.doc),
         numbers=tuple(each for each in _numbers(project) if each[0]),
         svg=draw_uses(project, addresses, f"Who uses whom in {project.name}"),
-        is_sparse=leaves_out(project),
+        is_sparse=leaves_out(project) and symbol_count(project) > 0,
         agents=tuple(
             (
                 Part(text=agent.title or agent.name, href=addresses.agent(agent.name)),

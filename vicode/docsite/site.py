@@ -58,22 +58,26 @@ class _Builder:
         project, addresses = self.subject.project, self.addresses
         entries = entries_of(project, addresses)
         yield self._page(HOME, project.name, "home", view=home_view(self.subject, addresses))
-        yield self._page(AGENTS, "Agents", "agents", agents=tuple(agent_views(project, addresses)))
+        if project.agents:
+            yield self._page(AGENTS, "Agents", "agents", agents=tuple(agent_views(project, addresses)))
         yield from self._interfaces(known_of(self.subject, addresses))
         yield self._page(EVERYTHING, "Everything", "all", entries=entries)
         yield OutputFile(path="search.js", text=search_script(entries))
 
     def _interfaces(self, known: Known) -> Iterator[OutputFile]:
-        """The pages about what designs know and share."""
-        behaviors, others = interface_rows(known)
-        yield self._page(INTERFACES, "Interfaces", "interfaces", behaviors=behaviors, others=others)
+        """The pages about what designs know and share; none about what there is nothing of."""
+        project = known.project
+        if project.components:
+            behaviors, others = interface_rows(known)
+            yield self._page(INTERFACES, "Interfaces", "interfaces", behaviors=behaviors, others=others)
         for view in interface_views(known):
             crumb = Part(text="Interfaces", href=INTERFACES)
             yield self._page(view.file, view.name, "interface", crumbs=(crumb,), view=view)
-        yield self._page(SYMBOLS, "Symbols", "symbols", groups=tuple(symbol_groups(known)))
-        types = tuple(enumeration_views(known))
-        constants = constant_table(known)
-        yield self._page(TYPES, "Types and constants", "types", enumerations=types, constants=constants)
+        if symbol_count(project):
+            yield self._page(SYMBOLS, "Symbols", "symbols", groups=tuple(symbol_groups(known)))
+        if project.enumerations or project.constants:
+            types, constants = tuple(enumeration_views(known)), constant_table(known)
+            yield self._page(TYPES, "Types and constants", "types", enumerations=types, constants=constants)
 
     def components(self) -> Iterator[OutputFile]:
         """A page a design."""
