@@ -2,19 +2,15 @@
 
 import ast
 import re
-import textwrap
 from collections.abc import Iterator
-from dataclasses import dataclass
 from functools import lru_cache
 
 from vicode import regions
 from vicode.check.context import Context
 from vicode.findings import Finding, Span, did_you_mean
 from vicode.model.parsing import compile_check, parse_module
+from vicode.model.pieces import Piece
 from vicode.model.project import LANGUAGES
-
-# The line above a piece of code, by its role: what parses below it, indented if it opens a block, parses in its place.
-_ABOVE = {"module": "pass", "members": "class _:", "action": "def _(self):", "predicate": "def _(self):"}
 
 
 def find_unparsable_code(context: Context) -> Iterator[Finding]:
@@ -72,7 +68,7 @@ def python_problem(text: str, role: str) -> tuple[str, Span] | None:
     marks = regions.find(text) if "vicode" in text else regions.Found()
     if marks.regions or marks.findings:
         return "this contains a mark of generated files", (0, len(text))
-    copy = _Copy.of(text, _ABOVE.get(role, "pass"))
+    copy = Piece.of(text, role)
     try:
         tree = parse_module(copy.source)
         compile_check(tree)
@@ -94,39 +90,6 @@ def _find_yield(function: ast.stmt) -> ast.Yield | ast.YieldFrom | None:
         is_inner = isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef | ast.Lambda) and node is not function
         waiting += () if is_inner else ast.iter_child_nodes(node)
     return None
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class _Copy:
-    """A piece of code as it will stand in a file: below a line, without its margin, indented if that opens a block."""
-
-    lines: tuple[str, ...]
-    straight: tuple[str, ...]
-    above: str
-
-    @staticmethod
-    def of(text: str, above: str) -> "_Copy":
-        # The blank keeps every character at its place.
-        lines = text.replace("\r\n", " \n").split("\n")
-        straight = textwrap.dedent("\n".join(lines)).split("\n")
-        return _Copy(lines=tuple(lines), straight=tuple(straight), above=above)
-
-    @property
-    def indent(self) -> str:
-        return " " if self.above.endswith(":") else ""
-
-    @property
-    def source(self) -> str:
-        # With `pass` on the second line a code of remarks only is a body, too.
-        return "\n".join((self.above, f"{self.indent}pass", *(self.indent + line for line in self.straight), ""))
-
-    def span(self, lineno: int, column: int) -> Span:
-        """One character of the text, from the line (counted from 1) and column that Python names in the source."""
-        line = max(0, min(lineno - 3, len(self.lines) - 1))
-        margin = max(0, len(self.lines[line]) - len(self.straight[line]))
-        column = max(0, min(column - len(self.indent) + margin, len(self.lines[line]) - 1))
-        start = sum(len(each) + 1 for each in self.lines[:line]) + column
-        return (start, start + 1)
 
 
 def _reworded(message: str) -> str:

@@ -7,7 +7,6 @@ from collections.abc import Callable, Collection, Mapping
 from dataclasses import replace
 
 from vicode.findings import Path
-from vicode.model.aliases import renamed_alias
 from vicode.model.decisions import drop_targets, retarget
 from vicode.model.design import (
     Action,
@@ -23,6 +22,7 @@ from vicode.model.design import (
     Use,
 )
 from vicode.model.names import snake_case
+from vicode.model.renaming import rename_alias
 from vicode.model.walks import has_code, walk_decisions
 
 
@@ -260,7 +260,7 @@ def rename_use(design: Design, old: str, new: str) -> Design:
     if old == new or design.use(old) is None or design.use(new) is not None:
         return design
     uses = tuple(replace(use, alias=new) if use.alias == old else use for use in design.uses)
-    return renamed_alias(replace(design, uses=uses), old, new)
+    return rename_alias(replace(design, uses=uses), old, new)
 
 
 def require(design: Design, state: str, alias: str) -> Design:

@@ -5,10 +5,10 @@ from collections.abc import Collection, Iterable
 from dataclasses import dataclass, replace
 
 from vicode.findings import Path
-from vicode.model.aliases import renamed_alias
 from vicode.model.decisions import drop_targets, retarget_all
 from vicode.model.design import Action, Common, Decision, Design, Group, Point, RunCode, State, Transition, Use
 from vicode.model.edits import add_state, free_name, rename_use, update_items
+from vicode.model.renaming import rename_alias
 from vicode.model.walks import decision_at, walk_actions, walk_decisions, walk_transitions
 
 
@@ -94,7 +94,7 @@ def repeat_decision(design: Design, path: Path) -> Design:
 
 def _mentions(part: Design, alias: str) -> bool:
     """Whether anything would change if the component had another alias."""
-    return renamed_alias(part, alias, f"{alias}_") != part
+    return rename_alias(part, alias, f"{alias}_") != part
 
 
 def _with_uses(

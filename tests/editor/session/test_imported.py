@@ -12,10 +12,10 @@ from vicode.editor.session.preview import preview_of
 from vicode.editor.view.scene import scene_of
 from vicode.editor.view.table import table_of
 from vicode.findings import Severity
-from vicode.model.aliases import renamed_alias
 from vicode.model.design import Assign
 from vicode.model.edits import rename_state
 from vicode.model.expressions import scope_of
+from vicode.model.renaming import rename_alias
 from vicode.store import OpenProject, design_files, open_project, read_design, save_design
 
 
@@ -65,7 +65,7 @@ def test_variables_of_others_are_offered_and_follow_a_new_alias(opened: OpenProj
     assert settable is not None
     pairs = complete_pairs(opened.project, design, [settable], f"{alias}.{variable[:1]}", len(alias) + 2)
     assert pairs.start == 0
-    renamed = renamed_alias(design, alias, "elsewhere")
+    renamed = rename_alias(design, alias, "elsewhere")
     targets = {
         target
         for state in renamed.states

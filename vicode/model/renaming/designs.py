@@ -1,0 +1,136 @@
+"""Renames in everything a design says: expressions, links, calls, types and Python."""
+
+from dataclasses import replace
+
+from vicode.model.design import (
+    Action,
+    Assign,
+    Call,
+    Code,
+    Decision,
+    Declaration,
+    Design,
+    Group,
+    Guard,
+    RunCode,
+    State,
+)
+from vicode.model.renaming.expressions import rename_in_expression
+from vicode.model.renaming.names import Said, Way
+from vicode.model.renaming.python import binds_in_python, rename_in_python
+
+_Pairs = tuple[tuple[str, str], ...]
+
+
+def renamed_in_design(design: Design, said: Said) -> Design:
+    """The design with the new name wherever it is said; where it is declared it stays."""
+    speaker = _Speaker(said, is_hidden=_is_hidden(design, said))
+    common = replace(
+        design.common,
+        actions=speaker.actions(design.common.actions),
+        transitions=speaker.decisions(design.common.transitions),
+    )
+    return replace(
+        design,
+        parameters=renamed_in_declarations(design.parameters, said),
+        outputs=renamed_in_declarations(design.outputs, said),
+        variables=renamed_in_declarations(design.variables, said),
+        module=speaker.code(design.module, "module"),
+        members=speaker.code(design.members, "members"),
+        common=common,
+        states=tuple(speaker.state(state) for state in design.states),
+    )
+
+
+def renamed_in_declarations(declarations: tuple[Declaration, ...], said: Said) -> tuple[Declaration, ...]:
+    """Declarations with the new name in their values, their types and their arguments."""
+    return tuple(_renamed_in_declaration(each, said) for each in declarations)
+
+
+def _renamed_in_declaration(declaration: Declaration, said: Said) -> Declaration:
+    is_type = said.way == Way.ENUMERATION and declaration.type == said.old
+    given = declaration.arguments
+    return replace(
+        declaration,
+        type=said.new if is_type else declaration.type,
+        initial=rename_in_expression(declaration.initial, said),
+        arguments=None if given is None else renamed_in_declarations(given, said),
+    )
+
+
+def _is_hidden(design: Design, said: Said) -> bool:
+    """Whether the module's own code gives a name of the project another meaning in all code of the design."""
+    if said.way not in (Way.CONSTANT, Way.ENUMERATION, Way.ELEMENT):
+        return False
+    text = design.module.in_language("python") or ""
+    return binds_in_python(text, "module", said.owner or said.old)
+
+
+class _Speaker:
+    """Says the new name in each part of a design."""
+
+    def __init__(self, said: Said, *, is_hidden: bool) -> None:
+        self.said, self.is_hidden = said, is_hidden
+
+    def alias(self, alias: str) -> str:
+        return self.said.new if self.said.way == Way.ALIAS and alias == self.said.old else alias
+
+    def expression(self, text: str) -> str:
+        return rename_in_expression(text, self.said)
+
+    def code(self, code: Code, role: str) -> Code:
+        if self.is_hidden:
+            return code
+        texts = (
+            (language, rename_in_python(text, role, self.said) if language == "python" else text)
+            for language, text in code.texts
+        )
+        return replace(code, texts=tuple(texts))
+
+    def values(self, pairs: _Pairs) -> _Pairs:
+        return tuple((self.expression(name), self.expression(text)) for name, text in pairs)
+
+    def call(self, call: Call) -> Call:
+        is_asked = self.said.way == Way.PARAMETER and call.alias == self.said.owner
+        pairs = (
+            (self.said.new if is_asked and name == self.said.old else name, self.expression(text))
+            for name, text in call.arguments
+        )
+        return replace(call, alias=self.alias(call.alias), arguments=tuple(pairs))
+
+    def actions(self, actions: tuple[Action, ...]) -> tuple[Action, ...]:
+        return tuple(self._action(action) for action in actions)
+
+    def _action(self, action: Action) -> Action:
+        match action:
+            case Assign():
+                return replace(action, values=self.values(action.values))
+            case Call():
+                return self.call(action)
+            case RunCode():
+                return replace(action, code=self.code(action.code, "action"))
+
+    def decisions(self, decisions: tuple[Decision, ...]) -> tuple[Decision, ...]:
+        return tuple(self._decision(decision) for decision in decisions)
+
+    def _decision(self, decision: Decision) -> Decision:
+        guard = self._guard(decision.guard)
+        if isinstance(decision, Group):
+            then, otherwise = self.decisions(decision.then), self.decisions(decision.otherwise)
+            return replace(decision, guard=guard, then=then, otherwise=otherwise)
+        return replace(decision, guard=guard)
+
+    def _guard(self, guard: Guard) -> Guard:
+        code = self.code(guard.code, "predicate") if guard.code else None
+        return replace(guard, when=self.expression(guard.when), after=self.expression(guard.after), code=code)
+
+    def state(self, state: State) -> State:
+        return replace(
+            state,
+            requires=tuple(self.alias(alias) for alias in state.requires),
+            modulates=tuple(self.call(call) for call in state.modulates),
+            enter=self.actions(state.enter),
+            actions=self.actions(state.actions),
+            leave=self.actions(state.leave),
+            transitions=self.decisions(state.transitions),
+        )
