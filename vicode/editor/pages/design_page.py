@@ -49,7 +49,8 @@ class DesignPage:
         problems = Problems(desk)
         with ui.element("div").classes("shell"):
             skip = ui.element("a").classes("skip-link")
-            dialogs = DesignDialogs(say=say, offer_undo=UndoBar().offer)
+            desk.offer_undo = UndoBar().offer
+            dialogs = DesignDialogs(say=say, offer_undo=desk.offer_undo)
             head = ui.element("header").classes("head")
             self.designs = DesignsList(library, (workspace.key, document.design.component), dialogs)
             with ui.element("main").classes("stage").props("tabindex=-1") as main:

@@ -2,25 +2,20 @@
 
 from collections.abc import Callable
 from dataclasses import replace
-from typing import Any
 
 from nicegui import ui
 
 from vicode.editor.panels.actions_panel import actions_panel, with_python
 from vicode.editor.panels.code_field import code_field
 from vicode.editor.panels.decisions_list import decisions_list
+from vicode.editor.panels.declarations import SECTIONS, declarations_form
 from vicode.editor.panels.desk import Desk
 from vicode.editor.panels.fields import Bound, Field, choice_field, flag_field, state_names, text_field
+from vicode.editor.panels.folds import fold
 from vicode.editor.panels.rows import add_button, heading, icon_button, panel_title
 from vicode.editor.session import numbers
-from vicode.model.design import COMMON, Declaration, Design
-from vicode.model.edits import add_use, free_name, remove_uses, set_declarations
-
-_SECTIONS = (
-    ("parameters", "Parameters", "what others may modulate in it"),
-    ("outputs", "Outputs", "what others may read from it"),
-    ("variables", "Variables", "its own memory"),
-)
+from vicode.model.design import COMMON
+from vicode.model.edits import add_use, remove_uses
 
 
 def design_panel(desk: Desk) -> list[Field]:
@@ -34,9 +29,9 @@ def design_panel(desk: Desk) -> list[Field]:
     ]
     heading("Uses", hint="components it requires or modulates")
     _uses(desk)
-    for section, title, hint in _SECTIONS:
+    for section, title, hint in SECTIONS:
         heading(title, hint=hint)
-        fields += _declarations(desk, section)
+        declarations_form(desk, section, fields)
     fields += common_panel(desk)
     _code(desk, fields)
     return fields
@@ -46,15 +41,11 @@ def _code(desk: Desk, fields: list[Field]) -> None:
     """The code for module and class, built when it is opened: code editors are a large script to load."""
     written = [name for name, code in (("module", desk.design.module), ("members", desk.design.members)) if code.texts]
     hint = f"written: {', '.join(written)}" if written else "for the top of the module, and for the class"
-    opened: list[bool] = []
 
     def build() -> None:
-        if not opened:
-            opened.append(True)
-            with section:
-                fields.extend([code_field(desk, _module_code()), code_field(desk, _member_code())])
+        fields.extend([code_field(desk, _module_code()), code_field(desk, _member_code())])
 
-    section = ui.expansion("Code", caption=hint, on_value_change=build).classes("section").props("dense")
+    fold(desk, "code", "Code", hint, build)
 
 
 def common_panel(desk: Desk) -> list[Field]:
@@ -125,62 +116,3 @@ def _use_adder(desk: Desk, component: str) -> Callable[[], None]:
 
 def _use_remover(desk: Desk, alias: str) -> Callable[[], None]:
     return lambda: desk.edit(f"stop using {alias}", lambda design: remove_uses(design, [alias]))
-
-
-def _declarations(desk: Desk, section: str) -> list[Field]:
-    fields: list[Field] = []
-    declarations: tuple[Declaration, ...] = getattr(desk.design, section)
-    for index, declaration in enumerate(declarations):
-        with ui.element("div").classes("declaration").props("role=group") as whole:
-            whole.props["aria-label"] = f"{section.removesuffix('s')} {declaration.name}"
-            for label, attribute in (("Name", "name"), ("Type", "type"), ("Initial", "initial"), ("Unit", "unit")):
-                bound = _declaration_bound(section, index, declaration.name, (label, attribute))
-                fields.append(text_field(desk, bound, monospace=True))
-            fields.append(text_field(desk, _declaration_bound(section, index, declaration.name, ("Doc", "doc"))))
-            icon_button("close", f"Remove {declaration.name}", _declaration_remover(desk, section, index))
-    with ui.row().classes("adders"):
-        add_button("Declare", f"Declare: one more of the {section}", _declaration_adder(desk, section))
-    return fields
-
-
-def _declaration_bound(section: str, index: int, name: str, what: tuple[str, str]) -> Bound:
-    label, attribute = what
-
-    def read(design: Design) -> str:
-        declarations = getattr(design, section)
-        return str(getattr(declarations[index], attribute)) if index < len(declarations) else ""
-
-    def write(design: Design, value: str) -> Design:
-        return _updated(design, section, index, {attribute: value.strip() if attribute != "doc" else value})
-
-    key = {"initial": "default" if section == "parameters" else "initial"}.get(attribute, attribute)
-    path = (section, name) if attribute == "name" else (section, name, key)
-    refuse = _refuse_nameless if attribute == "name" else (lambda _value: "")
-    return Bound(label=label, path=path, read=read, write=write, refuse=refuse)
-
-
-def _refuse_nameless(value: Any) -> str:
-    return "" if str(value or "").strip() else "it needs a name"
-
-
-def _updated(design: Design, section: str, index: int, changes: dict[str, Any]) -> Design:
-    declarations = list(getattr(design, section))
-    if index < len(declarations):
-        declarations[index] = replace(declarations[index], **changes)
-    return set_declarations(design, section, tuple(declarations))
-
-
-def _declaration_adder(desk: Desk, section: str) -> Callable[[], None]:
-    def change(design: Design) -> Design:
-        name = free_name(section.removesuffix("s"), {each.name for _section, each in design.declarations()})
-        return set_declarations(design, section, (*getattr(design, section), Declaration(name=name, initial="0")))
-
-    return lambda: desk.edit("declare", change)
-
-
-def _declaration_remover(desk: Desk, section: str, index: int) -> Callable[[], None]:
-    def change(design: Design) -> Design:
-        rest = tuple(each for at, each in enumerate(getattr(design, section)) if at != index)
-        return set_declarations(design, section, rest)
-
-    return lambda: desk.edit("remove declaration", change)

@@ -26,11 +26,15 @@ class Desk:
     """Do what a command of the canvas does, by its name."""
     open: Callable[[str], None] = field(default=lambda _component: None)
     """Open the design of another component."""
+    offer_undo: Callable[[str, Callable[[], object]], None] = field(default=lambda _words, _act: None)
+    """Say what was done to files, with a button that takes it back."""
     is_there: Callable[[Selected], bool] = field(default=lambda _thing: True)
     """Whether a thing is in the drawing."""
     selected: tuple[Selected, ...] = ()
     window: str = ""
     """The id of this window among those on the design."""
+    open_folds: set[str] = field(default_factory=set)
+    """The folds of forms that this window has opened."""
     code_editors: CodeEditors = field(default_factory=CodeEditors)
     lints: CodeLints = field(init=False)
     _listeners: list[Listener] = field(default_factory=list)

@@ -10,7 +10,7 @@ from nicegui.elements.mixins.value_element import ValueElement
 
 from vicode.editor.panels.desk import Desk
 from vicode.editor.session.keystrokes import Keystrokes
-from vicode.editor.session.outline import order_around
+from vicode.editor.session.outline import is_same_place
 from vicode.editor.session.wording import words_of_path
 from vicode.findings import Path
 from vicode.model.design import Design
@@ -25,7 +25,8 @@ Options = Callable[[Design], Sequence[str]]
 class Bound:
     """What a field shows and changes. `path` leads to the value in the design, for findings and undo labels.
 
-    `refuse` says in words why a value cannot be taken over, nothing if it can.
+    Where the names in a path may change while the field stays, `path_in` tells it of a design. `refuse` says in
+    words why a value cannot be taken over, nothing if it can.
     """
 
     label: str
@@ -34,6 +35,11 @@ class Bound:
     path: Path = ()
     hint: str = ""
     refuse: Refuse = field(default=lambda _value: "")
+    path_in: Callable[[Design], Path] | None = None
+
+    def place_in(self, design: Design) -> Path:
+        """Where the value stands in a design."""
+        return self.path_in(design) if self.path_in else self.path
 
 
 @dataclass(eq=False)
@@ -75,14 +81,19 @@ class Field:
     def focus(self, *, has_focus: bool) -> None:
         """Note whether somebody is typing here, and let the others know."""
         self.has_focus = has_focus
-        self.desk.company.turn(self.desk.window, typing_in=self.bound.path if has_focus else ())
+        self.desk.company.turn(self.desk.window, typing_in=self.path if has_focus else ())
         if not has_focus:
             self.refresh()
 
+    @property
+    def path(self) -> Path:
+        """Where the value stands in the design as it is now."""
+        return self.bound.place_in(self.desk.design)
+
     def leads_there(self) -> bool:
         """Whether the path still leads to what the field was made for: nothing was put before it, or taken away."""
-        before, now, path = self._shown_in, self.desk.design, self.bound.path
-        return before is now or (before is not None and order_around(before, path) == order_around(now, path))
+        before, now = self._shown_in, self.desk.design
+        return before is now or (before is not None and is_same_place(before, now, self.bound.place_in(before)))
 
     def _typed(self, value: Any) -> None:
         now = self.bound.read(self.desk.design)
@@ -97,14 +108,14 @@ class Field:
             self.desk.say("Somebody else changed the order here just now: look again", "warning")
             return
         wanted = self._keystrokes.bring_in(value, now)
-        write, key = self.bound.write, "/".join(map(str, self.bound.path)) + self.bound.label
+        write, key = self.bound.write, "/".join(map(str, self.path)) + self.bound.label
         # Noted before the edit is told to all fields, this one among them.
         self._keystrokes.sent(value, self.bound.read(write(self.desk.design, wanted)))
-        self.desk.edit(f"edit {words_of_path(self.bound.path)}", lambda design: write(design, wanted), typing_in=key)
+        self.desk.edit(f"edit {words_of_path(self.path)}", lambda design: write(design, wanted), typing_in=key)
         self._shown_in = self.desk.design
 
     def _show_findings(self, message: ui.label) -> None:
-        path = self.bound.path
+        path = self.path
         found = [
             finding
             for finding in self.desk.document.findings

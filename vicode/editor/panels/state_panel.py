@@ -3,15 +3,14 @@
 from dataclasses import replace
 from typing import Any
 
-from nicegui import ui
-
 from vicode.editor.panels.actions_panel import actions_panel, assignments, lines_of, parameters_of
 from vicode.editor.panels.code_field import pairs_field
 from vicode.editor.panels.decisions_list import decisions_list
 from vicode.editor.panels.desk import Desk
 from vicode.editor.panels.fields import Bound, Field, choice_field, flag_field, text_field
+from vicode.editor.panels.name_field import name_field, rename_by_gesture
 from vicode.editor.panels.rows import heading, panel_title
-from vicode.editor.session import apply_gesture
+from vicode.editor.view import Selected
 from vicode.model.design import Call, Design, State
 from vicode.model.edits import update_state
 
@@ -24,8 +23,8 @@ def state_panel(desk: Desk, name: str) -> list[Field]:
     path = ("states", name)
     # The field says it to the eye.
     panel_title("State", name, is_heard_only=True)
-    _title(desk, name)
     fields = [
+        _title(desk, name),
         text_field(desk, _bound(name, "Doc", "doc"), lines=True),
         flag_field(desk, _initial(name)),
         flag_field(desk, _bound(name, "Final: the component is done here", "final")),
@@ -50,22 +49,19 @@ def _aliases(design: Design) -> list[str]:
     return [use.alias for use in design.uses]
 
 
-def _title(desk: Desk, name: str) -> None:
+def _title(desk: Desk, name: str) -> Field:
     """The name changes when Enter is pressed or the field is left, as the whole design follows it."""
-    box = ui.input("State", value=name).props("outlined dense stack-label").classes("mono")
 
-    def rename() -> None:
-        if box.value == name:
-            return
-        outcome = apply_gesture(desk.document, {"kind": "rename", "of": "states", "id": name, "name": box.value})
-        if outcome.refused:
-            desk.say(outcome.refused, "warning")
-            box.set_value(name)
-        elif outcome.select:
-            desk.select(*outcome.select)
+    def take(old: str, new: str) -> str:
+        return rename_by_gesture(desk, Selected(of="states", id=old), new)
 
-    for name_of_event in ("keydown.enter", "change", "blur"):
-        box.on(name_of_event, rename)
+    bound = Bound(
+        label="State",
+        read=lambda design: name if design.state(name) else "",
+        write=lambda design, _value: design,
+        path=("states", name, "name"),
+    )
+    return name_field(desk, bound, take)
 
 
 def _bound(name: str, label: str, attribute: str) -> Bound:

@@ -3,7 +3,8 @@
 from nicegui import ui
 
 from vicode.editor.panels.desk import Desk
-from vicode.editor.panels.fields import Field
+from vicode.editor.panels.fields import Bound, Field
+from vicode.editor.panels.name_field import name_field, rename_by_gesture
 from vicode.editor.panels.rows import heading, panel_title
 from vicode.editor.view import Selected
 from vicode.model.design import Declaration
@@ -12,16 +13,17 @@ from vicode.model.project import INTERNAL, WORLD
 
 
 def use_panel(desk: Desk, alias: str) -> list[Field]:
-    """Build the panel of a used component; it has nothing to type in."""
+    """Build the panel of a used component: the name it has here, and what it shows."""
     use = desk.design.use(alias)
     if use is None:
         return []
     project = desk.workspace.project
     interface = project.interface(use.component)
     panel_title("Component", use.component)
+    fields: list[Field] = [_alias(desk, alias)]
     if interface is None:
         ui.label("Nothing in the project declares it.").classes("field-finding")
-        return []
+        return fields
     ui.label(interface.doc).classes("doc")
     if project.design(use.component) is not None:
         ui.button("Open its design", icon="open_in_new", on_click=lambda: desk.open(use.component)).props(
@@ -42,7 +44,20 @@ def use_panel(desk: Desk, alias: str) -> list[Field]:
         desk.select()
 
     ui.button("Stop using it", icon="delete", on_click=remove).props("flat dense no-caps color=negative")
-    return []
+    return fields
+
+
+def _alias(desk: Desk, alias: str) -> Field:
+    def take(old: str, new: str) -> str:
+        return rename_by_gesture(desk, Selected(of="components", id=old), new)
+
+    bound = Bound(
+        label="Used here as",
+        read=lambda design: alias if design.use(alias) else "",
+        write=lambda design, _value: design,
+        path=("uses", alias),
+    )
+    return name_field(desk, bound, take)
 
 
 _ORIGINS = {WORLD: "Handed on to the world", INTERNAL: "A memory that all designs share"}

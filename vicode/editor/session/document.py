@@ -209,7 +209,7 @@ class Document:
 
     def jump(self, step: int) -> None:
         """Go to any point of the history; what is left stays in it, one jump away."""
-        self._announce(f"{self.sheet.people.name_of(self.person)} went to “{self.history.jumped(step).present.label}”")
+        self.announce(f"{self.sheet.people.name_of(self.person)} went to “{self.history.jumped(step).present.label}”")
         self.sheet.become(self.history.jumped(step), self)
 
     def take_disk(self, disk: OnDisk, label: str, design: Design | None = None) -> None:
@@ -220,7 +220,7 @@ class Document:
         if design is not None and design != disk.design:
             theirs = Step(person=DISK, label="as it was on disk", at_s=self.sheet.clock(), design=disk.design)
             history = history.beside(theirs)
-            self._announce(f"Merged with what another program wrote into {self.file.name}")
+            self.announce(f"Merged with what another program wrote into {self.file.name}")
         grown = history.then(self._step(label, design if design is not None else disk.design))
         if grown is self.history:
             self.sheet.tell(self)
@@ -231,6 +231,10 @@ class Document:
         """Whether there is a decision with this canvas id."""
         return decision_at(self.design, path_of_key(key)) is not None
 
+    def announce(self, text: str) -> None:
+        """Say to the others what was done to the whole design."""
+        self.sheet.news = News(text, self.person, self.sheet.rev)
+
     def watch(self, watcher: Watcher) -> Callable[[], None]:
         """Tell `watcher` after every change, and by whom; what is returned ends it."""
         watchers = self.sheet.watchers
@@ -239,9 +243,6 @@ class Document:
 
     def _step(self, label: str, design: Design, typing_in: str = "") -> Step:
         return Step(person=self.person, label=label, at_s=self.sheet.clock(), typing_in=typing_in, design=design)
-
-    def _announce(self, text: str) -> None:
-        self.sheet.news = News(text, self.person, self.sheet.rev)
 
     def _do(self, step: Step) -> None:
         self.sheet.become(self.history.then(step), self)

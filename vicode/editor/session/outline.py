@@ -34,11 +34,19 @@ def outline_of(design: Design, thing: Selected | None) -> object:
             return (uses, is_crowded, _declarations(design), _actions(design.common.actions), design.common.transitions)
 
 
-def order_around(design: Design, path: Path) -> object:
-    """What the numbers in a path count: a value that changes when things come, go or move where it leads."""
+def is_same_place(before: Design, now: Design, path: Path) -> bool:
+    """Whether nothing came, went or moved where a path leads; names alone may have changed."""
     match path:
         case (("parameters" | "outputs" | "variables") as section, *_):
-            return tuple(each.name for each in getattr(design, section))
+            old, new = ([each.name for each in getattr(design, section)] for design in (before, now))
+            return len(old) == len(new) and sum(was != name for was, name in zip(old, new, strict=True)) <= 1
+        case _:
+            return _order_around(before, path) == _order_around(now, path)
+
+
+def _order_around(design: Design, path: Path) -> object:
+    """What the numbers in a path count."""
+    match path:
         case ("states", name, ("enter" | "actions" | "leave") as phase, *_):
             state = design.state(str(name))
             return state and _actions(getattr(state, phase))
@@ -62,5 +70,7 @@ def _decision(decision: Decision) -> object:
     return (type(decision), has_code)
 
 
-def _declarations(design: Design) -> tuple[int, ...]:
-    return (len(design.parameters), len(design.outputs), len(design.variables))
+def _declarations(design: Design) -> tuple[object, ...]:
+    """How many there are, and which arguments functions take; a name, or any other value, changes no field."""
+    functions = (None if each.arguments is None else len(each.arguments) for each in design.outputs)
+    return (len(design.parameters), tuple(functions), len(design.variables))

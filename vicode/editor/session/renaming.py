@@ -1,5 +1,6 @@
 """Renames a component with everything in its project that names it; planned first, then written file by file."""
 
+from collections.abc import Collection
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -85,13 +86,19 @@ def _refuse(workspace: Workspace, old: str, new: str) -> str:
     if workspace.project.interface(new) is not None:
         return f"there is already a component {new}"
     touched = {old, *(each.component for each in workspace.project.designs if _uses(each, old))}
-    unsaved = sorted(touched & set(workspace.unsaved))
+    return refuse_touching(workspace, touched)
+
+
+def refuse_touching(workspace: Workspace, components: Collection[str]) -> str:
+    """Why the files of some designs cannot be written just now, in words; empty if they can."""
+    unsaved = sorted(set(components) & set(workspace.unsaved))
     if unsaved:
         return f"{', '.join(unsaved)} {'has' if len(unsaved) == 1 else 'have'} unsaved changes: save or undo them first"
-    locked = [workspace.files[name].name for name in sorted(touched) if is_read_only(workspace.files[name])]
+    names = sorted(components)
+    locked = [workspace.files[name].name for name in names if is_read_only(workspace.files[name])]
     if locked:
         return f"{', '.join(locked)} cannot be changed: read-only"
-    stale = [name for name in sorted(touched) if not workspace.is_as_read(name)]
+    stale = [name for name in names if not workspace.is_as_read(name)]
     return f"{workspace.files[stale[0]].name} was just changed by another program: look again" if stale else ""
 
 

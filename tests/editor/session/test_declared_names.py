@@ -1,0 +1,164 @@
+"""Another name for what is declared: an edit of one design, or files that change together."""
+
+import shutil
+from collections import Counter
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from vicode.check import check_project
+from vicode.editor.session import Library, Workspace, declared_names
+from vicode.editor.session.declared_names import plan_name, rename_in_files
+from vicode.model.design import Code, RunCode
+from vicode.model.edits import remove_states
+from vicode.model.renaming import Declared, has_declared, names_beside
+from vicode.store import open_project
+
+DESIGNS = Path(__file__).parents[3] / "designs"
+SPEED = Declared(component="Body", section="parameters", name="forward")
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Path:
+    shutil.copytree(DESIGNS / "forward", tmp_path / "forward", ignore=shutil.ignore_patterns("__pycache__"))
+    return tmp_path / "forward"
+
+
+@pytest.fixture
+def workspace(folder: Path) -> Workspace:
+    return Library(folder.parent).workspaces[0]
+
+
+def texts_of(folder: Path) -> dict[str, str]:
+    return {file.name: file.read_text() for file in sorted(folder.glob("*.yaml"))}
+
+
+def things_of(workspace: Workspace) -> list[Declared]:
+    project = workspace.project
+    kinds = [Declared(section=section, name="") for section in ("constants", "enumerations", "components", "agents")]
+    kinds += [Declared(section="elements", owner=each.name, name="") for each in project.enumerations]
+    for name in project.interfaces():
+        sections = ("uses", "parameters", "outputs", "variables")
+        kinds += [Declared(component=name, section=section, name="") for section in sections]
+    return [
+        Declared(section=kind.section, name=name, component=kind.component, owner=kind.owner)
+        for kind in kinds
+        for name in names_beside(project, kind)
+    ]
+
+
+def some_of(workspace: Workspace) -> list[Declared]:
+    """One thing of every kind, and of every kind one that a person declared for a class written by hand."""
+    project = workspace.project
+    found = {(each.section, project.design(each.component) is None): each for each in things_of(workspace)}
+    return list(found.values())
+
+
+def test_every_kind_of_name_can_be_another_and_come_back(workspace: Workspace, folder: Path) -> None:
+    before = texts_of(folder)
+    codes = Counter(each.rule.code for each in check_project(workspace.project))
+    things = some_of(workspace)
+    assert {"uses", "parameters", "outputs", "variables", "constants", "elements"} <= {each.section for each in things}
+    for thing in things:
+        plan = plan_name(workspace, thing, "something_new")
+        assert plan.refused == "", thing
+        if plan.design is not None:
+            continue
+        assert rename_in_files(workspace, plan) == ""
+        renamed = open_project(folder)
+        there = Declared(section=thing.section, name=plan.new, component=thing.component, owner=thing.owner)
+        if thing.section != "components":
+            assert has_declared(renamed.project, there), thing
+        assert Counter(each.rule.code for each in (*renamed.findings, *check_project(renamed.project))) == codes
+        back = plan_name(workspace, there, thing.name)
+        assert rename_in_files(workspace, back) == ""
+        assert texts_of(folder) == before, thing
+
+
+def test_a_name_that_only_one_design_says_is_an_edit_of_it(workspace: Workspace, folder: Path) -> None:
+    before = texts_of(folder)
+    plan = plan_name(workspace, Declared(component="Player", section="variables", name="kick"), "shot")
+    assert plan.design is not None
+    assert plan.changes == ()
+    assert [each.name for each in plan.design.variables if each.name in ("kick", "shot")] == ["shot"]
+    assert texts_of(folder) == before
+
+
+@pytest.mark.parametrize(
+    ("thing", "new", "words"),
+    [
+        (SPEED, "", "it needs a name"),
+        (SPEED, "so fast", "such as soFast"),
+        (SPEED, "turn", "there is already a parameter turn"),
+        (SPEED, "go_straight", "'go_straight' is already the name of"),
+        (SPEED, "state_time", "a name of the runtime"),
+        (SPEED, "class", "class"),
+        (Declared(component="Body", section="parameters", name="gone"), "x", "no parameter gone any more"),
+        (Declared(section="constants", name="pan_threshold"), "speed", "'speed' is already the name of"),
+        (Declared(section="elements", owner="Side", name="left"), "right", "already an element right"),
+    ],
+)
+def test_what_cannot_be_a_name_is_told(workspace: Workspace, thing: Declared, new: str, words: str) -> None:
+    assert words in plan_name(workspace, thing, new).refused
+
+
+def test_what_code_says_already_is_no_new_name(workspace: Workspace) -> None:
+    document = workspace.document("Player")
+    assert document is not None
+    note = Code(texts=(("python", "self.memory = 1"),))
+    document.edit("note", lambda design: replace(design, common=replace(design.common, actions=(RunCode(code=note),))))
+    plan = plan_name(workspace, Declared(component="Player", section="variables", name="kick"), "memory")
+    assert plan.refused == "the code of Player says self.memory already, and means something else"
+
+
+def test_nothing_is_written_while_something_of_it_is_unsaved(workspace: Workspace, folder: Path) -> None:
+    document = workspace.document("FollowBall")
+    assert document is not None
+    document.edit("move", lambda design: remove_states(design, ["Align"]))
+    assert plan_name(workspace, SPEED, "ahead").refused == "FollowBall has unsaved changes: save or undo them first"
+
+
+def test_who_works_on_a_touched_design_hears_of_it(workspace: Workspace, folder: Path) -> None:
+    document = workspace.document("FollowBall")
+    assert document is not None
+    heard: list[str] = []
+    document.watch(lambda _by: heard.append(document.sheet.news.text))
+    person = workspace.people.greet("ada", "Ada")
+    assert rename_in_files(workspace, plan_name(workspace, SPEED, "ahead"), person.id) == ""
+    assert heard[-1] == "Ada renamed parameter forward to ahead in 2 files"
+    assert document.is_saved
+    assert document.design.states[0].modulates[1].arguments[0][0] == "ahead"
+
+
+def test_a_file_that_cannot_be_written_leaves_the_others_as_they_were(
+    workspace: Workspace, folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    before = texts_of(folder)
+    plan = plan_name(workspace, SPEED, "ahead")
+    assert [change.file.name for change in plan.changes] == ["body.yaml", "follow_ball.yaml"]
+    write = declared_names.write_text
+
+    def refusing(file: Path, text: str) -> None:
+        if file.name == "follow_ball.yaml":
+            raise OSError("the disk is full")
+        write(file, text)
+
+    monkeypatch.setattr(declared_names, "write_text", refusing)
+    with pytest.raises(OSError, match="full"):
+        rename_in_files(workspace, plan)
+    assert texts_of(folder) == before
+
+
+def test_a_plan_for_other_files_is_not_carried_out(workspace: Workspace, folder: Path) -> None:
+    plan = plan_name(workspace, SPEED, "ahead")
+    file = folder / "follow_ball.yaml"
+    file.write_text(file.read_text().replace("The ball is ahead.", "The ball is there."))
+    assert rename_in_files(workspace, plan) == "follow_ball.yaml was just changed by another program: look again"
+    assert "ahead:" not in file.read_text()
+
+
+def test_a_class_written_by_hand_is_pointed_out(workspace: Workspace) -> None:
+    plan = plan_name(workspace, Declared(component="Head", section="outputs", name="pan"), "yaw")
+    assert "that class is written by hand" in plan.note
+    assert "project.yaml" in [change.file.name for change in plan.changes]

@@ -1,0 +1,95 @@
+"""What a design declares, in a browser: new names reach all that says them, in this design and in others."""
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from playwright.sync_api import Locator, Page, expect
+
+expect.set_options(timeout=20_000)
+
+
+@pytest.fixture
+def other(page: Page) -> Iterator[Page]:
+    """Another person, in another browser."""
+    assert page.context.browser is not None
+    context = page.context.browser.new_context()
+    yield context.new_page()
+    context.close()
+
+
+def open_design(page: Page, url: str, component: str) -> None:
+    page.set_viewport_size({"width": 1366, "height": 768})
+    page.goto(f"{url}design/forward/{component}")
+    expect(page.get_by_label("Inspector").get_by_text("Initial state")).to_be_visible()
+
+
+def name_of(page: Page, group: str) -> Locator:
+    return page.get_by_role("group", name=group, exact=True).get_by_role("textbox", name="Name", exact=True)
+
+
+def test_a_new_name_of_a_variable_is_one_step(editor: str, page: Page, project: Path) -> None:
+    file = project / "forward" / "player.yaml"
+    before = file.read_text()
+    open_design(page, editor, "Player")
+    name_of(page, "variable kick").fill("shot at")
+    page.keyboard.press("Enter")
+    expect(page.get_by_text("use letters, digits and underscores")).to_be_visible()
+    name_of(page, "variable kick").fill("perception")
+    page.keyboard.press("Enter")
+    expect(page.get_by_text("'perception' is already the name of an alias")).to_be_visible()
+    expect(page.get_by_text("Unsaved changes")).to_have_count(0)
+
+    # Tab takes it over, and the next field is typed in.
+    name_of(page, "variable kick").fill("shot")
+    page.keyboard.press("Tab")
+    page.keyboard.press("Tab")
+    page.keyboard.press("Tab")
+    page.keyboard.type("none")
+    expect(name_of(page, "variable shot")).to_have_value("shot")
+    expect(page.get_by_role("group", name="variable shot").get_by_label("Unit")).to_have_value("none")
+    page.keyboard.press("Control+s")
+    expect(page.get_by_text("Saved", exact=True).first).to_be_visible()
+    after = file.read_text()
+    assert "self.shot" in after
+    assert "self.kick " not in after
+    page.get_by_role("tab", name="History").click()
+    steps = page.get_by_role("group", name="History").get_by_role("button")
+    expect(steps).to_have_count(3)
+    page.get_by_role("button", name="Undo").click()
+    page.get_by_role("button", name="Undo").click()
+    expect(name_of(page, "variable kick")).to_have_value("kick")
+    page.keyboard.press("Control+s")
+    expect(page.get_by_text("Unsaved changes")).to_have_count(0)
+    assert file.read_text() == before
+
+
+def test_a_new_name_that_others_say_is_written_everywhere(editor: str, page: Page, other: Page, project: Path) -> None:
+    folder = project / "forward"
+    before = {file.name: file.read_text() for file in folder.glob("*.yaml")}
+    open_design(page, editor, "Body")
+    open_design(other, editor, "FollowBall")
+    name_of(page, "parameter forward").fill("ahead")
+    page.keyboard.press("Enter")
+    dialog = page.get_by_role("dialog", name="Rename parameter forward to ahead")
+    expect(dialog.get_by_text("follow_ball.yaml")).to_be_visible()
+    expect(dialog.get_by_text("Body: ")).to_be_visible()
+    dialog.get_by_role("button", name="Cancel").click()
+    expect(dialog).to_have_count(0)
+    expect(name_of(page, "parameter forward")).to_have_value("forward")
+    assert {file.name: file.read_text() for file in folder.glob("*.yaml")} == before
+
+    name_of(page, "parameter forward").fill("ahead")
+    page.keyboard.press("Enter")
+    dialog.get_by_role("button", name="Rename everywhere").click()
+    expect(name_of(page, "parameter ahead")).to_have_value("ahead")
+    expect(other.get_by_text("renamed parameter forward to ahead in 2 files")).to_be_visible()
+    after = {file.name: file.read_text() for file in folder.glob("*.yaml")}
+    assert {name for name in after if after[name] != before[name]} == {"body.yaml", "follow_ball.yaml"}
+    assert "body: {ahead: " in after["follow_ball.yaml"]
+    assert "# slow down on the last steps" in after["follow_ball.yaml"]
+    expect(page.get_by_text("Unsaved changes")).to_have_count(0)
+
+    page.get_by_role("status").get_by_role("button", name="Undo").click()
+    expect(name_of(page, "parameter forward")).to_have_value("forward")
+    assert {file.name: file.read_text() for file in folder.glob("*.yaml")} == before

@@ -1,0 +1,161 @@
+"""Fields for names: taken over when Enter is pressed or the field is left, as everything that says it follows."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Any
+
+from nicegui import ui
+
+from vicode.editor.panels.desk import Desk
+from vicode.editor.panels.dialogs import titled_dialog
+from vicode.editor.panels.fields import Bound, Field
+from vicode.editor.panels.rows import primary_button
+from vicode.editor.session import apply_gesture
+from vicode.editor.session.declared_names import NamePlan, plan_name, rename_in_files, words_of_declared
+from vicode.editor.session.wording import reason_of
+from vicode.editor.view import Selected
+from vicode.model.renaming import Declared
+
+Take = Callable[[str, str], str]
+"""Takes a new name over, given the old one and the new one; why not, in words."""
+
+
+def name_field(
+    desk: Desk, bound: Bound, take: Take, on_shown: Callable[[str], None] = lambda _name: None
+) -> "NameField":
+    """A name in a line; `take` takes another one over, `on_shown` hears the design's name when it is another."""
+    with ui.column().classes("field"):
+        element = ui.input(bound.label).props("outlined dense stack-label maxlength=80").classes("mono")
+        element.props("autocapitalize=off spellcheck=false autocomplete=off")
+        message = ui.label().classes("field-finding").props('role="status"')
+        message.set_visibility(False)
+    return NameField(desk, bound, element, message, take=take, on_shown=on_shown)
+
+
+def take_declared(desk: Desk, thing: Declared, new: str) -> str:
+    """Give a declared thing another name; returns why not.
+
+    What only the open design says is an edit of it. Else all that changes is listed first, and the name stays until
+    that was agreed to.
+    """
+    plan = plan_name(desk.workspace, thing, new)
+    if plan.refused:
+        return plan.refused
+    design = plan.design
+    if design is not None:
+        desk.edit(f"rename {thing.name} to {new}", lambda _design: design)
+        return ""
+    _ask(desk, plan)
+    return ""
+
+
+def rename_by_gesture(desk: Desk, thing: Selected, new: str) -> str:
+    """Give a state, or a used component, another name as the drawing does; returns why not."""
+    outcome = apply_gesture(desk.document, {"kind": "rename", "of": thing.of, "id": thing.id, "name": new})
+    if outcome.select:
+        desk.select(*outcome.select)
+    return outcome.refused
+
+
+@dataclass(eq=False)
+class NameField(Field):
+    """A name that is being typed is nobody's: it counts when it is done, and what cannot be taken over stays."""
+
+    take: Take = field(default=lambda _old, _new: "")
+    on_shown: Callable[[str], None] = field(default=lambda _name: None)
+    _shown_name: str = ""
+
+    def __post_init__(self) -> None:
+        """Take the name over when it is typed."""
+        super().__post_init__()
+        # A key that saves, or leads elsewhere, tells of a change without leaving the field.
+        for event in ("keydown.enter", "change"):
+            self.element.on(event, self.finish)
+
+    def refresh(self) -> None:
+        """Show the design's name unless another one is being typed here; who types is told of a new one."""
+        now = str(self.bound.read(self.desk.design) or "")
+        is_own = str(self.element.value or "").strip() not in (self._shown_name, now)
+        if self.has_focus and is_own and now not in ("", self._shown_name) and self._shown_name:
+            self.refused = f"somebody named it {now} just now; Enter gives it your name"
+            self._refused_beside = now
+        if now != self._shown_name:
+            self.on_shown(now)
+            if self.has_focus and not is_own:
+                # Nothing is typed that could be lost.
+                self.element.set_value(now)
+        self._shown_name = now
+        super().refresh()
+
+    def focus(self, *, has_focus: bool) -> None:
+        """Take over what was typed before the field shows the design's name again."""
+        if not has_focus:
+            self.finish()
+        super().focus(has_focus=has_focus)
+
+    def finish(self) -> None:
+        """Take over what stands in the field."""
+        old, new = str(self.bound.read(self.desk.design) or ""), str(self.element.value or "").strip()
+        if not old or new == old:
+            self.refused = ""
+        else:
+            self.refused, self._refused_beside = self.take(old, new), self.bound.read(self.desk.design)
+            if self.element.is_deleted:
+                # The form was built anew for the thing under its new name.
+                return
+            if not self.refused:
+                # It is the design's name by now, or nobody's before somebody agreed to it.
+                self._shown_name = str(self.bound.read(self.desk.design) or "")
+                self.element.set_value(self._shown_name)
+        self.refresh()
+
+    def _typed(self, value: Any) -> None:
+        """A name on its way: what can be none at all is told at once, the rest when it is done."""
+        now = self.bound.read(self.desk.design)
+        self.refused, self._refused_beside = ("" if value == now else self.bound.refuse(value)), now
+        self.refresh()
+
+
+def _ask(desk: Desk, plan: NamePlan) -> None:
+    """List what a name changes in the project's files, and change it."""
+    what = words_of_declared(plan.thing)
+    with titled_dialog(f"Rename {what} to {plan.new}") as dialog:
+        ui.label("What changes, and is written at once").classes("field-label")
+        with ui.column().classes("change-list"):
+            for change in plan.changes:
+                ui.label(change.file.name).classes("mono")
+                ui.label(change.words)
+        if desk.workspace.broken:
+            ui.label(f"Not looked into, as it cannot be read: {', '.join(desk.workspace.broken)}").classes("empty")
+        if plan.note:
+            ui.label(plan.note).classes("field-finding")
+
+        def rename() -> None:
+            if carry_out(desk, plan):
+                desk.offer_undo(f"{plan.thing.name} is {plan.new} now", lambda: _take_back(desk, plan))
+            dialog.close()
+
+        with ui.row().classes("dialog-buttons"):
+            ui.button("Cancel", on_click=dialog.close).props("flat no-caps")
+            primary_button("Rename everywhere", rename).props("autofocus")
+    dialog.on("hide", dialog.delete)
+
+
+def carry_out(desk: Desk, plan: NamePlan) -> bool:
+    """Write what a plan says; what stands in the way is told."""
+    try:
+        refused = rename_in_files(desk.workspace, plan, desk.document.person)
+    except (OSError, ValueError) as error:
+        refused = f"not done: {reason_of(error)}"
+    if refused:
+        desk.say(f"{refused[:1].upper()}{refused[1:]}", "warning")
+    return not refused
+
+
+def _take_back(desk: Desk, plan: NamePlan) -> None:
+    thing = Declared(section=plan.thing.section, name=plan.new, component=plan.thing.component, owner=plan.thing.owner)
+    back = plan_name(desk.workspace, thing, plan.thing.name)
+    if back.refused:
+        desk.say(f"{back.refused[:1].upper()}{back.refused[1:]}", "warning")
+    elif carry_out(desk, back):
+        desk.say(f"It is {plan.thing.name} again", "positive")
