@@ -5,6 +5,7 @@ from collections.abc import Sequence
 
 from nicegui import ui
 
+from vicode.editor.pages.typing_on import keep_what_is_typed
 from vicode.editor.panels.command import Command
 
 # Part of the page, so that no key comes too early for it. Text fields and the canvas undo in ways of their own.
@@ -56,61 +57,6 @@ addEventListener("beforeunload", () => {
 """
 
 
-# A form is built anew when its thing is renamed or its parts come and go. Whoever is in a field of it, and what was
-# typed there since the server heard of it, goes on in the new one; else the next letters would be taken for commands.
-_KEEP_FOCUS = """
-<script>
-{
-  let held = null;
-  const nameOf = (field) => field.getAttribute("aria-label") ?? field.textContent;
-  const alike = (panel, field) =>
-    [...panel.querySelectorAll(field.tagName)].filter((each) => nameOf(each) === nameOf(field));
-  const isText = (field) => field.matches("input:not([role], [type=checkbox]), textarea");
-  const isTypedIn = (field) => isText(field) || field.isContentEditable || field.matches(".cm-content");
-  document.addEventListener("focusin", ({ target }) => {
-    const panel = target.closest("[data-form]");
-    held = panel && target !== panel ? { field: target, form: panel.dataset.form } : null;
-    if (held) held.at = alike(panel, target).indexOf(target);
-  });
-  document.addEventListener("focusout", () =>
-    setTimeout(() => {
-      if (held?.field.isConnected && document.activeElement === document.body) held = null;
-    }),
-  );
-  document.addEventListener("input", ({ target }) => {
-    if (target === held?.field) held.isTyped = true;
-  });
-  const goOn = (panel, { field, at, isTyped }) => {
-    const next = alike(panel, field)[at];
-    // A code editor comes a moment later.
-    if (!next) return false;
-    next.focus({ preventScroll: true });
-    if (!isText(field) || !isText(next)) return true;
-    if (isTyped && next.value !== field.value) {
-      next.value = field.value;
-      next.dispatchEvent(new Event("input", { bubbles: true }));
-    }
-    next.setSelectionRange?.(field.selectionStart, field.selectionEnd);
-    return true;
-  };
-  new MutationObserver(() => {
-    if (!held || held.field.isConnected) return;
-    const was = held;
-    held = null;
-    const panel = document.querySelector("[data-form]");
-    if (!panel || ![document.body, panel].includes(document.activeElement)) return;
-    const isSame = panel.dataset.form === was.form;
-    if ((isSame && goOn(panel, was)) || !isTypedIn(was.field)) return;
-    // What is typed on is nobody's command, though the thing may be gone.
-    panel.tabIndex = -1;
-    panel.focus({ preventScroll: true });
-    if (isSame) held = was;
-  }).observe(document.body, { childList: true, subtree: true });
-}
-</script>
-"""
-
-
 def listen_to_keys(commands: Sequence[Command]) -> None:
     """Do each command on its keys."""
     wishes = {}
@@ -121,5 +67,5 @@ def listen_to_keys(commands: Sequence[Command]) -> None:
             wishes[keys] = {"name": command.name, "typing": command.while_typing}
         if command.keys:
             ui.on(f"command-{command.name}", command.act)
-    ui.add_body_html(_KEEP_FOCUS)
+    keep_what_is_typed()
     ui.add_body_html(_LISTEN.replace("WISHES", json.dumps(wishes)))

@@ -1,5 +1,7 @@
 """The panel on the right: a form for what is selected, the design itself if nothing is."""
 
+from collections import deque
+
 from nicegui import ui
 
 from vicode.editor.panels.decision_panel import decision_panel
@@ -19,6 +21,8 @@ _BACK_TO_CANVAS = """(event) => {
   document.querySelector(".canvas")?.shadowRoot?.querySelector(".stage")?.focus();
 }"""
 _LATER_S = 0.4
+_FORMS_KEPT = 4
+_LONGEST = 200_000
 
 
 class Inspector:
@@ -33,9 +37,13 @@ class Inspector:
         self.seen = (desk.selected, desk.design)
         self.number = 0
         """Of the thing that is shown: a browser keeps the focus in a form as long as it stays the same."""
+        self.shown_number = 0
         self.body = ui.column().classes("inspector")
         self.body.on("keydown.escape", js_handler=_BACK_TO_CANVAS)
         self.later = ui.timer(_LATER_S, self.refresh, active=False)
+        self.before: deque[tuple[int, list[Field]]] = deque(maxlen=_FORMS_KEPT)
+        """The forms before this one, with their numbers: a browser may still show one of them."""
+        ui.on("typed-and-left", lambda event: self.hear_late(event.args))
 
     def refresh(self) -> None:
         """Show the selected thing as it is now."""
@@ -51,9 +59,27 @@ class Inspector:
             self.shape, self.selected = shape, self.desk.selected
             self.later.deactivate()
             self.body.clear()
+            self.before.append((self.shown_number, self.fields))
+            self.shown_number = self.number
             self.body.props(f"data-form={self.number}")
             with self.body:
                 self.fields = self._build()
+
+    def hear_late(self, payload: object) -> None:
+        """Bring what was typed into a field of a form before, and left before the browser knew, where it belongs.
+
+        Fields that are shown tell what is typed by themselves. The payload comes from a browser.
+        """
+        if not isinstance(payload, dict):
+            return
+        number, text = payload.get("number"), payload.get("text")
+        if not isinstance(number, int) or not isinstance(text, str) or len(text) > _LONGEST:
+            return
+        for form, fields in self.before:
+            old = next((field for field in fields if field.element.id == number), None)
+            if old is not None and (old.element.is_deleted or old not in self.fields):
+                new = _counterpart(old, fields, self.fields) if form == self.shown_number else None
+                new.hear_late(text) if new else old.write_late(text)
 
     def _count_things(self) -> None:
         """Tell another thing that is selected from the same one under another name or number."""
@@ -89,3 +115,13 @@ class Inspector:
                 return common_panel(desk)
             case _:
                 return design_panel(desk)
+
+
+def _counterpart(old: Field, before: list[Field], now: list[Field]) -> Field | None:
+    """The field of the form as it is now that took the place of one: of the same kind and label, and as many before."""
+
+    def alike(fields: list[Field]) -> list[Field]:
+        return [each for each in fields if type(each) is type(old) and each.bound.label == old.bound.label]
+
+    place, there = alike(before).index(old), alike(now)
+    return there[place] if place < len(there) else None

@@ -51,8 +51,9 @@ def take_declared(desk: Desk, thing: Declared, new: str) -> str:
 
 def rename_by_gesture(desk: Desk, thing: Selected, new: str) -> str:
     """Give a state, or a used component, another name as the drawing does; returns why not."""
+    is_shown = thing in desk.selected
     outcome = apply_gesture(desk.document, {"kind": "rename", "of": thing.of, "id": thing.id, "name": new})
-    if outcome.select:
+    if outcome.select and is_shown:
         desk.select(*outcome.select)
     return outcome.refused
 
@@ -93,10 +94,21 @@ class NameField(Field):
             self.finish()
         super().focus(has_focus=has_focus)
 
+    def hear_late(self, text: str) -> None:
+        """Take over a name that was typed and done before the form was built anew."""
+        super().hear_late(text)
+        self.finish()
+
+    def write_late(self, text: str) -> None:
+        """Give the thing its name, though another one is shown by now."""
+        if not self.bound.refuse(text) and text.strip() not in ("", self._shown_name):
+            self.take(self._shown_name, text.strip())
+
     def finish(self) -> None:
         """Take over what stands in the field."""
         old, new = str(self.bound.read(self.desk.design) or ""), str(self.element.value or "").strip()
-        if not old or new == old:
+        # What the field showed is nobody's wish, though the design may have another name since.
+        if not old or new in (old, self._shown_name):
             self.refused = ""
         else:
             self.refused, self._refused_beside = self.take(old, new), self.bound.read(self.desk.design)
@@ -105,8 +117,7 @@ class NameField(Field):
                 return
             if not self.refused:
                 # It is the design's name by now, or nobody's before somebody agreed to it.
-                self._shown_name = str(self.bound.read(self.desk.design) or "")
-                self.element.set_value(self._shown_name)
+                self.element.set_value(str(self.bound.read(self.desk.design) or ""))
         self.refresh()
 
     def _typed(self, value: Any) -> None:
