@@ -226,3 +226,23 @@ def test_colours_are_those_of_the_canvas(palette: Palette, selector: str) -> Non
     assert len(names) > 10
     for name in names:
         assert getattr(palette, name) == shown[name.replace("_", "-")], name
+
+
+@pytest.mark.parametrize(("form", "mark"), [(Format.MERMAID, "%% "), (Format.PLANTUML, "' "), (Format.DOT, "// ")])
+def test_a_text_says_what_leads_to_no_state(form: Format, mark: str) -> None:
+    gone = Transition(to="Gone\nend")
+    lost = Design(
+        component="Lost",
+        initial="A",
+        common=Common(transitions=(Transition(to="Nowhere"),)),
+        states=(State(name="A", transitions=(gone, Transition(to="B"))), State(name="B")),
+    )
+    lines = [line.strip() for line in export(lost, form).decode().splitlines()]
+    said = [line for line in lines if "not drawn" in line]
+    assert said == [
+        f"{mark}not drawn: every state to Nowhere, as there is no such state",
+        f"{mark}not drawn: A to Gone end, as there is no such state",
+    ]
+    # What is left out because only some states are wanted is nobody's mistake.
+    some = export(lost, form, Wish(only=frozenset({"B"}))).decode()
+    assert "A to" not in some

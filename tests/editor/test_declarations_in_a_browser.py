@@ -21,7 +21,9 @@ def other(page: Page) -> Iterator[Page]:
 def open_design(page: Page, url: str, component: str) -> None:
     page.set_viewport_size({"width": 1366, "height": 768})
     page.goto(f"{url}design/forward/{component}")
-    expect(page.get_by_label("Inspector").get_by_text("Initial state")).to_be_visible()
+    expect(
+        page.get_by_label("Inspector").get_by_text("Initial" if "?" in component else "Initial state")
+    ).to_be_visible()
 
 
 def name_of(page: Page, group: str) -> Locator:
@@ -93,3 +95,31 @@ def test_a_new_name_that_others_say_is_written_everywhere(editor: str, page: Pag
     page.get_by_role("status").get_by_role("button", name="Undo").click()
     expect(name_of(page, "parameter forward")).to_have_value("forward")
     assert {file.name: file.read_text() for file in folder.glob("*.yaml")} == before
+
+
+def test_what_few_need_stands_in_folds(editor: str, page: Page, project: Path) -> None:
+    open_design(page, editor, "Player?select=Kick")
+    page.get_by_text("Team and XABSL").click()
+    capacity = page.get_by_label("Capacity: robots in it at once")
+    capacity.fill("many")
+    expect(page.get_by_text("write a whole number of robots")).to_be_visible()
+    capacity.fill("1")
+    page.get_by_label("Synchronized: robots that enter at once").fill("2")
+    page.get_by_label("Name in XABSL").fill("strike")
+    # A form that is built anew keeps its folds open.
+    page.get_by_label("State", exact=True).fill("Strike")
+    page.keyboard.press("Enter")
+    page.keyboard.press("Control+s")
+    expect(page.get_by_text("Saved", exact=True).first).to_be_visible()
+    text = (project / "forward" / "player.yaml").read_text()
+    state = text[text.index("  Strike:") :]
+    assert "    capacity: 1\n" in state
+    assert "    synchronized: 2\n" in state
+    assert "    xabsl_name: strike\n" in state
+
+
+def test_a_new_assignment_begins_with_a_value_that_can_stand_there(editor: str, page: Page) -> None:
+    open_design(page, editor, "Player")
+    page.get_by_role("button", name="Add to actions: Set").click()
+    expect(page.get_by_role("textbox", name="name = expression, a line each")).to_have_text("kick = Kick.front")
+    expect(page.get_by_text("No findings: the design is sound")).to_be_visible()

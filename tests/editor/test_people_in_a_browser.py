@@ -149,3 +149,23 @@ def test_a_selection_follows_what_others_rename(editor: str, page: Page, other: 
     other.get_by_label("State", exact=True).fill("Shoot")
     other.get_by_label("State", exact=True).press("Enter")
     expect(page.get_by_label("State", exact=True)).to_have_value("Shoot")
+
+
+def test_a_name_being_typed_on_the_drawing_outlives_what_others_call_it(editor: str, page: Page, other: Page) -> None:
+    open_player(page, editor)
+    open_player(other, editor)
+    select_state(page, "Kick")
+    select_state(other, "Kick")
+    page.locator("main.stage .stage").focus()
+    page.keyboard.press("F2")
+    box = page.locator("input.rename")
+    expect(box).to_be_focused()
+    page.keyboard.type("Strike")
+    other.get_by_label("State", exact=True).fill("Shoot")
+    other.get_by_label("State", exact=True).press("Enter")
+    expect(page.get_by_text("Kick is called Shoot by now: what you type becomes its name")).to_be_visible()
+    expect(box).to_be_focused()
+    expect(box).to_have_value("Strike")
+    page.keyboard.type("Hard")
+    page.keyboard.press("Enter")
+    expect(other.get_by_label("State", exact=True)).to_have_value("StrikeHard")

@@ -5,7 +5,7 @@ from collections.abc import Collection
 import graphviz  # type: ignore[import-untyped]
 
 from vicode.diagram.figure import Node, figure_of
-from vicode.diagram.listing import list_transitions
+from vicode.diagram.listing import list_lost, list_transitions
 from vicode.model.design import COMMON, Design
 
 _POINTS_PER_PIXEL = 0.75
@@ -36,7 +36,8 @@ def write_graphviz(design: Design, *, only: Collection[str] | None = None, links
     for arrow in figure.arrows:
         if arrow.of in _LINKS:
             graph.edge(ids[arrow.source], ids[arrow.target], **_LINKS[arrow.of])
-    return str(graph.source)
+    lost = "".join(f"// {words}\n" for words in list_lost(design, only))
+    return lost + str(graph.source)
 
 
 def _attributes(node: Node) -> dict[str, str]:

@@ -33,3 +33,15 @@ def list_transitions(design: Design, only: Collection[str] | None = None) -> Ite
             continue
         number = f"{orders[each.source]}. " if counts[each.source] > 1 else ""
         yield Line(source=each.source, target=each.decision.to, label=(number + label_of(each, spelled=True)).strip())
+
+
+def list_lost(design: Design, only: Collection[str] | None = None) -> Iterator[str]:
+    """What is to be said of every transition that leads to no state: nothing can be drawn of it."""
+    names = {state.name for state in design.states}
+    for each in walk_transitions(design):
+        assert isinstance(each.decision, Transition)
+        is_wanted = only is None or each.source in only or each.source == COMMON
+        if is_wanted and each.decision.to not in names:
+            source = EVERY_STATE if each.source == COMMON else each.source
+            words = f"not drawn: {source} to {each.decision.to}, as there is no such state"
+            yield "".join(letter if letter.isprintable() else "\ufffd" for letter in " ".join(words.split()))

@@ -3,7 +3,7 @@
 import re
 from collections.abc import Collection
 
-from vicode.diagram.listing import EVERY_STATE, list_transitions
+from vicode.diagram.listing import EVERY_STATE, list_lost, list_transitions
 from vicode.diagram.naming import identifiers
 from vicode.model.design import COMMON, Design
 
@@ -31,6 +31,7 @@ def write_plantuml(design: Design, *, only: Collection[str] | None = None) -> st
         arrow = "-[dashed]->" if line.source == COMMON else "-->"
         label = f" : {escape(line.label)}" if line.label else ""
         text.append(f"{ids[line.source]} {arrow} {ids[line.target]}{label}")
+    text += [f"' {words}" for words in list_lost(design, only)]
     text += [f"{ids[state.name]} --> [*]" for state in design.states if state.final and state.name in ids]
     return "\n".join((*text, "@enduml")) + "\n"
 

@@ -97,6 +97,10 @@ class Canvas(ui.element, component=CANVAS / "vicode_canvas.js"):
         """Open the name of a state for typing, as after creating it."""
         self._call("renameInPlace", state)
 
+    def state_renamed(self, old: str, new: str) -> None:
+        """Tell that a drawn state is the same under another name, so that a name being typed there goes on."""
+        self._call("stateRenamed", old, new)
+
     def run(self, command: str) -> None:
         """Do what a command of the canvas does, as if its key had been pressed."""
         self._call("run", command)

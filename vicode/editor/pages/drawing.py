@@ -18,6 +18,7 @@ from vicode.editor.view import Scene, Selected, peek_of
 from vicode.editor.view.address import design_address
 from vicode.model.design import Point
 from vicode.model.edits import add_use
+from vicode.model.merging import renamed_states
 
 # The field is there as soon as its code editor is, which is a large script to load the first time.
 _FOCUS_GUARD = """
@@ -73,6 +74,9 @@ class Drawing:
     def follow(self) -> None:
         """Draw what changed in the design, and forget selected things that are gone."""
         scene = self._draw()
+        if [state.name for state in self.design.states] != [state.name for state in self.desk.design.states]:
+            for old, new in renamed_states(self.design, self.desk.design).items():
+                self.canvas.state_renamed(old, new)
         self.canvas.apply(self.desk.document.sheet.changes(self.scene, scene))
         self.scene = scene
         followed = [follow(thing, self.design, self.desk.design) for thing in self.desk.selected]
@@ -119,6 +123,9 @@ class Drawing:
                 self._copy(payload)
             case "use":
                 self._use(payload)
+            case "renamed-meanwhile":
+                words = f"{payload['name']} is called {payload['id']} by now: what you type becomes its name"
+                self.desk.say(words, "info")
             case "peek":
                 self._peek(str(payload["of"]), str(payload["id"]))
             case "preview":

@@ -12,6 +12,7 @@ from vicode.editor.panels.rows import add_button, row_of_buttons
 from vicode.findings import Path
 from vicode.model.design import Action, Assign, Call, Code, Declaration, Design, RunCode
 from vicode.model.edits import update_actions
+from vicode.model.expressions import scope_of
 
 # Whoever adds an action types it next; without the focus the letters would be commands of the drawing.
 _FOCUS_LAST = """
@@ -38,7 +39,7 @@ def actions_panel(desk: Desk, path: Path, actions: tuple[Action, ...], *, calls:
                 )
             fields += _action_fields(desk, path, index, action)
     with ui.row().classes("adders").props(f"data-adds={path[-1]}-{len(actions)}"):
-        _adder(desk, path, "Set", "edit_note", lambda: Assign(values=((_first_settable(desk), "0"),)))
+        _adder(desk, path, "Set", "edit_note", lambda: Assign(values=(_first_assignment(desk),)))
         if calls and desk.design.uses:
             _adder(desk, path, "Call", "call_made", lambda: Call(alias=desk.design.uses[0].alias))
         _adder(desk, path, "Code", "code", lambda: RunCode(code=python("pass\n")))
@@ -173,9 +174,16 @@ def _set_values(action: Action, text: str) -> Action:
             return action
 
 
-def _first_settable(desk: Desk) -> str:
+def _first_assignment(desk: Desk) -> tuple[str, str]:
+    """What a new assignment begins with: the first that may be set, and a value of its type."""
     settable = settable_of(desk)
-    return settable[0].name if settable else "name"
+    if not settable:
+        return ("name", "0")
+    scope = scope_of(desk.workspace.project, desk.design)
+    type_ = scope.type_of(settable[0])
+    elements = scope.enumerations.get(type_, ())
+    zero = f"{type_}.{elements[0]}" if elements else {"bool": "False"}.get(type_, "0")
+    return (settable[0].name, zero)
 
 
 def _adder(desk: Desk, path: Path, label: str, icon: str, make: Callable[[], Action]) -> None:

@@ -27,6 +27,7 @@ def design_panel(desk: Desk) -> list[Field]:
         choice_field(desk, _bound("Initial state", "initial"), state_names),
         flag_field(desk, _bound("Resume: go on where it was left", "resume")),
     ]
+    _xabsl(desk, fields)
     heading("Uses", hint="components it requires or modulates")
     _uses(desk)
     for section, title, hint in SECTIONS:
@@ -35,6 +36,34 @@ def design_panel(desk: Desk) -> list[Field]:
     fields += common_panel(desk)
     _code(desk, fields)
     return fields
+
+
+def _xabsl(desk: Desk, fields: list[Field]) -> None:
+    """How it is called in XABSL, and what it takes over from there: few need it."""
+    design = desk.design
+    said = [f"{design.xabsl_name} in XABSL"] if design.xabsl_name else []
+    said += ["calculates as XABSL"] if design.arithmetic else []
+    said += [f"times in {design.time_unit}"] if design.time_unit else []
+
+    def build() -> None:
+        fields.append(text_field(desk, _bound("Name in XABSL", "xabsl_name"), monospace=True))
+        fields.append(choice_field(desk, _bound("Arithmetic", "arithmetic"), lambda _design: ["xabsl"]))
+        fields[-1].element.props("clearable")
+        ui.label("xabsl: calculates and restarts as XABSL does; empty: as every design.").classes("empty")
+        fields.append(choice_field(desk, _bound("Unit of times", "time_unit"), lambda _design: ["s", "ms"]))
+        fields[-1].element.props("clearable")
+        ui.label("Of state_time and component_time in expressions; empty: seconds.").classes("empty")
+
+    fold(desk, "xabsl", "XABSL", "; ".join(said) or "name, arithmetic, unit of times", build)
+
+
+def _common_doc() -> Bound:
+    return Bound(
+        label="Doc of what is common",
+        path=("common", "doc"),
+        read=lambda design: design.common.doc,
+        write=lambda design, value: replace(design, common=replace(design.common, doc=value)),
+    )
 
 
 def _code(desk: Desk, fields: list[Field]) -> None:
@@ -53,7 +82,8 @@ def common_panel(desk: Desk) -> list[Field]:
     heading("Common transitions", hint="tested before those of every state")
     decisions_list(desk, COMMON, ("common", "transitions"), desk.design.common.transitions)
     heading("Common actions", hint="done before those of every state")
-    return actions_panel(desk, ("common", "actions"), desk.design.common.actions)
+    fields = actions_panel(desk, ("common", "actions"), desk.design.common.actions)
+    return [*fields, text_field(desk, _common_doc(), lines=True)]
 
 
 def _bound(label: str, attribute: str) -> Bound:

@@ -3,13 +3,17 @@
 from dataclasses import replace
 from typing import Any
 
+from nicegui import ui
+
 from vicode.editor.panels.actions_panel import actions_panel, assignments, lines_of, parameters_of
 from vicode.editor.panels.code_field import pairs_field
 from vicode.editor.panels.decisions_list import decisions_list
 from vicode.editor.panels.desk import Desk
 from vicode.editor.panels.fields import Bound, Field, choice_field, flag_field, text_field
+from vicode.editor.panels.folds import fold
 from vicode.editor.panels.name_field import name_field, rename_by_gesture
 from vicode.editor.panels.rows import heading, panel_title
+from vicode.editor.session import numbers
 from vicode.editor.view import Selected
 from vicode.model.design import Call, Design, State
 from vicode.model.edits import update_state
@@ -30,6 +34,7 @@ def state_panel(desk: Desk, name: str) -> list[Field]:
         flag_field(desk, _bound(name, "Final: the component is done here", "final")),
         flag_field(desk, _bound(name, "Disabled: kept, but not in the component", "disabled")),
     ]
+    _team(desk, state, fields)
     heading("Requires", hint="stepped before, to be read")
     fields.append(_requires(desk, name))
     heading("Modulates", hint="steered after the actions")
@@ -67,13 +72,55 @@ def _title(desk: Desk, name: str) -> Field:
 def _bound(name: str, label: str, attribute: str) -> Bound:
     def read(design: Design) -> Any:
         state = design.state(name)
-        return getattr(state, attribute) if state else ("" if attribute == "doc" else False)
+        return getattr(state, attribute) if state else ("" if attribute in ("doc", "xabsl_name") else False)
 
     return Bound(
         label=label,
         path=("states", name, attribute),
         read=read,
         write=lambda design, value: update_state(design, name, lambda state: replace(state, **{attribute: value})),
+    )
+
+
+def _team(desk: Desk, state: State, fields: list[Field]) -> None:
+    """What robots of a team agree on, and the name in XABSL: few need them."""
+    said = []
+    if state.capacity is not None:
+        said.append(f"room for {numbers.text_of(state.capacity)}")
+    if state.synchronized is not None:
+        said.append(f"{numbers.text_of(state.synchronized)} enter together")
+    if state.xabsl_name:
+        said.append(f"{state.xabsl_name} in XABSL")
+
+    def build() -> None:
+        fields.append(
+            text_field(desk, _count(state.name, "Capacity: robots in it at once", "capacity"), monospace=True)
+        )
+        ui.label("One that finds no room stays where it is until others leave.").classes("empty")
+        label = "Synchronized: robots that enter at once"
+        fields.append(text_field(desk, _count(state.name, label, "synchronized"), monospace=True))
+        ui.label("Each waits where it is until so many are ready.").classes("empty")
+        fields.append(text_field(desk, _bound(state.name, "Name in XABSL", "xabsl_name"), monospace=True))
+
+    fold(desk, f"team {state.name}", "Team and XABSL", "; ".join(said) or "capacity, synchronized, name", build)
+
+
+def _count(name: str, label: str, attribute: str) -> Bound:
+    def read(design: Design) -> str:
+        state = design.state(name)
+        return numbers.text_of(getattr(state, attribute)) if state else ""
+
+    def write(design: Design, text: str) -> Design:
+        changes: dict[str, Any] = {attribute: numbers.count_of(text)}
+        return update_state(design, name, lambda state: replace(state, **changes))
+
+    return Bound(
+        label=label,
+        path=("states", name, attribute),
+        read=read,
+        write=write,
+        hint="no limit" if attribute == "capacity" else "each by itself",
+        refuse=numbers.refuse_count,
     )
 
 

@@ -6,10 +6,11 @@ from vicode.editor.panels.desk import Desk
 from vicode.editor.panels.fields import Bound, Field
 from vicode.editor.panels.name_field import name_field, rename_by_gesture
 from vicode.editor.panels.rows import heading, panel_title
+from vicode.editor.session import numbers
 from vicode.editor.view import Selected
 from vicode.model.design import Declaration
 from vicode.model.edits import remove_uses, unlink
-from vicode.model.project import INTERNAL, WORLD
+from vicode.model.project import INTERNAL, WORLD, Interface
 
 
 def use_panel(desk: Desk, alias: str) -> list[Field]:
@@ -24,7 +25,10 @@ def use_panel(desk: Desk, alias: str) -> list[Field]:
     if interface is None:
         ui.label("Nothing in the project declares it.").classes("field-finding")
         return fields
+    if interface.title:
+        ui.label(interface.title).classes("interface-title")
     ui.label(interface.doc).classes("doc")
+    ui.label(_facts(interface)).classes("small")
     if project.design(use.component) is not None:
         ui.button("Open its design", icon="open_in_new", on_click=lambda: desk.open(use.component)).props(
             "flat no-caps dense"
@@ -60,6 +64,28 @@ def _alias(desk: Desk, alias: str) -> Field:
     return name_field(desk, bound, take)
 
 
+def _facts(interface: Interface) -> str:
+    """What project.yaml says of it beside its declarations."""
+    rate = f"Works at {numbers.text_of(interface.frequency_hz)} Hz" if interface.frequency_hz else "Works at every step"
+    return rate + (f", in XABSL {interface.xabsl_name}" if interface.xabsl_name else "")
+
+
+def _about(declaration: Declaration) -> str:
+    """Type, unit, range, value, arguments and the name in XABSL, as far as they are said."""
+    given = declaration.arguments
+    parts = [
+        f"takes {', '.join(each.name for each in given) or 'nothing'}" if given is not None else "",
+        declaration.type,
+        declaration.unit,
+        f"{numbers.text_of(declaration.range[0])} to {numbers.text_of(declaration.range[1])}"
+        if declaration.range
+        else "",
+        f"= {declaration.initial}" if declaration.initial else "",
+        f"in XABSL {declaration.xabsl_name}" if declaration.xabsl_name else "",
+    ]
+    return ", ".join(part for part in parts if part)
+
+
 _ORIGINS = {WORLD: "Handed on to the world", INTERNAL: "A memory that all designs share"}
 
 
@@ -69,7 +95,7 @@ def _table(declarations: tuple[Declaration, ...]) -> None:
     for declaration in declarations:
         with ui.row().classes("interface-row"):
             ui.label(declaration.name).classes("mono")
-            ui.label(" ".join(part for part in (declaration.type, declaration.unit) if part)).classes("interface-type")
+            ui.label(_about(declaration)).classes("interface-type")
             ui.label(declaration.doc).classes("interface-doc")
 
 

@@ -1,4 +1,5 @@
 // Renaming in place: an input laid over a box. The name is only proposed; Python decides.
+import { keyOf } from "./scene.js";
 import { html } from "./svg.js";
 
 export class Rename {
@@ -23,10 +24,20 @@ export class Rename {
     this.input.select();
   }
 
+  /** The box will be called otherwise in a moment: what is being typed goes on, and becomes its name. */
+  boxRenamed(old, name) {
+    if (!this.key || this.key !== keyOf("states", old)) return;
+    this.key = keyOf("states", name);
+    this.isAwaited = true;
+    this.canvas.report("renamed-meanwhile", { of: "states", id: name, name: old });
+  }
+
   /** Stays on its box while the view moves; closes when the box is gone. */
   follow() {
     if (!this.key) return;
     const node = this.canvas.scene.nodes.get(this.key);
+    if (!node && this.isAwaited) return;
+    this.isAwaited = false;
     if (!node) return this.#close(false);
     const { viewport } = this.canvas;
     const at = viewport.toScreen({ x: node.x - node.w / 2, y: node.y - node.h / 2 });

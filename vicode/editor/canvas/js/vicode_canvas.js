@@ -55,6 +55,9 @@ export default {
     renameInPlace(id) {
       this.canvas.renameInPlace(id);
     },
+    stateRenamed(old, name) {
+      this.canvas.rename.boxRenamed(old, name);
+    },
     focus() {
       this.canvas.stage.focus({ preventScroll: true });
     },
