@@ -4,12 +4,16 @@ import os
 import random
 import subprocess
 import sys
+import tempfile
 import time
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import pytest
 
 from vicode.store import read_design, save_design, write_text
+from vicode.store.writing import is_read_only
 
 TOP = Path(__file__).parents[2]
 SAVING = """\
@@ -46,6 +50,39 @@ def test_a_link_stays_a_link(tmp_path: Path) -> None:
     write_text(link, "new")
     assert link.is_symlink()
     assert (tmp_path / "real.yaml").read_text() == "new"
+
+
+def test_what_may_not_be_written_is_told_by_its_place(monkeypatch: pytest.MonkeyPatch) -> None:
+    with tempfile.TemporaryDirectory() as folder, monkeypatch.context() as changed:
+        path = Path(folder, "a.yaml")
+        path.write_text("old")
+        path.chmod(0o644)
+        Path(folder).chmod(0o755)
+        if os.geteuid() == 0:
+            # Root may write everywhere: be somebody else for a while.
+            changed.setattr(os, "access", _as_nobody(os.access))
+            changed.setattr(os, "supports_effective_ids", {os.access})
+        else:
+            path.chmod(0o444)
+        assert is_read_only(path)
+        with pytest.raises(PermissionError, match="the file is read-only"):
+            write_text(path, "new")
+        path.unlink()
+        Path(folder).chmod(0o555)
+        with pytest.raises(PermissionError, match="its folder is read-only"):
+            write_text(path, "new")
+        Path(folder).chmod(0o755)
+
+
+def _as_nobody(ask: Callable[..., bool]) -> Callable[..., bool]:
+    def asked(*given: Any, **named: Any) -> bool:
+        os.seteuid(65534)
+        try:
+            return ask(*given, **named)
+        finally:
+            os.seteuid(0)
+
+    return asked
 
 
 def test_a_failure_leaves_the_old_file_alone(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
