@@ -1,5 +1,8 @@
 """What a person does first on the page of the forward player: open it, find a state or a transition, select it."""
 
+import time
+from pathlib import Path
+
 from playwright.sync_api import Locator, Page, expect
 
 PLAYER = "design/forward/Player"
@@ -34,6 +37,20 @@ def select_transition(page: Page, key: str) -> None:
     """Click the label of a transition; the inspector shows it."""
     page.locator(f'g[data-kind="transition"][data-id="{key}"] .plate').first.click(force=True)
     expect(page.get_by_label("Inspector").get_by_text("Transition from")).to_be_visible()
+
+
+def save(page: Page, file: Path) -> str:
+    """Save by the key; returns the text of the file.
+
+    "Saved" may stand there from before, until an edit has arrived: the file is waited for.
+    """
+    before = file.stat().st_ino
+    page.keyboard.press("Control+s")
+    until_s = time.monotonic() + 20
+    while file.stat().st_ino == before and time.monotonic() < until_s:
+        page.wait_for_timeout(20)
+    expect(page.get_by_text("Saved", exact=True).first).to_be_visible()
+    return file.read_text(encoding="utf-8")
 
 
 def findings(page: Page) -> Locator:

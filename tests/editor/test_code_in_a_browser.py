@@ -5,7 +5,7 @@ from pathlib import Path
 
 from playwright.sync_api import Locator, Page, expect
 
-from tests.editor.player_page import findings, open_player, select_state, select_transition
+from tests.editor.player_page import findings, open_player, save, select_state, select_transition
 
 LOOK = "LookForBall/0"
 
@@ -86,9 +86,7 @@ def test_fast_typing_is_neither_lost_nor_reordered(editor: str, page: Page, proj
     text = "perception.ball_seen and state_time > 0.25 and not kicker.busy and component_time < 1000"
     retype(page, guard(page), text)
     expect(guard(page)).to_have_text(text)
-    page.keyboard.press("Control+s")
-    expect(page.get_by_text("Saved", exact=True).first).to_be_visible()
-    assert text in re.sub(r"\s+", " ", (project / "forward" / "player.yaml").read_text())
+    assert text in re.sub(r"\s+", " ", save(page, project / "forward" / "player.yaml"))
 
 
 def test_the_linter_speaks_of_code_and_what_is_declared_is_known(editor: str, page: Page) -> None:

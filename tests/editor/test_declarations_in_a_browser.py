@@ -6,6 +6,8 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import Locator, Page, expect
 
+from tests.editor.player_page import save
+
 expect.set_options(timeout=20_000)
 
 
@@ -50,9 +52,7 @@ def test_a_new_name_of_a_variable_is_one_step(editor: str, page: Page, project: 
     page.keyboard.type("none")
     expect(name_of(page, "variable shot")).to_have_value("shot")
     expect(page.get_by_role("group", name="variable shot").get_by_label("Unit")).to_have_value("none")
-    page.keyboard.press("Control+s")
-    expect(page.get_by_text("Saved", exact=True).first).to_be_visible()
-    after = file.read_text()
+    after = save(page, file)
     assert "self.shot" in after
     assert "self.kick " not in after
     page.get_by_role("tab", name="History").click()

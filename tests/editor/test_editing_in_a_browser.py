@@ -4,6 +4,8 @@ from pathlib import Path
 
 from playwright.sync_api import Locator, Page, expect
 
+from tests.editor.player_page import save
+
 PLAYER = "design/forward/Player"
 # The page's socket seems to be open only when the test says so.
 SPEAKS_LATE = """
@@ -157,9 +159,7 @@ def test_a_double_click_on_an_arrow_leads_to_its_guard(editor: str, page: Page, 
     page.mouse.click(*kick)
     expect(page.get_by_label("State", exact=True)).to_have_value("Kick")
     page.get_by_label("Doc", exact=True).fill("Shoots.")
-    page.keyboard.press("Control+s")
-    expect(page.get_by_text("Saved", exact=True).first).to_be_visible()
-    saved = (project / "forward" / "player.yaml").read_text()
+    saved = save(page, project / "forward" / "player.yaml")
     assert "after: 8" in saved
     assert "doc: Shoots." in saved
 

@@ -4,6 +4,8 @@ from pathlib import Path
 
 from playwright.sync_api import Locator, Page, expect
 
+from tests.editor.player_page import save
+
 PLAYER = "design/forward/Player"
 
 expect.set_options(timeout=20_000)
@@ -63,9 +65,7 @@ def test_a_machine_by_keys_alone(editor: str, page: Page, project: Path) -> None
     press(page, "Delete")
     expect(page.locator('.row[data-id="transitions/Up/0"] .sign.error')).to_have_count(0)
 
-    press(page, "Control+s")
-    expect(page.get_by_text("Saved", exact=True).first).to_be_visible()
-    text = (project / "forward" / "wave.yaml").read_text()
+    text = save(page, project / "forward" / "wave.yaml")
     assert "Down" in text
     assert "after: 0.5" in text
     press(page, "F4")

@@ -5,6 +5,8 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import Page, WebSocketRoute, expect
 
+from tests.editor.player_page import save
+
 expect.set_options(timeout=20_000)
 
 
@@ -75,11 +77,9 @@ def test_what_was_left_before_the_new_form_came_is_kept(
     line.let_go()
     expect(page.get_by_label("State", exact=True)).to_have_value("Shoot")
     expect(page.get_by_role("textbox", name="Doc")).to_have_value("Kick, with the eyes on the ball. Defend now.")
-    if way != "saving":
-        page.keyboard.press("Control+s")
-    expect(page.get_by_text("Saved", exact=True).first).to_be_visible()
-    expect(page.get_by_text("Unsaved changes")).to_have_count(0)
     file = project / "forward" / "player.yaml"
+    if way != "saving":
+        save(page, file)
     expect(page.get_by_text("Saved", exact=True).first).to_be_visible()
     assert doc_in(file).endswith("Defend now.")
     assert "  Shoot:" in file.read_text()
@@ -94,6 +94,6 @@ def test_who_stays_in_the_field_types_on_in_the_new_one(editor: str, page: Page,
     )
     expect(page.get_by_role("textbox", name="Doc")).to_be_focused()
     expect(page.get_by_label("State", exact=True)).to_have_value("Shoot")
-    page.keyboard.press("Control+s")
-    expect(page.get_by_text("Saved", exact=True).first).to_be_visible()
-    assert doc_in(project / "forward" / "player.yaml").endswith("And then.")
+    file = project / "forward" / "player.yaml"
+    save(page, file)
+    assert doc_in(file).endswith("And then.")

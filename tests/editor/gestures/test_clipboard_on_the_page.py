@@ -68,6 +68,7 @@ def test_duplicate_keeps_what_leads_between_and_out(sketch: Sketch) -> None:
 def test_parts_travel_between_designs_and_windows_with_what_they_use(sketch: Sketch) -> None:
     page = sketch.page.context.new_page()
     page.goto(f"{sketch.address}design/forward/Player")
+    page.wait_for_function("window.did_handshake")
     player = page.locator('g[data-kind="state"][data-id="LookForBall"] rect.box')
     player.click(force=True)
     page.keyboard.press("Control+c")

@@ -2,7 +2,8 @@
 
 // What travels to Python must stay well below its limit for one message.
 const MOST_CHARACTERS = 400_000;
-const ANSWER_MS = 5000;
+const ANSWER_MS = 20_000;
+const TOO_LATE = new Error("no answer");
 
 export class Clipboard {
   constructor(canvas) {
@@ -25,7 +26,7 @@ export class Clipboard {
         if (cut) this.canvas.report("delete", { items });
         this.canvas.tell(cut ? "Cut" : "Copied");
       },
-      () => this.canvas.tell("Nothing was copied"),
+      (error) => this.canvas.tell(error === TOO_LATE ? "vicode does not answer: nothing was copied" : "Nothing was copied"),
     );
   }
 
@@ -53,7 +54,7 @@ export class Clipboard {
   #ask(items) {
     return new Promise((resolve, reject) => {
       this.answer = (text) => (text === null ? reject(new Error("nothing")) : resolve(text));
-      setTimeout(() => reject(new Error("no answer")), ANSWER_MS);
+      setTimeout(() => reject(TOO_LATE), ANSWER_MS);
       this.canvas.report("copy", { items });
     });
   }
