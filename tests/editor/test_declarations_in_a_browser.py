@@ -123,3 +123,34 @@ def test_a_new_assignment_begins_with_a_value_that_can_stand_there(editor: str, 
     page.get_by_role("button", name="Add to actions: Set").click()
     expect(page.get_by_role("textbox", name="name = expression, a line each")).to_have_text("kick = Kick.front")
     expect(page.get_by_text("No findings: the design is sound")).to_be_visible()
+
+
+def test_what_the_project_declares_is_written_into_its_file(editor: str, page: Page, project: Path) -> None:
+    folder = project / "forward"
+    before = (folder / "project.yaml").read_text()
+    open_design(page, editor, "Turn")
+    page.get_by_text("Project Forward").click()
+    kick = page.get_by_role("group", name="enumeration Kick")
+    kick.get_by_text("Internal: XABSL's engine numbers its elements").click()
+    expect(page.get_by_text("project.yaml is written: Kick")).to_be_visible()
+    assert "    internal: true\n" in (folder / "project.yaml").read_text()
+    page.get_by_role("status").get_by_role("button", name="Undo").click()
+    expect(kick.get_by_role("checkbox")).not_to_be_checked()
+    assert (folder / "project.yaml").read_text() == before
+
+    value = page.get_by_role("group", name="constant net_x").get_by_label("Value")
+    value.fill("2900")
+    page.keyboard.press("Tab")
+    expect(page.get_by_text("project.yaml is written: net_x")).to_be_visible()
+    assert "net_x: {value: 2900, unit: mm" in (folder / "project.yaml").read_text()
+    page.get_by_role("status").get_by_role("button", name="Undo").click()
+    expect(value).to_have_value("3000.0")
+
+    kick.get_by_label("Element 3").fill("sideways")
+    page.keyboard.press("Enter")
+    dialog = page.get_by_role("dialog", name="Rename element lateral to sideways")
+    expect(dialog.get_by_text("player.yaml")).to_be_visible()
+    dialog.get_by_role("button", name="Rename everywhere").click()
+    expect(kick.get_by_label("Element 3")).to_have_value("sideways")
+    assert "kick: Kick.sideways" in (folder / "player.yaml").read_text()
+    assert "sideways: Outwards" in (folder / "project.yaml").read_text()

@@ -64,6 +64,8 @@ class NameField(Field):
 
     take: Take = field(default=lambda _old, _new: "")
     on_shown: Callable[[str], None] = field(default=lambda _name: None)
+    may_be_empty: bool = False
+    """Whether it is a text that may be missing, and no name."""
     _shown_name: str = ""
 
     def __post_init__(self) -> None:
@@ -108,7 +110,7 @@ class NameField(Field):
         """Take over what stands in the field."""
         old, new = str(self.bound.read(self.desk.design) or ""), str(self.element.value or "").strip()
         # What the field showed is nobody's wish, though the design may have another name since.
-        if not old or new in (old, self._shown_name):
+        if (not old and not self.may_be_empty) or new in (old, self._shown_name):
             self.refused = ""
         else:
             self.refused, self._refused_beside = self.take(old, new), self.bound.read(self.desk.design)
@@ -160,6 +162,7 @@ def carry_out(desk: Desk, plan: NamePlan) -> bool:
         refused = f"not done: {reason_of(error)}"
     if refused:
         desk.say(f"{refused[:1].upper()}{refused[1:]}", "warning")
+    desk.tell()
     return not refused
 
 

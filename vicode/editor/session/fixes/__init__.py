@@ -23,7 +23,7 @@ FIXERS: Mapping[str, Callable[[Case], list[Fix]]] = {
 }
 
 _IN_THE_FILE = "the mistake is in the text of the file, which is mended there"
-_IN_THE_PROJECT = "the mistake is in project.yaml, which this editor does not write"
+_IN_THE_PROJECT = "the mistake is in project.yaml, which no fix writes"
 _ONLY_A_PERSON = "only a person knows what was meant"
 
 UNFIXED: Mapping[str, str] = {
