@@ -21,6 +21,11 @@ def text_of(path: str) -> str:
     return (_folder() / path).read_text(encoding="utf-8")
 
 
+def template_files(folder: str) -> tuple[Path, ...]:
+    """Everything in a folder of templates, by name."""
+    return tuple(sorted(path for path in (_folder() / folder).iterdir() if path.is_file()))
+
+
 @lru_cache(maxsize=1)
 def _environment() -> Environment:
     return Environment(

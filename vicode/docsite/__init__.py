@@ -1,6 +1,30 @@
 """The documentation site of a project: a page a component, with drawings, cross links and a search; plain files."""
 
-from vicode.docsite.site import MARK, build_site
+from vicode.docsite.homes import plan_home
+from vicode.docsite.site import SiteBuilder, build_site
 from vicode.docsite.subject import OwnFinding, SourceText, Subject, described_paths, subject_of
+from vicode.docsite.writing import (
+    Manifest,
+    PlannedFile,
+    load_manifest,
+    manifest_file,
+    save_manifest,
+    write_site,
+)
 
-__all__ = ["MARK", "OwnFinding", "SourceText", "Subject", "build_site", "described_paths", "subject_of"]
+__all__ = [
+    "Manifest",
+    "OwnFinding",
+    "PlannedFile",
+    "SiteBuilder",
+    "SourceText",
+    "Subject",
+    "build_site",
+    "described_paths",
+    "load_manifest",
+    "manifest_file",
+    "plan_home",
+    "save_manifest",
+    "subject_of",
+    "write_site",
+]

@@ -57,6 +57,8 @@ class Addresses:
         self._project = project
         self._stems = _stems(design.component for design in project.designs)
         self._interfaces = _stems(each.component for each in project.components)
+        self.names = (tuple(self._stems), tuple(self._interfaces), tuple(each.name for each in project.enumerations))
+        """All that addresses are made from."""
 
     def component(self, name: str) -> str:
         """The page of a component; "" for an unknown one."""

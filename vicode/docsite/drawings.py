@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import replace
+from functools import lru_cache, partial
 
 from vicode.diagram.drawing import draw_figure
 from vicode.diagram.figure import Arrow, Figure, Node, figure_of
@@ -11,6 +12,7 @@ from vicode.diagram.svg import write_svg
 from vicode.diagram.tree import Links, draw_tree
 from vicode.diagram.usage import usage_figure
 from vicode.docsite.addresses import Addresses, anchor_of
+from vicode.docsite.memory import Memory
 from vicode.findings import Path
 from vicode.model.design import Decision, Design
 from vicode.model.edits import move
@@ -20,12 +22,12 @@ from vicode.model.walks import walk_transitions
 _SECONDS = 5.0
 
 
-def laid_out(project: Project) -> Project:
+def laid_out(project: Project, service: LayoutService, memory: Memory) -> Project:
     """The project with a place for everything in the designs that give none; a place that is given stays."""
     if all(_has_places(design) for design in project.designs):
         return project
-    with LayoutService() as service:
-        return replace(project, designs=tuple(_with_places(design, service) for design in project.designs))
+    designs = (memory.recall("places", design, partial(_with_places, design, service)) for design in project.designs)
+    return replace(project, designs=tuple(designs))
 
 
 def draw_design(design: Design, addresses: Addresses) -> str:
@@ -82,6 +84,7 @@ def draw_uses(project: Project, addresses: Addresses, title: str) -> str:
     return _svg(Figure(nodes=nodes, arrows=tuple(arrows)), title) if nodes else ""
 
 
+@lru_cache(maxsize=256)
 def _svg(figure: Figure, title: str) -> str:
     return write_svg(draw_figure(figure, title=title, palette=from_properties()), is_part=True)
 

@@ -2,14 +2,17 @@
 
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
+from functools import partial
 
 from vicode.docsite.addresses import Addresses
 from vicode.docsite.languages import Unsaid, faulty_in
 from vicode.docsite.listings import TITLES, lines_of
+from vicode.docsite.memory import Memory, digest_of
+from vicode.docsite.parts import outside_of
 from vicode.docsite.subject import Subject
 from vicode.docsite.views import CodeLine, CodeView, Part
 from vicode.findings import Path
-from vicode.generators import GENERATORS, Origin, texts_of_components
+from vicode.generators import GENERATORS, ComponentText, Origin, component_texts
 
 _LINKED = ("states", "common", "parameters", "outputs", "variables")
 
@@ -31,7 +34,7 @@ class Text:
         return "Source" if self.form == "source" else TITLES.get(self.form, self.form)
 
 
-def texts_of(subject: Subject, unsaid: Unsaid) -> dict[str, tuple[Text, ...]]:
+def texts_of(subject: Subject, unsaid: Unsaid, memory: Memory) -> dict[str, tuple[Text, ...]]:
     """All texts by component: what somebody wrote, and what is generated where nothing stands in the way."""
     texts: dict[str, list[Text]] = {}
     for name, source in subject.sources.items():
@@ -44,8 +47,9 @@ def texts_of(subject: Subject, unsaid: Unsaid) -> dict[str, tuple[Text, ...]]:
             lines=source.lines,
         )
         texts.setdefault(name, []).append(text)
+    outside = digest_of(outside_of(subject.project))
     for language in GENERATORS:
-        for text in _generated(subject, language, faulty_in(subject, language, unsaid)):
+        for text in _generated(subject, language, faulty_in(subject, language, unsaid), (outside, memory)):
             texts.setdefault(text.component, []).append(text)
     return {name: tuple(found) for name, found in texts.items()}
 
@@ -61,8 +65,13 @@ def places_in(texts: tuple[Text, ...], addresses: Addresses) -> dict[Path, tuple
     return places
 
 
-def code_view(text: Text, siblings: tuple[Text, ...], addresses: Addresses, component: Part) -> CodeView:
-    """The page of a text."""
+def title_of(text: Text) -> str:
+    """What the page of a text is called."""
+    return f"{text.component or 'Project'}: {text.title}"
+
+
+def code_view(text: Text, links: tuple[Part, ...], addresses: Addresses, component: Part) -> CodeView:
+    """The page of a text; `links` lead to all texts of its component."""
     begins: dict[int, Path] = {}
     for path, line in text.lines.items():
         begins.setdefault(line, path)
@@ -72,10 +81,10 @@ def code_view(text: Text, siblings: tuple[Text, ...], addresses: Addresses, comp
         href = addresses.thing(text.component, path) if path and text.component else ""
         rows.append(CodeLine(html=html, href=href, title=_name_of(path)))
     return CodeView(
-        title=f"{text.component or 'Project'}: {text.title}",
+        title=title_of(text),
         path=text.path,
         component=component,
-        texts=text_links(siblings, addresses),
+        texts=links,
         lines=tuple(rows),
     )
 
@@ -87,14 +96,24 @@ def text_links(texts: tuple[Text, ...], addresses: Addresses) -> tuple[Part, ...
     )
 
 
-def _generated(subject: Subject, language: str, faulty: frozenset[str]) -> Iterator[Text]:
-    """The text of each component that nothing is wrong with."""
-    project = subject.project
+def _generated(subject: Subject, language: str, faulty: frozenset[str], known: tuple[str, Memory]) -> Iterator[Text]:
+    """The text of each component that nothing is wrong with; `known` are what it sees of the others, and the memory."""
+    project, (outside, memory) = subject.project, known
     sources = {name: source.path for name, source in subject.sources.items() if name}
-    wanted = {design.component for design in project.designs} - faulty
-    for component, written in texts_of_components(project, language, wanted, sources):
-        file, lines = written.file, _lines_of(written.origins)
-        yield Text(component=component, form=language, path=file.path, text=file.text, language=language, lines=lines)
+    write = component_texts(project, language, sources)
+    for design in project.designs:
+        if design.component in faulty:
+            continue
+        used = tuple(project.interface(use.component) for use in design.uses)
+        key = (language, design, used, sources.get(design.component, ""), outside)
+        written = memory.recall("text", key, partial(write, design))
+        if written is not None:
+            yield _text_of(design.component, language, written)
+
+
+def _text_of(component: str, language: str, written: ComponentText) -> Text:
+    file, lines = written.file, _lines_of(written.origins)
+    return Text(component=component, form=language, path=file.path, text=file.text, language=language, lines=lines)
 
 
 def _lines_of(origins: Iterable[Origin]) -> dict[Path, int]:

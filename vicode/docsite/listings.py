@@ -1,16 +1,12 @@
 """Code as HTML: coloured by classes, line by line."""
 
+import keyword
 import re
-from collections.abc import Iterator
-from functools import lru_cache
-from typing import Any
+from collections.abc import Iterator, Sequence
+from html import escape
 
-from pygments import highlight
-from pygments.formatters import HtmlFormatter
-from pygments.lexer import Lexer
-from pygments.lexers import CppLexer, PythonLexer, YamlLexer
-from pygments.lexers.special import TextLexer
-from pygments.token import Comment, Error, Keyword, Name, Number, Operator, Punctuation, String, Whitespace
+from pygments.lexers import CppLexer, YamlLexer
+from pygments.token import Comment, Keyword, Name, Number, Operator, String
 
 from vicode.xabsl.tokens import KEYWORDS
 
@@ -18,42 +14,44 @@ from vicode.xabsl.tokens import KEYWORDS
 _MOST_LETTERS = 400_000
 TITLES = {"python": "Python", "cpp": "C++", "xabsl": "XABSL", "yaml": "YAML"}
 
-
-# In this order: one expression for all finds a token at once, where Pygments tries rule after rule.
-_XABSL_TOKENS = (
-    (Whitespace, r"\s+"),
-    (Comment.Single, r"//[^\n]*"),
-    (Comment.Multiline, r"/\*(?s:.*?)(?:\*/|\Z)"),
-    (String, r'"[^"]*"'),
-    (Keyword, rf"\b(?:{'|'.join(map(re.escape, sorted(KEYWORDS)))})(?![\w.])"),
-    (Name, r"@?[A-Za-z_][\w.]*"),
-    (Number, r"\d+(?:\.\d+)?"),
-    (Operator, r"[-+*/%=<>!&|?:]+"),
-    (Punctuation, r"[^\w\s]"),
-    (Error, r"(?s:.)"),
+# Classes of the style sheet: keywords, strings, numbers (m), comments, what is defined (f).
+_CLASSES = (
+    *((kind, "k") for kind in (Keyword, Operator.Word, Name.Tag)),
+    *((String, "s"), (Number, "m"), (Comment, "c")),
+    *((kind, "f") for kind in (Name.Function, Name.Class)),
 )
-_XABSL = re.compile("|".join(f"({pattern})" for _kind, pattern in _XABSL_TOKENS))
 
 
-class _XabslLexer(Lexer):  # type: ignore[misc]  # Pygments has no types
-    """The words of XABSL."""
-
-    name = "XABSL"
-
-    def get_tokens_unprocessed(self, text: str) -> Iterator[tuple[int, Any, str]]:
-        for match in _XABSL.finditer(text):
-            yield match.start(), _XABSL_TOKENS[(match.lastindex or 1) - 1][0], match.group()
+def _one_of(words: Sequence[str]) -> str:
+    return "|".join(map(re.escape, sorted(words)))
 
 
-_LEXERS = {"python": PythonLexer, "cpp": CppLexer, "xabsl": _XabslLexer, "yaml": YamlLexer}
+# What most pages show is found by one expression each, many times faster than Pygments tries rule after rule. What
+# stands in no named group has no colour; names are found so that nothing inside them is taken for a word or number.
+_PYTHON = re.compile(
+    r"(?P<c>#[^\n]*)"
+    r"|(?P<s>\b(?i:[rbfu]|[rbf]{2})?(?:\"\"\"(?s:\\.|.)*?\"\"\"|'''(?s:\\.|.)*?'''|\"(?:\\.|[^\"\\\n])*\"|'(?:\\.|[^'\\\n])*'))"
+    rf"|(?P<k>\b(?:{_one_of(keyword.kwlist)})\b)"
+    r"|(?P<f>(?<=\bdef )[^\W\d]\w*|(?<=\bclass )[^\W\d]\w*)"
+    r"|[^\W\d]\w*"
+    r"|(?P<m>\d(?:[\w.]|(?<=[eE])[-+])*)"
+)
+_XABSL = re.compile(
+    r"(?P<c>//[^\n]*|/\*(?s:.*?)(?:\*/|\Z))"
+    r'|(?P<s>"[^"]*")'
+    rf"|(?P<k>\b(?:{_one_of(tuple(KEYWORDS))})(?![\w.]))"
+    r"|@?[A-Za-z_][\w.]*"
+    r"|(?P<m>\d+(?:\.\d+)?)"
+)
+_EXPRESSIONS = {"python": _PYTHON, "xabsl": _XABSL}
+_LEXERS = {"cpp": CppLexer, "yaml": YamlLexer}
 
 
 def lines_of(text: str, language: str) -> tuple[str, ...]:
     """The lines of a text, each as HTML of its own."""
-    plain = text.replace("\r\n", "\n").replace("\r", "\n")
-    lexer = _LEXERS.get(language, TextLexer) if len(plain) <= _MOST_LETTERS else TextLexer
-    made = highlight(plain, lexer(stripnl=False, ensurenl=False), _formatter())
-    return tuple(str(made).removesuffix("\n").split("\n"))
+    plain = text.replace("\r\n", "\n").replace("\r", "\n").removesuffix("\n")
+    pieces = _pieces_of(plain, language) if len(plain) <= _MOST_LETTERS else [("", plain)]
+    return tuple("".join(map(_html_of, pieces)).split("\n"))
 
 
 def block_of(text: str, language: str) -> str:
@@ -61,6 +59,34 @@ def block_of(text: str, language: str) -> str:
     return "\n".join(lines_of(text.strip("\n"), language))
 
 
-@lru_cache(maxsize=1)
-def _formatter() -> "HtmlFormatter[str]":
-    return HtmlFormatter(nowrap=True)
+def _html_of(piece: tuple[str, str]) -> str:
+    """A coloured piece of several lines is one in each of them."""
+    name, text = piece
+    html = escape(text, quote=False)
+    if not name:
+        return html
+    return "\n".join(f'<span class="{name}">{line}</span>' if line else "" for line in html.split("\n"))
+
+
+def _pieces_of(text: str, language: str) -> Iterator[tuple[str, str]]:
+    """The text in pieces with the class of each, "" for none."""
+    expression = _EXPRESSIONS.get(language)
+    if expression is None:
+        yield from _lexed(text, language)
+        return
+    done = 0
+    for match in expression.finditer(text):
+        if match.lastgroup:
+            yield "", text[done : match.start()]
+            yield match.lastgroup, match.group()
+            done = match.end()
+    yield "", text[done:]
+
+
+def _lexed(text: str, language: str) -> Iterator[tuple[str, str]]:
+    lexer = _LEXERS.get(language)
+    if lexer is None:
+        yield "", text
+        return
+    for kind, piece in lexer(stripnl=False, ensurenl=False).get_tokens(text):
+        yield next((name for parent, name in _CLASSES if kind in parent), ""), piece

@@ -19,14 +19,14 @@ from vicode.model.project import Project
 from vicode.model.walks import walk_transitions
 
 
-def home_view(subject: Subject, addresses: Addresses) -> HomeView:
-    """The first page."""
+def home_view(subject: Subject, addresses: Addresses, svg: str = "") -> HomeView:
+    """The first page, with the map of who uses whom."""
     project = subject.project
     linker = Linker(project, addresses)
     return HomeView(
         doc_html=html_of(project.doc),
         numbers=tuple(each for each in _numbers(project) if each[0]),
-        svg=draw_uses(project, addresses, f"Who uses whom in {project.name}"),
+        svg=svg,
         is_sparse=leaves_out(project) and symbol_count(project) > 0,
         agents=tuple(
             (

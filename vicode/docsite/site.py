@@ -1,15 +1,16 @@
 """All files of a site: a pure function of its subject, the same bytes every time."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, replace
+from functools import partial
 
+from vicode.diagram.layout import LayoutService
 from vicode.docsite.addresses import AGENTS, EVERYTHING, HOME, INTERFACES, SYMBOLS, TYPES, Addresses
 from vicode.docsite.components import Made, component_view
 from vicode.docsite.docs import summary_of
-from vicode.docsite.drawings import laid_out
-from vicode.docsite.generated import Text, code_view, places_in, text_links, texts_of
+from vicode.docsite.drawings import draw_uses, laid_out
+from vicode.docsite.generated import Text, code_view, places_in, text_links, texts_of, title_of
 from vicode.docsite.interfaces import (
-    Known,
     constant_table,
     enumeration_views,
     interface_rows,
@@ -19,125 +20,200 @@ from vicode.docsite.interfaces import (
     symbol_groups,
 )
 from vicode.docsite.languages import Unsaid, language_views, unsaid_in
+from vicode.docsite.memory import Memory, digest_of
 from vicode.docsite.ordering import sorted_designs
 from vicode.docsite.overview import agent_views, home_view
+from vicode.docsite.parts import part_around, skeleton_of
 from vicode.docsite.searching import entries_of, search_script
 from vicode.docsite.subject import Subject
 from vicode.docsite.views import Page, Part
+from vicode.docsite.writing import PlannedFile
+from vicode.model.design import Design
+from vicode.model.project import Project
 from vicode.output import OutputFile
 from vicode.templating import render, text_of
 
-MARK = "vicode docs"
-"""Stands at the beginning of every file of a site."""
+Views = dict[str, object]
+"""What a template sees, by name."""
 
 _ASSETS = ("site.css", "site.js")
 
 
 def build_site(subject: Subject) -> tuple[OutputFile, ...]:
     """The files of a site, all in one folder."""
-    whole = replace(subject, project=laid_out(subject.project))
-    unsaid = unsaid_in(whole)
-    builder = _Builder(subject=whole, addresses=Addresses(whole.project), texts=texts_of(whole, unsaid), unsaid=unsaid)
-    files = [*builder.overview(), *builder.components(), *builder.codes()]
-    files += [OutputFile(path=name, text=text_of(f"docsite/{name}")) for name in _ASSETS]
-    return tuple(sorted(files, key=lambda file: file.path))
+    with SiteBuilder() as builder:
+        return tuple(OutputFile(path=each.path, text=each.make()) for each in builder.plan(subject))
+
+
+class SiteBuilder:
+    """Builds one site again and again: what an edit does not concern is not made anew. Close it in the end."""
+
+    def __init__(self) -> None:
+        self._memory = Memory()
+        self._service = LayoutService()
+
+    def plan(self, subject: Subject) -> tuple[PlannedFile, ...]:
+        """The files of a site with what each is made from; they are made when they are asked for."""
+        whole = replace(subject, project=laid_out(subject.project, self._service, self._memory))
+        planner = _planner_of(whole, self._memory)
+        self._memory.forget_unasked()
+        files = [*planner.overview(), *planner.interfaces(), *planner.components(), *planner.codes()]
+        for name in _ASSETS:
+            text = text_of(f"docsite/{name}")
+            files.append(PlannedFile(path=name, key=digest_of(text), make=partial(str, text)))
+        return tuple(sorted(files, key=lambda file: file.path))
+
+    def close(self) -> None:
+        """End the process that lays designs out."""
+        self._service.close()
+
+    def __enter__(self) -> "SiteBuilder":
+        return self
+
+    def __exit__(self, *_exception: object) -> None:
+        self.close()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class _Builder:
-    """What all pages are made with."""
+class _Planner:
+    """What all pages are made with. A page is made from what its key names, and from what `frame` is the digest of."""
 
     subject: Subject
     addresses: Addresses
     texts: dict[str, tuple[Text, ...]]
     unsaid: Unsaid
-    menus: dict[str, str] = field(default_factory=dict)
+    menu: tuple[Part, ...]
+    machines: tuple[Part, ...]
+    frame: str
+    _menus: dict[str, str] = field(default_factory=dict)
 
-    def overview(self) -> Iterator[OutputFile]:
+    def overview(self) -> Iterator[PlannedFile]:
         """The pages about the whole, and what the search looks through."""
         project, addresses = self.subject.project, self.addresses
-        entries = entries_of(project, addresses)
-        yield self._page(HOME, project.name, "home", view=home_view(self.subject, addresses))
-        if project.agents:
-            yield self._page(AGENTS, "Agents", "agents", agents=tuple(agent_views(project, addresses)))
-        yield from self._interfaces(known_of(self.subject, addresses))
-        yield self._page(EVERYTHING, "Everything", "all", entries=entries)
-        yield OutputFile(path="search.js", text=search_script(entries))
+        bones = skeleton_of(project)
+        maps, home = digest_of(bones), home_view(self.subject, addresses)
+        title = f"Who uses whom in {project.name}"
 
-    def _interfaces(self, known: Known) -> Iterator[OutputFile]:
+        def drawn_home() -> Views:
+            return {"view": replace(home, svg=draw_uses(bones, addresses, title))}
+
+        yield self._page(_head(HOME, project.name), "home", (maps, home), drawn_home)
+        if project.agents:
+            agents = _head(AGENTS, "Agents")
+            yield self._page(agents, "agents", maps, lambda: {"agents": tuple(agent_views(bones, addresses))})
+        entries = entries_of(project, addresses)
+        yield self._viewed(_head(EVERYTHING, "Everything"), "all", entries=entries)
+        yield PlannedFile(path="search.js", key=digest_of(entries), make=partial(search_script, entries))
+
+    def interfaces(self) -> Iterator[PlannedFile]:
         """The pages about what designs know and share; none about what there is nothing of."""
+        known = known_of(self.subject, self.addresses)
         project = known.project
         if project.components:
             behaviors, others = interface_rows(known)
-            yield self._page(INTERFACES, "Interfaces", "interfaces", behaviors=behaviors, others=others)
+            yield self._viewed(_head(INTERFACES, "Interfaces"), "interfaces", behaviors=behaviors, others=others)
         for view in interface_views(known):
             crumb = Part(text="Interfaces", href=INTERFACES)
-            yield self._page(view.file, view.name, "interface", crumbs=(crumb,), view=view)
+            yield self._viewed(_head(view.file, view.name, crumb), "interface", view=view)
         if symbol_count(project):
-            yield self._page(SYMBOLS, "Symbols", "symbols", groups=tuple(symbol_groups(known)))
+            yield self._viewed(_head(SYMBOLS, "Symbols"), "symbols", groups=tuple(symbol_groups(known)))
         if project.enumerations or project.constants:
             types, constants = tuple(enumeration_views(known)), constant_table(known)
-            yield self._page(TYPES, "Types and constants", "types", enumerations=types, constants=constants)
+            yield self._viewed(_head(TYPES, "Types and constants"), "types", enumerations=types, constants=constants)
 
-    def components(self) -> Iterator[OutputFile]:
+    def components(self) -> Iterator[PlannedFile]:
         """A page a design."""
         for design in self.subject.project.designs:
             name = design.component
             texts = self.texts.get(name, ())
             written = {text.form: text.path for text in texts}
             made = Made(
-                subject=self.subject,
+                subject=part_around(self.subject, design),
                 addresses=self.addresses,
                 places=places_in(texts, self.addresses),
                 texts=text_links(texts, self.addresses),
                 languages=tuple(language_views(self.subject, name, written, self.unsaid, self.addresses)),
             )
-            view = component_view(design, made)
-            yield self._page(self.addresses.component(name), name, "component", view=view)
+            key = (made.subject, made.places, made.texts, made.languages)
+            head = _head(self.addresses.component(name), name)
+            yield self._page(head, "component", key, partial(_component, design, made))
 
-    def codes(self) -> Iterator[OutputFile]:
+    def codes(self) -> Iterator[PlannedFile]:
         """A page a text."""
         for name, texts in self.texts.items():
             component = Part(text=name or self.subject.project.name, href=self.addresses.component(name) or HOME)
+            links = text_links(texts, self.addresses)
             for text in texts:
-                view = code_view(text, texts, self.addresses, component)
-                file = self.addresses.code(name, text.form)
-                yield self._page(file, view.title, "code", crumbs=(component,) if name else (), view=view)
+                crumbs = (component,) if name else ()
+                head = _head(self.addresses.code(name, text.form), title_of(text), *crumbs)
+                views = partial(_code, text, links, self.addresses, component)
+                yield self._page(head, "code", (text, links, component), views)
 
-    def _page(self, file: str, title: str, template: str, crumbs: tuple[Part, ...] = (), **views: object) -> OutputFile:
+    def _viewed(self, head: Page, template: str, **views: object) -> PlannedFile:
+        """A page whose views are quickly made: they are its key."""
+        return self._page(head, template, views, lambda: views)
+
+    def _page(self, head: Page, template: str, key: object, views: Callable[[], Views]) -> PlannedFile:
         project = self.subject.project
-        page = Page(title=title, file=file, here=crumbs[-1].href if crumbs else file, crumbs=crumbs)
-        text = render(
-            f"docsite/{template}.html.jinja",
-            page=page,
-            site=project.name,
-            about=summary_of(project.doc),
-            menu_html=self._menu_html(page.here),
-            **views,
-        )
-        return OutputFile(path=file, text=text)
+        about = summary_of(project.doc)
+
+        def make() -> str:
+            menu, name = self._menu_html(head.here), f"docsite/{template}.html.jinja"
+            return render(name, page=head, site=project.name, about=about, menu_html=menu, **views())
+
+        return PlannedFile(path=head.file, key=digest_of(template, head, self.frame, key), make=make)
 
     def _menu_html(self, here: str) -> str:
         """The menu with one of its entries marked; the pages of a component share one."""
-        found = self.menus.get(here)
+        found = self._menus.get(here)
         if found is None:
-            found = render("docsite/menu.html.jinja", here=here, menu=self._menu(), machines=self._machines())
-            self.menus[here] = found
+            found = render("docsite/menu.html.jinja", here=here, menu=self.menu, machines=self.machines)
+            self._menus[here] = found
         return found
 
-    def _menu(self) -> tuple[Part, ...]:
-        project = self.subject.project
-        menu = [Part(text="Home", href=HOME)]
-        menu += [Part(text="Agents", href=AGENTS)] if project.agents else []
-        menu += [Part(text="Interfaces", href=INTERFACES)] if project.components else []
-        menu += [Part(text="Symbols", href=SYMBOLS)] if symbol_count(project) else []
-        menu += [Part(text="Types and constants", href=TYPES)] if project.enumerations or project.constants else []
-        menu.append(Part(text="Everything", href=EVERYTHING))
-        menu += [Part(text="Project file", href=self.addresses.code("", "source"))] if "" in self.texts else []
-        return tuple(menu)
 
-    def _machines(self) -> tuple[Part, ...]:
-        return tuple(
-            Part(text=each.component, href=self.addresses.component(each.component), title=summary_of(each.doc))
-            for each in sorted_designs(self.subject.project)
-        )
+def _planner_of(subject: Subject, memory: Memory) -> _Planner:
+    project, unsaid = subject.project, unsaid_in(subject)
+    addresses, texts = Addresses(project), texts_of(subject, unsaid, memory)
+    menu, machines = tuple(_menu(project, addresses, has_file="" in texts)), tuple(_machines(project, addresses))
+    return _Planner(
+        subject=subject,
+        addresses=addresses,
+        texts=texts,
+        unsaid=unsaid,
+        menu=menu,
+        machines=machines,
+        frame=digest_of(project.name, project.doc, menu, machines, addresses.names),
+    )
+
+
+def _menu(project: Project, addresses: Addresses, *, has_file: bool) -> Iterator[Part]:
+    yield Part(text="Home", href=HOME)
+    if project.agents:
+        yield Part(text="Agents", href=AGENTS)
+    if project.components:
+        yield Part(text="Interfaces", href=INTERFACES)
+    if symbol_count(project):
+        yield Part(text="Symbols", href=SYMBOLS)
+    if project.enumerations or project.constants:
+        yield Part(text="Types and constants", href=TYPES)
+    yield Part(text="Everything", href=EVERYTHING)
+    if has_file:
+        yield Part(text="Project file", href=addresses.code("", "source"))
+
+
+def _machines(project: Project, addresses: Addresses) -> Iterator[Part]:
+    for each in sorted_designs(project):
+        yield Part(text=each.component, href=addresses.component(each.component), title=summary_of(each.doc))
+
+
+def _head(file: str, title: str, *crumbs: Part) -> Page:
+    return Page(title=title, file=file, here=crumbs[-1].href if crumbs else file, crumbs=crumbs)
+
+
+def _component(design: Design, made: Made) -> Views:
+    return {"view": component_view(design, made)}
+
+
+def _code(text: Text, links: tuple[Part, ...], addresses: Addresses, component: Part) -> Views:
+    return {"view": code_view(text, links, addresses, component)}

@@ -279,6 +279,16 @@ class HomeView:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class HomeRow:
+    """A site among others; `folder` is where it lies."""
+
+    site: Part
+    folder: str
+    doc_html: str
+    facts: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class CodeLine:
     """A line of code; `href` leads to what it comes from."""
 

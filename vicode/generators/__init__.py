@@ -1,7 +1,8 @@
 """From a project of designs to files of code: a pure function, the same for every caller."""
 
-from collections.abc import Callable, Collection, Iterator, Mapping
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass, replace
+from functools import cache
 
 from vicode.generators import xabsl
 from vicode.generators.origins import ComponentText, Origin, in_whole_design
@@ -23,20 +24,22 @@ from vicode.generators.python import (
     generate_python,
     list_paths,
 )
+from vicode.model.design import Design
 from vicode.model.project import Project
 from vicode.output import OutputFile
 
 __all__ = [
     "GENERATORS",
+    "ComponentText",
     "Origin",
     "UnsoundDesignError",
     "collect_components",
+    "component_texts",
     "generate",
     "list_outputs",
     "origins_of",
     "python_class",
     "python_probes",
-    "texts_of_components",
 ]
 
 
@@ -103,24 +106,27 @@ def generate(
     return tuple(sorted(files, key=lambda file: file.path))
 
 
-def texts_of_components(
-    project: Project, language: str, components: Collection[str], sources: Mapping[str, str]
-) -> Iterator[tuple[str, ComponentText]]:
-    """The file of each component as `generate` writes it, one at a time; those that cannot be said are left out."""
+def component_texts(
+    project: Project, language: str, sources: Mapping[str, str]
+) -> Callable[[Design], ComponentText | None]:
+    """What writes the file of one design after the other as `generate` does; None for one that cannot be said."""
     generator = GENERATORS[language]
-    try:
+
+    @cache
+    def begun() -> tuple[ProjectPlan, Callable[[ComponentPlan], ComponentText]]:
         plan = plan_project(project, (), sources, generator.reserved_modules)
-        write = generator.component_writer(plan)
-    except UnsoundDesignError:
-        return
-    for design in project.designs:
-        if design.component in components:
-            try:
-                source = sources.get(design.component, "")
-                written = write(plan_component(project, design, plan.package.modules, source))
-            except UnsoundDesignError:
-                continue
-            yield design.component, replace(written, origins=in_whole_design(design, written.origins))
+        return plan, generator.component_writer(plan)
+
+    def write(design: Design) -> ComponentText | None:
+        try:
+            plan, write_component = begun()
+            source = sources.get(design.component, "")
+            written = write_component(plan_component(project, design, plan.package.modules, source))
+        except UnsoundDesignError:
+            return None
+        return replace(written, origins=in_whole_design(design, written.origins))
+
+    return write
 
 
 def origins_of(project: Project, component: str, language: str, text: str) -> tuple[Origin, ...]:

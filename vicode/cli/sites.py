@@ -1,0 +1,104 @@
+"""Builds the sites of a command, once or again and again: one alone, several beside each other with a home."""
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from vicode.cli.subjects import Reading
+
+if TYPE_CHECKING:
+    from vicode.docsite import PlannedFile, SiteBuilder
+
+Step = Callable[[str, int, int], None]
+"""Told which site is being built, how many of its files are done, and of how many."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Built:
+    """What became of a command's folder: all its files and those that were touched, relative to it.
+
+    `foreign` is a file of somebody else that stands in the way, "" for none.
+    """
+
+    files: tuple[str, ...] = ()
+    touched: tuple[str, ...] = ()
+    foreign: str = ""
+
+
+@dataclass(slots=True)
+class Sites:
+    """The sites in a folder; `is_fresh` makes all pages anew the first time. Close it in the end."""
+
+    out: Path
+    is_fresh: bool = False
+    _builders: dict[str, "SiteBuilder"] = field(default_factory=dict)
+
+    def build(self, readings: Sequence[Reading], step: Step = lambda _name, _done, _all: None) -> Built:
+        """Build the sites of all that could be read; pages of what is gone are taken away."""
+        from vicode.docsite import SiteBuilder, plan_home
+
+        named = {name: each for name, each in _named(readings).items() if each.subject is not None}
+        plans: dict[str, tuple[PlannedFile, ...]] = {}
+        for name, reading in named.items():
+            step(reading.name, 0, 0)
+            builder = self._builders.setdefault(name, SiteBuilder())
+            assert reading.subject is not None
+            plans[name] = builder.plan(reading.subject)
+        if len(readings) > 1:
+            plans[""] = plan_home({name: each.subject.project for name, each in named.items() if each.subject})
+        built = Built()
+        for name, plan in plans.items():
+            title = named[name].name if name in named else self.out.name
+            built = _together(built, self._write(name, plan, partial(step, title)))
+            if built.foreign:
+                return built
+        self.is_fresh = False
+        return built
+
+    def close(self) -> None:
+        """End the processes behind it."""
+        for builder in self._builders.values():
+            builder.close()
+
+    def __enter__(self) -> "Sites":
+        return self
+
+    def __exit__(self, *_exception: object) -> None:
+        self.close()
+
+    def _write(self, name: str, plan: "Sequence[PlannedFile]", step: Callable[[int, int], None]) -> Built:
+        from vicode.docsite import Manifest, load_manifest, manifest_file, save_manifest, write_site
+
+        out = self.out / name
+        kept = manifest_file(out)
+        written = write_site(plan, out, Manifest() if self.is_fresh else load_manifest(kept), step)
+        if written.foreign:
+            return Built(foreign=(out / written.foreign[0]).as_posix())
+        if written.touched or not kept.is_file():
+            save_manifest(written.manifest, kept)
+        before = f"{name}/" if name else ""
+        return Built(
+            files=tuple(before + each.path for each in plan), touched=tuple(before + each for each in written.touched)
+        )
+
+
+def _named(readings: Sequence[Reading]) -> Mapping[str, Reading]:
+    """Each with its folder below that of the command; one alone has none. Case does not tell two apart."""
+    if len(readings) == 1:
+        return {"": readings[0]}
+    named: dict[str, Reading] = {}
+    taken: set[str] = set()
+    for each in readings:
+        name, number = each.name, 1
+        while name.casefold() in taken:
+            number += 1
+            name = f"{each.name}-{number}"
+        taken.add(name.casefold())
+        named[name] = each
+    return named
+
+
+def _together(one: Built, other: Built) -> Built:
+    return Built(files=one.files + other.files, touched=one.touched + other.touched, foreign=other.foreign)

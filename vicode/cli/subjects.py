@@ -1,0 +1,129 @@
+"""What sites are about, read from disk: projects of designs, and behaviors in XABSL."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from vicode.cli.opening import Opened, open_paths
+from vicode.findings import Finding, Severity
+
+if TYPE_CHECKING:
+    from vicode.docsite import SourceText, Subject
+    from vicode.findings import Path as ThingPath
+    from vicode.importers import Imported
+    from vicode.xabsl.compiler import Compiled
+    from vicode.xabsl.sources import Source
+
+BEHAVIORS = (".xabsl", ".yabsl")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Reading:
+    """One project or behavior as it stands on disk.
+
+    `unread` is what stands in the way of reading it; `is_broken` says that something is missing because of it, and
+    without a subject all is. `folders` are those that hold its files.
+    """
+
+    name: str
+    subject: "Subject | None"
+    unread: tuple[Finding, ...]
+    is_broken: bool
+    folders: tuple[Path, ...]
+
+
+def read_subjects(paths: Sequence[Path]) -> tuple[Reading, ...]:
+    """Read all that paths name, each once.
+
+    Raises:
+        OSError: A path does not exist or cannot be read.
+    """
+    readings: list[Reading] = []
+    for path in dict.fromkeys(paths):
+        if path.suffix in BEHAVIORS:
+            readings.append(_read_behavior(path))
+        else:
+            readings += [_reading_of(opened) for opened in open_paths([str(path)])]
+    return tuple(readings)
+
+
+def _reading_of(opened: Opened) -> Reading:
+    folder = opened.opened.folder.resolve()
+    return Reading(
+        name=folder.name,
+        subject=_subject_of_project(opened),
+        unread=tuple(each for each in opened.findings if each.severity is Severity.ERROR),
+        is_broken=bool(opened.opened.broken),
+        folders=(folder,),
+    )
+
+
+def _subject_of_project(opened: Opened) -> "Subject":
+    from vicode.docsite import subject_of
+
+    project = opened.opened.project
+    meant = set(opened.meant)
+    part = replace(project, designs=tuple(each for each in project.designs if each.component in meant))
+    faulty = {language: opened.faulty_in(language) for language in project.languages}
+    return subject_of(opened.opened, part, opened.findings, faulty)
+
+
+def _read_behavior(agents: Path) -> Reading:
+    """A behavior as a project, with its files of XABSL as sources."""
+    from vicode.cli.behaviors import shown
+    from vicode.xabsl.compiler import compile_source
+    from vicode.xabsl.sources import load
+
+    source = load(agents)
+    compiled = compile_source(source)
+    errors = [each for each in compiled.findings if each.severity is Severity.ERROR]
+    is_broken = compiled.program is None
+    return Reading(
+        name=agents.resolve().parent.name,
+        subject=None if is_broken else _subject_of_behavior(agents, source, compiled),
+        unread=shown(errors, agents) if is_broken else (),
+        is_broken=is_broken,
+        folders=tuple(sorted({path.resolve().parent for path in (agents, *source.files)})),
+    )
+
+
+def _subject_of_behavior(agents: Path, source: "Source", compiled: "Compiled") -> "Subject":
+    from vicode.check import check_project
+    from vicode.docsite import OwnFinding, Subject
+    from vicode.importers import import_behavior
+    from vicode.store.documents import default_name
+
+    imported = import_behavior(source, compiled, default_name(agents.resolve().parent.name))
+    project = imported.project
+    found = [
+        OwnFinding(component=each.thing.component if each.thing else "", line=0, finding=each)
+        for each in check_project(project)
+    ]
+    errors = [each for each in found if each.finding.severity is Severity.ERROR]
+    faulty = {
+        language: frozenset(each.component for each in errors if each.finding.concerns(language))
+        for language in project.languages
+    }
+    return Subject(project=project, findings=tuple(found), sources=_sources(source, imported), faulty=faulty)
+
+
+def _sources(source: "Source", imported: "Imported") -> "dict[str, SourceText]":
+    """The files of a behavior by component, each with the lines of its option's states, decisions and parameters."""
+    from vicode.docsite import SourceText, described_paths
+    from vicode.xabsl.sources import read_text
+
+    def text_of(path: Path, lines: "dict[ThingPath, int]") -> SourceText:
+        folder = source.main.parent
+        shown = path.relative_to(folder).as_posix() if path.is_relative_to(folder) else path.name
+        return SourceText(path=shown, text=read_text(path), language="xabsl", lines=lines)
+
+    sources = {"": text_of(source.main, {})}
+    for made, design in zip(imported.designs, imported.project.designs, strict=True):
+        tokens, described = source.files[made.file].tokens, set(described_paths(design))
+        lines: dict[ThingPath, int] = {}
+        for token, path in made.anchors:
+            if path in described:
+                lines.setdefault(path, tokens.line_at(tokens.starts[token]))
+        sources[made.component] = text_of(made.file, lines)
+    return sources

@@ -1,0 +1,37 @@
+"""The common home of several sites that lie beside each other."""
+
+from collections.abc import Mapping
+from functools import partial
+
+from vicode.docsite.addresses import HOME
+from vicode.docsite.docs import html_of
+from vicode.docsite.memory import digest_of
+from vicode.docsite.ordering import by_name
+from vicode.docsite.views import HomeRow, Part
+from vicode.docsite.writing import PlannedFile
+from vicode.model.project import Project
+from vicode.templating import render, text_of
+
+
+def plan_home(projects: Mapping[str, Project]) -> tuple[PlannedFile, ...]:
+    """The page that leads to the sites, which lie in folders of these names, and what it looks like."""
+    rows = tuple(_row(folder, projects[folder]) for folder in sorted(projects, key=by_name))
+    style = text_of("docsite/site.css")
+    page = PlannedFile(
+        path=HOME, key=digest_of(rows), make=partial(render, "docsite/projects.html.jinja", projects=rows)
+    )
+    return (page, PlannedFile(path="site.css", key=digest_of(style), make=lambda: style))
+
+
+def _row(folder: str, project: Project) -> HomeRow:
+    counts = (
+        (len(project.designs), "state machine"),
+        (sum(len(design.states) for design in project.designs), "state"),
+        (len(project.agents), "agent"),
+    )
+    return HomeRow(
+        site=Part(text=project.name, href=f"{folder}/{HOME}"),
+        folder=folder,
+        doc_html=html_of(project.doc),
+        facts=tuple(f"{count} {word}{'s' * (count != 1)}" for count, word in counts if count),
+    )

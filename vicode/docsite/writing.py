@@ -1,0 +1,149 @@
+"""Writes a site into a folder: makes and touches only what is not there already as it should be."""
+
+import json
+import os
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, field
+from functools import cache
+from hashlib import sha256
+from importlib.metadata import PackageNotFoundError, version
+from pathlib import Path
+
+import vicode
+from vicode.output import write_atomically
+from vicode.templating import template_files
+
+MARK = "vicode docs"
+"""Stands at the beginning of every file of a site."""
+
+CACHE = "VICODE_CACHE"
+# What else says how a page looks.
+_LIBRARIES = ("jinja2", "markdown-it-py", "markupsafe", "pygments")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PlannedFile:
+    """A file to be; `key` names all that it is made from, so that it need not be made to know that it is the same."""
+
+    path: str
+    key: str
+    make: Callable[[], str]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Manifest:
+    """What a folder was made from: by file its key and a digest of its bytes; `tool` is what made them."""
+
+    tool: str = ""
+    files: Mapping[str, tuple[str, str]] = field(default_factory=dict)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Written:
+    """What became of a folder: `touched` are the files that were written or taken away, `foreign` those of others.
+
+    Where there are foreign ones nothing was written.
+    """
+
+    manifest: Manifest
+    touched: tuple[str, ...] = ()
+    foreign: tuple[str, ...] = ()
+
+
+def write_site(
+    planned: Iterable[PlannedFile], out: Path, manifest: Manifest, step: Callable[[int, int], None]
+) -> Written:
+    """Write what is new, take away the pages of what is gone; `step` hears how many of how many files are done."""
+    wanted = {each.path: each for each in planned}
+    there = {path: _read(out / path) for path in wanted}
+    stale = {path: _read(out / path) for path in _pages_in(out) if path not in wanted}
+    foreign = tuple(path for path, old in there.items() if old is not None and not is_ours(old))
+    if foreign:
+        return Written(manifest=manifest, foreign=foreign)
+    known = manifest.files if manifest.tool == tool_digest() else {}
+    files, touched = dict[str, tuple[str, str]](), []
+    out.mkdir(parents=True, exist_ok=True)
+    for path, each in wanted.items():
+        old = there[path]
+        digest = _digest(old) if old is not None else ""
+        if known.get(path) != (each.key, digest):
+            new = each.make().encode()
+            if new != old:
+                write_atomically(out / path, new.decode())
+                touched.append(path)
+            digest = _digest(new)
+        files[path] = (each.key, digest)
+        step(len(files), len(wanted))
+    for path, old in stale.items():
+        if old is not None and is_ours(old):
+            (out / path).unlink()
+            touched.append(path)
+    return Written(manifest=Manifest(tool=tool_digest(), files=files), touched=tuple(touched))
+
+
+def is_ours(content: bytes) -> bool:
+    """Whether a file belongs to a site."""
+    return MARK.encode() in content[:400]
+
+
+def manifest_file(out: Path, environment: Mapping[str, str] = os.environ) -> Path:
+    """Where the manifest of a folder is kept: beside no site, since it says nothing to a reader."""
+    given, home = environment.get(CACHE), environment.get("XDG_CACHE_HOME")
+    folder = Path(given) if given else (Path(home) if home else Path.home() / ".cache") / "vicode"
+    name = sha256(str(out.resolve()).encode("utf-8", "surrogateescape")).hexdigest()[:16]
+    return folder / "docs" / f"{name}.json"
+
+
+def load_manifest(file: Path) -> Manifest:
+    """A manifest that was saved; an empty one where none can be read."""
+    try:
+        data = json.loads(file.read_bytes())
+        files = {str(path): (str(key), str(digest)) for path, (key, digest) in data["files"].items()}
+        return Manifest(tool=str(data["tool"]), files=files)
+    except (OSError, ValueError, TypeError, KeyError, AttributeError):
+        return Manifest()
+
+
+def save_manifest(manifest: Manifest, file: Path) -> None:
+    """Keep a manifest; where nothing can be kept the next building takes longer."""
+    data = {"tool": manifest.tool, "files": manifest.files}
+    try:
+        file.parent.mkdir(parents=True, exist_ok=True)
+        write_atomically(file, json.dumps(data, indent=0, sort_keys=True) + "\n")
+    except OSError:
+        return
+
+
+@cache
+def tool_digest() -> str:
+    """A name for what makes pages: our code and templates, and the libraries they use."""
+    package = Path(vicode.__file__).parent
+    sources = sorted(path for path in package.rglob("*.py") if path.relative_to(package).parts[0] != "editor")
+    digest = sha256()
+    for path in (*sources, *template_files("docsite")):
+        digest.update(f"{path.name}\n".encode())
+        digest.update(path.read_bytes())
+    digest.update("\n".join(f"{name} {_version_of(name)}" for name in _LIBRARIES).encode())
+    return digest.hexdigest()[:32]
+
+
+def _version_of(library: str) -> str:
+    try:
+        return version(library)
+    except PackageNotFoundError:
+        return ""
+
+
+def _pages_in(out: Path) -> list[str]:
+    return sorted(each.name for each in out.glob("*.html"))
+
+
+def _read(path: Path) -> bytes | None:
+    try:
+        return path.read_bytes()
+    except (FileNotFoundError, NotADirectoryError):
+        return None
+
+
+def _digest(content: bytes) -> str:
+    return sha256(content).hexdigest()[:32]
