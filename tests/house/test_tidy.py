@@ -36,6 +36,7 @@ ROOM_OF_LIBRARY = {
     "send2trash": "editor",
     "ruff": "editor",
     "starlette": "editor",
+    "watchfiles": "cli",
     "yaml": "store",
 }
 

@@ -30,6 +30,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--watch", action="store_true", help="go on: build again after every change, and show the site in the browser"
     )
     parser.add_argument("--port", type=int, default=0, help="with --watch: the port on this machine (a free one)")
+    parser.add_argument("--no-open", action="store_true", help="with --watch: print the address, open no browser")
 
 
 def run(args: argparse.Namespace) -> int:
@@ -38,9 +39,9 @@ def run(args: argparse.Namespace) -> int:
     from vicode.cli.subjects import read_subjects
 
     if args.watch:
-        from vicode.cli.docs_watch import watch
+        from vicode.cli.docs_watch import watch_sites
 
-        return watch(args.path, args.out, port=args.port, is_fresh=args.fresh)
+        return watch_sites(args.path, args.out, port=args.port, is_fresh=args.fresh, opens=not args.no_open)
     with Sites(out=args.out, is_fresh=args.fresh) as sites, progress() as step:
         readings = read_subjects(args.path)
         for reading in readings:

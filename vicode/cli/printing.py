@@ -12,15 +12,20 @@ _MOST_BYTES = 2_000_000
 _COLOURS = {Severity.ERROR: "bold red", Severity.WARNING: "yellow", Severity.NOTE: "cyan"}
 
 
-def print_findings(findings: Iterable[Finding], *, to_stderr: bool = False) -> None:
-    """Print findings in the order given, worst marked by colour on a terminal."""
+def findings_text(findings: Iterable[Finding]) -> str:
+    """Findings in the order given, each with the line it is about."""
     lines_of = lru_cache(maxsize=64)(_read_lines)
 
     def source_line(file: str, line: int) -> str | None:
         lines = lines_of(file)
         return lines[line - 1] if 0 < line <= len(lines) else None
 
-    text = render_text(findings, source_line)
+    return render_text(findings, source_line)
+
+
+def print_findings(findings: Iterable[Finding], *, to_stderr: bool = False) -> None:
+    """Print findings in the order given, worst marked by colour on a terminal."""
+    text = findings_text(findings)
     stream = sys.stderr if to_stderr else sys.stdout
     if not text:
         return

@@ -1,0 +1,112 @@
+"""`vicode docs --watch`: builds the site again after every change, and serves it to the browsers of this machine."""
+
+import sys
+import time
+import webbrowser
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+
+from watchfiles import Change, watch
+
+from vicode.cli.docs import describe, progress
+from vicode.cli.printing import describe_os_error, findings_text, print_findings
+from vicode.cli.sites import Built, Sites
+from vicode.cli.subjects import BEHAVIORS, Reading, read_subjects
+from vicode.docsite.serving import News, SiteServer
+
+_SUFFIXES = (*BEHAVIORS, ".yaml", ".yml")
+# Editors write a file in several steps, and several files at once.
+_QUIET_MS, _LONGEST_MS, _LOOK_MS = 40, 400, 500
+
+
+def watch_sites(paths: Sequence[Path], out: Path, *, port: int = 0, is_fresh: bool = False, opens: bool = True) -> int:
+    """Build and serve until it is ended; 2 where files of others stand in the way."""
+    news = News()
+    with Sites(out=out, is_fresh=is_fresh) as sites:
+        watcher = Watcher(paths, sites, news)
+        if not watcher.update(is_first=True):
+            return 2
+        with SiteServer(out, news, port) as server:
+            print(f"{server.address} shows it, and goes on; Ctrl-C ends it.", flush=True)
+            if opens:
+                webbrowser.open(server.address)
+            watcher.follow(out)
+    return 0
+
+
+class Watcher:
+    """Reads and builds again, and tells what came of it: the last site that could be built stays."""
+
+    def __init__(self, paths: Sequence[Path], sites: Sites, news: News) -> None:
+        self._paths, self._sites, self._news = paths, sites, news
+        self.folders: tuple[Path, ...] = tuple(path if path.is_dir() else path.resolve().parent for path in paths)
+
+    def follow(self, out: Path) -> None:
+        """Update after every change, until it is ended."""
+        folders: tuple[Path, ...] = ()
+        while folders != self.folders:
+            folders = self.folders
+            for _change in changes_in(folders, out):
+                self.update()
+                # A behavior may include files of another folder now.
+                if folders != self.folders:
+                    break
+
+    def update(self, *, is_first: bool = False) -> bool:
+        """After a change; whether the folder is ours."""
+        begun = time.perf_counter()
+        try:
+            readings = read_subjects(self._paths)
+        except OSError as error:
+            self._refuse(f"error: {describe_os_error(error)}\n")
+            return True
+        self.folders = tuple(sorted({*self.folders, *(each for reading in readings for each in reading.folders)}))
+        for reading in readings:
+            print_findings(reading.unread, to_stderr=True)
+        errors = "".join(findings_text(each.unread) for each in readings if each.is_broken)
+        if errors and not is_first:
+            self._refuse(errors)
+            return True
+        return self._build(readings, errors, begun)
+
+    def _build(self, readings: Sequence[Reading], errors: str, begun: float) -> bool:
+        with progress() as step:
+            built = self._sites.build(readings, step)
+        if built.foreign:
+            print(f"vicode: {built.foreign} is no page of ours; choose another --out", file=sys.stderr)
+            return False
+        self._say(built, readings, time.perf_counter() - begun)
+        self._news.tell(built.touched, errors)
+        return True
+
+    def _say(self, built: Built, readings: Sequence[Reading], took_s: float) -> None:
+        print(f"{describe(built, readings, self._sites.out)}, {took_s:.2f} s", flush=True)
+
+    def _refuse(self, errors: str) -> None:
+        self._news.tell((), errors)
+        print("The site stays as it was before this change.", file=sys.stderr, flush=True)
+
+
+def changes_in(folders: Sequence[Path], out: Path) -> Iterator[None]:
+    """Comes back each time that a design or a behavior in these folders has changed."""
+    own = out.resolve()
+
+    def is_meant(_change: Change, path: str) -> bool:
+        file = Path(path)
+        return file.suffix in _SUFFIXES and not file.name.startswith(".") and not file.is_relative_to(own)
+
+    wanted = watch(
+        *folders,
+        watch_filter=is_meant,
+        step=_QUIET_MS,
+        debounce=_LONGEST_MS,
+        rust_timeout=_LOOK_MS,
+        yield_on_timeout=True,
+        raise_interrupt=False,
+    )
+    # What changed before the watching began is found by looking once.
+    is_first = True
+    for changes in wanted:
+        if changes or is_first:
+            yield
+        is_first = is_first and bool(changes)
