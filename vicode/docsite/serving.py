@@ -200,10 +200,9 @@ def _content_of(folder: Path, path: str) -> bytes | None:
     name = path.removeprefix("/")
     if not name or name.endswith("/"):
         name += "index.html"
-    file = (folder / name).resolve()
-    if not file.is_relative_to(folder) or file.suffix not in _TYPES:
-        return None
     try:
-        return file.read_bytes()
+        file = (folder / name).resolve()
+        is_meant = file.is_relative_to(folder) and file.suffix in _TYPES
+        return file.read_bytes() if is_meant else None
     except (OSError, ValueError):
         return None

@@ -1,0 +1,236 @@
+"""Building again after an edit: the same bytes as from nothing, and nothing touched that the edit does not concern."""
+
+import random
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from tests.docsite.crawling import broken_links
+from vicode.check import check_project
+from vicode.cli import main
+from vicode.docsite import (
+    Manifest,
+    OwnFinding,
+    SiteBuilder,
+    SourceText,
+    Subject,
+    build_site,
+    load_manifest,
+    save_manifest,
+    write_site,
+)
+from vicode.docsite.writing import tool_digest
+from vicode.findings import Severity
+from vicode.model.design import Declaration, Design, Guard, State, Transition
+from vicode.model.project import Project
+from vicode.output import OutputFile
+from vicode.store import open_project
+
+ROOT = Path(__file__).parents[2]
+FORWARD = open_project(ROOT / "designs" / "forward").project
+NEW = State(name="Added", doc="*New* here.", transitions=(Transition(to="Added", guard=Guard(after="2")),))
+
+Edit = Callable[[Project, random.Random], Project]
+
+
+def subject_of_model(project: Project) -> Subject:
+    """A project that stands in no file, with texts that say where its states are."""
+    found = [
+        OwnFinding(component=each.thing.component if each.thing else "", line=0, finding=each)
+        for each in check_project(project)
+    ]
+    errors = [each for each in found if each.finding.severity is Severity.ERROR]
+    faulty = {
+        language: frozenset(each.component for each in errors if each.finding.concerns(language))
+        for language in project.languages
+    }
+    return Subject(
+        project=project,
+        findings=tuple(found),
+        sources={design.component: source_of(design) for design in project.designs},
+        faulty=faulty,
+    )
+
+
+def source_of(design: Design) -> SourceText:
+    lines = [f"{state.name}: {len(state.transitions)}" for state in design.states]
+    places = {("states", state.name): number for number, state in enumerate(design.states, start=1)}
+    return SourceText(path=f"{design.component}.yaml", text="\n".join(lines), language="yaml", lines=places)
+
+
+def one_of(project: Project, chance: random.Random, change: Callable[[Design], Design]) -> Project:
+    if not project.designs:
+        return project
+    at = chance.randrange(len(project.designs))
+    designs = list(project.designs)
+    designs[at] = change(designs[at])
+    return replace(project, designs=tuple(designs))
+
+
+def one_state(project: Project, chance: random.Random, change: Callable[[State], State]) -> Project:
+    def edit(design: Design) -> Design:
+        at = chance.randrange(len(design.states)) if design.states else 0
+        return replace(
+            design, states=tuple(change(each) if index == at else each for index, each in enumerate(design.states))
+        )
+
+    return one_of(project, chance, edit)
+
+
+EDITS: tuple[Edit, ...] = (
+    lambda project, chance: one_of(project, chance, lambda design: replace(design, doc=f"Doc {chance.random()}.")),
+    lambda project, chance: one_of(project, chance, lambda design: replace(design, states=design.states[1:])),
+    lambda project, chance: one_of(project, chance, lambda design: replace(design, states=(*design.states, NEW))),
+    lambda project, chance: one_of(project, chance, lambda design: replace(design, uses=design.uses[1:])),
+    lambda project, chance: one_of(project, chance, lambda design: replace(design, component=design.component + "X")),
+    lambda project, chance: one_of(project, chance, lambda design: replace(design, initial="Nowhere")),
+    lambda project, chance: one_of(
+        project,
+        chance,
+        lambda design: replace(design, outputs=(*design.outputs, Declaration(name=f"o{chance.randrange(9)}", doc="!"))),
+    ),
+    lambda project, chance: one_state(project, chance, lambda state: replace(state, doc=f"*{chance.random()}*")),
+    lambda project, chance: one_state(project, chance, lambda state: replace(state, transitions=())),
+    lambda project, chance: one_state(project, chance, lambda state: replace(state, requires=state.requires[1:])),
+    lambda project, chance: one_state(project, chance, lambda state: replace(state, name=f"{state.name}2")),
+    lambda project, chance: one_state(project, chance, lambda state: replace(state, disabled=not state.disabled)),
+    lambda project, chance: one_state(project, chance, lambda state: replace(state, at=None)),
+    lambda project, chance: replace(project, designs=project.designs[1:]),
+    lambda project, chance: replace(project, designs=(*project.designs, *FORWARD.designs[:1])),
+    lambda project, chance: replace(project, doc=f"About {chance.random()}."),
+    lambda project, chance: replace(project, agents=project.agents[1:]),
+    lambda project, chance: replace(project, components=project.components[1:]),
+    lambda project, chance: replace(
+        project, components=tuple(replace(each, doc=f"{each.doc} more") for each in project.components)
+    ),
+    lambda project, chance: replace(project, enumerations=project.enumerations[1:]),
+    lambda project, chance: replace(project, constants=(Declaration(name="limit", initial=str(chance.random())),)),
+    lambda project, chance: FORWARD,
+)
+
+
+class Folder:
+    """Where a site is built again and again; every other time by a new process, which knows only what was kept."""
+
+    def __init__(self, path: Path) -> None:
+        self.out, self.kept = path / "site", path / "cache" / "manifest.json"
+        self.builder = SiteBuilder()
+
+    def build(self, project: Project, *, is_new_process: bool = False) -> tuple[str, ...]:
+        if is_new_process:
+            self.builder.close()
+            self.builder = SiteBuilder()
+        plan = self.builder.plan(subject_of_model(project))
+        written = write_site(plan, self.out, load_manifest(self.kept), lambda _done, _of: None)
+        save_manifest(written.manifest, self.kept)
+        return written.touched
+
+    def files(self) -> tuple[OutputFile, ...]:
+        return tuple(OutputFile(path=each.name, text=each.read_text("utf-8")) for each in sorted(self.out.iterdir()))
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Folder:
+    return Folder(tmp_path)
+
+
+@settings(max_examples=6, deadline=None)
+@given(edits=st.lists(st.tuples(st.sampled_from(EDITS), st.integers(0, 99), st.booleans()), min_size=3, max_size=6))
+def test_after_any_edits_the_site_is_the_one_built_from_nothing(
+    tmp_path_factory: pytest.TempPathFactory, edits: list[tuple[Edit, int, bool]]
+) -> None:
+    folder, project = Folder(tmp_path_factory.mktemp("edited")), FORWARD
+    folder.build(project)
+    for edit, seed, is_new_process in edits:
+        project = edit(project, random.Random(seed))
+        folder.build(project, is_new_process=is_new_process)
+        expected = {file.path: file.text for file in build_site(subject_of_model(project))}
+        assert {file.path: file.text for file in folder.files()} == expected
+    folder.builder.close()
+
+
+@pytest.mark.parametrize("is_new_process", [False, True])
+def test_an_edit_touches_what_it_concerns_alone(folder: Folder, is_new_process: bool) -> None:
+    folder.build(FORWARD)
+    times = {file.name: file.stat().st_mtime_ns for file in folder.out.iterdir()}
+    player = next(design for design in FORWARD.designs if design.component == "Player")
+    kick = replace(player.states[0], doc="Xylographic.")
+    edited = replace(player, states=(kick, *player.states[1:]))
+    project = replace(FORWARD, designs=tuple(edited if each is player else each for each in FORWARD.designs))
+    touched = folder.build(project, is_new_process=is_new_process)
+    assert set(touched) == {file.path for file in folder.files() if "Xylographic." in file.text}
+    assert {"component-Player.html", "python-Player.html", "search.js"} <= set(touched) < set(times)
+    now = {file.name: file.stat().st_mtime_ns for file in folder.out.iterdir()}
+    assert {name for name in now if now[name] != times[name]} == set(touched)
+    assert folder.build(project, is_new_process=is_new_process) == ()
+
+
+def test_pages_that_are_known_are_not_even_made(folder: Folder) -> None:
+    folder.build(FORWARD)
+    made: list[str] = []
+    plan = [
+        replace(each, make=lambda each=each: made.append(each.path) or each.make())
+        for each in folder.builder.plan(subject_of_model(FORWARD))
+    ]
+    write_site(plan, folder.out, load_manifest(folder.kept), lambda _done, _of: None)
+    assert made == []
+    of_another_tool = replace(load_manifest(folder.kept), tool="another")
+    written = write_site(plan, folder.out, of_another_tool, lambda _done, _of: None)
+    assert made == [each.path for each in plan]
+    assert written.touched == ()
+    assert written.manifest.tool == tool_digest()
+
+
+def test_a_page_that_somebody_changed_is_written_again(folder: Folder) -> None:
+    folder.build(FORWARD)
+    page = folder.out / "component-Player.html"
+    whole = page.read_text("utf-8")
+    page.write_text(whole.replace("Player", "Prayer"), "utf-8")
+    (folder.out / "agents.html").unlink()
+    assert set(folder.build(FORWARD)) == {"component-Player.html", "agents.html"}
+    assert page.read_text("utf-8") == whole
+
+
+@pytest.mark.parametrize("text", ["", "[]", '{"tool": 1}', '{"tool": "", "files": {"a": "b"}}', "\xff{"])
+def test_a_manifest_that_cannot_be_read_is_an_empty_one(tmp_path: Path, text: str) -> None:
+    file = tmp_path / "manifest.json"
+    file.write_text(text, "latin-1")
+    assert load_manifest(file) == Manifest()
+
+
+def test_what_is_known_lies_outside_of_the_site(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("VICODE_CACHE", str(tmp_path / "cache"))
+    command = ["docs", str(ROOT / "designs" / "blink"), "--out", str(tmp_path / "site")]
+    assert main(command) == 0
+    before = {file.name: file.read_bytes() for file in (tmp_path / "site").iterdir()}
+    assert all(name.endswith((".html", ".css", ".js")) for name in before)
+    assert len(list((tmp_path / "cache").rglob("*.json"))) == 1
+    assert main([*command, "--fresh"]) == 0
+    assert {file.name: file.read_bytes() for file in (tmp_path / "site").iterdir()} == before
+
+
+def test_several_projects_have_a_common_home(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    for place in ("left", "right"):
+        (tmp_path / place / "Blink").mkdir(parents=True)
+        design = (ROOT / "designs" / "blink" / "blink.yaml").read_text("utf-8")
+        (tmp_path / place / "Blink" / "blink.yaml").write_text(design, "utf-8")
+        doc = f"vicode: 1\nproject: <{place}>\ndoc: From the *{place}* & back.\n"
+        (tmp_path / place / "Blink" / "project.yaml").write_text(doc, "utf-8")
+    behavior = ROOT / "tests" / "xabsl" / "cases" / "programs" / "p1" / "agents.xabsl"
+    out = tmp_path / "site"
+    assert main(["docs", str(tmp_path / "left"), str(tmp_path / "right"), str(behavior), "--out", str(out)]) == 0
+    assert sorted(each.name for each in out.iterdir()) == ["Blink", "Blink-2", "index.html", "p1", "site.css"]
+    home = OutputFile(path="index.html", text=(out / "index.html").read_text("utf-8"))
+    for name in ("Blink/index.html", "Blink-2/index.html", "p1/index.html"):
+        assert f'href="{name}"' in home.text
+    assert "&lt;left&gt;" in home.text
+    assert "<em>right</em> &amp; back" in home.text
+    style = OutputFile(path="site.css", text="")
+    inner = tuple(OutputFile(path=f"{name}/index.html", text="") for name in ("Blink", "Blink-2", "p1"))
+    assert not broken_links((home, style, *inner))
+    assert main(["docs", str(tmp_path / "left"), str(tmp_path / "right"), str(behavior), "--out", str(out)]) == 0
+    assert "0 changed" in capsys.readouterr().out
