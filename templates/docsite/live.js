@@ -9,7 +9,7 @@
 
   function concerns(file) {
     if (file === "*" || file === path) return true;
-    if (file === `${folder}search.js`) return "vicodeEntries" in window;
+    if (file === `${folder}search.js`) return "vicodeIndex" in window;
     return file === `${folder}site.css` || file === `${folder}site.js`;
   }
 

@@ -18,10 +18,19 @@
     loading ??= new Promise((resolve) => {
       const script = document.createElement("script");
       script.src = "search.js";
-      script.onload = () => resolve(window.vicodeEntries);
+      script.onload = () => resolve(unpacked(window.vicodeIndex));
       document.head.append(script);
     });
     return loading;
+  }
+
+  // Entries as [name, kind, where, address, doc, code]; what they share is written once.
+  function unpacked({ kinds, places, pages, pieces, entries }) {
+    return entries.map(([name, kind, where, page, anchor = 0, doc = "", words = []]) => {
+      const place = anchor === 0 ? `${kinds[kind]}-${name}` : anchor;
+      const code = words.map((number) => pieces[number]).join(" ");
+      return [name, kinds[kind], places[where], pages[page] + (place ? `#${place}` : ""), doc, code];
+    });
   }
 
   // The better the earlier: the name, its beginning, its inside, then docs, then code. Every word must be somewhere.

@@ -3,6 +3,7 @@
 import json
 import re
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -38,6 +39,20 @@ def forward(tmp_path_factory: pytest.TempPathFactory) -> tuple[OutputFile, ...]:
 @pytest.fixture(scope="module")
 def behavior(tmp_path_factory: pytest.TempPathFactory) -> tuple[OutputFile, ...]:
     return site_of(BEHAVIOR, tmp_path_factory.mktemp("behavior"))
+
+
+def index_in(script: str) -> dict[str, list[Any]]:
+    """What the search looks through, as the page reads it."""
+    index: dict[str, list[Any]] = json.loads(script.split("window.vicodeIndex = ")[1].removesuffix(";\n"))
+    return index
+
+
+def unpacked(row: list[Any], index: dict[str, list[Any]]) -> list[str]:
+    name, kind, where, page, anchor, doc, words = [*row, *(0, "", [])[len(row) - 4 :]]
+    place = f"{index['kinds'][kind]}-{name}" if anchor == 0 else anchor
+    href = index["pages"][page] + (f"#{place}" if place else "")
+    code = " ".join(index["pieces"][each] for each in words)
+    return [name, index["kinds"][kind], index["places"][where], href, doc, code]
 
 
 def page(files: tuple[OutputFile, ...], path: str) -> str:
@@ -97,7 +112,7 @@ def test_no_place_of_a_page_has_two_things(name: str, request: pytest.FixtureReq
 
 def test_every_thing_is_found(forward: tuple[OutputFile, ...]) -> None:
     script = page(forward, "search.js")
-    rows = json.loads(re.search(r"= (\[.*\]);\n$", script, re.DOTALL)[1])  # type: ignore[index]
+    rows = [unpacked(row, index_in(script)) for row in index_in(script)["entries"]]
     found = {(name, kind, where) for name, kind, where, *_rest in rows}
     assert ("Kick", "state", "Player") in found
     assert ("Kick", "type", "Forward") in found

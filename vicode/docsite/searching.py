@@ -25,10 +25,49 @@ def entries_of(project: Project, addresses: Addresses) -> tuple[Entry, ...]:
 
 
 def search_script(entries: Iterable[Entry]) -> str:
-    """The list as a script, since a page that was opened as a file may not read other files."""
-    rows = [[each.name, each.kind, each.where, each.href, each.doc, each.words] for each in entries]
-    text = json.dumps(rows, ensure_ascii=True, separators=(",", ":")).replace("],[", "],\n[")
-    return f"/* vicode docs: what can be found */\nwindow.vicodeEntries = {text};\n"
+    """The list as a script, since a page that was opened as a file may not read other files.
+
+    What many entries share stands in tables, to which they have numbers: kinds, places, pages, and pieces of code. An
+    anchor is left out where it is made of kind and name, and so is what is empty at the end of an entry.
+    """
+    kinds, places, pages, pieces = _Table(), _Table(), _Table(), _Table()
+    rows = []
+    for each in entries:
+        page, _hash, anchor = each.href.partition("#")
+        anchor_part = 0 if anchor == f"{each.kind}-{each.name}" else anchor
+        words = [pieces.number(piece) for piece in dict.fromkeys(each.words.split("\n")) if piece]
+        # The first sentence of a doc that is there anyway is no place.
+        place = "" if each.where in each.doc else each.where
+        row = [each.name, kinds.number(each.kind), places.number(place), pages.number(page)]
+        row += [anchor_part, " ".join(each.doc.split()), words]
+        while not row[-1]:
+            row.pop()
+        rows.append(row)
+    index = {
+        "kinds": kinds.values,
+        "places": places.values,
+        "pages": pages.values,
+        "pieces": pieces.values,
+        "entries": rows,
+    }
+    text = json.dumps(index, ensure_ascii=False, separators=(",", ":")).replace("],[", "],\n[")
+    # Two signs end a line in JavaScript, though not in JSON.
+    text = text.replace("\u2028", "\\u2028").replace("\u2029", "\\u2029")
+    return f"/* vicode docs: what can be found */\nwindow.vicodeIndex = {text};\n"
+
+
+class _Table:
+    """Gives each value a number, by the order in which they come."""
+
+    def __init__(self) -> None:
+        self._numbers: dict[str, int] = {}
+
+    def number(self, value: str) -> int:
+        return self._numbers.setdefault(value, len(self._numbers))
+
+    @property
+    def values(self) -> list[str]:
+        return list(self._numbers)
 
 
 def _of_project(project: Project, addresses: Addresses) -> Iterator[Entry]:
@@ -79,11 +118,11 @@ def _of_interface(interface: Interface, addresses: Addresses) -> Iterator[Entry]
 
 
 def _words(design: Design) -> dict[Path, str]:
-    """The expressions, code and docs of decisions, by the state they are in; () for what is in none."""
+    """Expressions, code and docs of decisions, a line each, by the state they are in; () for what is in none."""
     words: dict[Path, list[str]] = {}
     for placed in walk_texts(design):
         path = placed.path[:2] if placed.path[0] == "states" else ()
         is_own_doc = placed.kind is TextKind.DOC and len(placed.path) <= 3
         if not is_own_doc:
             words.setdefault(path, []).append(" ".join(placed.text.split()))
-    return {path: " ".join(found) for path, found in words.items()}
+    return {path: "\n".join(found) for path, found in words.items()}
