@@ -54,15 +54,9 @@ def names_of_design(design: Design) -> Iterator[Named]:
 
 def names_of_project(project: Project) -> Iterator[Named]:
     """Every name in a project file, in the order of its file."""
-    for enumeration in project.enumerations:
-        path: Path = ("enumerations", enumeration.name)
-        yield Named(name=enumeration.name, what="enumeration", path=path, is_shared=True)
-        for element in enumeration.element_names:
-            yield Named(name=element, what="element", path=(*path, "elements", element))
-    for constant in project.constants:
-        yield from _declared(constant, "constant", ("constants", constant.name), is_shared=True)
+    yield from names_for_designs(project)
     for interface in project.components:
-        path = ("components", interface.component)
+        path: Path = ("components", interface.component)
         yield Named(name=interface.component, what="hand-written component", path=path)
         for section in ("parameters", "outputs", "variables"):
             for declaration in getattr(interface, section):
@@ -70,6 +64,17 @@ def names_of_project(project: Project) -> Iterator[Named]:
                 yield from _declared(declaration, section.removesuffix("s"), here, is_shared=False)
     for agent in project.agents:
         yield Named(name=agent.name, what="agent", path=("agents", agent.name))
+
+
+def names_for_designs(project: Project) -> Iterator[Named]:
+    """Those names of a project file that expressions of its designs may say."""
+    for enumeration in project.enumerations:
+        path: Path = ("enumerations", enumeration.name)
+        yield Named(name=enumeration.name, what="enumeration", path=path, is_shared=True)
+        for element in enumeration.element_names:
+            yield Named(name=element, what="element", path=(*path, "elements", element))
+    for constant in project.constants:
+        yield from _declared(constant, "constant", ("constants", constant.name), is_shared=True)
 
 
 def name_problem(named: Named, languages: tuple[str, ...]) -> Problem | None:

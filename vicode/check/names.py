@@ -3,7 +3,7 @@
 from collections.abc import Iterable, Iterator
 
 from vicode.check.context import Context
-from vicode.check.named import Named, keyword_languages, name_problem, names_of_design, names_of_project, with_article
+from vicode.check.named import Named, keyword_languages, name_problem, names_for_designs, names_of_design, with_article
 from vicode.findings import Finding, Note, Path, Thing
 from vicode.model.design import RunCode
 from vicode.model.names import is_state_name
@@ -21,7 +21,7 @@ def find_bad_names(context: Context) -> Iterator[Finding]:
 
 def find_duplicate_names(context: Context) -> Iterator[Finding]:
     """D407: one name for two things that expressions could confuse, or for two states."""
-    shared = [each for each in names_of_project(context.project) if each.is_shared]
+    shared = [each for each in names_for_designs(context.project) if each.is_shared]
     known = {each.name: (each, "") for each in reversed(shared)}
     own = list(names_of_design(context.design))
     yield from _find_repeated(context, (each for each in own if each.is_shared), known)

@@ -1,6 +1,7 @@
 """Write the documentation of projects as a site of plain files."""
 
 import argparse
+import gc
 import sys
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
@@ -42,7 +43,7 @@ def run(args: argparse.Namespace) -> int:
         from vicode.cli.docs_watch import watch_sites
 
         return watch_sites(args.path, args.out, port=args.port, is_fresh=args.fresh, opens=not args.no_open)
-    with Sites(out=args.out, is_fresh=args.fresh) as sites, progress() as step:
+    with _uncollected(), Sites(out=args.out, is_fresh=args.fresh) as sites, progress() as step:
         readings = read_subjects(args.path)
         for reading in readings:
             print_findings(reading.unread, to_stderr=True)
@@ -61,6 +62,18 @@ def describe(built: "Built", readings: "Sequence[Reading]", out: Path) -> str:
     findings = [each.finding for reading in readings if reading.subject for each in reading.subject.findings]
     counts = f"{len(built.files)} files, {len(built.touched)} changed, {count_findings(findings)}"
     return f"wrote {(out / 'index.html').as_posix()}: {counts}"
+
+
+@contextmanager
+def _uncollected() -> Iterator[None]:
+    """Let nothing look for circles meanwhile: that takes a tenth of the time, and finds none."""
+    was_on = gc.isenabled()
+    gc.disable()
+    try:
+        yield
+    finally:
+        if was_on:
+            gc.enable()
 
 
 @contextmanager

@@ -1,5 +1,6 @@
 """`vicode docs --watch`: builds the site again after every change, and serves it to the browsers of this machine."""
 
+import gc
 import sys
 import time
 import webbrowser
@@ -26,6 +27,8 @@ def watch_sites(paths: Sequence[Path], out: Path, *, port: int = 0, is_fresh: bo
         watcher = Watcher(paths, sites, news)
         if not watcher.update(is_first=True):
             return 2
+        # What is kept from now on need not be looked through for circles again and again.
+        gc.freeze()
         with SiteServer(out, news, port) as server:
             print(f"{server.address} shows it, and goes on; Ctrl-C ends it.", flush=True)
             if opens:

@@ -25,7 +25,6 @@ _TYPES = {
     ".svg": "image/svg+xml",
 }
 _PING_S = 15.0
-_STRICT, _LIVE = "default-src 'none'; ", "default-src 'none'; connect-src 'self'; "
 _MISSING = """<!doctype html>
 <html lang="en"><head><meta charset="utf-8"><title>Not there</title><link rel="stylesheet" href="/site.css"></head>
 <body><main><h1>Not there</h1><p>No page has this address. When there is one it is shown.</p></main></body></html>
@@ -110,10 +109,10 @@ class SiteServer:
 
 
 def live_page(html: str, build: str) -> str:
-    """A page with what makes it reload; only to this server may it speak."""
+    """A page with what makes it reload."""
     style = f'<link rel="stylesheet" href="{_OWN}live.css">'
     script = f'<script src="{_OWN}live.js" data-build="{build}" defer></script>'
-    return html.replace(_STRICT, _LIVE, 1).replace("</head>", f"{style}\n{script}\n</head>", 1)
+    return html.replace("</head>", f"{style}\n{script}\n</head>", 1)
 
 
 class _Server(ThreadingHTTPServer):

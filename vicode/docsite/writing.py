@@ -4,7 +4,7 @@ import json
 import os
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
-from functools import cache
+from functools import cache, lru_cache
 from hashlib import sha256
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
@@ -55,9 +55,9 @@ def write_site(
 ) -> Written:
     """Write what is new, take away the pages of what is gone; `step` hears how many of how many files are done."""
     wanted = {each.path: each for each in planned}
-    there = {path: _read(out / path) for path in wanted}
-    stale = {path: _read(out / path) for path in _pages_in(out) if path not in wanted}
-    foreign = tuple(path for path, old in there.items() if old is not None and not is_ours(old))
+    there = {path: _look_at(out / path) for path in wanted}
+    stale = {path: _look_at(out / path) for path in _pages_in(out) if path not in wanted}
+    foreign = tuple(path for path, old in there.items() if old is not None and not old.is_ours)
     if foreign:
         return Written(manifest=manifest, foreign=foreign)
     known = manifest.files if manifest.tool == tool_digest() else {}
@@ -65,25 +65,20 @@ def write_site(
     out.mkdir(parents=True, exist_ok=True)
     for path, each in wanted.items():
         old = there[path]
-        digest = _digest(old) if old is not None else ""
+        digest = old.digest if old else ""
         if known.get(path) != (each.key, digest):
-            new = each.make().encode()
-            if new != old:
-                write_atomically(out / path, new.decode())
+            text = each.make()
+            if digest != _digest(text.encode()):
+                write_atomically(out / path, text)
                 touched.append(path)
-            digest = _digest(new)
+            digest = _digest(text.encode())
         files[path] = (each.key, digest)
         step(len(files), len(wanted))
     for path, old in stale.items():
-        if old is not None and is_ours(old):
+        if old is not None and old.is_ours:
             (out / path).unlink()
             touched.append(path)
     return Written(manifest=Manifest(tool=tool_digest(), files=files), touched=tuple(touched))
-
-
-def is_ours(content: bytes) -> bool:
-    """Whether a file belongs to a site."""
-    return MARK.encode() in content[:400]
 
 
 def manifest_file(out: Path, environment: Mapping[str, str] = os.environ) -> Path:
@@ -138,11 +133,26 @@ def _pages_in(out: Path) -> list[str]:
     return sorted(each.name for each in out.glob("*.html"))
 
 
-def _read(path: Path) -> bytes | None:
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Seen:
+    """A file that is there."""
+
+    digest: str
+    is_ours: bool
+
+
+def _look_at(path: Path) -> _Seen | None:
     try:
-        return path.read_bytes()
+        status = path.stat()
+        return _seen(path, status.st_mtime_ns, status.st_size, status.st_ino)
     except (FileNotFoundError, NotADirectoryError):
         return None
+
+
+@lru_cache(maxsize=1 << 14)
+def _seen(path: Path, _changed_ns: int, _size: int, _number: int) -> _Seen:
+    content = path.read_bytes()
+    return _Seen(digest=_digest(content), is_ours=MARK.encode() in content[:400])
 
 
 def _digest(content: bytes) -> str:
