@@ -5,7 +5,9 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from html import escape
 
-WIDTH, STRIP, GAP, BAND = 600, 44, 8, 18
+WIDTH, STRIP, GAP, BAND = 600, 52, 6, 18
+_NAME = 14
+"""The room above each curve for its name."""
 _MOST_POINTS = 300
 _NARROWEST_NAME = 46
 _COLOURS = 6
@@ -46,7 +48,7 @@ def _strip(curve: Curve, index: int, count: int) -> str:
     middle = 0.5 if high == low else 0.0
 
     def y_of(value: float) -> float:
-        return top + STRIP - 4 - (STRIP - 8) * ((value - low) / span + middle)
+        return top + STRIP - 4 - (STRIP - _NAME - 8) * ((value - low) / span + middle)
 
     path = _path(curve.values, count, y_of)
     ground = f'<rect class="plot-ground" x="0" y="{top}" width="{WIDTH}" height="{STRIP}"/>'

@@ -1,5 +1,6 @@
 """The inputs of a simulation: a slider for a range, a switch for yes or no, a choice for an enumeration, a number."""
 
+import math
 from collections.abc import Callable
 from itertools import groupby
 from typing import Any
@@ -94,9 +95,10 @@ class _Row:
             self.controls = _controls(each, f"{each.component or 'Parameter'} {label}", self._changed)
 
     def show(self, value: Any) -> None:
-        """Show a value, without reporting it."""
-        if value is None or value == self._shown:
+        """Show a value, without reporting it; with few digits, if nobody typed it."""
+        if value is None or _short(value) in (self._shown, _short(self._shown)):
             return
+        value = _short(value)
         self._shown = value
         for control in self.controls:
             control.set_value(value)
@@ -184,6 +186,12 @@ def _controls(each: Input, name: str, changed: Callable[[Any], None]) -> list[An
     number.on_value_change(lambda event: changed(event.value))
     number.props("dense outlined debounce=150").classes("input-number mono")
     return [*controls, _named(number, f"{name}, number" if controls else name)]
+
+
+def _short(value: Any) -> Any:
+    if not isinstance(value, float) or not math.isfinite(value):
+        return value
+    return float(f"{value:.4g}") if abs(value) < 1000 else float(round(value))
 
 
 def _named(control: Any, name: str) -> Any:

@@ -13,6 +13,7 @@ from vicode.editor.session.simulation.traces import TraceError
 # The file travels in a body with some words around it.
 _LARGEST = MAXIMUM_BODY - 65_536
 _TOO_LARGE = f"That file is too large for a trace, which may have {_LARGEST / 1e6:.1f} MB: record fewer seconds"
+_PICK = "Choose a trace …"
 _HAND, _OWN, _DRIVE, _REPLAY = "Inputs by hand", "All components run", "Inputs from a trace", "Look at a trace"
 
 
@@ -27,14 +28,17 @@ class Ways:
         labels = {_HAND: _HAND, _OWN: f"All in {world}" if world else _OWN, _DRIVE: _DRIVE, _REPLAY: _REPLAY}
         self.choice = ui.select(labels, value=_HAND, label="Simulate with", on_change=self._choose)
         self.choice.props("dense outlined options-dense stack-label").classes("field")
+        self.pick = ui.button(_PICK, icon="upload_file", color=None).props("outline dense no-caps no-wrap align=left")
+        self.hint = ui.label("recorded with vicode run DESIGN --trace FILE --values").classes("small trace-hint")
         self.upload = ui.upload(
-            label="A trace: vicode run --trace FILE --values",
             auto_upload=True,
             max_file_size=_LARGEST,
             on_upload=self._take,
             on_rejected=lambda: simulator.desk.say(_TOO_LARGE, "warning"),
         )
-        self.upload.props('accept=".jsonl,.json,.txt,*" flat bordered').classes("field trace-upload")
+        self.upload.props('accept=".jsonl,.json,.txt,*"').classes("hidden")
+        # The browser opens its dialog only for a press, which must not travel to the server and back.
+        self.pick.classes("trace-pick").on("click", js_handler=f"() => runMethod({self.upload.id}, 'pickFiles', [])")
         with ui.expansion("How to run").classes("section ways").props("dense dense-toggle"):
             self.seed = ui.number("Seed of the world", value=0, precision=0, on_change=self._set_numbers)
             self.tick = ui.number(
@@ -50,7 +54,11 @@ class Ways:
 
     def refresh(self) -> None:
         """List the components that the design uses now."""
-        self.upload.set_visibility(self.way in (_DRIVE, _REPLAY) and not self.simulator.trace)
+        has_trace = bool(self.simulator.trace)
+        self.pick.set_visibility(self.way in (_DRIVE, _REPLAY))
+        self.hint.set_visibility(self.way in (_DRIVE, _REPLAY) and not has_trace)
+        if not has_trace:
+            self.pick.set_text(_PICK)
         desk = self.simulator.desk
         used = used_components(desk.workspace.project, desk.design)
         self._stood_in = stood_in_of(desk.workspace.project, desk.design, self.simulator.wish)
@@ -95,6 +103,7 @@ class Ways:
         try:
             text = await event.file.text()
             self.simulator.take_trace(text, replays=self.way == _REPLAY)
+            self.pick.set_text(event.file.name)
         except (TraceError, UnicodeDecodeError) as error:
             self.simulator.desk.say(f"{event.file.name[:60]}: {error}", "warning")
             return
