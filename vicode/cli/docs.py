@@ -25,6 +25,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="a design, a project's folder, a folder of projects, an agents.xabsl",
     )
     parser.add_argument("--out", metavar="DIR", type=Path, default=Path("site"), help="where to write (site)")
+    parser.add_argument(
+        "--format", choices=("html", "markdown"), default="html", help="markdown: pages for mkdocs and Sphinx (html)"
+    )
     parser.add_argument("--strict", action="store_true", help="fail on findings; the site is written all the same")
     parser.add_argument("--fresh", action="store_true", help="make every page anew, whatever is known of the last time")
     parser.add_argument(
@@ -39,11 +42,16 @@ def run(args: argparse.Namespace) -> int:
     from vicode.cli.sites import Sites
     from vicode.cli.subjects import read_subjects
 
+    is_markdown = args.format == "markdown"
+    if args.watch and is_markdown:
+        print("vicode: --watch shows pages in HTML; mkdocs and Sphinx watch Markdown themselves", file=sys.stderr)
+        return 2
     if args.watch:
         from vicode.cli.docs_watch import watch_sites
 
         return watch_sites(args.path, args.out, port=args.port, is_fresh=args.fresh, opens=not args.no_open)
-    with _uncollected(), Sites(out=args.out, is_fresh=args.fresh) as sites, progress() as step:
+    sites = Sites(out=args.out, is_fresh=args.fresh, is_markdown=is_markdown)
+    with _uncollected(), sites, progress() as step:
         readings = read_subjects(args.path)
         for reading in readings:
             print_findings(reading.unread, to_stderr=True)
@@ -61,7 +69,8 @@ def describe(built: "Built", readings: "Sequence[Reading]", out: Path) -> str:
     """What was written, in a line."""
     findings = [each.finding for reading in readings if reading.subject for each in reading.subject.findings]
     counts = f"{len(built.files)} files, {len(built.touched)} changed, {count_findings(findings)}"
-    return f"wrote {(out / 'index.html').as_posix()}: {counts}"
+    home = "index.md" if "index.md" in built.files else "index.html"
+    return f"wrote {(out / home).as_posix()}: {counts}"
 
 
 @contextmanager

@@ -33,6 +33,7 @@ class Sites:
 
     out: Path
     is_fresh: bool = False
+    is_markdown: bool = False
     _builders: dict[str, "SiteBuilder"] = field(default_factory=dict)
 
     def build(self, readings: Sequence[Reading], step: Step = lambda _name, _done, _all: None) -> Built:
@@ -45,9 +46,10 @@ class Sites:
             step(reading.name, 0, 0)
             builder = self._builders.setdefault(name, SiteBuilder())
             assert reading.subject is not None
-            plans[name] = builder.plan(reading.subject)
+            plans[name] = builder.plan(reading.subject, is_markdown=self.is_markdown)
         if len(readings) > 1:
-            plans[""] = plan_home({name: each.subject.project for name, each in named.items() if each.subject})
+            projects = {name: each.subject.project for name, each in named.items() if each.subject}
+            plans[""] = plan_home(projects, is_markdown=self.is_markdown)
         built = Built()
         for name, plan in plans.items():
             title = named[name].name if name in named else self.out.name

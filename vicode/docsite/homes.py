@@ -5,6 +5,7 @@ from functools import partial
 
 from vicode.docsite.addresses import HOME
 from vicode.docsite.docs import html_of
+from vicode.docsite.markdown import page_in_markdown
 from vicode.docsite.memory import digest_of
 from vicode.docsite.ordering import by_name
 from vicode.docsite.views import HomeRow, Part
@@ -13,9 +14,12 @@ from vicode.model.project import Project
 from vicode.templating import render, text_of
 
 
-def plan_home(projects: Mapping[str, Project]) -> tuple[PlannedFile, ...]:
+def plan_home(projects: Mapping[str, Project], *, is_markdown: bool = False) -> tuple[PlannedFile, ...]:
     """The page that leads to the sites, which lie in folders of these names, and what it looks like."""
     rows = tuple(_row(folder, projects[folder]) for folder in sorted(projects, key=by_name))
+    if is_markdown:
+        text = page_in_markdown("projects", projects=rows)
+        return (PlannedFile(path="index.md", key=digest_of(text), make=lambda: text),)
     style = text_of("docsite/site.css")
     page = PlannedFile(
         path=HOME, key=digest_of(rows), make=partial(render, "docsite/projects.html.jinja", projects=rows)

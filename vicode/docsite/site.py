@@ -20,6 +20,7 @@ from vicode.docsite.interfaces import (
     symbol_groups,
 )
 from vicode.docsite.languages import Unsaid, language_views, unsaid_in
+from vicode.docsite.markdown import Content, markdown_files
 from vicode.docsite.memory import Memory, digest_of
 from vicode.docsite.ordering import sorted_designs
 from vicode.docsite.overview import agent_views, home_view
@@ -52,15 +53,18 @@ class SiteBuilder:
         self._memory = Memory()
         self._service = LayoutService()
 
-    def plan(self, subject: Subject) -> tuple[PlannedFile, ...]:
-        """The files of a site with what each is made from; they are made when they are asked for."""
+    def plan(self, subject: Subject, *, is_markdown: bool = False) -> tuple[PlannedFile, ...]:
+        """The files of a site with what each is made from; they are made when they are asked for.
+
+        In Markdown all are made at once, since only the pages know how many pictures there are.
+        """
         whole = replace(subject, project=laid_out(subject.project, self._service, self._memory))
         planner = _planner_of(whole, self._memory)
         self._memory.forget_unasked()
         files = [*planner.overview(), *planner.interfaces(), *planner.components(), *planner.codes()]
-        for name in _ASSETS:
-            text = text_of(f"docsite/{name}")
-            files.append(PlannedFile(path=name, key=digest_of(text), make=partial(str, text)))
+        if is_markdown:
+            return tuple(_plain_file(each.path, each.text) for each in markdown_files(planner.contents))
+        files += [_plain_file(name, text_of(f"docsite/{name}")) for name in _ASSETS]
         return tuple(sorted(files, key=lambda file: file.path))
 
     def close(self) -> None:
@@ -85,6 +89,7 @@ class _Planner:
     menu: tuple[Part, ...]
     machines: tuple[Part, ...]
     frame: str
+    contents: list[Content] = field(default_factory=list)
     _menus: dict[str, str] = field(default_factory=dict)
 
     def overview(self) -> Iterator[PlannedFile]:
@@ -156,6 +161,7 @@ class _Planner:
     def _page(self, head: Page, template: str, key: object, views: Callable[[], Views]) -> PlannedFile:
         project = self.subject.project
         about = summary_of(project.doc)
+        self.contents.append(Content(head=head, template=template, site=project.name, views=views))
 
         def make() -> str:
             menu, name = self._menu_html(head.here), f"docsite/{template}.html.jinja"
@@ -205,6 +211,10 @@ def _menu(project: Project, addresses: Addresses, *, has_file: bool) -> Iterator
 def _machines(project: Project, addresses: Addresses) -> Iterator[Part]:
     for each in sorted_designs(project):
         yield Part(text=each.component, href=addresses.component(each.component), title=summary_of(each.doc))
+
+
+def _plain_file(path: str, text: str) -> PlannedFile:
+    return PlannedFile(path=path, key=digest_of(text), make=partial(str, text))
 
 
 def _head(file: str, title: str, *crumbs: Part) -> Page:

@@ -17,6 +17,7 @@ MARK = "vicode docs"
 """Stands at the beginning of every file of a site."""
 
 CACHE = "VICODE_CACHE"
+_PAGES = (".html", ".md", ".svg")
 # What else says how a page looks.
 _LIBRARIES = ("jinja2", "markdown-it-py", "markupsafe", "pygments")
 
@@ -130,7 +131,7 @@ def _version_of(library: str) -> str:
 
 
 def _pages_in(out: Path) -> list[str]:
-    return sorted(each.name for each in out.glob("*.html"))
+    return sorted(each.name for each in out.glob("*.*") if each.suffix in _PAGES)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

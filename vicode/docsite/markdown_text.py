@@ -1,0 +1,236 @@
+"""Words of strangers as Markdown: nothing in them is taken for a sign, whichever program reads it.
+
+What is HTML of ours already (docs, coloured code) is turned back into Markdown by the few tags that it can hold.
+"""
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from html import unescape
+from html.parser import HTMLParser
+
+from vicode.docsite.views import Line, Part
+
+# What CommonMark and Python-Markdown both let a backslash take the meaning from.
+_ESCAPED = re.compile(r"([\\`*_{}\[\]#])")
+# What only entities make harmless everywhere: tags, tables, strikes, formulas, roles and comments of other dialects.
+_ENTITIES = {
+    "&": "&amp;",
+    "<": "&lt;",
+    ">": "&gt;",
+    "|": "&#124;",
+    "~": "&#126;",
+    "$": "&#36;",
+    "^": "&#94;",
+    "@": "&#64;",
+}
+_ENTITY = re.compile("[" + re.escape("".join(_ENTITIES)) + "]")
+# At the beginning of a line: lists, rules, definitions, comments.
+_LEADING = re.compile(r"^(\s*)(?:([-+=:%!])|(\d+)([.)]))")
+_CODE_UNSAFE = re.compile(r"[`|\n]")
+_ADDRESS_UNSAFE = re.compile(r"[\s()<>\\\"'{}|`]")
+
+
+def escaped(text: str) -> str:
+    """Words in one line."""
+    line = " ".join(text.split())
+    line = _ENTITY.sub(lambda found: _ENTITIES[found[0]], _ESCAPED.sub(r"\\\1", line))
+    return _LEADING.sub(_leading, line)
+
+
+def code(text: str) -> str:
+    """Code in one line."""
+    line = " ".join(text.split())
+    if not line:
+        return ""
+    if not _CODE_UNSAFE.search(line):
+        return f"`{line}`"
+    return f"<code>{''.join(_as_entity(letter) for letter in line)}</code>"
+
+
+def fence(text: str, language: str = "") -> str:
+    """Code in lines of its own, in a fence that nothing in it can close."""
+    longest = max((len(found) for found in re.findall("`+", text)), default=0)
+    mark = "`" * max(3, longest + 1)
+    return f"{mark}{language}\n{text.strip(chr(10))}\n{mark}"
+
+
+def link(text: str, href: str) -> str:
+    """A link whose text is Markdown already."""
+    return f"[{text}]({address(href)})" if href else text
+
+
+def address(href: str) -> str:
+    """An address: pages of ours by their Markdown files, without lines of code, which have no place there."""
+    safe = _ADDRESS_UNSAFE.sub(lambda found: "".join(f"%{byte:02X}" for byte in found[0].encode()), href)
+    if re.match(r"[a-z]+:", safe):
+        return safe
+    return re.sub(r"#L\d+$", "", re.sub(r"\.html(?=#|$)", ".md", safe))
+
+
+def line(parts: Line) -> str:
+    """Words with links."""
+    return "".join(_part(part) for part in parts)
+
+
+def expression(parts: Line) -> str:
+    """Code with links: what has none stands together."""
+    groups: list[list[Part]] = []
+    for part in parts:
+        if groups and not part.href and not groups[-1][-1].href:
+            groups[-1].append(part)
+        else:
+            groups.append([part])
+    return "".join(_code_group(group) for group in groups)
+
+
+def of_html(html: str) -> str:
+    """Paragraphs, lists and the like as Markdown."""
+    reader = _Reader()
+    reader.feed(html)
+    reader.close()
+    return reader.markdown()
+
+
+def plain_of(html: str) -> str:
+    """The text of coloured code."""
+    return unescape(re.sub(r"<[^>]*>", "", html))
+
+
+def _leading(found: re.Match[str]) -> str:
+    space, sign, number, point = found.groups()
+    return f"{space}&#{ord(sign)};" if sign else f"{space}{number}&#{ord(point)};"
+
+
+def _as_entity(letter: str) -> str:
+    return letter if letter.isalnum() or letter in " .,=+-/%:;?'" else f"&#{ord(letter)};"
+
+
+def _part(part: Part) -> str:
+    text = part.text
+    inner = code(text) if part.kind == "code" else escaped(text)
+    before, after = " " * text[:1].isspace(), " " * (len(text) > 1 and text[-1:].isspace())
+    return before + link(inner, part.href) + after
+
+
+def _code_group(group: list[Part]) -> str:
+    text = "".join(part.text for part in group)
+    before, after = " " * text[:1].isspace(), " " * (bool(text.strip()) and text[-1:].isspace())
+    return before + link(code(text), group[0].href) + after
+
+
+@dataclass
+class _Block:
+    """A block that is being read: its tag, and what stands in it."""
+
+    tag: str
+    lines: list[str] = field(default_factory=list)
+    inline: str = ""
+
+
+class _Reader(HTMLParser):
+    """Reads HTML that was rendered from Markdown, with nothing else in it than that can give."""
+
+    def __init__(self) -> None:
+        super().__init__(convert_charrefs=True)
+        self.blocks: list[_Block] = [_Block("")]
+        self.hrefs: list[str] = []
+        self.raw: str | None = None
+        self.is_code = False
+        self.rows: list[list[str]] = []
+
+    def markdown(self) -> str:
+        """What was read."""
+        self._end_line()
+        return "\n\n".join(self.blocks[0].lines)
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        match tag:
+            case "pre":
+                self.raw = ""
+            case "code" if self.raw is None:
+                self.raw, self.is_code = "", True
+            case "em" | "strong" | "s":
+                self._add({"em": "*", "strong": "**", "s": ""}[tag])
+            case "a":
+                self.hrefs.append(dict(attrs).get("href") or "")
+                self._add("[")
+            case "br":
+                self._add(" ")
+            case "hr":
+                self._end_line()
+                self.blocks[-1].lines.append("* * *")
+            case "tr":
+                self.rows.append([])
+            case "ul" | "ol" | "li" | "blockquote" | "td" | "th":
+                self._end_line()
+                self.blocks.append(_Block(tag))
+
+    def handle_endtag(self, tag: str) -> None:
+        match tag:
+            case "pre":
+                self._end_line()
+                self.blocks[-1].lines.append(fence(self.raw or ""))
+                self.raw = None
+            case "code" if self.is_code:
+                written, self.raw, self.is_code = code(self.raw or ""), None, False
+                self._add(written)
+            case "em" | "strong" | "s":
+                self._add({"em": "*", "strong": "**", "s": ""}[tag])
+            case "a":
+                self._add(f"]({address(self.hrefs.pop())})")
+            case "p":
+                self._end_line()
+            case "h1" | "h2" | "h3" | "h4" | "h5" | "h6":
+                self.blocks[-1].inline = f"**{self.blocks[-1].inline.strip()}**"
+                self._end_line()
+            case "ul" | "ol" | "li" | "blockquote" | "td" | "th":
+                self._end_block()
+            case "table":
+                self.blocks[-1].lines.append("\n".join(_table(self.rows)))
+                self.rows = []
+
+    def handle_data(self, data: str) -> None:
+        if self.raw is not None:
+            self.raw += data
+        elif data.strip() or self.blocks[-1].inline:
+            before, after = " " * data[:1].isspace(), " " * data[-1:].isspace()
+            words = escaped(data) if not self.blocks[-1].inline else escaped(f"x{data}")[1:].strip()
+            self._add(f"{before}{words}{after}" if data.strip() else " ")
+
+    def _add(self, text: str) -> None:
+        self.blocks[-1].inline += text
+
+    def _end_line(self) -> None:
+        block = self.blocks[-1]
+        if block.inline.strip():
+            block.lines.append(block.inline.strip())
+        block.inline = ""
+
+    def _end_block(self) -> None:
+        self._end_line()
+        block = self.blocks.pop()
+        text = "\n\n".join(block.lines)
+        match block.tag:
+            case "li":
+                self.blocks[-1].lines.append(text)
+            case "ul" | "ol":
+                marks = ("-" if block.tag == "ul" else f"{number}." for number in range(1, len(block.lines) + 1))
+                items = (f"{mark:<4}{_indented(item)}" for mark, item in zip(marks, block.lines, strict=True))
+                self.blocks[-1].lines.append("\n".join(items))
+            case "blockquote":
+                self.blocks[-1].lines.append("\n".join(f"> {each}".rstrip() for each in text.split("\n")))
+            case _:
+                self.rows[-1].append(" ".join(text.split()))
+
+
+def _indented(text: str) -> str:
+    """What follows a list's sign; four blanks are what all readers agree on."""
+    return re.sub(r"\n(?=.)", "\n    ", text)
+
+
+def _table(rows: list[list[str]]) -> Iterator[str]:
+    for number, row in enumerate(rows):
+        yield f"| {' | '.join(row)} |"
+        if not number:
+            yield f"|{' --- |' * len(row)}"
