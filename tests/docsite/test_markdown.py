@@ -22,6 +22,7 @@ ROOT = Path(__file__).parents[2]
 FORWARD = ROOT / "designs" / "forward"
 BEHAVIOR = ROOT / "tests" / "xabsl" / "cases" / "programs" / "p1" / "agents.xabsl"
 READER = MarkdownIt("commonmark").enable("table")
+FORMAT = ("--format", "markdown", "--out")
 OUR_HTML = re.compile(r'<!-- vicode docs -->|<a id="[A-Za-z0-9_-]+">|</a>|</?code>|<br>')
 
 LINES = st.text(st.characters(codec="utf-8", exclude_categories=("Cs", "Cc")), max_size=40)
@@ -202,3 +203,19 @@ def test_addresses_lead_to_pages_in_markdown() -> None:
     assert address("component-A.html#state-B") == "component-A.md#state-B"
     assert address("python-A.html#L12") == "python-A.md"
     assert address("https://example.org/a b.html") == "https://example.org/a%20b.html"
+
+
+def test_several_projects_have_a_common_home(tmp_path: Path) -> None:
+    out = tmp_path / "all"
+    assert main(["docs", str(ROOT / "designs" / "blink"), str(ROOT / "designs" / "rescue"), *FORMAT, str(out)]) == 0
+    home = (out / "index.md").read_text("utf-8")
+    assert [text for _tag, text in headings_of(home)] == ["Projects", "blink", "Rescue"]
+    links = [str(token.attrGet("href")) for token in tokens_of(home) if token.type == "link_open"]
+    assert len(links) == 2
+    assert all((out / link).is_file() for link in links)
+
+
+def test_markdown_is_not_watched(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["docs", str(FORWARD), "--watch", *FORMAT, str(tmp_path / "site")]) == 2
+    assert "watch Markdown themselves" in capsys.readouterr().err
+    assert not (tmp_path / "site").exists()
