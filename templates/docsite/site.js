@@ -326,6 +326,11 @@
     }
   }
 
+  // One that is little wider than its place is shown a little smaller; a wide one is moved in it.
+  for (const tree of document.querySelectorAll(".tree")) {
+    tree.classList.toggle("is-fitted", tree.scrollWidth > tree.clientWidth && tree.scrollWidth < tree.clientWidth * 1.4);
+  }
+
   function showTarget() {
     const key = decodeURIComponent(location.hash.slice(1));
     for (const node of document.querySelectorAll(".tree [data-key]")) node.classList.toggle("is-target", node.dataset.key === key);

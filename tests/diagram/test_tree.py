@@ -96,3 +96,17 @@ def runs_through(start: tuple[float, float], end: tuple[float, float], box: Rect
 def test_nothing_to_decide_and_too_much() -> None:
     assert draw(()) is None
     assert draw(tuple(Stay(guard=Guard(when="a")) for _ in range(MOST_NODES))) is None
+
+
+@given(st.lists(decisions, min_size=1, max_size=4).map(tuple))
+def test_every_box_and_line_leads_somewhere_and_says_what_it_is(items: tuple[Decision, ...]) -> None:
+    drawing = draw(items)
+    if drawing is None:
+        return
+    boxes = [group for group in drawing.groups if group.kind != "way"]
+    ways = [group for group in drawing.groups if group.kind == "way"]
+    implied = [group for group in boxes if not group.href]
+    assert len(implied) <= 1
+    assert all(group.title for group in boxes)
+    assert all(group.title.startswith("when ") and group.is_echo for group in ways[1:])
+    assert all(group.href for group in ways[1:] if not implied)

@@ -113,7 +113,8 @@ class _Grid:
             label, href = shorten(item.to, LABEL, _ROOM), self.links.target(item.to)
             title = f"go to {item.to}"
             return _Node(kind="target", column=at[0], row=at[1], label=label, title=title, href=href, key=key, off=off)
-        return _Node(kind="stay", column=at[0], row=at[1], label="stay", title="stay", key=key, off=off)
+        href = self.links.condition(path)
+        return _Node(kind="stay", column=at[0], row=at[1], label="stay", title="stay", href=href, key=key, off=off)
 
 
 def draw_tree(
@@ -194,7 +195,9 @@ class _Artist:
             word = "yes" if way.holds else "else"
             place = (x + 8, y - 8) if way.holds else (x + 6, y + 10)
             shapes.append(Text(x=place[0], y=place[1], text=word, fill=pal.muted, letters=SMALL))
-        return Group(title="", kind="way", shapes=tuple(shapes))
+        # Its boxes say it all to who cannot see the line.
+        said = f"{'when' if way.holds else 'when not'} {way.node.title}" if way.node.kind else ""
+        return Group(title=said, kind="way", shapes=tuple(shapes), href=node.href if said else "", is_echo=bool(said))
 
     def _points(self, way: _Exit, node: _Node) -> Iterator[Point]:
         x, y = self._centre(node)
