@@ -95,8 +95,11 @@ def diff(difference: Difference) -> str:
     return "".join(unified_diff(old.splitlines(keepends=True), new.splitlines(keepends=True), before, after))
 
 
-def write_atomically(path: Path, text: str) -> None:
-    """Replace a file in one step: a reader, or a crash in the middle, sees the old text or the new one."""
+def write_atomically(path: Path, text: str, *, is_kept: bool = True) -> None:
+    """Replace a file in one step: a reader, or a crash in the middle, sees the old text or the new one.
+
+    With `is_kept` the new one also outlives a loss of power right after; what can be made again need not wait for that.
+    """
     target = path.resolve()
     temporary = target.with_name(f".{target.name}.{secrets.token_hex(4)}.tmp")
     descriptor = os.open(temporary, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o666)
@@ -104,7 +107,8 @@ def write_atomically(path: Path, text: str) -> None:
         with os.fdopen(descriptor, "wb") as file:
             file.write(text.encode("utf-8"))
             file.flush()
-            os.fsync(file.fileno())
+            if is_kept:
+                os.fsync(file.fileno())
         if target.exists():
             temporary.chmod(target.stat().st_mode & 0o777)
         temporary.replace(target)

@@ -70,7 +70,7 @@ def write_site(
         if known.get(path) != (each.key, digest):
             text = each.make()
             if digest != _digest(text.encode()):
-                write_atomically(out / path, text)
+                write_atomically(out / path, text, is_kept=False)
                 touched.append(path)
             digest = _digest(text.encode())
         files[path] = (each.key, digest)
