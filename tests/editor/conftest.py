@@ -63,6 +63,8 @@ def started_editor(folder: Path, storage: Path, options: tuple[str, ...] = ("--n
             os.kill(process, signal.SIGKILL)
         while _lives(process):
             time.sleep(0.01)
+    log = said.read_text()
+    assert "Traceback" not in log, "the editor told of an exception:\n" + log
 
 
 @cache

@@ -71,7 +71,8 @@ def test_an_edit_ends_the_preview(editor: str, page: Page, project: Path) -> Non
 
 
 @pytest.mark.nightly
-def test_a_layout_that_takes_long_is_called_off(editor: str, page: Page, project: Path) -> None:
+@pytest.mark.parametrize("way", ["button", "key"])
+def test_a_layout_that_takes_long_is_called_off(editor: str, page: Page, project: Path, way: str) -> None:
     file = project / "forward" / "ring.yaml"
     write_text(file, save_design(ring_design(480, chords=4), ""))
     page.goto(editor + "design/forward/Ring", timeout=60_000)
@@ -79,7 +80,10 @@ def test_a_layout_that_takes_long_is_called_off(editor: str, page: Page, project
     before = page.evaluate(PLACES)
     page.get_by_role("button", name="Lay out what is selected, or everything").click()
     expect(page.get_by_text("Laying out 480 states, 5 s at most")).to_be_visible()
-    page.get_by_label("Layout").get_by_role("button", name="Cancel").click()
+    if way == "button":
+        page.get_by_label("Layout").get_by_role("button", name="Cancel").click()
+    else:
+        page.keyboard.press("Escape")
     expect(page.get_by_label("Layout")).to_be_hidden()
     assert page.evaluate(PLACES) == before
     expect(state(page, "State0")).to_have_count(0)

@@ -44,7 +44,7 @@ class DesignPage:
         """Build the page for the browser that asks for it."""
         person = greet_visitor(library.people)
         hand = Document(document.sheet, person.id)
-        self.desk = desk = Desk(workspace=workspace, document=hand, say=say, window=ui.context.client.id)
+        self.desk = desk = Desk(workspace=workspace, document=hand, client=ui.context.client)
         theme = Theme(desk.code_editors, add_look())
         problems = Problems(desk)
         with ui.element("div").classes("shell"):

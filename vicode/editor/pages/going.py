@@ -87,7 +87,8 @@ class Going:
         if workspace.project.design(component) is None:
             self._desk.say(f"{component} is hand-written: it has no design to open", "info")
         else:
-            ui.navigate.to(design_address(workspace.key, component, trail=trail_onwards(self._trail, here)))
+            with self._desk.client:
+                ui.navigate.to(design_address(workspace.key, component, trail=trail_onwards(self._trail, here)))
 
     def _follow_selection(self) -> None:
         """Keep the address true, so that it can be given to others, and Back finds what was selected."""
@@ -96,4 +97,4 @@ class Going:
             return
         self._shown = desk.selected
         address = design_address(desk.workspace.key, desk.design.component, desk.only, self._trail)
-        ui.run_javascript(f'history.replaceState(history.state, "", {json.dumps(address)})')
+        desk.client.run_javascript(f'history.replaceState(history.state, "", {json.dumps(address)})')

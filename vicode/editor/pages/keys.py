@@ -8,6 +8,9 @@ from nicegui import ui
 from vicode.editor.pages.typing_on import keep_what_is_typed
 from vicode.editor.panels.command import Command
 
+PRESSED_BY_ESCAPE = "data-pressed-by-escape"
+"""The attribute of a button that Escape presses while it is seen, wherever the focus is."""
+
 # Part of the page, so that no key comes too early for it. Text fields and the canvas undo in ways of their own.
 _LISTEN = """
 <script>
@@ -29,6 +32,13 @@ new MutationObserver(() => {
 document.addEventListener("pointerdown", () => (isCalledOff = false), true);
 document.addEventListener("keydown", (event) => {
   isCalledOff = event.key === "Escape" && isPending();
+  const way = document.querySelector("[ESCAPE]");
+  if (event.key === "Escape" && way?.offsetParent && !document.querySelector(".q-dialog, .q-menu")) {
+    event.preventDefault();
+    event.stopPropagation();
+    way.click();
+    return;
+  }
   // Signs are named as they are printed, whatever must be held to reach them.
   const isSign = event.key.length === 1 && !/[\\p{L} ]/u.test(event.key);
   const held = [["Ctrl", event.ctrlKey || event.metaKey], ["Alt", event.altKey], ["Shift", event.shiftKey && !isSign]];
@@ -68,4 +78,4 @@ def listen_to_keys(commands: Sequence[Command]) -> None:
         if command.keys:
             ui.on(f"command-{command.name}", command.act)
     keep_what_is_typed()
-    ui.add_body_html(_LISTEN.replace("WISHES", json.dumps(wishes)))
+    ui.add_body_html(_LISTEN.replace("WISHES", json.dumps(wishes)).replace("ESCAPE", PRESSED_BY_ESCAPE))

@@ -4,11 +4,13 @@ from collections.abc import Collection, Iterator
 from dataclasses import dataclass, field
 
 from nicegui import background_tasks, run, ui
+from nicegui.events import ClickEventArguments, Handler
 
 from vicode.diagram import Placement
 from vicode.diagram.layout import LayoutService, Method
 from vicode.editor.canvas.gesture import Place as Spot
 from vicode.editor.pages.drawing import Drawing
+from vicode.editor.pages.keys import PRESSED_BY_ESCAPE
 from vicode.editor.panels.command import Command, Place
 from vicode.editor.panels.desk import Desk
 from vicode.editor.panels.rows import primary_button
@@ -111,8 +113,12 @@ class Layouts:
         with self.bar:
             ui.label(f"Laying out {what}, {limit_s:g} s at most").classes("layout-words").props('role="status"')
             ui.element("div").classes("layout-progress").style(f"--limit: {limit_s:g}s")
-            ui.button("Cancel", on_click=self.stop, color=None).props("flat no-caps dense")
+            self._cancel_button(self.stop)
         self.bar.set_visibility(True)
+
+    def _cancel_button(self, leave: Handler[ClickEventArguments]) -> None:
+        button = ui.button("Cancel", on_click=leave, color=None).props(f"flat no-caps dense {PRESSED_BY_ESCAPE}")
+        button.tooltip("Escape")
 
     def _ask(self, what: str, note: str) -> None:
         self.bar.clear()
@@ -122,7 +128,7 @@ class Layouts:
                 if note:
                     ui.label(note).classes("small")
             primary_button("Apply", lambda: self.decide(wanted=True)).tooltip("Enter")
-            ui.button("Cancel", on_click=self.drop, color=None).props("flat no-caps dense").tooltip("Escape")
+            self._cancel_button(self.drop)
         self.bar.set_visibility(True)
 
 

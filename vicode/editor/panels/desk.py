@@ -3,8 +3,11 @@
 from collections.abc import Callable
 from dataclasses import dataclass, field
 
+from nicegui import Client
+
 from vicode.editor.panels.code_editor import CodeEditors
 from vicode.editor.panels.lints import CodeLints
+from vicode.editor.panels.messages import say
 from vicode.editor.session import Company, Document, Workspace
 from vicode.editor.view import Selected
 from vicode.model.design import Design
@@ -18,8 +21,8 @@ class Desk:
 
     workspace: Workspace
     document: Document
-    say: Callable[[str, str], None]
-    """Show a short message: text, and one of positive, negative, info, warning."""
+    client: Client
+    """The page of this window. What a handler does after an edit is done here: its own button may be gone by then."""
     reveal: Callable[[Selected], None] = field(default=lambda _thing: None)
     """Bring a thing into the middle of the canvas."""
     run: Callable[[str], None] = field(default=lambda _command: None)
@@ -31,8 +34,6 @@ class Desk:
     is_there: Callable[[Selected], bool] = field(default=lambda _thing: True)
     """Whether a thing is in the drawing."""
     selected: tuple[Selected, ...] = ()
-    window: str = ""
-    """The id of this window among those on the design."""
     open_folds: set[str] = field(default_factory=set)
     """The folds of forms that this window has opened."""
     code_editors: CodeEditors = field(default_factory=CodeEditors)
@@ -42,6 +43,11 @@ class Desk:
     def __post_init__(self) -> None:
         """Be ready to ask for remarks on code."""
         self.lints = CodeLints(self.workspace, self.document)
+
+    @property
+    def window(self) -> str:
+        """The id of this window among those on the design."""
+        return self.client.id
 
     @property
     def design(self) -> Design:
@@ -80,5 +86,11 @@ class Desk:
 
     def tell(self) -> None:
         """Bring every panel up to date."""
-        for listener in tuple(self._listeners):
-            listener()
+        with self.client:
+            for listener in tuple(self._listeners):
+                listener()
+
+    def say(self, text: str, kind: str) -> None:
+        """Show a short message; `kind` is positive, negative, info or warning."""
+        with self.client:
+            say(text, kind)
