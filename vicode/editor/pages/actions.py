@@ -4,7 +4,7 @@ from collections.abc import Callable
 from functools import partial
 from typing import TypeVar
 
-from nicegui import background_tasks, run
+from nicegui import run
 
 from vicode.editor.pages.drawing import Drawing
 from vicode.editor.pages.look import Theme
@@ -66,7 +66,7 @@ class Actions:
     def generate(self) -> None:
         """Write the code, after saving, and after showing what would change."""
         if self.desk.document.is_saved or self.save():
-            background_tasks.create(self._write_code(), name="generate")
+            self.desk.begin(self._write_code(), "generate")
 
     def disable(self) -> None:
         """Disable the selected states and transitions, or enable them when all of them are disabled."""
@@ -92,25 +92,23 @@ class Actions:
         """Show what would change, unless nothing would or the person does not want to be asked."""
         from vicode.editor.panels.generate_dialog import ask_before_writing, is_unasked
 
-        desk, canvas = self.desk, self.drawing.canvas
-        with canvas.client:
-            prepared = await self._try(desk.workspace.prepare)
-            if prepared is None:
-                return
-            if prepared.changes and (prepared.edits or not await is_unasked()):
-                ask_before_writing(prepared, desk.design.component, self._write_answered)
-            else:
-                await self._write(is_forced=False)
+        desk = self.desk
+        prepared = await self._try(desk.workspace.prepare)
+        if prepared is None:
+            return
+        if prepared.changes and (prepared.edits or not await is_unasked()):
+            ask_before_writing(prepared, desk.design.component, self._write_answered)
+        else:
+            await self._write(is_forced=False)
 
     def _write_answered(self, is_forced: bool) -> None:
-        background_tasks.create(self._write(is_forced=is_forced), name="write code")
+        self.desk.begin(self._write(is_forced=is_forced), "write code")
 
     async def _write(self, *, is_forced: bool) -> None:
-        desk, canvas = self.desk, self.drawing.canvas
-        with canvas.client:
-            outcome = await self._try(partial(desk.workspace.generate, is_forced=is_forced))
-            if outcome is not None:
-                desk.say(outcome.words, "positive" if outcome.is_sound else "negative")
+        desk = self.desk
+        outcome = await self._try(partial(desk.workspace.generate, is_forced=is_forced))
+        if outcome is not None:
+            desk.say(outcome.words, "positive" if outcome.is_sound else "negative")
 
     async def _try(self, work: Callable[[Document], T]) -> T | None:
         """Do something with the open design beside the event loop; None if it could not be done, which was said."""

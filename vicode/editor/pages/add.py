@@ -9,6 +9,7 @@ from vicode.editor.pages.design_page import DesignPage
 from vicode.editor.pages.going import Way
 from vicode.editor.pages.keeping import keep_all
 from vicode.editor.pages.look import add_look
+from vicode.editor.panels.messages import tell_failure
 from vicode.editor.panels.thumbnails import serve_thumbnails
 from vicode.editor.session import Library, Workspace
 from vicode.editor.session.finding_things import Index
@@ -28,6 +29,7 @@ def add_pages(library: Library, keeper: Keeper | None = None, *, tour: bool = Fa
     def home(request: Request) -> None:
         from vicode.editor.pages.home import HomePage
 
+        ui.on_exception(tell_failure)
         HomePage(library, index, request.query_params.get("gone", ""))
 
     @ui.page("/design/{key}/{component}", title="vicode")
@@ -40,6 +42,7 @@ def add_pages(library: Library, keeper: Keeper | None = None, *, tour: bool = Fa
         ui.page_title(f"{component} – vicode")
         query = request.query_params
         trail = trail_of_text(query.get("from", ""), workspace.project.interfaces(), component)
+        ui.on_exception(tell_failure)
         way = Way(index=index, trail=trail, select=query.get("select", ""), tour=tour)
         DesignPage(library, workspace, document, way, keeper)
 
@@ -54,6 +57,7 @@ def add_pages(library: Library, keeper: Keeper | None = None, *, tour: bool = Fa
             _nothing(f"There is no broken file {file[:80]} here", "It may have been mended or removed.")
             return
         ui.page_title(f"{file} – vicode")
+        ui.on_exception(tell_failure)
         BrokenPage(library, workspace, path, file)
 
 

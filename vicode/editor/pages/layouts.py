@@ -3,7 +3,7 @@
 from collections.abc import Collection, Iterator
 from dataclasses import dataclass, field
 
-from nicegui import background_tasks, run, ui
+from nicegui import run, ui
 from nicegui.events import ClickEventArguments, Handler
 
 from vicode.diagram import Placement
@@ -56,7 +56,7 @@ class Layouts:
         """Find places for the selected states, or for everything, and show them."""
         if self.service is None:
             self.drop()
-            background_tasks.create(self._find_places(), name="lay out")
+            self.desk.begin(self._propose(), "lay out")
 
     async def stop(self) -> None:
         """Give up looking for places."""
@@ -83,10 +83,6 @@ class Layouts:
             self.proposal = None
             self.bar.set_visibility(False)
             self.drawing.canvas.preview([])
-
-    async def _find_places(self) -> None:
-        with self.bar.client:
-            await self._propose()
 
     async def _propose(self) -> None:
         design, rev = self.desk.design, self.desk.document.rev

@@ -3,7 +3,7 @@
 What is selected in the drawing is brought forward in the code, and a click in the code selects in the drawing.
 """
 
-from nicegui import background_tasks, run, ui
+from nicegui import run, ui
 from nicegui.elements.codemirror.constants import SUPPORTED_LANGUAGES
 
 from vicode.editor.code import CodeAid
@@ -40,7 +40,7 @@ class CodePanel:
         """Generate anew if the design has changed since, and bring what is selected forward."""
         if not self.is_busy and self.shown_rev != self.desk.document.rev:
             self.is_busy = True
-            background_tasks.create(self._follow(), name="preview")
+            self.desk.begin(self._follow(), "preview")
         self._bring_forward()
 
     @property

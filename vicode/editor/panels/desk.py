@@ -1,9 +1,10 @@
 """A desk: one browser window at work on one design. Panels read it, edit through it, and are told of changes."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Coroutine
 from dataclasses import dataclass, field
+from typing import Any
 
-from nicegui import Client
+from nicegui import Client, background_tasks
 
 from vicode.editor.panels.code_editor import CodeEditors
 from vicode.editor.panels.lints import CodeLints
@@ -89,6 +90,10 @@ class Desk:
         with self.client:
             for listener in tuple(self._listeners):
                 listener()
+
+    def begin(self, work: Coroutine[Any, Any, object], name: str) -> None:
+        """Do what takes longer beside the event loop's other work; if it fails, the person is told."""
+        background_tasks.create(work, name=name, context=self.client)
 
     def say(self, text: str, kind: str) -> None:
         """Show a short message; `kind` is positive, negative, info or warning."""

@@ -3,7 +3,7 @@
 import base64
 from collections.abc import Callable
 
-from nicegui import background_tasks, run, ui
+from nicegui import run, ui
 
 from vicode.diagram.formats import Format, Wish
 from vicode.editor.panels.command import Command, Place
@@ -111,7 +111,7 @@ def _look(desk: Desk, form: Format, wish: Wish) -> None:
     with ui.element("div").style("display: contents") as place:
         ui.label("Drawing …").classes("empty").props('role="status"')
     # A large drawing takes seconds; nobody waits for it.
-    background_tasks.create(draw(), name="look")
+    desk.begin(draw(), "look")
 
 
 def _copier(desk: Desk, form: Format) -> Callable[[], None]:
@@ -128,11 +128,9 @@ def _download(desk: Desk, form: Format, wish: Wish) -> None:
         # Large pictures take seconds; the others must not wait for them.
         content = await run.io_bound(_exported, desk, form, wish)
         if content is not None:
-            with client:
-                ui.download(content, f"{snake_case(desk.design.component)}{form.suffix}", form.media_type)
+            ui.download(content, f"{snake_case(desk.design.component)}{form.suffix}", form.media_type)
 
-    client = ui.context.client
-    background_tasks.create(paint(), name="export")
+    desk.begin(paint(), "export")
 
 
 def _exported(desk: Desk, form: Format, wish: Wish) -> bytes:

@@ -11,3 +11,8 @@ def say(text: str, kind: str) -> None:
     """Show a message for a while; `kind` is positive, negative, info or warning."""
     timeout = _LONG_MS if kind == "negative" else _SHORT_MS
     ui.notify(text, type=cast("Any", kind), position="bottom", timeout=timeout)
+
+
+def tell_failure() -> None:
+    """Say that vicode itself failed at what was asked; the server prints the rest."""
+    say("vicode failed at this: it may not have been done. Where it was started, it says more.", "negative")

@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from functools import partial
 
-from nicegui import background_tasks, run, ui
+from nicegui import run, ui
 
 from vicode.editor.panels.desk import Desk
 from vicode.editor.panels.rows import icon_button
@@ -49,7 +49,7 @@ class SearchPanel:
         self.query = Query(text=self.text.value or "", kinds=frozenset(self.kinds), **self.ways)
         if not self.is_busy and self.searched != (self.query, self.desk.document.rev):
             self.is_busy = True
-            background_tasks.create(self._search(), name="search")
+            self.desk.begin(self._search(), "search")
 
     async def _search(self) -> None:
         """Search beside the event loop, until the newest question is answered."""

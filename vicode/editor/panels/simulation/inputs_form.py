@@ -5,7 +5,7 @@ from collections.abc import Callable
 from itertools import groupby
 from typing import Any
 
-from nicegui import background_tasks, ui
+from nicegui import ui
 
 from vicode.editor.panels.simulation.range_input import RangeInput
 from vicode.editor.panels.simulation.simulator import Simulator
@@ -62,7 +62,7 @@ class InputsForm:
 
     def _row(self, each: Input, simulation: Simulation) -> "_Row":
         def set_value(value: Any) -> None:
-            background_tasks.create(simulation.set_input(each.key, value), name="set input")
+            self.simulator.desk.begin(simulation.set_input(each.key, value), "set input")
 
         return _Function(each, set_value, simulation) if each.arguments is not None else _Row(each, set_value)
 

@@ -5,7 +5,7 @@ import time
 from collections.abc import Callable
 from typing import cast
 
-from nicegui import background_tasks, run
+from nicegui import run
 
 from vicode.editor.canvas import Canvas
 from vicode.editor.canvas.gesture import Item
@@ -106,7 +106,7 @@ class Simulator:
             self.pause()
             return
         self.is_playing = True
-        background_tasks.create(self._play(), name="simulation")
+        self.desk.begin(self._play(), "simulation")
         self._changed()
 
     def pause(self) -> None:
