@@ -1,7 +1,6 @@
 """Building again after an edit: the same bytes as from nothing, and nothing touched that the edit does not concern."""
 
 import random
-from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
@@ -10,6 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from tests.docsite.crawling import broken_links
+from tests.docsite.editing import EDITS, FORWARD, Edit
 from vicode.check import check_project
 from vicode.cli import main
 from vicode.docsite import (
@@ -25,16 +25,11 @@ from vicode.docsite import (
 )
 from vicode.docsite.writing import tool_digest
 from vicode.findings import Severity
-from vicode.model.design import Declaration, Design, Guard, State, Transition
+from vicode.model.design import Design
 from vicode.model.project import Project
 from vicode.output import OutputFile
-from vicode.store import open_project
 
 ROOT = Path(__file__).parents[2]
-FORWARD = open_project(ROOT / "designs" / "forward").project
-NEW = State(name="Added", doc="*New* here.", transitions=(Transition(to="Added", guard=Guard(after="2")),))
-
-Edit = Callable[[Project, random.Random], Project]
 
 
 def subject_of_model(project: Project) -> Subject:
@@ -60,57 +55,6 @@ def source_of(design: Design) -> SourceText:
     lines = [f"{state.name}: {len(state.transitions)}" for state in design.states]
     places = {("states", state.name): number for number, state in enumerate(design.states, start=1)}
     return SourceText(path=f"{design.component}.yaml", text="\n".join(lines), language="yaml", lines=places)
-
-
-def one_of(project: Project, chance: random.Random, change: Callable[[Design], Design]) -> Project:
-    if not project.designs:
-        return project
-    at = chance.randrange(len(project.designs))
-    designs = list(project.designs)
-    designs[at] = change(designs[at])
-    return replace(project, designs=tuple(designs))
-
-
-def one_state(project: Project, chance: random.Random, change: Callable[[State], State]) -> Project:
-    def edit(design: Design) -> Design:
-        at = chance.randrange(len(design.states)) if design.states else 0
-        return replace(
-            design, states=tuple(change(each) if index == at else each for index, each in enumerate(design.states))
-        )
-
-    return one_of(project, chance, edit)
-
-
-EDITS: tuple[Edit, ...] = (
-    lambda project, chance: one_of(project, chance, lambda design: replace(design, doc=f"Doc {chance.random()}.")),
-    lambda project, chance: one_of(project, chance, lambda design: replace(design, states=design.states[1:])),
-    lambda project, chance: one_of(project, chance, lambda design: replace(design, states=(*design.states, NEW))),
-    lambda project, chance: one_of(project, chance, lambda design: replace(design, uses=design.uses[1:])),
-    lambda project, chance: one_of(project, chance, lambda design: replace(design, component=design.component + "X")),
-    lambda project, chance: one_of(project, chance, lambda design: replace(design, initial="Nowhere")),
-    lambda project, chance: one_of(
-        project,
-        chance,
-        lambda design: replace(design, outputs=(*design.outputs, Declaration(name=f"o{chance.randrange(9)}", doc="!"))),
-    ),
-    lambda project, chance: one_state(project, chance, lambda state: replace(state, doc=f"*{chance.random()}*")),
-    lambda project, chance: one_state(project, chance, lambda state: replace(state, transitions=())),
-    lambda project, chance: one_state(project, chance, lambda state: replace(state, requires=state.requires[1:])),
-    lambda project, chance: one_state(project, chance, lambda state: replace(state, name=f"{state.name}2")),
-    lambda project, chance: one_state(project, chance, lambda state: replace(state, disabled=not state.disabled)),
-    lambda project, chance: one_state(project, chance, lambda state: replace(state, at=None)),
-    lambda project, chance: replace(project, designs=project.designs[1:]),
-    lambda project, chance: replace(project, designs=(*project.designs, *FORWARD.designs[:1])),
-    lambda project, chance: replace(project, doc=f"About {chance.random()}."),
-    lambda project, chance: replace(project, agents=project.agents[1:]),
-    lambda project, chance: replace(project, components=project.components[1:]),
-    lambda project, chance: replace(
-        project, components=tuple(replace(each, doc=f"{each.doc} more") for each in project.components)
-    ),
-    lambda project, chance: replace(project, enumerations=project.enumerations[1:]),
-    lambda project, chance: replace(project, constants=(Declaration(name="limit", initial=str(chance.random())),)),
-    lambda project, chance: FORWARD,
-)
 
 
 class Folder:

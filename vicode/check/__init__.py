@@ -3,7 +3,8 @@
 Nothing here raises, and no code of a project is run or imported.
 """
 
-from collections.abc import Collection
+from collections.abc import Callable, Collection
+from functools import lru_cache
 
 from vicode.check import (
     code,
@@ -18,8 +19,9 @@ from vicode.check import (
     xabsl,
     xabsl_project,
 )
-from vicode.check.context import Context, context_of
-from vicode.check.graphs import Graphs, graphs_of
+from vicode.check.context import Context, context_of, read_design
+from vicode.check.graphs import graphs_of
+from vicode.check.surroundings import surroundings_of
 from vicode.findings import Finding
 from vicode.model.design import Design
 from vicode.model.project import Project
@@ -43,18 +45,30 @@ DESIGN_RULES = (
 def check_project(project: Project, components: Collection[str] | None = None) -> tuple[Finding, ...]:
     """What is wrong with a project file and with its designs, or those of `components` only."""
     findings = [finding for rule in PROJECT_RULES for finding in rule(project)]
-    graphs = graphs_of(project)
+    check = _checker(surroundings_of(project))
     for design in project.designs:
         if components is None or design.component in components:
-            findings += _check(project, design, graphs)
+            findings += check(design)
     return tuple(dict.fromkeys(findings))
 
 
 def check_design(project: Project, design: Design) -> tuple[Finding, ...]:
     """What is wrong with one design, which counts in place of the one of its name in the project."""
-    return tuple(dict.fromkeys(_check(project, design, None)))
+    return tuple(dict.fromkeys(_check(context_of(project, design))))
 
 
-def _check(project: Project, design: Design, graphs: Graphs | None) -> list[Finding]:
-    context = context_of(project, design, graphs)
-    return [finding for rule in DESIGN_RULES for finding in rule(context)]
+# Who builds a site or generates again after an edit asks for all designs, and hardly ever did what they see of each
+# other change: only what was edited is checked.
+@lru_cache(maxsize=4)
+def _checker(surroundings: Project) -> Callable[[Design], tuple[Finding, ...]]:
+    """Checks designs within a project as they see it, and remembers what it found."""
+    graphs = graphs_of(surroundings)
+
+    def check(design: Design) -> tuple[Finding, ...]:
+        return _check(read_design(surroundings, design, graphs))
+
+    return lru_cache(maxsize=1000)(check)
+
+
+def _check(context: Context) -> tuple[Finding, ...]:
+    return tuple(finding for rule in DESIGN_RULES for finding in rule(context))

@@ -54,18 +54,22 @@ class Context:
         return replace(finding, languages=languages) if languages else finding
 
 
-def context_of(project: Project, design: Design, graphs: Graphs | None = None) -> Context:
+def context_of(project: Project, design: Design) -> Context:
     """Read a design; it takes the place of the one of the same name in the project."""
     if not any(each is design for each in project.designs):
         project = _put_in(project, design)
-        graphs = None
+    return read_design(project, design, graphs_of(project))
+
+
+def read_design(project: Project, design: Design, graphs: Graphs) -> Context:
+    """Read a design within a project, whose graphs are given."""
     reader = reader_of(project, design)
     decisions, actions, codes = tuple(walk_decisions(design)), tuple(walk_actions(design)), tuple(walk_code(design))
     return Context(
         project=project,
         design=design,
         scope=reader.scope,
-        graphs=graphs or graphs_of(project),
+        graphs=graphs,
         decisions=decisions,
         actions=actions,
         codes=codes,

@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -13,6 +14,7 @@ if TYPE_CHECKING:
     from vicode.findings import Path as ThingPath
     from vicode.importers import Imported
     from vicode.xabsl.compiler import Compiled
+    from vicode.xabsl.parser import Parsed
     from vicode.xabsl.sources import Source
 
 BEHAVIORS = (".xabsl", ".yabsl")
@@ -75,7 +77,7 @@ def _read_behavior(agents: Path) -> Reading:
     from vicode.xabsl.compiler import compile_source
     from vicode.xabsl.sources import load
 
-    source = load(agents)
+    source = load(agents, parse_text=_parsed)
     compiled = compile_source(source)
     errors = [each for each in compiled.findings if each.severity is Severity.ERROR]
     is_broken = compiled.program is None
@@ -86,6 +88,14 @@ def _read_behavior(agents: Path) -> Reading:
         is_broken=is_broken,
         folders=tuple(sorted({path.resolve().parent for path in (agents, *source.files)})),
     )
+
+
+# While a behavior is watched, an edit leaves all other files as they were.
+@lru_cache(maxsize=2000)
+def _parsed(text: str, name: str) -> "Parsed":
+    from vicode.xabsl.parser import parse
+
+    return parse(text, name)
 
 
 def _subject_of_behavior(agents: Path, source: "Source", compiled: "Compiled") -> "Subject":
