@@ -22,8 +22,8 @@ def text_of(path: str) -> str:
 
 
 def template_files(folder: str) -> tuple[Path, ...]:
-    """Everything in a folder of templates, by name."""
-    return tuple(sorted(path for path in (_folder() / folder).iterdir() if path.is_file()))
+    """Everything in a folder of templates and below it, by name."""
+    return tuple(sorted(path for path in (_folder() / folder).rglob("*") if path.is_file()))
 
 
 @lru_cache(maxsize=1)

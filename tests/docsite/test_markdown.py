@@ -17,6 +17,7 @@ from tests.editor.hostile_project import PAYLOADS, write_hostile_project
 from vicode.cli import main
 from vicode.docsite.docs import html_of
 from vicode.docsite.markdown_text import address, code, escaped, fence, of_html
+from vicode.templating import template_files
 
 ROOT = Path(__file__).parents[2]
 FORWARD = ROOT / "designs" / "forward"
@@ -219,3 +220,8 @@ def test_markdown_is_not_watched(tmp_path: Path, capsys: pytest.CaptureFixture[s
     assert main(["docs", str(FORWARD), "--watch", *FORMAT, str(tmp_path / "site")]) == 2
     assert "watch Markdown themselves" in capsys.readouterr().err
     assert not (tmp_path / "site").exists()
+
+
+def test_pages_are_made_anew_when_their_templates_change() -> None:
+    digested = {file.relative_to(ROOT / "templates").as_posix() for file in template_files("docsite")}
+    assert {"docsite/site.css", "docsite/layout.html.jinja", "docsite/markdown/layout.md.jinja"} <= digested

@@ -233,6 +233,36 @@ def test_pages_of_others_are_not_written_over(tmp_path: Path, capsys: pytest.Cap
     assert [file.name for file in tmp_path.iterdir()] == ["index.html"]
 
 
+@pytest.mark.parametrize(
+    ("name", "text"),
+    [
+        ("vicode.md", "# How to use vicode\n\n    vicode docs designs --out site\n"),
+        ("start.md", "# vicode docs: how it is used\n"),
+        ("talk.html", "<!doctype html>\n<p>vicode docs"),
+        ("style.css", "/* the look of what vicode docs writes */\n"),
+        ("mkdocs.yml", "# vicode docs: see INHERIT\nINHERIT: nav.yml\n"),
+    ],
+)
+@pytest.mark.parametrize("form", ["html", "markdown"])
+def test_pages_of_others_that_speak_of_us_stay(form: str, name: str, text: str, tmp_path: Path) -> None:
+    (tmp_path / name).write_text(text, "utf-8")
+    assert main(["docs", str(FORWARD), "--format", form, "--out", str(tmp_path)]) == 0
+    assert (tmp_path / name).read_text("utf-8") == text
+
+
+def test_a_folder_holds_one_format_and_line_ends_of_git_do_not_matter(tmp_path: Path) -> None:
+    once, again = tmp_path / "once", tmp_path / "again"
+    assert main(["docs", str(FORWARD), "--format", "markdown", "--out", str(once)]) == 0
+    for form in ("markdown", "html", "markdown"):
+        assert main(["docs", str(FORWARD), "--format", form, "--out", str(again)]) == 0
+        for file in again.iterdir():
+            file.write_bytes(file.read_bytes().replace(b"\n", b"\r\n"))
+    assert main(["docs", str(FORWARD), "--format", "markdown", "--out", str(again)]) == 0
+    assert {file.name: file.read_bytes() for file in again.iterdir()} == {
+        file.name: file.read_bytes() for file in once.iterdir()
+    }
+
+
 def test_strict_fails_on_findings(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["docs", str(BEHAVIOR), "--out", str(tmp_path), "--strict"]) == 1
     assert (tmp_path / "index.html").exists()

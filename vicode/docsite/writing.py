@@ -13,11 +13,17 @@ import vicode
 from vicode.output import write_atomically
 from vicode.templating import template_files
 
-MARK = "vicode docs"
-"""Stands at the beginning of every file of a site."""
+MARKS = (
+    b'<!doctype html>\n<html lang="en">\n<head>\n<meta charset="utf-8">\n<meta name="generator" content="vicode docs">',
+    b"<!-- vicode docs -->",
+    b"/* vicode docs: ",
+    b"# vicode docs: the order of the pages;",
+    b".. vicode docs\n",
+)
+"""How files of a site begin. Pages of others may well speak of `vicode docs`."""
 
 CACHE = "VICODE_CACHE"
-_PAGES = (".html", ".md", ".svg")
+_PAGES = (".css", ".html", ".js", ".md", ".rst", ".svg", ".yml")
 # What else says how a page looks.
 _LIBRARIES = ("jinja2", "markdown-it-py", "markupsafe", "pygments")
 
@@ -117,7 +123,7 @@ def tool_digest() -> str:
     sources = sorted(path for path in package.rglob("*.py") if path.relative_to(package).parts[0] != "editor")
     digest = sha256()
     for path in (*sources, *template_files("docsite")):
-        digest.update(f"{path.name}\n".encode())
+        digest.update(f"{path.parent.name}/{path.name}\n".encode())
         digest.update(path.read_bytes())
     digest.update("\n".join(f"{name} {_version_of(name)}" for name in _LIBRARIES).encode())
     return digest.hexdigest()[:32]
@@ -153,7 +159,7 @@ def _look_at(path: Path) -> _Seen | None:
 @lru_cache(maxsize=1 << 14)
 def _seen(path: Path, _changed_ns: int, _size: int, _number: int) -> _Seen:
     content = path.read_bytes()
-    return _Seen(digest=_digest(content), is_ours=MARK.encode() in content[:400])
+    return _Seen(digest=_digest(content), is_ours=content[:200].replace(b"\r\n", b"\n").startswith(MARKS))
 
 
 def _digest(content: bytes) -> str:
