@@ -275,3 +275,16 @@ def test_a_behavior_with_errors_gives_no_site(tmp_path: Path, capsys: pytest.Cap
     assert main(["docs", str(file), "--out", str(tmp_path / "site")]) == 1
     assert "nobody" in capsys.readouterr().err
     assert not (tmp_path / "site").exists()
+
+
+def test_a_site_stays_where_nothing_can_be_read_any_more(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    design, out = tmp_path / "Blink.yaml", tmp_path / "site"
+    design.write_bytes((ROOT / "designs" / "blink" / "blink.yaml").read_bytes())
+    before = site_of(design, out)
+    design.write_text(design.read_text("utf-8") + "  broken: [\n", "utf-8")
+    capsys.readouterr()
+    assert main(["docs", str(design), "--out", str(out)]) == 1
+    said = capsys.readouterr()
+    assert "error Y101" in said.err
+    assert said.out == ""
+    assert files_in(out) == before

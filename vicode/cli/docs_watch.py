@@ -5,6 +5,7 @@ import sys
 import time
 import webbrowser
 from collections.abc import Iterator, Sequence
+from contextlib import suppress
 from pathlib import Path
 
 from watchfiles import Change, watch
@@ -33,7 +34,8 @@ def watch_sites(paths: Sequence[Path], out: Path, *, port: int = 0, is_fresh: bo
             print(f"{server.address} shows it, and goes on; Ctrl-C ends it.", flush=True)
             if opens:
                 webbrowser.open(server.address)
-            watcher.follow(out)
+            with suppress(KeyboardInterrupt):
+                watcher.follow()
     return 0
 
 
@@ -44,12 +46,11 @@ class Watcher:
         self._paths, self._sites, self._news = paths, sites, news
         self.folders: tuple[Path, ...] = tuple(path if path.is_dir() else path.resolve().parent for path in paths)
 
-    def follow(self, out: Path) -> None:
-        """Update after every change, until it is ended."""
-        folders: tuple[Path, ...] = ()
-        while folders != self.folders:
+    def follow(self) -> None:
+        """Update after every change, until Ctrl-C."""
+        while True:
             folders = self.folders
-            for _change in changes_in(folders, out):
+            for _change in changes_in(folders):
                 self.update()
                 # A behavior may include files of another folder now.
                 if folders != self.folders:
@@ -61,8 +62,7 @@ class Watcher:
         try:
             readings = read_subjects(self._paths)
         except OSError as error:
-            self._refuse(f"error: {describe_os_error(error)}\n")
-            return True
+            return self._stop(describe_os_error(error))
         self.folders = tuple(sorted({*self.folders, *(each for reading in readings for each in reading.folders)}))
         for reading in readings:
             print_findings(reading.unread, to_stderr=True)
@@ -70,16 +70,28 @@ class Watcher:
         if errors and not is_first:
             self._refuse(errors)
             return True
-        return self._build(readings, errors, begun)
+        return self._build(readings, errors, begun, is_first=is_first)
 
-    def _build(self, readings: Sequence[Reading], errors: str, begun: float) -> bool:
-        with progress() as step:
-            built = self._sites.build(readings, step)
+    def _build(self, readings: Sequence[Reading], errors: str, begun: float, *, is_first: bool) -> bool:
+        try:
+            with progress() as step:
+                built = self._sites.build(readings, step)
+        except OSError as error:
+            if is_first:
+                raise
+            return self._stop(describe_os_error(error))
         if built.foreign:
-            print(f"vicode: {built.foreign} is no page of ours; choose another --out", file=sys.stderr)
+            self._stop(f"{built.foreign} is no page of ours; choose another --out")
             return False
-        self._say(built, readings, time.perf_counter() - begun)
+        if built.files:
+            self._say(built, readings, time.perf_counter() - begun)
         self._news.tell(built.touched, errors)
+        return True
+
+    def _stop(self, problem: str) -> bool:
+        """What is wrong with the files themselves; the next change may have mended it."""
+        print(f"vicode: {problem}", file=sys.stderr, flush=True)
+        self._news.tell((), f"error: {problem}\n")
         return True
 
     def _say(self, built: Built, readings: Sequence[Reading], took_s: float) -> None:
@@ -90,22 +102,16 @@ class Watcher:
         print("The site stays as it was before this change.", file=sys.stderr, flush=True)
 
 
-def changes_in(folders: Sequence[Path], out: Path) -> Iterator[None]:
-    """Comes back each time that a design or a behavior in these folders has changed."""
-    own = out.resolve()
-
-    def is_meant(_change: Change, path: str) -> bool:
-        file = Path(path)
-        return file.suffix in _SUFFIXES and not file.name.startswith(".") and not file.is_relative_to(own)
-
+def changes_in(folders: Sequence[Path]) -> Iterator[None]:
+    """Comes back each time that a design or a behavior in these folders has changed; ends when a folder is another."""
+    known = {folder: _identity(folder) for folder in folders}
     wanted = watch(
-        *folders,
-        watch_filter=is_meant,
+        *(folder for folder, identity in known.items() if identity),
+        watch_filter=_is_meant,
         step=_QUIET_MS,
         debounce=_LONGEST_MS,
         rust_timeout=_LOOK_MS,
         yield_on_timeout=True,
-        raise_interrupt=False,
     )
     # What changed before the watching began is found by looking once.
     is_first = True
@@ -113,3 +119,19 @@ def changes_in(folders: Sequence[Path], out: Path) -> Iterator[None]:
         if changes or is_first:
             yield
         is_first = is_first and bool(changes)
+        # One that was taken away tells nothing any more, nor does the one that is put in its place.
+        if known != {folder: _identity(folder) for folder in folders}:
+            return
+
+
+def _is_meant(_change: Change, path: str) -> bool:
+    file = Path(path)
+    return file.suffix in _SUFFIXES and not file.name.startswith(".")
+
+
+def _identity(folder: Path) -> tuple[int, int] | None:
+    try:
+        status = folder.stat()
+    except OSError:
+        return None
+    return status.st_dev, status.st_ino

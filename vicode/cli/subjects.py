@@ -52,9 +52,11 @@ def read_subjects(paths: Sequence[Path]) -> tuple[Reading, ...]:
 
 def _reading_of(opened: Opened) -> Reading:
     folder = opened.opened.folder.resolve()
+    # Where nothing can be read, nothing is told of it: pages of a better time are worth more.
+    is_readable = bool(opened.meant) or not opened.opened.broken
     return Reading(
         name=folder.name,
-        subject=_subject_of_project(opened),
+        subject=_subject_of_project(opened) if is_readable else None,
         unread=tuple(each for each in opened.findings if each.severity is Severity.ERROR),
         is_broken=bool(opened.opened.broken),
         folders=(folder,),
