@@ -2,6 +2,7 @@
 
 import json
 import re
+import shutil
 from pathlib import Path
 from typing import Any
 
@@ -213,6 +214,9 @@ def test_docs_are_markdown_without_danger() -> None:
     assert "<b>" not in html
     assert '<a href="https://example.org">w</a>' in html_of("[w](https://example.org)")
     assert summary_of("Looks around. Then it goes.\n\nMore.") == "Looks around."
+    assert summary_of("Reads `a_b` of *one* [site](https://example.org)\nor <i>two</i>.") == (
+        "Reads a_b of one site or <i>two</i>."
+    )
 
 
 def test_a_second_run_changes_only_what_is_new(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -288,3 +292,23 @@ def test_a_site_stays_where_nothing_can_be_read_any_more(tmp_path: Path, capsys:
     assert "error Y101" in said.err
     assert said.out == ""
     assert files_in(out) == before
+
+
+def test_a_mistake_is_told_with_the_file_that_it_is_in(tmp_path: Path) -> None:
+    project, out = tmp_path / "Forward", tmp_path / "site"
+    shutil.copytree(FORWARD, project)
+    with (project / "turn.yaml").open("a", encoding="utf-8") as file:
+        file.write("  broken: [\n")
+    assert main(["docs", str(project), "--out", str(out)]) == 1
+    home = read_page((out / "index.html").read_text("utf-8"))
+    text = " ".join(home.text.split())
+    assert "turn.yaml:14" in text
+    assert "project.yaml:14" not in text
+    assert "2 findings" in text
+    assert "1 agent " in text
+    assert "#findings" in home.links
+
+
+def test_a_site_without_findings_does_not_count_them(tmp_path: Path) -> None:
+    site_of(FORWARD, tmp_path)
+    assert "#findings" not in read_page((tmp_path / "index.html").read_text("utf-8")).links

@@ -6,6 +6,8 @@ from functools import lru_cache
 from markdown_it import MarkdownIt
 
 _ALLOWED = re.compile(r"(?i)(https?://|mailto:)")
+# Words without any of these are said plainly already.
+_MARKUP = re.compile(r"[*_`\[\\&<]")
 # A doc stands below the headings of its page.
 _DEEPER = 3
 
@@ -28,6 +30,9 @@ def line_html_of(text: str) -> str:
 def summary_of(text: str) -> str:
     """The first sentence, as plain words."""
     paragraph = " ".join(text.strip().split("\n\n")[0].split())
+    if _MARKUP.search(paragraph):
+        (line,) = _markdown().parseInline(paragraph)
+        paragraph = "".join(token.content for token in line.children or ())
     end = re.search(r"[.:!?](?= [A-Z])", paragraph)
     return paragraph[: end.end()] if end else paragraph
 

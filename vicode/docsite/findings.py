@@ -36,7 +36,9 @@ def row_of(own: OwnFinding, subject: Subject, addresses: Addresses) -> FindingRo
     place = Part(text="")
     source = subject.sources.get(own.component)
     line = own.line or (_line_of(source, path) if source else 0)
-    if source and line:
+    if own.file:
+        place = Part(text=f"{own.file}:{line}")
+    elif source and line:
         page = addresses.code(own.component, "source")
         place = Part(text=f"{source.path}:{line}", href=f"{page}#L{line}")
     return FindingRow(

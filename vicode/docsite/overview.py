@@ -25,7 +25,7 @@ def home_view(subject: Subject, addresses: Addresses, svg: str = "") -> HomeView
     linker = Linker(project, addresses)
     return HomeView(
         doc_html=html_of(project.doc),
-        numbers=tuple(each for each in _numbers(project) if each[0]),
+        numbers=tuple(_number(count, word, href) for count, word, href in _numbers(subject) if count),
         svg=svg,
         is_sparse=leaves_out(project) and symbol_count(project) > 0,
         agents=tuple(
@@ -63,17 +63,23 @@ def agent_views(project: Project, addresses: Addresses) -> Iterator[AgentView]:
         )
 
 
-def _numbers(project: Project) -> Iterator[tuple[int, Part]]:
-    designs = project.designs
+def _numbers(subject: Subject) -> Iterator[tuple[int, str, str]]:
+    project, designs = subject.project, subject.project.designs
     states = sum(len(design.states) for design in designs)
     transitions = sum(1 for design in designs for _each in walk_transitions(design))
-    yield len(project.agents), Part(text="agents", href=AGENTS)
-    yield len(designs), Part(text="state machines", href="#components")
-    yield states, Part(text="states", href=EVERYTHING)
-    yield transitions, Part(text="transitions", href=EVERYTHING)
-    yield len(project.components), Part(text="interfaces", href=INTERFACES)
-    yield symbol_count(project), Part(text="symbols", href=SYMBOLS)
-    yield len(project.enumerations) + len(project.constants), Part(text="types and constants", href=TYPES)
+    yield len(project.agents), "agent", AGENTS
+    yield len(designs), "state machine", "#components"
+    yield states, "state", EVERYTHING
+    yield transitions, "transition", EVERYTHING
+    yield len(project.components), "interface", INTERFACES
+    yield symbol_count(project), "symbol", SYMBOLS
+    yield len(project.enumerations), "type", TYPES
+    yield len(project.constants), "constant", TYPES
+    yield len(subject.findings), "finding", "#findings"
+
+
+def _number(count: int, word: str, href: str) -> tuple[int, Part]:
+    return count, Part(text=word + "s" * (count != 1), href=href)
 
 
 def _component_row(design: Design, subject: Subject, linker: Linker) -> ComponentRow:

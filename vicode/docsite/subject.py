@@ -2,6 +2,7 @@
 
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
+from pathlib import Path as FilePath
 
 from vicode.findings import Finding, Path
 from vicode.model.design import Design
@@ -22,11 +23,15 @@ class SourceText:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class OwnFinding:
-    """A finding with the component it is about, "" for the project, and its line, 0 for none."""
+    """A finding with the component it is about, "" for the project, and its line, 0 for none.
+
+    `file` is the file it is in when that is none of the subject's sources, as one that cannot be read.
+    """
 
     component: str
     line: int
     finding: Finding
+    file: str = ""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -53,22 +58,27 @@ def subject_of(
         design = project.design(name)
         if name and design is None:
             continue
-        file = opened.files[name].resolve()
-        shown = file.relative_to(folder).as_posix() if file.is_relative_to(folder) else file.name
         lines = _lines_of(design, source) if design else {}
+        shown = _shown(opened.files[name], folder)
         sources[name] = SourceText(path=shown, text=opened.texts[name], language="yaml", lines=lines)
     owners = {source.file: name for name, source in opened.sources.items()}
-    own = (_own(finding, owners) for finding in findings)
+    own = (_own(finding, owners, folder) for finding in findings)
     kept = tuple(each for each in own if not each.component or project.design(each.component))
     return Subject(project=project, findings=kept, sources=sources, faulty=faulty)
 
 
-def _own(finding: Finding, owners: Mapping[str, str]) -> OwnFinding:
-    component = finding.thing.component if finding.thing else ""
+def _own(finding: Finding, owners: Mapping[str, str], folder: FilePath) -> OwnFinding:
+    component, file = finding.thing.component if finding.thing else "", ""
     line = finding.place.line if finding.place else 0
     if finding.place and not finding.thing:
         component = owners.get(finding.place.file, "")
-    return OwnFinding(component=component, line=line, finding=finding)
+        file = "" if finding.place.file in owners else _shown(FilePath(finding.place.file), folder)
+    return OwnFinding(component=component, line=line, finding=finding, file=file)
+
+
+def _shown(file: FilePath, folder: FilePath) -> str:
+    whole = file.resolve()
+    return whole.relative_to(folder).as_posix() if whole.is_relative_to(folder) else whole.name
 
 
 def described_paths(design: Design) -> Iterator[Path]:
