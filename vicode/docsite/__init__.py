@@ -1,5 +1,6 @@
 """The documentation site of a project: a page a component, with drawings, cross links and a search; plain files."""
 
+from vicode.docsite.addresses import Addresses, state_anchor
 from vicode.docsite.homes import plan_home
 from vicode.docsite.site import SiteBuilder, build_site
 from vicode.docsite.subject import OwnFinding, SourceText, Subject, described_paths, subject_of
@@ -13,6 +14,7 @@ from vicode.docsite.writing import (
 )
 
 __all__ = [
+    "Addresses",
     "Manifest",
     "OwnFinding",
     "PlannedFile",
@@ -25,6 +27,7 @@ __all__ = [
     "manifest_file",
     "plan_home",
     "save_manifest",
+    "state_anchor",
     "subject_of",
     "write_site",
 ]

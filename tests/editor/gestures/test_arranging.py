@@ -57,6 +57,8 @@ def test_lining_up_by_keys_and_by_buttons(
         sketch.stands(f"states/{name}", x, y)
     sketch.undone()
     sketch.select("Start", "Go", "Stop")
+    # The buttons for two of them are replaced by those for all three.
+    expect(sketch.page.get_by_text("3 states selected")).to_be_visible()
     sketch.page.get_by_role("button", name=button).click()
     for name, (x, y) in places.items():
         sketch.stands(f"states/{name}", x, y)

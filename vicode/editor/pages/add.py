@@ -9,6 +9,7 @@ from vicode.editor.pages.design_page import DesignPage
 from vicode.editor.pages.going import Way
 from vicode.editor.pages.keeping import keep_all
 from vicode.editor.pages.look import add_look
+from vicode.editor.pages.site_pages import serve_site_pages
 from vicode.editor.panels.messages import tell_failure
 from vicode.editor.panels.thumbnails import serve_thumbnails
 from vicode.editor.session import Library, Workspace
@@ -24,6 +25,7 @@ def add_pages(library: Library, keeper: Keeper | None = None, *, tour: bool = Fa
         keep_all(keeper)
 
     serve_thumbnails(library)
+    serve_site_pages(library)
 
     @ui.page("/", title="vicode")
     def home(request: Request) -> None:

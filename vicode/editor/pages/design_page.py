@@ -13,6 +13,7 @@ from vicode.editor.pages.keeping import Keeping
 from vicode.editor.pages.keys import listen_to_keys
 from vicode.editor.pages.look import Theme, add_look
 from vicode.editor.pages.meeting import Meeting
+from vicode.editor.pages.site_pages import page_command
 from vicode.editor.pages.stage import Stage
 from vicode.editor.pages.visitor import greet_visitor
 from vicode.editor.panels.command import Command, Place
@@ -84,6 +85,7 @@ class DesignPage:
         actions = Actions(self.desk, self.stage.drawing, theme)
         commands = (*actions.commands(), *others, *self.stage.commands())
         commands += ExportDialog(self.desk, lambda: actions.links_shown).commands()
+        commands += (page_command(self.desk),)
         help_ = Command("help", "Keys and gestures", lambda: show_help(commands), Place.VIEW, icon="help", keys=("?",))
         commands += (*self.beside.commands(), help_)
         return (*commands, *self.stage.drawing.commands(commands))

@@ -12,7 +12,7 @@ from vicode.editor.panels.rows import icon_button, primary_button
 from vicode.editor.panels.save_dialog import ask_about_disk
 from vicode.editor.view.address import design_address
 
-_ICONS = ("find", "undo", "redo", "lay-out", "links", "theme", "help")
+_ICONS = ("find", "undo", "redo", "lay-out", "links", "page", "theme", "help")
 
 
 class Header:

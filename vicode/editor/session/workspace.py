@@ -121,6 +121,11 @@ class Workspace:
         return document.findings if document else None
 
     @property
+    def seen(self) -> frozenset[tuple[str, int, int]]:
+        """The files of the project when the disk was looked at last: another set means that one was written."""
+        return self._seen
+
+    @property
     def reading(self) -> Mapping[str, tuple[Finding, ...]]:
         """What was wrong with the files when they were read, by component; "" is what belongs to none."""
         return self._reading

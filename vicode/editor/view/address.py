@@ -30,6 +30,11 @@ def broken_address(key: str, file: str) -> str:
     return f"/broken/{quote(key, safe='')}/{quote(file)}"
 
 
+def page_address(key: str, file: str, place: str = "") -> str:
+    """Where a page of a project's documentation is shown, as it would be now."""
+    return f"/docs/{quote(key, safe='')}/{quote(file)}" + (f"#{quote(place)}" if place else "")
+
+
 def text_of_selected(selected: Selected) -> str:
     """A thing as addresses say it: "Kick", "Kick/0", "@common/1", "components:head"."""
     if selected.of in ("states", "transitions", "common"):

@@ -1,0 +1,109 @@
+"""The documentation of a project as it would be now, beside the editor; its pages follow what is edited."""
+
+import contextlib
+import threading
+from dataclasses import dataclass, field
+from html import escape
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from nicegui import app, run, ui
+from starlette.requests import Request
+from starlette.responses import Response
+
+from vicode.editor.panels.command import Command, Place
+from vicode.editor.panels.desk import Desk
+from vicode.editor.session import Library
+from vicode.editor.view.address import page_address
+
+if TYPE_CHECKING:
+    from vicode.docsite import PlannedFile, SiteBuilder
+    from vicode.editor.session.described import Snapshot
+
+_TYPES = {".html": "text/html", ".css": "text/css", ".js": "text/javascript", ".svg": "image/svg+xml"}
+_FOLLOW = Path(__file__).with_name("follow.js")
+_MISSING = """<!doctype html>
+<html lang="en"><head><meta charset="utf-8"><title>Not there</title><link rel="stylesheet" href="site.css"></head>
+<body><main><h1>Not there</h1><p>The documentation of {name} has no such page just now.</p></main></body></html>
+"""
+
+
+@dataclass(eq=False)
+class _Site:
+    """The site of one project, planned anew when the project is another one."""
+
+    builder: "SiteBuilder"
+    shown: "Snapshot | None" = None
+    planned: "dict[str, PlannedFile]" = field(default_factory=dict)
+    lock: threading.Lock = field(default_factory=threading.Lock)
+
+    def file(self, snapshot: "Snapshot", path: str, *, is_made: bool) -> tuple[str, str] | None:
+        """The key of a file, and its text if it is to be made; None where there is none.
+
+        Raises:
+            OSError: The project is gone.
+        """
+        from vicode.editor.session.described import subject_at
+
+        with self.lock:
+            if snapshot != self.shown:
+                self.planned = {each.path: each for each in self.builder.plan(subject_at(snapshot))}
+                self.shown = snapshot
+            found = self.planned.get(path)
+            return None if found is None else (found.key, found.make() if is_made else "")
+
+
+def serve_site_pages(library: Library) -> None:
+    """Answer the addresses of `page_address`."""
+    sites: dict[str, _Site] = {}
+
+    @app.api_route("/docs/{key}/{path}", methods=["GET", "HEAD"])
+    async def page(key: str, path: str, request: Request) -> Response:
+        from vicode.docsite import SiteBuilder
+        from vicode.editor.session.described import snapshot_of
+
+        workspace = library.workspace(key)
+        if workspace is None:
+            return Response(status_code=404)
+        if path == _FOLLOW.name:
+            return _answer(path, _FOLLOW.read_text(encoding="utf-8"), "")
+        with contextlib.suppress(OSError):
+            workspace.glance()
+        if key not in sites:
+            sites[key] = _Site(SiteBuilder())
+        found = None
+        with contextlib.suppress(OSError):
+            found = await run.io_bound(sites[key].file, snapshot_of(workspace), path, is_made=request.method == "GET")
+        if found is None:
+            return _answer("missing.html", _MISSING.format(name=escape(workspace.project.name)), "missing", status=404)
+        mark, text = found
+        return _answer(path, text, mark)
+
+    @app.on_shutdown
+    def close() -> None:
+        for site in sites.values():
+            site.builder.close()
+
+
+def page_command(desk: Desk) -> Command:
+    """Show the page of the open design, at the selected state, in a tab of its own."""
+
+    def show() -> None:
+        from vicode.docsite import Addresses, state_anchor
+
+        project, only = desk.workspace.project, desk.only
+        place = state_anchor(only.id) if only is not None and only.of == "states" else ""
+        file = Addresses(project).component(desk.design.component)
+        ui.navigate.to(page_address(desk.workspace.key, file, place), new_tab=True)
+
+    return Command("page", "Show its page in the documentation", show, Place.VIEW, icon="menu_book")
+
+
+def _answer(path: str, text: str, mark: str, *, status: int = 200) -> Response:
+    """A file, with the mark by which a page learns that it has become another one."""
+    suffix = Path(path).suffix
+    if suffix == ".html":
+        script = f'<script src="{_FOLLOW.name}" data-mark="{escape(mark)}" defer></script>'
+        text = text.replace("</head>", f"{script}\n</head>", 1)
+    headers = {"etag": f'"{mark}"', "cache-control": "no-store", "x-content-type-options": "nosniff"}
+    return Response(text, status_code=status, media_type=_TYPES.get(suffix, "text/plain"), headers=headers)

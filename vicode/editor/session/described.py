@@ -1,0 +1,85 @@
+"""What the documentation of a project is about while the project is being edited: unsaved work is part of it."""
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+
+from vicode.check import check_project
+from vicode.docsite import Subject, subject_of
+from vicode.editor.session.workspace import Workspace
+from vicode.findings import Finding, Severity
+from vicode.model.design import Design
+from vicode.store import OpenProject, locate, open_project, read_design, save_design
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Draft:
+    """A design with changes that no file holds, and the text of its file."""
+
+    design: Design
+    disk_text: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Snapshot:
+    """A project at one moment. Equal ones have the same documentation, as far as the editor knows of its files."""
+
+    folder: Path
+    seen: object
+    """What stood on the disk when it was looked at last."""
+    drafts: Mapping[str, Draft] = field(default_factory=dict)
+
+
+def snapshot_of(workspace: Workspace) -> Snapshot:
+    """The project as it is now."""
+    drafts = {
+        each.design.component: Draft(design=each.design, disk_text=each.sheet.disk_text)
+        for each in workspace.documents
+        if not each.is_saved
+    }
+    return Snapshot(folder=workspace.folder, seen=workspace.seen, drafts=drafts)
+
+
+def subject_at(snapshot: Snapshot) -> Subject:
+    """Read the files and lay the drafts over them; takes a moment, and is safe beside the event loop.
+
+    Raises:
+        OSError: The folder is gone.
+    """
+    opened = open_project(snapshot.folder)
+    for name, draft in snapshot.drafts.items():
+        if name in opened.files:
+            opened = _with_draft(opened, name, draft)
+    project = opened.project
+    findings = locate([*opened.findings, *check_project(project)], opened)
+    errors = [each for each in findings if each.severity is Severity.ERROR]
+    faulty = {language: _guilty(errors, language, opened) for language in project.languages}
+    return subject_of(opened, project, findings, faulty)
+
+
+def _with_draft(opened: OpenProject, name: str, draft: Draft) -> OpenProject:
+    designs = tuple(draft.design if each.component == name else each for each in opened.project.designs)
+    project = replace(opened.project, designs=designs)
+    try:
+        text = save_design(draft.design, draft.disk_text)
+    except ValueError:
+        # No file can hold it as it is now: the lines of the last one have to do.
+        return replace(opened, project=project)
+    read = read_design(text, opened.sources[name].file)
+    return replace(
+        opened,
+        project=project,
+        sources={**opened.sources, name: read.source},
+        texts={**opened.texts, name: text},
+        findings=(*(each for each in opened.findings if _owner(each) != name), *read.findings),
+    )
+
+
+def _guilty(errors: Iterable[Finding], language: str, opened: OpenProject) -> frozenset[str]:
+    """Components that nothing can be generated for in a language; mistakes in project.yaml make all of them so."""
+    guilty = {_owner(each) for each in errors if each.concerns(language)}
+    return frozenset(opened.files) if "" in guilty else frozenset(guilty)
+
+
+def _owner(finding: Finding) -> str:
+    return finding.thing.component if finding.thing else ""
