@@ -35,6 +35,8 @@ def _environment() -> Environment:
         trim_blocks=True,
         lstrip_blocks=True,
         keep_trailing_newline=True,
+        # Nobody edits a template while it is used.
+        auto_reload=False,
     )
 
 

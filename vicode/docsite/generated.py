@@ -6,11 +6,11 @@ from functools import partial
 
 from vicode.docsite.addresses import Addresses
 from vicode.docsite.languages import Unsaid, faulty_in
-from vicode.docsite.listings import TITLES, lines_of
+from vicode.docsite.listings import TITLES, code_row, lines_of
 from vicode.docsite.memory import Memory, digest_of
 from vicode.docsite.parts import outside_of
 from vicode.docsite.subject import Subject
-from vicode.docsite.views import CodeLine, CodeView, Part
+from vicode.docsite.views import CodeView, Part
 from vicode.findings import Path
 from vicode.generators import GENERATORS, ComponentText, Origin, component_texts
 
@@ -75,17 +75,19 @@ def code_view(text: Text, links: tuple[Part, ...], addresses: Addresses, compone
     begins: dict[int, Path] = {}
     for path, line in text.lines.items():
         begins.setdefault(line, path)
+    lines_html = lines_of(text.text, text.language)
     rows = []
-    for number, html in enumerate(lines_of(text.text, text.language), start=1):
+    for number, html in enumerate(lines_html, start=1):
         path = begins.get(number, ())
         href = addresses.thing(text.component, path) if path and text.component else ""
-        rows.append(CodeLine(html=html, href=href, title=_name_of(path)))
+        rows.append(code_row(number, html, href, _name_of(path)))
     return CodeView(
         title=title_of(text),
         path=text.path,
         component=component,
         texts=links,
-        lines=tuple(rows),
+        lines_html=lines_html,
+        rows_html="\n".join(rows),
     )
 
 

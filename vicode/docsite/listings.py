@@ -54,6 +54,17 @@ def lines_of(text: str, language: str) -> tuple[str, ...]:
     return tuple("".join(map(_html_of, pieces)).split("\n"))
 
 
+def code_row(number: int, html: str, href: str, title: str) -> str:
+    """The row of a line in a table of code; `href` leads to what it comes from, which `title` names."""
+    # Not by a template: most of all that a site says stands in such rows.
+    about = escape(title)
+    link = f'<a href="{escape(href)}" title="{about}" aria-label="{about}">↗</a>' if href else ""
+    return (
+        f'<tr id="L{number}"><td class="line-number"><a href="#L{number}">{number}</a></td>'
+        f'<td class="origin">{link}</td><td class="code-line"><code>{html}</code></td></tr>'
+    )
+
+
 def block_of(text: str, language: str) -> str:
     """A piece of code as HTML."""
     return "\n".join(lines_of(text.strip("\n"), language))

@@ -84,7 +84,7 @@ class Marker:
 
     def listing(self, view: CodeView) -> str:
         """A whole text."""
-        return fence("\n".join(plain_of(each.html) for each in view.lines))
+        return fence("\n".join(map(plain_of, view.lines_html)))
 
     def picture(self, name: str, about: str, svg: str) -> str:
         """A drawing in a file of its own, which a click shows in its full size; nothing for none."""

@@ -90,7 +90,7 @@ class _Planner:
     machines: tuple[Part, ...]
     frame: str
     contents: list[Content] = field(default_factory=list)
-    _menus: dict[str, str] = field(default_factory=dict)
+    _menus: list[str] = field(default_factory=list)
 
     def overview(self) -> Iterator[PlannedFile]:
         """The pages about the whole, and what the search looks through."""
@@ -170,12 +170,11 @@ class _Planner:
         return PlannedFile(path=head.file, key=digest_of(template, head, self.frame, key), make=make)
 
     def _menu_html(self, here: str) -> str:
-        """The menu with one of its entries marked; the pages of a component share one."""
-        found = self._menus.get(here)
-        if found is None:
-            found = render("docsite/menu.html.jinja", here=here, menu=self.menu, machines=self.machines)
-            self._menus[here] = found
-        return found
+        """The menu with one of its entries marked: it is made once, and marked for each page."""
+        if not self._menus:
+            self._menus.append(render("docsite/menu.html.jinja", menu=self.menu, machines=self.machines))
+        # Addresses hold letters, digits and the like alone: nothing in them is escaped.
+        return self._menus[0].replace(f'<a href="{here}"', f'<a href="{here}" aria-current="page"', 1)
 
 
 def _planner_of(subject: Subject, memory: Memory) -> _Planner:

@@ -289,23 +289,15 @@ class HomeRow:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class CodeLine:
-    """A line of code; `href` leads to what it comes from."""
-
-    html: str
-    href: str = ""
-    title: str = ""
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
 class CodeView:
-    """A page of code; `texts` are all texts of the same component."""
+    """A page of code; `texts` are all texts of the same component, `rows_html` is a row of the table for each line."""
 
     title: str
     path: str
     component: Part
     texts: tuple[Part, ...]
-    lines: tuple[CodeLine, ...]
+    lines_html: tuple[str, ...]
+    rows_html: str
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
