@@ -66,23 +66,23 @@ class Obstacles:
 
     def __init__(self, clearance: float) -> None:
         self._clearance = clearance
-        self._cells: dict[tuple[int, int], list[tuple[str, float, float, float, float]]] = {}
+        self._cells: dict[tuple[float, float], list[tuple[str, float, float, float, float]]] = {}
 
     def add(self, key: str, rect: Rect) -> None:
         """Put a rectangle there."""
         wide = rect.grown(self._clearance)
         entry = (key, wide.left, wide.top, wide.right, wide.bottom)
-        for cell in _cells(wide, _FINE_CELL):
-            self._cells.setdefault(cell, []).append(entry)
+        for column, row in _cells(wide, _FINE_CELL):
+            self._cells.setdefault((float(column), float(row)), []).append(entry)
 
     def count_under(self, curve: Curve, weights: Iterable[Weights], besides: Collection[str], enough: float) -> int:
         """How many lie under the points of a curve, `besides` those at its ends; from `enough` on nobody counts."""
         find, hit = self._cells.get, set[str]()
         x0, y0, x1, y1, x2, y2, x3, y3 = curve
-        # Maps of large projects ask this a million times: the points are not made elsewhere.
+        # Maps of large projects ask this a million times: the points are not made elsewhere, nor their cells rounded.
         for a, b, c, d in weights:
             x, y = a * x0 + b * x1 + c * x2 + d * x3, a * y0 + b * y1 + c * y2 + d * y3
-            for key, left, top, right, bottom in find((int(x // _FINE_CELL), int(y // _FINE_CELL)), ()):
+            for key, left, top, right, bottom in find((x // _FINE_CELL, y // _FINE_CELL), ()):
                 if left < x < right and top < y < bottom and key not in besides:
                     hit.add(key)
                     if len(hit) >= enough:
