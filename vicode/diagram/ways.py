@@ -30,8 +30,12 @@ def fan(
 ) -> list[Curve]:
     """Curves for arrows between two nodes, in lane order; the lanes make room for their labels."""
     first, second = reading_order(*ends)
-    pair = (first, second, _normal(first, second))
-    lanes = _lanes(chips, pair[2])
+    normal = _normal(first, second)
+    pair = (first, second, normal)
+    most = min(_room_across(node, normal) for node in (first, second))
+    # Of each lane how far beside the centres it begins, and how much of it is left to bending.
+    inner = [(max(-most, min(most, lane)), lane) for lane in _lanes(chips, normal)]
+    lanes = [(begins, lane - begins) for begins, lane in inner]
     own = {first.key, second.key}
     best: tuple[float, list[Curve]] = math.inf, []
     for bow in _BOWS:
@@ -101,12 +105,13 @@ def _lanes(chips: Sequence[Chip | None], normal: Point) -> list[float]:
     return [place - places[-1] / 2 for place in places]
 
 
-def _bend(arrow: Arrow, pair: tuple[Node, Node, Point], *, lane: float, bow: float, is_flat: bool) -> Curve:
+def _bend(
+    arrow: Arrow, pair: tuple[Node, Node, Point], *, lane: tuple[float, float], bow: float, is_flat: bool
+) -> Curve:
     """A curve in a lane: as far beside the centres as the boxes allow, the rest of the way, and `bow`, by bending."""
     first, second, normal = pair
-    most = min(_room_across(node, normal) for node in (first, second))
-    inner = max(-most, min(most, lane))
-    apex = lane - inner + bow
+    inner, rest = lane
+    apex = rest + bow
     source, target = (first, second) if arrow.source == first.key else (second, first)
     start, end = _shifted(source.at, normal, inner), _shifted(target.at, normal, inner)
 

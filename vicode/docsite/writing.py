@@ -75,10 +75,11 @@ def write_site(
         digest = old.digest if old else ""
         if known.get(path) != (each.key, digest):
             text = each.make()
-            if digest != _digest(text.encode()):
+            made = _digest(text.encode())
+            if digest != made:
                 write_atomically(out / path, text, is_kept=False)
                 touched.append(path)
-            digest = _digest(text.encode())
+            digest = made
         files[path] = (each.key, digest)
         step(len(files), len(wanted))
     for path, old in stale.items():
