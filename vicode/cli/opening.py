@@ -31,8 +31,9 @@ class Opened:
 
     def faulty_in(self, language: str) -> frozenset[str]:
         """Components that nothing can be generated for in a language; mistakes in project.yaml make all of them so."""
-        guilty = {self._owner(finding) for finding in self.errors_in(language)}
-        return frozenset(self.opened.files) if "" in guilty else frozenset(guilty)
+        from vicode.store import faulty_components
+
+        return faulty_components(self.errors_in(language), self.opened)
 
     def errors_in(self, language: str) -> tuple[Finding, ...]:
         """What stands in the way of generating in a language."""
@@ -47,14 +48,6 @@ class Opened:
             name: path.relative_to(folder).as_posix() if path.is_relative_to(folder) else path.name
             for name, path in files.items()
         }
-
-    def _owner(self, finding: Finding) -> str:
-        if finding.place is not None:
-            guilty = Path(finding.place.file).resolve()
-            broken = {path.resolve() for path in self.opened.broken}
-            owners = {path.resolve(): name for name, path in self.opened.files.items()}
-            return "(broken)" if guilty in broken else owners.get(guilty, "")
-        return finding.thing.component if finding.thing else ""
 
 
 def open_paths(paths: Sequence[str]) -> tuple[Opened, ...]:

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
+from pathlib import Path
 
 from vicode.findings import Finding, Note, Place, Thing, sort_findings
 from vicode.store.projects import OpenProject
@@ -17,6 +18,21 @@ def place_of(thing: Thing, sources: Mapping[str, SourceMap]) -> Place | None:
     """The place of a thing, or of the nearest thing around it; None when no file is known for it."""
     source = sources.get(thing.component)
     return source.place(thing.path, thing.span, of_key=thing.of_key) if source else None
+
+
+def faulty_components(errors: Iterable[Finding], project: OpenProject) -> frozenset[str]:
+    """Components that nothing can be made of with these errors; mistakes in project.yaml concern all of them."""
+    broken = {path.resolve() for path in project.broken}
+    owners = {path.resolve(): name for name, path in project.files.items()}
+
+    def owner(error: Finding) -> str:
+        if error.place is None:
+            return error.thing.component if error.thing else ""
+        file = Path(error.place.file).resolve()
+        return "(broken)" if file in broken else owners.get(file, "")
+
+    guilty = {owner(error) for error in errors}
+    return frozenset(project.files) if "" in guilty else frozenset(guilty)
 
 
 def _located(finding: Finding, sources: Mapping[str, SourceMap]) -> Finding:

@@ -50,6 +50,15 @@ def test_findings_are_those_of_the_draft(tmp_path: Path) -> None:
     assert "Turn" in subject.faulty["python"]
 
 
+def test_a_broken_file_spoils_only_itself(tmp_path: Path) -> None:
+    workspace = open_forward(tmp_path)
+    (tmp_path / "forward/turn.yaml").write_text("vicode: 1\ncomponent: [")
+    subject = subject_at(snapshot_of(workspace))
+    assert subject.project.design("Turn") is None
+    # Body uses it; nothing else is concerned.
+    assert subject.faulty["python"] == {"(broken)", "Body"}
+
+
 def test_a_draft_that_no_file_can_hold_is_described_all_the_same(tmp_path: Path) -> None:
     workspace = open_forward(tmp_path)
     document = workspace.document("Player")

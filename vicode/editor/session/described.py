@@ -1,6 +1,6 @@
 """What the documentation of a project is about while the project is being edited: unsaved work is part of it."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
@@ -9,7 +9,7 @@ from vicode.docsite import Subject, subject_of
 from vicode.editor.session.workspace import Workspace
 from vicode.findings import Finding, Severity
 from vicode.model.design import Design
-from vicode.store import OpenProject, locate, open_project, read_design, save_design
+from vicode.store import OpenProject, faulty_components, locate, open_project, read_design, save_design
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -53,7 +53,10 @@ def subject_at(snapshot: Snapshot) -> Subject:
     project = opened.project
     findings = locate([*opened.findings, *check_project(project)], opened)
     errors = [each for each in findings if each.severity is Severity.ERROR]
-    faulty = {language: _guilty(errors, language, opened) for language in project.languages}
+    faulty = {
+        language: faulty_components([each for each in errors if each.concerns(language)], opened)
+        for language in project.languages
+    }
     return subject_of(opened, project, findings, faulty)
 
 
@@ -73,12 +76,6 @@ def _with_draft(opened: OpenProject, name: str, draft: Draft) -> OpenProject:
         texts={**opened.texts, name: text},
         findings=(*(each for each in opened.findings if _owner(each) != name), *read.findings),
     )
-
-
-def _guilty(errors: Iterable[Finding], language: str, opened: OpenProject) -> frozenset[str]:
-    """Components that nothing can be generated for in a language; mistakes in project.yaml make all of them so."""
-    guilty = {_owner(each) for each in errors if each.concerns(language)}
-    return frozenset(opened.files) if "" in guilty else frozenset(guilty)
 
 
 def _owner(finding: Finding) -> str:
