@@ -312,3 +312,15 @@ def test_a_mistake_is_told_with_the_file_that_it_is_in(tmp_path: Path) -> None:
 def test_a_site_without_findings_does_not_count_them(tmp_path: Path) -> None:
     site_of(FORWARD, tmp_path)
     assert "#findings" not in read_page((tmp_path / "index.html").read_text("utf-8")).links
+
+
+@pytest.mark.parametrize(("said", "shown"), [("", "s"), ("time_unit: s\n", "s"), ("time_unit: ms\n", "ms")])
+def test_times_have_the_unit_of_their_design(said: str, shown: str, tmp_path: Path) -> None:
+    text = (ROOT / "designs" / "blink" / "blink.yaml").read_text("utf-8").replace("after: 1", "after: 4321")
+    (tmp_path / "blink.yaml").write_text(text.replace("initial:", f"{said}initial:"), "utf-8")
+    site_of(tmp_path / "blink.yaml", tmp_path / "site")
+    page = re.sub("<[^>]*>", " ", (tmp_path / "site" / "component-Blink.html").read_text("utf-8"))
+    times = re.findall(r"4321\s+(\w+)", page)
+    # In the table, the pseudo code, on an arrow and in a tree, for each of two transitions.
+    assert len(times) >= 8
+    assert set(times) == {shown}

@@ -105,3 +105,4 @@ def test_keys_lead_back_to_their_paths() -> None:
 def test_guards_in_a_line() -> None:
     assert guard_label(Guard()) == ""
     assert guard_label(Guard(when="x", after="2.5")) == "x and 2.5 s"
+    assert guard_label(Guard(when="x", after="2.5"), "ms") == "x and 2.5 ms"

@@ -32,7 +32,8 @@ def list_transitions(design: Design, only: Collection[str] | None = None) -> Ite
         if each.decision.to not in names:
             continue
         number = f"{orders[each.source]}. " if counts[each.source] > 1 else ""
-        yield Line(source=each.source, target=each.decision.to, label=(number + label_of(each, spelled=True)).strip())
+        label = number + label_of(each, design.time_unit, spelled=True)
+        yield Line(source=each.source, target=each.decision.to, label=label.strip())
 
 
 def list_lost(design: Design, only: Collection[str] | None = None) -> Iterator[str]:

@@ -26,13 +26,14 @@ MOST_NODES = 200
 class Links:
     """Where clicks lead: on a condition by its path, on a target by its name; `last` is what stands at the end.
 
-    `key` names a decision by its path, so that a page can find the boxes that belong to it.
+    `key` names a decision by its path, so that a page can find the boxes that belong to it. `unit` is that of times.
     """
 
     condition: Callable[[ThingPath], str]
     target: Callable[[str], str]
     last: str = "stay"
     key: Callable[[ThingPath], str] = lambda _path: ""
+    unit: str = ""
 
 
 @dataclass(slots=True, kw_only=True)
@@ -100,7 +101,7 @@ class _Grid:
         return entries, row
 
     def _condition(self, item: Decision, path: ThingPath, at: tuple[int, int], *, off: bool) -> _Node:
-        guard, doc = guard_label(item.guard, spelled=True), " ".join(item.doc.split())
+        guard, doc = guard_label(item.guard, self.links.unit, spelled=True), " ".join(item.doc.split())
         label = doc if 0 < len(doc) <= _SHORT_DOC else guard
         title = "\n".join(part for part in (guard, doc) if part)
         href, key = self.links.condition(path), self.links.key(path)

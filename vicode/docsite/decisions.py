@@ -35,7 +35,7 @@ def guard_line(guard: Guard, linker: Linker) -> Line:
         parts += linker.expression(guard.when)
     if guard.after:
         parts += [_AND] if parts else []
-        parts += [Part(text="after ", kind="k"), *linker.expression(guard.after), Part(text=" s")]
+        parts += [Part(text="after ", kind="k"), *linker.time(guard.after)]
     if guard.code is not None:
         parts += [_AND] if parts else []
         parts.append(Part(text="code holds", kind="code-sign", title="A condition written as code"))
@@ -54,7 +54,7 @@ def transition_rows(design: Design, linker: Linker, addresses: Addresses) -> Ite
         common = Part(text="every state", href=addresses.thing(design.component, ("common",)))
         source = common if is_common else linker.state(located.source)
         guard = located.decision.guard
-        timer = (*linker.expression(guard.after), Part(text=" s")) if guard.after else ()
+        timer = linker.time(guard.after) if guard.after else ()
         yield TransitionRow(
             order=Part(text=str(orders[located.source]), href=f"#{anchor_of(located.path)}"),
             source=source,

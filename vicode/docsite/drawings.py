@@ -67,6 +67,7 @@ def draw_decisions(items: Sequence[Decision], path: Path, design: Design, addres
         target=lambda name: addresses.thing(design.component, ("states", name)) if design.state(name) else "",
         last="what the state itself decides" if is_common else "stay",
         key=anchor_of,
+        unit=design.time_unit,
     )
     title = "Decision tree of every state" if is_common else f"Decision tree of {path[1]}"
     drawing = draw_tree(items, path, title=title, links=links, palette=from_properties())

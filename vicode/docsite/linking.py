@@ -46,6 +46,11 @@ class Linker:
                 parts.append(part)
         return tuple(parts)
 
+    def time(self, text: str) -> Line:
+        """An expression that is a time, with its unit."""
+        unit = (self._design.time_unit if self._design else "") or "s"
+        return (*self.expression(text), Part(text=f" {unit}"))
+
     def component(self, name: str, shown: str = "") -> Part:
         """A component by name."""
         interface = self._project.interface(name)

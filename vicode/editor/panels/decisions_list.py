@@ -60,7 +60,7 @@ def _rows(desk: Desk, path: Path, items: tuple[Decision, ...]) -> None:
             with ui.element("button").classes("decision").props('type="button"').on("click", _opener(desk, thing)):
                 ui.label(f"{index + 1}").classes("order")
                 ui.label(_target(item) + (" (disabled)" if item.disabled else "")).classes("decision-target")
-                ui.label(guard_label(item.guard) or "always").classes("decision-guard mono")
+                ui.label(guard_label(item.guard, desk.design.time_unit) or "always").classes("decision-guard mono")
             row_of_buttons(
                 f"{index + 1} {_target(item)}",
                 up=None if index == 0 else _mover(desk, here, index - 1),

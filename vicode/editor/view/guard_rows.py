@@ -35,10 +35,10 @@ def guard_rows(design: Design, state: str, guards: Mapping[str, Any]) -> tuple[G
     """
     tested = (located for located in walk_decisions(design) if located.source in (COMMON, state))
     off = disabled_states(design)
-    return tuple(_row(located, guards) for located in tested if is_working(located, off))
+    return tuple(_row(located, guards, design.time_unit) for located in tested if is_working(located, off))
 
 
-def _row(located: Located, guards: Mapping[str, Any]) -> GuardRow:
+def _row(located: Located, guards: Mapping[str, Any], unit: str) -> GuardRow:
     decision, key = located.decision, transition_key(located.path)
     told = guards.get(key)
     held = told if isinstance(told, dict) else {}
@@ -47,7 +47,7 @@ def _row(located: Located, guards: Mapping[str, Any]) -> GuardRow:
         key=key,
         depth=len(located.groups),
         outcome=_outcome(decision),
-        text=_branch(located) + (guard_label(decision.guard) or "always"),
+        text=_branch(located) + (guard_label(decision.guard, unit) or "always"),
         holds="unknown" if holds is None else show_value(bool(holds)),
         reads=_reads(decision.guard, held),
         is_common=located.source == COMMON,

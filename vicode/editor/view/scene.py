@@ -1,7 +1,7 @@
 """The scene of a design: what the canvas draws, as plain dicts with finished texts."""
 
 from collections import Counter, defaultdict
-from collections.abc import Collection, Iterable
+from collections.abc import Iterable
 from typing import Any
 
 from vicode.diagram import place
@@ -30,7 +30,7 @@ def scene_of(project: Project, design: Design, findings: Iterable[Finding], rev:
         "component": design.component,
         "doc": design.doc,
         "states": [{**_state(design, state, by_thing), **_at(placement.states[state.name])} for state in design.states],
-        "transitions": list(_transitions(transitions, by_thing, disabled_states(design))),
+        "transitions": list(_transitions(design, transitions, by_thing)),
         "components": [
             {
                 "id": use.alias,
@@ -82,9 +82,10 @@ def _state(design: Design, state: State, by_thing: _Findings) -> dict[str, Any]:
     }
 
 
-def _transitions(transitions: list[Located], by_thing: _Findings, off: Collection[str]) -> Iterable[dict[str, Any]]:
+def _transitions(design: Design, transitions: list[Located], by_thing: _Findings) -> Iterable[dict[str, Any]]:
     counts = Counter(located.source for located in transitions)
     orders: Counter[str] = Counter()
+    off, unit = disabled_states(design), design.time_unit
     for located in transitions:
         transition = located.decision
         assert isinstance(transition, Transition)
@@ -94,13 +95,13 @@ def _transitions(transitions: list[Located], by_thing: _Findings, off: Collectio
             "id": key,
             "source": "@common" if located.source == COMMON else located.source,
             "target": transition.to,
-            "label": short_label(located),
+            "label": short_label(located, unit),
             "order": orders[located.source],
             "of": counts[located.source],
             "disabled": not is_working(located, off),
             "label_at": list(transition.label_at) if transition.label_at else None,
             "kind": str(kind_of(located)),
-            "doc": "\n".join(part for part in (label_of(located), transition.doc) if part),
+            "doc": "\n".join(part for part in (label_of(located, unit), transition.doc) if part),
             **_marks(by_thing, Selected(of="transitions", id=key)),
         }
 
