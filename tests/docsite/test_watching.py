@@ -21,6 +21,7 @@ def project(tmp_path: Path) -> Path:
     return folder
 
 
+# In tests it comes before the page: a page that outlives its server complains of that.
 @pytest.fixture
 def address(project: Path, tmp_path: Path) -> Iterator[str]:
     command = [sys.executable, "-m", "vicode", "docs", str(project), "--out", str(tmp_path / "site")]
@@ -49,7 +50,7 @@ def edit(project: Path, old: str, new: str) -> None:
     file.write_text(text.replace(old, new), "utf-8")
 
 
-def test_a_page_follows_its_design(page: Page, project: Path, address: str, tmp_path: Path) -> None:
+def test_a_page_follows_its_design(project: Path, address: str, page: Page, tmp_path: Path) -> None:
     page.goto(address)
     page.get_by_role("navigation", name="Pages").get_by_role("link", name="Blink").click()
     first = page.locator("h3").get_by_role("link", name="Bright", exact=True)
@@ -62,7 +63,7 @@ def test_a_page_follows_its_design(page: Page, project: Path, address: str, tmp_
     assert "live" not in on_disk
 
 
-def test_a_mistake_is_told_and_the_last_good_page_stays(page: Page, project: Path, address: str) -> None:
+def test_a_mistake_is_told_and_the_last_good_page_stays(project: Path, address: str, page: Page) -> None:
     page.goto(f"{address}component-Blink.html")
     good = (project / "blink.yaml").read_text("utf-8")
     edit(project, "states:", "states: [<i>,")

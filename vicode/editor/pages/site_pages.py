@@ -96,7 +96,7 @@ def page_command(desk: Desk) -> Command:
         file = Addresses(project).component(desk.design.component)
         ui.navigate.to(page_address(desk.workspace.key, file, place), new_tab=True)
 
-    return Command("page", "Show its page in the documentation", show, Place.VIEW, icon="menu_book")
+    return Command("page", "Show its page beside the editor", show, Place.VIEW, icon="menu_book")
 
 
 def _answer(path: str, text: str, mark: str, *, status: int = 200) -> Response:
