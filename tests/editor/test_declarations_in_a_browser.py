@@ -96,6 +96,19 @@ def test_a_new_name_that_others_say_is_written_everywhere(editor: str, page: Pag
     expect(name_of(page, "parameter forward")).to_have_value("forward")
     assert {file.name: file.read_text() for file in folder.glob("*.yaml")} == before
 
+    # The history of the other design, too, tells of it, and going back there takes it back in all files.
+    page.keyboard.press("Escape")
+    page.get_by_role("button", name="Redo").click()
+    expect(name_of(page, "parameter ahead")).to_have_value("ahead")
+    assert {file.name: file.read_text() for file in folder.glob("*.yaml")} == after
+    other.get_by_role("tab", name="History").click()
+    steps = other.get_by_role("group", name="History").get_by_role("button")
+    expect(steps.filter(has_text="redo rename forward to ahead")).to_be_visible()
+    steps.filter(has_text="open").last.click()
+    other.get_by_role("dialog").get_by_role("button", name="Go there").click()
+    expect(name_of(page, "parameter forward")).to_have_value("forward")
+    assert {file.name: file.read_text() for file in folder.glob("*.yaml")} == before
+
 
 def test_what_few_need_stands_in_folds(editor: str, page: Page, project: Path) -> None:
     open_design(page, editor, "Player?select=Kick")
@@ -154,3 +167,13 @@ def test_what_the_project_declares_is_written_into_its_file(editor: str, page: P
     expect(kick.get_by_label("Element 3")).to_have_value("sideways")
     assert "kick: Kick.sideways" in (folder / "player.yaml").read_text()
     assert "sideways: Outwards" in (folder / "project.yaml").read_text()
+
+    # Who hears the form is told of the new name, too; and the history takes it back in all files.
+    kick.get_by_label("Enumeration").fill("Shot")
+    page.keyboard.press("Enter")
+    page.get_by_role("dialog", name="Rename enumeration Kick to Shot").get_by_role(
+        "button", name="Rename everywhere"
+    ).click()
+    shot = page.get_by_role("group", name="enumeration Shot", exact=True)
+    expect(shot.get_by_label("Element 3")).to_have_value("sideways")
+    assert "Shot.sideways" in (folder / "player.yaml").read_text()

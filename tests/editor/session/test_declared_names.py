@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from vicode.check import check_project
-from vicode.editor.session import Library, Workspace, declared_names
+from vicode.editor.session import Document, Library, Workspace, declared_names
 from vicode.editor.session.declared_names import plan_name, rename_in_files
 from vicode.editor.session.project_edits import change_project_file, take_back
 from vicode.model.design import Code, RunCode
@@ -131,6 +131,63 @@ def test_who_works_on_a_touched_design_hears_of_it(workspace: Workspace, folder:
     assert heard[-1] == "Ada renamed parameter forward to ahead in 2 files"
     assert document.is_saved
     assert document.design.states[0].modulates[1].arguments[0][0] == "ahead"
+
+
+def labels_of(document: Document) -> list[str]:
+    return [step.label for step in document.history.path[1:]]
+
+
+def two_hands(workspace: Workspace) -> tuple[Document, Document]:
+    """Ada's hold on the design that declares the name, and on one that says it."""
+    person = workspace.people.greet("ada", "Ada")
+    body, follow = workspace.document("Body"), workspace.document("FollowBall")
+    assert body is not None
+    assert follow is not None
+    return Document(body.sheet, person.id), Document(follow.sheet, person.id)
+
+
+def test_the_histories_of_all_designs_tell_of_the_name_and_take_it_back(workspace: Workspace, folder: Path) -> None:
+    body, follow = two_hands(workspace)
+    before = follow.design
+    follow.edit("say", lambda design: replace(design, doc="Follows."))
+    workspace.save(follow)
+    said = texts_of(folder)
+    assert rename_in_files(workspace, plan_name(workspace, SPEED, "ahead"), "ada") == ""
+    after = texts_of(folder)
+    assert labels_of(body) == ["rename forward to ahead"]
+    assert [step.person for step in body.history.path[1:]] == ["ada"]
+    # Undo of either design is undo of both; so is redo.
+    assert follow.undo() == ""
+    assert texts_of(folder) == said
+    assert labels_of(body) == ["rename forward to ahead", "undo rename forward to ahead"]
+    assert (body.undo_label, body.redo_label) == ("", "rename forward to ahead")
+    assert body.redo() == ""
+    assert texts_of(folder) == after
+    assert body.undo() == ""
+    # What was done before it can still be taken back.
+    assert follow.undo() == ""
+    assert follow.design == before
+
+
+def test_going_back_in_the_history_takes_a_name_back_in_all_files(workspace: Workspace, folder: Path) -> None:
+    before = texts_of(folder)
+    body, follow = two_hands(workspace)
+    assert rename_in_files(workspace, plan_name(workspace, SPEED, "ahead"), "ada") == ""
+    after = texts_of(folder)
+    named = body.history.at
+    body.edit("say", lambda design: replace(design, doc="Legs."))
+    assert body.jump(0) == ""
+    assert texts_of(folder) == before
+    assert body.is_saved
+    assert follow.is_saved
+    assert body.jump(named) == ""
+    assert texts_of(folder) == after
+    # What another design has not saved stands in the way, and everything stays.
+    follow.edit("say", lambda design: replace(design, doc="Follows."))
+    assert body.jump(0) == "FollowBall has unsaved changes: save or undo them first"
+    assert body.history.at == named
+    assert "FollowBall has unsaved changes" in body.undo()
+    assert texts_of(folder) == after
 
 
 def test_a_file_that_cannot_be_written_leaves_the_others_as_they_were(

@@ -77,9 +77,14 @@ class HistoryPanel:
             if left:
                 self._ask(step, left)
             else:
-                self.desk.document.jump(step)
+                self._go(step)
 
         return go
+
+    def _go(self, step: int) -> None:
+        refused = self.desk.document.jump(step)
+        if refused:
+            self.desk.say(refused, "warning")
 
     def _left_by(self, step: int) -> str:
         """Whose steps a jump would leave, and how many: "3 steps of Ana"; nothing if only one's own."""
@@ -101,7 +106,7 @@ class HistoryPanel:
             ui.label(f"This leaves {left}, for everybody here. They stay in the history.")
 
             def go() -> None:
-                self.desk.document.jump(step)
+                self._go(step)
                 dialog.close()
 
             with ui.row().classes("dialog-buttons"):

@@ -11,7 +11,7 @@ from vicode.editor.panels.dialogs import titled_dialog
 from vicode.editor.panels.fields import Bound, Field
 from vicode.editor.panels.rows import primary_button
 from vicode.editor.session import apply_gesture
-from vicode.editor.session.declared_names import NamePlan, plan_name, rename_in_files, words_of_declared
+from vicode.editor.session.declared_names import NamePlan, NewName, plan_name, rename_in_files, words_of_declared
 from vicode.editor.session.wording import reason_of
 from vicode.editor.view import Selected
 from vicode.model.renaming import Declared
@@ -145,7 +145,8 @@ def _ask(desk: Desk, plan: NamePlan) -> None:
 
         def rename() -> None:
             if carry_out(desk, plan):
-                desk.offer_undo(f"{plan.thing.name} is {plan.new} now", lambda: _take_back(desk, plan))
+                whole = NewName(workspace=desk.workspace, thing=plan.thing, new=plan.new)
+                desk.offer_undo(f"{plan.thing.name} is {plan.new} now", lambda: _take_back(desk, whole))
             dialog.close()
 
         with ui.row().classes("dialog-buttons"):
@@ -166,10 +167,10 @@ def carry_out(desk: Desk, plan: NamePlan) -> bool:
     return not refused
 
 
-def _take_back(desk: Desk, plan: NamePlan) -> None:
-    thing = Declared(section=plan.thing.section, name=plan.new, component=plan.thing.component, owner=plan.thing.owner)
-    back = plan_name(desk.workspace, thing, plan.thing.name)
-    if back.refused:
-        desk.say(f"{back.refused[:1].upper()}{back.refused[1:]}", "warning")
-    elif carry_out(desk, back):
-        desk.say(f"It is {plan.thing.name} again", "positive")
+def _take_back(desk: Desk, whole: NewName) -> None:
+    refused = whole.take_back(desk.document.person)
+    if refused:
+        desk.say(refused, "warning")
+        return
+    desk.tell()
+    desk.say(f"It is {whole.thing.name} again", "positive")

@@ -1,5 +1,6 @@
 """What project.yaml declares for all designs: enumerations and constants, in a fold of every design's form."""
 
+from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from typing import Any
 
@@ -41,7 +42,7 @@ def _enumeration(desk: Desk, number: int, fields: list[Field]) -> None:
     spot = _Spot(section="enumerations", number=number)
     with ui.element("div").classes("declaration shared").props("role=group") as whole:
         whole.props["aria-label"] = f"enumeration {found.name}"
-        fields.append(_name(desk, "Enumeration", spot))
+        fields.append(_name(desk, "Enumeration", spot, _caller(whole, "enumeration")))
         fields.append(_line(desk, spot, "Name in XABSL", "xabsl_name"))
         fields.append(_line(desk, spot, "Doc", "doc"))
         box = ui.checkbox("Internal: XABSL's engine numbers its elements").props("dense").classes("wide")
@@ -54,7 +55,7 @@ def _constant(desk: Desk, number: int, fields: list[Field]) -> None:
     spot = _Spot(section="constants", number=number)
     with ui.element("div").classes("declaration shared").props("role=group") as whole:
         whole.props["aria-label"] = f"constant {desk.workspace.project.constants[number].name}"
-        fields.append(_name(desk, "Constant", spot))
+        fields.append(_name(desk, "Constant", spot, _caller(whole, "constant")))
         for label, attribute in (
             ("Value", "initial"),
             ("Unit", "unit"),
@@ -95,7 +96,17 @@ def _same(design: Design, _value: Any) -> Design:
     return design
 
 
-def _name(desk: Desk, label: str, spot: _Spot) -> Field:
+def _caller(whole: ui.element, kind: str) -> Callable[[str], None]:
+    """Calls a group by the name of what it holds."""
+
+    def call_it(name: str) -> None:
+        whole.props["aria-label"] = f"{kind} {name}"
+        whole.update()
+
+    return call_it
+
+
+def _name(desk: Desk, label: str, spot: _Spot, call_it: Callable[[str], None] = lambda _name: None) -> Field:
     def take(_old: str, new: str) -> str:
         return take_declared(desk, spot.declared(desk.workspace.project), new)
 
@@ -105,7 +116,7 @@ def _name(desk: Desk, label: str, spot: _Spot) -> Field:
         write=_same,
         refuse=lambda text: refuse_shape(str(text)),
     )
-    return name_field(desk, bound, take)
+    return name_field(desk, bound, take, call_it)
 
 
 def _bound(desk: Desk, spot: _Spot, attribute: str, label: str = "") -> Bound:

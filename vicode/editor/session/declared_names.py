@@ -7,8 +7,9 @@ from difflib import SequenceMatcher
 from pathlib import Path
 
 from vicode.check import check_project
-from vicode.editor.session.document import Document
+from vicode.editor.session.document import Act, Document
 from vicode.editor.session.renaming import Change, refuse_touching
+from vicode.editor.session.wording import reason_of
 from vicode.editor.session.workspace import Workspace
 from vicode.findings import Finding, Severity
 from vicode.model.design import Design
@@ -88,6 +89,55 @@ def rename_in_files(workspace: Workspace, plan: NamePlan, person: str = "") -> s
     again = plan_name(workspace, plan.thing, plan.new)
     if again != plan:
         return again.refused or "a file has changed meanwhile: look at the list once more"
+    whole = NewName(workspace=workspace, thing=plan.thing, new=plan.new)
+    _write_all(workspace, plan, Act(files=_files_of(plan), label=whole.label, person=person, whole=whole))
+    return ""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class NewName:
+    """A new name that was written into several files: the histories of their designs take it back in all of them."""
+
+    workspace: Workspace
+    thing: Declared
+    new: str
+
+    @property
+    def label(self) -> str:
+        """What the histories call it."""
+        return f"rename {self.thing.name} to {self.new}"
+
+    def take_back(self, person: str) -> str:
+        """Give the thing its old name again; returns why not."""
+        plan = plan_name(self.workspace, replace(self.thing, name=self.new), self.thing.name)
+        return self._carry_out(plan, Act(files=_files_of(plan), label=f"undo {self.label}", person=person, undoes=self))
+
+    def do_again(self, person: str) -> str:
+        """Give it the new name once more; returns why not."""
+        plan = plan_name(self.workspace, self.thing, self.new)
+        return self._carry_out(plan, Act(files=_files_of(plan), label=f"redo {self.label}", person=person, whole=self))
+
+    def _carry_out(self, plan: NamePlan, act: Act) -> str:
+        if plan.refused:
+            return plan.refused[:1].upper() + plan.refused[1:]
+        document = self.workspace.document(self.thing.component)
+        if plan.design is not None and document is not None:
+            # Nobody else says it any more.
+            Document(document.sheet, act.person).follow_act(act, plan.design)
+            return ""
+        try:
+            _write_all(self.workspace, plan, act)
+        except (OSError, ValueError) as error:
+            return f"Not done: {reason_of(error)}"
+        return ""
+
+
+def _files_of(plan: NamePlan) -> frozenset[Path]:
+    return frozenset(change.file for change in plan.changes)
+
+
+def _write_all(workspace: Workspace, plan: NamePlan, act: Act) -> None:
+    """Write all files of a plan, or none of them; open designs follow, and who is at them hears of it."""
     written: list[Change] = []
     try:
         for change in plan.changes:
@@ -98,15 +148,13 @@ def rename_in_files(workspace: Workspace, plan: NamePlan, person: str = "") -> s
             write_text(change.file, change.old or "")
         raise
     finally:
-        workspace.follow_disk()
-    who = workspace.people.name_of(person) if person else "Somebody"
-    files = {change.file for change in plan.changes}
+        workspace.follow_disk(act)
+    who = workspace.people.name_of(act.person) if act.person else "Somebody"
     for document in workspace.documents:
-        if document.file in files:
-            hand = Document(document.sheet, person)
-            hand.announce(f"{who} renamed {words_of_declared(plan.thing)} to {plan.new} in {_count_files(files)}")
+        if document.file in act.files:
+            hand = Document(document.sheet, act.person)
+            hand.announce(f"{who} renamed {words_of_declared(plan.thing)} to {plan.new} in {_count_files(act.files)}")
             document.sheet.tell(hand)
-    return ""
 
 
 def _kind(thing: Declared) -> str:

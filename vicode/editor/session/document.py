@@ -3,11 +3,11 @@
 import time
 from collections import deque
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
-from vicode.editor.session.history import History, Refusal, Step
+from vicode.editor.session.history import History, Refusal, Step, Whole
 from vicode.editor.session.people import DISK, Company, People
 from vicode.editor.session.wording import words_of_path
 from vicode.editor.view import Scene, difference, path_of_key, scene_of
@@ -37,6 +37,20 @@ class Clash:
 
     disk: OnDisk
     conflicts: tuple[Conflict, ...]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Act:
+    """What somebody here did to the files of several designs, as their histories tell it.
+
+    `undoes` is the edit that it takes back.
+    """
+
+    files: frozenset[Path]
+    label: str
+    person: str = ""
+    whole: Whole | None = None
+    undoes: Whole | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -189,10 +203,16 @@ class Document:
 
     def undo(self) -> str:
         """Take one's own last edit back; returns why not, if what it did was changed by another since."""
+        step = self.history.undo_step(self.person)
+        if step is not None and step.whole is not None:
+            return step.whole.take_back(self.person)
         return self._take(self.history.undone(self.person, self.sheet.clock()), "taken back")
 
     def redo(self) -> str:
         """Do again what undo took back; returns why not."""
+        step = self.history.redo_step(self.person)
+        if step is not None and step.whole is not None:
+            return step.whole.do_again(self.person)
         return self._take(self.history.redone(self.person, self.sheet.clock()), "done again")
 
     @property
@@ -207,10 +227,31 @@ class Document:
         step = self.history.redo_step(self.person)
         return step.label if step else ""
 
-    def jump(self, step: int) -> None:
-        """Go to any point of the history; what is left stays in it, one jump away."""
+    def jump(self, step: int) -> str:
+        """Go to any point of the history; what is left stays in it, one jump away.
+
+        What was one edit of several files on the way is taken back, or done again, in all of them; returns why not.
+        """
+        start = self.history.at
+        before, after = self.history.wholes(), self.history.jumped(step).wholes()
+        left = [each for each in reversed(before) if each.whole not in {other.whole for other in after}]
+        entered = [each for each in after if each.whole not in {other.whole for other in before}]
+        for number, each in enumerate((*left, *entered)):
+            refused = self._pass(each, is_back=number < len(left))
+            if refused:
+                if not number:
+                    self.sheet.become(self.history.jumped(start), self)
+                return refused
         self.announce(f"{self.sheet.people.name_of(self.person)} went to “{self.history.jumped(step).present.label}”")
         self.sheet.become(self.history.jumped(step), self)
+        return ""
+
+    def _pass(self, step: Step, *, is_back: bool) -> str:
+        """Take an edit of several files back, or do it again: from here, or where the design is as the file has it."""
+        assert step.whole is not None
+        if not self.is_saved:
+            self.sheet.become(self.history.jumped(step.id if is_back else step.parent), self)
+        return step.whole.take_back(self.person) if is_back else step.whole.do_again(self.person)
 
     def take_disk(self, disk: OnDisk, label: str, design: Design | None = None) -> None:
         """Note what the file holds now, and go on with that, or with `design`; the file's own stays in the history."""
@@ -222,6 +263,17 @@ class Document:
             history = history.beside(theirs)
             self.announce(f"Merged with what another program wrote into {self.file.name}")
         grown = history.then(self._step(label, design if design is not None else disk.design))
+        if grown is self.history:
+            self.sheet.tell(self)
+        else:
+            self.sheet.become(grown, self)
+
+    def follow_act(self, act: Act, design: Design) -> None:
+        """Go on with what an edit of several files made of this one, as a step of who did it."""
+        undone = next((step.id for step in reversed(self.history.wholes()) if step.whole == act.undoes), 0)
+        whole = None if undone else act.whole
+        step = replace(self._step(act.label, design), person=act.person, whole=whole, undoes=undone)
+        grown = self.history.then(step)
         if grown is self.history:
             self.sheet.tell(self)
         else:

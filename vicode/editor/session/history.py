@@ -4,6 +4,7 @@ from bisect import bisect_left
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
+from typing import Protocol
 
 from vicode.findings import Path
 from vicode.model.design import Design
@@ -14,12 +15,24 @@ _RUN = 12
 _PAUSE_S = 60.0
 
 
+class Whole(Protocol):
+    """An edit of several files at once; a step that has one is its part in one design. Equal ones are the same."""
+
+    def take_back(self, person: str) -> str:
+        """Take it back in all files; returns why not."""
+        ...
+
+    def do_again(self, person: str) -> str:
+        """Do it again in all files; returns why not."""
+        ...
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Step:
     """A design with the edit that made it.
 
     `undoes` is the step whose change it takes out although others worked since, 0 for none; `typing_in` the field
-    it was typed into; `at_s` the time of day, in seconds since 1970.
+    it was typed into; `at_s` the time of day, in seconds since 1970; `whole` the edit of several files it is part of.
     """
 
     id: int = 0
@@ -29,6 +42,7 @@ class Step:
     at_s: float = 0.0
     undoes: int = 0
     typing_in: str = ""
+    whole: Whole | None = None
     design: Design
 
 
@@ -75,7 +89,8 @@ class History:
         if step.design == self.present.design:
             return self
         going_on = self._typed_on(step) if step.typing_in else None
-        taken_back = {**self.taken_back, step.person: ()}
+        known = self.taken_back.get(step.person, ())
+        taken_back = {**self.taken_back, step.person: (*known, step.undoes) if step.undoes else ()}
         return replace(going_on or self._appended(step), taken_back=taken_back)
 
     def beside(self, step: Step) -> "History":
@@ -132,6 +147,11 @@ class History:
         done = {step.id for step in path} - undone
         stack = (self.steps.get(id_) for id_ in reversed(self.taken_back.get(person, ())))
         return next((step for step in stack if step and step.id not in done and step.parent in self.steps), None)
+
+    def wholes(self) -> tuple[Step, ...]:
+        """The steps on the way to now that edited several files, and were not taken back."""
+        gone = {step.undoes for step in self.path}
+        return tuple(step for step in self.path if step.whole and not step.undoes and step.id not in gone)
 
     def _appended(self, step: Step) -> "History":
         id_ = max(self.steps) + 1

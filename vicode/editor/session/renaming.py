@@ -4,6 +4,8 @@ from collections.abc import Collection
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+from vicode.editor.session.document import Act
+from vicode.editor.session.people import DISK
 from vicode.editor.session.workspace import Workspace
 from vicode.model.design import Design
 from vicode.model.names import is_name, name_like, snake_case
@@ -73,7 +75,8 @@ def rename_component(workspace: Workspace, plan: Renaming) -> str:
     if plan.removed is not None:
         plan.removed.unlink()
     workspace.forget(plan.old, became=plan.new)
-    workspace.follow_disk()
+    files = frozenset(change.file for change in plan.changes)
+    workspace.follow_disk(Act(files=files, label=f"rename component {plan.old} to {plan.new}", person=DISK))
     return ""
 
 

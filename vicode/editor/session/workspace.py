@@ -7,7 +7,7 @@ from pathlib import Path
 
 from vicode.check import check_design
 from vicode.editor.session import generating
-from vicode.editor.session.document import Clash, Document, OnDisk, Sheet
+from vicode.editor.session.document import Act, Clash, Document, OnDisk, Sheet
 from vicode.editor.session.generating import Generated, Job, Prepared
 from vicode.editor.session.people import DISK, People
 from vicode.findings import Finding
@@ -70,8 +70,10 @@ class Workspace:
             self._glanced_s = now_s
             self.follow_disk()
 
-    def follow_disk(self) -> None:
+    def follow_disk(self, act: Act | None = None) -> None:
         """Take over what other programs wrote; where unsaved changes touch it, they stay until somebody decides.
+
+        What `act` wrote was done here, and is told so.
 
         Raises:
             OSError: The folder is gone.
@@ -79,7 +81,7 @@ class Workspace:
         seen = frozenset(_signature(file) for file in (*design_files(self.folder), *_project_files(self.folder)))
         if seen != self._seen:
             self._seen = seen
-            self._take(open_project(self.folder))
+            self._take(open_project(self.folder), act)
 
     def document(self, component: str) -> Document | None:
         """The open document of a design, opened now if it was not; None when there is no such design."""
@@ -264,7 +266,7 @@ class Workspace:
     def _file_for(self, component: str) -> Path:
         return self.folder / f"{snake_case(component)}.yaml"
 
-    def _take(self, opened: OpenProject) -> None:
+    def _take(self, opened: OpenProject, act: Act | None) -> None:
         """Make a project as read the one that is worked on."""
         self._texts, self.files = dict(opened.texts), dict(opened.files)
         self.gone = {name: new for name, new in self.gone.items() if opened.project.design(name) is None}
@@ -283,18 +285,21 @@ class Workspace:
             text = self._texts.get(name) if name in read else _read(document.file)
             if text != document.sheet.disk_text:
                 disk = OnDisk(text=text or "", design=read.get(name), reading=self._reading.get(name, ()))
-                self._meet(document.sheet, disk)
+                self._meet(document.sheet, disk, act if act and document.file in act.files else None)
             else:
                 document.sheet.clash = None
             document.sheet.check_again()
 
-    def _meet(self, sheet: Sheet, disk: OnDisk) -> None:
+    def _meet(self, sheet: Sheet, disk: OnDisk, act: Act | None = None) -> None:
         """Bring an open design together with what another program wrote, unless both changed the same."""
         hand = Document(sheet, DISK)
         if disk.design is None:
             # The file is gone, or half written: what is here stays until somebody saves.
             sheet.clash = Clash(disk=disk, conflicts=())
             sheet.tell(hand)
+        elif hand.is_saved and act is not None:
+            sheet.stands_on_disk(disk)
+            hand.follow_act(act, disk.design)
         elif hand.is_saved:
             hand.take_disk(disk, "reload from disk")
         else:
