@@ -2,6 +2,7 @@
 
 import re
 from io import BytesIO
+from itertools import combinations
 from pathlib import Path
 from xml.etree import ElementTree
 
@@ -12,6 +13,7 @@ from tests.diagram.drawn_designs import HOSTILE_NAMES, ring_design, shipped_desi
 from vicode.diagram.export import export
 from vicode.diagram.figure import figure_of
 from vicode.diagram.formats import Format, Wish
+from vicode.diagram.ground import Rect
 from vicode.diagram.palettes import DARK, LIGHT, Palette
 from vicode.diagram.routes import routes_of
 from vicode.model.design import Code, Common, Design, Group, Guard, State, Transition, Use
@@ -246,3 +248,20 @@ def test_a_text_says_what_leads_to_no_state(form: Format, mark: str) -> None:
     # What is left out because only some states are wanted is nobody's mistake.
     some = export(lost, form, Wish(only=frozenset({"B"}))).decode()
     assert "A to" not in some
+
+
+def test_no_label_hides_another_where_there_is_little_room() -> None:
+    guard = Guard(when="state_time > 0 and (motion.head_target_reached or motion.head_got_stuck)")
+    names = ("A", "B", "C", "D", "E", "F")
+    states = tuple(
+        State(
+            name=name,
+            at=(220 * (index % 3), 100 * (index // 3)),
+            transitions=tuple(Transition(to=to, guard=guard) for to in names if (index + names.index(to)) % 3),
+        )
+        for index, name in enumerate(names)
+    )
+    routes = routes_of(figure_of(Design(component="D", initial="A", states=states)))
+    labels = [Rect.around(route.at, route.chip.size) for route in routes if route.chip]
+    assert len(labels) == 24
+    assert not [(one, other) for one, other in combinations(labels, 2) if one.overlaps(other)]

@@ -178,3 +178,15 @@ def test_several_projects_have_a_common_home(tmp_path: Path, capsys: pytest.Capt
     assert not broken_links((home, style, *inner))
     assert main(["docs", str(tmp_path / "left"), str(tmp_path / "right"), str(behavior), "--out", str(out)]) == 0
     assert "0 changed" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("name", ["notes.md", "Makefile", "picture.svg"])
+def test_a_file_that_is_something_else_is_told_so(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], name: str
+) -> None:
+    (tmp_path / name).write_text("# Notes\n", "utf-8")
+    assert main(["docs", str(tmp_path / name), "--out", str(tmp_path / "site")]) == 2
+    told = capsys.readouterr().err
+    assert f"{name} is neither a design nor an XABSL behavior; name a design (.yaml)" in told
+    assert "Y1" not in told
+    assert not (tmp_path / "site").exists()

@@ -13,10 +13,10 @@ from watchfiles import Change, watch
 from vicode.cli.docs import describe, progress
 from vicode.cli.printing import describe_os_error, findings_text, print_findings
 from vicode.cli.sites import Built, Sites
-from vicode.cli.subjects import BEHAVIORS, Reading, read_subjects
+from vicode.cli.subjects import BEHAVIORS, DESIGNS, Reading, read_subjects
 from vicode.docsite.serving import News, SiteServer
 
-_SUFFIXES = (*BEHAVIORS, ".yaml", ".yml")
+_SUFFIXES = (*BEHAVIORS, *DESIGNS)
 # Editors write a file in several steps, and several files at once.
 _QUIET_MS, _LONGEST_MS, _LOOK_MS = 40, 400, 500
 

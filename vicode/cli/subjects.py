@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from vicode.xabsl.sources import Source
 
 BEHAVIORS = (".xabsl", ".yabsl")
+DESIGNS = (".yaml", ".yml")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -45,6 +46,11 @@ def read_subjects(paths: Sequence[Path]) -> tuple[Reading, ...]:
     for path in dict.fromkeys(paths):
         if path.suffix in BEHAVIORS:
             readings.append(_read_behavior(path))
+        elif path.is_file() and path.suffix not in DESIGNS:
+            raise OSError(
+                f"{path} is neither a design nor an XABSL behavior; "
+                "name a design (.yaml), a folder with designs, or the .xabsl file with the agents"
+            )
         else:
             readings += [_reading_of(opened) for opened in open_paths([str(path)])]
     return tuple(readings)

@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from vicode.diagram.boxes import Size
 from vicode.diagram.figure import Arrow, Node
@@ -41,6 +41,13 @@ def shorter_chips(arrow: Arrow, chip: Chip) -> Iterator[Chip]:
         shorter = _chip_with(arrow, room) if text_width(chip.text, LABEL) > room + 10 else None
         if shorter:
             yield shorter
+
+
+def bare_chips(arrow: Arrow) -> Iterator[Chip]:
+    """The label without its text, if something is left then."""
+    bare = _chip_with(replace(arrow, label=""), 0)
+    if bare:
+        yield bare
 
 
 def _chip_with(arrow: Arrow, room: float) -> Chip | None:

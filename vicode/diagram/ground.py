@@ -56,6 +56,11 @@ class Rects:
         for cell in _cells(rect):
             self._cells[cell].append((key, rect))
 
+    def remove(self, key: str, rect: Rect) -> None:
+        """Take away what was put there."""
+        for cell in _cells(rect):
+            self._cells[cell].remove((key, rect))
+
     def under(self, rect: Rect) -> set[str]:
         """The keys of all that overlap a rectangle."""
         return {key for cell in _cells(rect) for key, other in self._cells.get(cell, ()) if rect.overlaps(other)}

@@ -3,9 +3,9 @@
 import math
 from collections import defaultdict
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
-from vicode.diagram.chips import Chip, chip_of, shorter_chips
+from vicode.diagram.chips import Chip, bare_chips, chip_of, shorter_chips
 from vicode.diagram.figure import Arrow, Figure, Node
 from vicode.diagram.ground import Curve, Obstacles, Points, Rect, Rects
 from vicode.diagram.labels import Kind
@@ -27,6 +27,13 @@ _PLACES = sorted(
     key=lambda place: place[0],
 )
 _LOOP_SLIPS = ((0.0, 0), (0.4, 0), (0.8, 1), (1.2, -1))
+# Where nothing of all that is free: ever farther from the line, so that every label can be read.
+_FAR_PLACES = [
+    (side, part) for side in (3, -3, 4, -4, 5, -5, 6, -6) for part in (0.5, 0.42, 0.58, 0.34, 0.66, 0.2, 0.8)
+]
+_FAR_SLIPS = (0, 1, -1, 2, -2, 3, -3)
+_RISES = sorted(range(-40, 44, 4), key=abs)
+_FARTHER = 14.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -46,6 +53,8 @@ def routes_of(figure: Figure) -> tuple[Route, ...]:
     # Those with the least choice first.
     ways.sort(key=lambda way: length_of(way[1]))
     routes = {arrow.key: router.label(arrow, curve, chip) for arrow, curve, chip in ways}
+    for key in router.crowded:
+        router.make_room(key, routes)
     return tuple(routes[arrow.key] for arrow in figure.arrows)
 
 
@@ -56,6 +65,7 @@ class _Router:
         self.nodes = {node.key: node for node in figure.nodes}
         self.boxes, self.labels, self.lines = Rects(), Rects(), Points()
         self.obstacles = Obstacles(CLEARANCE)
+        self.crowded: list[str] = []
         has_labels = any(arrow.label or arrow.order or arrow.kind is not Kind.ALWAYS for arrow in figure.arrows)
         self.is_planned = has_labels and len(figure.arrows) <= _MOST_PLANNED
         self._arrows_at: dict[str, list[Arrow]] = defaultdict(list)
@@ -100,8 +110,25 @@ class _Router:
             chip, at = wanted, _beside(curve, min(1.0, max(0.0, part)), shift)
         else:
             chip, at = self._free_place(arrow, curve, wanted)
+            if not self._is_free(Rect.around(at, chip.size)):
+                self.crowded.append(arrow.key)
         self.labels.add(arrow.key, Rect.around(at, chip.size))
         return Route(arrow=arrow, curve=curve, chip=chip, at=at)
+
+    def make_room(self, key: str, routes: dict[str, Route]) -> None:
+        """Let the labels that a crowded one stands on go elsewhere, where they can."""
+        for other in sorted(self._under(routes[key]) - {key}):
+            route = routes[other]
+            if route.arrow.label_at is not None or route.chip is None:
+                continue
+            self.labels.remove(other, Rect.around(route.at, route.chip.size))
+            chip, at = self._free_place(route.arrow, route.curve, route.chip)
+            routes[other] = replace(route, chip=chip, at=at)
+            self.labels.add(other, Rect.around(at, chip.size))
+
+    def _under(self, route: Route) -> set[str]:
+        assert route.chip is not None
+        return self.labels.under(Rect.around(route.at, route.chip.size).grown(2))
 
     def _ends(self, arrow: Arrow) -> tuple[Node, Node]:
         return self.nodes[arrow.source], self.nodes[arrow.target]
@@ -116,8 +143,22 @@ class _Router:
                 if cost < least:
                     best, chosen, least = at, chip, cost
             if least < _LABEL:
-                break
-        return chosen, best
+                return chosen, best
+        return self._far_place(arrow, curve, chip) or (chosen, best)
+
+    def _far_place(self, arrow: Arrow, curve: Curve, shortest: Chip) -> tuple[Chip, Point] | None:
+        """A place that hides no text, farther away; if need be for the order alone, whose link tells the rest."""
+        for chip in (shortest, *bare_chips(arrow)):
+            near = [at for _price, at in _places(arrow, curve, chip)] if chip is not shortest else []
+            for at in (*near, *_far_places(arrow, curve, chip)):
+                if self._is_free(Rect.around(at, chip.size)):
+                    return chip, at
+        return None
+
+    def _is_free(self, rect: Rect) -> bool:
+        """Whether a label there would hide no box and no other label."""
+        wide = rect.grown(2)
+        return not self.boxes.under(wide) and not self.labels.under(wide)
 
     def _crowd(self, rect: Rect, own: str, enough: float) -> float:
         """What lies under a rectangle, or would be under a label there; from `enough` on nobody looks further."""
@@ -139,6 +180,13 @@ def _places(arrow: Arrow, curve: Curve, chip: Chip) -> Iterator[tuple[float, Poi
         yield price, _by_line(curve, chip, part, side) if side else point_at(curve, part)
 
 
+def _far_places(arrow: Arrow, curve: Curve, chip: Chip) -> Iterator[Point]:
+    if arrow.source == arrow.target:
+        hung = [_on_loop(curve, chip, slip, is_out=True) for slip in _FAR_SLIPS]
+        return ((x, y + rise) for rise in _RISES for x, y in hung)
+    return (_by_line(curve, chip, part, side) for side, part in _FAR_PLACES)
+
+
 def _on_loop(curve: Curve, chip: Chip, slip: int, *, is_out: bool) -> Point:
     """The label of a loop hangs on its outermost point, so that the loop itself stays visible."""
     apex = point_at(curve, 0.5)
@@ -152,7 +200,8 @@ def _by_line(curve: Curve, chip: Chip, part: float, side: int) -> Point:
     """So far beside the line that it stays visible."""
     dx, dy = _direction(curve, part)
     reach = (abs(dy) * chip.size.width + abs(dx) * chip.size.height) / 2
-    shift = math.copysign(reach + (3 if abs(side) == 1 else 9), side)
+    beyond = 3 if abs(side) == 1 else 9 + _FARTHER * (abs(side) - 2)
+    shift = math.copysign(reach + beyond, side)
     x, y = point_at(curve, part)
     return (x - dy * shift, y + dx * shift)
 

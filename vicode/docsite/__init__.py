@@ -2,6 +2,7 @@
 
 from vicode.docsite.addresses import Addresses, state_anchor
 from vicode.docsite.homes import plan_home
+from vicode.docsite.missing import missing_page
 from vicode.docsite.site import SiteBuilder, build_site
 from vicode.docsite.subject import OwnFinding, SourceText, Subject, described_paths, subject_of
 from vicode.docsite.writing import (
@@ -25,6 +26,7 @@ __all__ = [
     "described_paths",
     "load_manifest",
     "manifest_file",
+    "missing_page",
     "plan_home",
     "save_manifest",
     "state_anchor",

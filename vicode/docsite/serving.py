@@ -14,6 +14,7 @@ from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
 from urllib.parse import parse_qs, unquote, urlsplit
 
+from vicode.docsite.missing import missing_page
 from vicode.templating import text_of
 
 HOST = "127.0.0.1"
@@ -25,10 +26,6 @@ _TYPES = {
     ".svg": "image/svg+xml",
 }
 _PING_S = 15.0
-_MISSING = """<!doctype html>
-<html lang="en"><head><meta charset="utf-8"><title>Not there</title><link rel="stylesheet" href="/site.css"></head>
-<body><main><h1>Not there</h1><p>No page has this address. When there is one it is shown.</p></main></body></html>
-"""
 
 
 @dataclass(slots=True)
@@ -157,7 +154,7 @@ class _Handler(BaseHTTPRequestHandler):
         status = HTTPStatus.NOT_FOUND if content is None else HTTPStatus.OK
         kind = _TYPES.get(posixpath.splitext(path)[1], _TYPES[".html"])
         if content is None or kind == _TYPES[".html"]:
-            html = _MISSING if content is None else content.decode("utf-8", "replace")
+            html = missing_page("/") if content is None else content.decode("utf-8", "replace")
             content, kind = live_page(html, self.server.news.build).encode(), _TYPES[".html"]
         self._send(status, content, kind)
 

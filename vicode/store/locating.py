@@ -1,6 +1,6 @@
 """Gives findings about things their places in files."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 from pathlib import Path
 
@@ -22,17 +22,20 @@ def place_of(thing: Thing, sources: Mapping[str, SourceMap]) -> Place | None:
 
 def faulty_components(errors: Iterable[Finding], project: OpenProject) -> frozenset[str]:
     """Components that nothing can be made of with these errors; mistakes in project.yaml concern all of them."""
+    guilty = set(owners_of(errors, project))
+    return frozenset(project.files) if "" in guilty else frozenset(guilty)
+
+
+def owners_of(findings: Iterable[Finding], project: OpenProject) -> Iterator[str]:
+    """Of each finding the component whose file it is in: "(broken)" for one that cannot be read, "" for the rest."""
     broken = {path.resolve() for path in project.broken}
     owners = {path.resolve(): name for name, path in project.files.items()}
-
-    def owner(error: Finding) -> str:
-        if error.place is None:
-            return error.thing.component if error.thing else ""
-        file = Path(error.place.file).resolve()
-        return "(broken)" if file in broken else owners.get(file, "")
-
-    guilty = {owner(error) for error in errors}
-    return frozenset(project.files) if "" in guilty else frozenset(guilty)
+    for each in findings:
+        if each.place is None:
+            yield each.thing.component if each.thing else ""
+        else:
+            file = Path(each.place.file).resolve()
+            yield "(broken)" if file in broken else owners.get(file, "")
 
 
 def _located(finding: Finding, sources: Mapping[str, SourceMap]) -> Finding:

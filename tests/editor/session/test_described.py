@@ -72,3 +72,14 @@ def test_a_draft_that_no_file_can_hold_is_described_all_the_same(tmp_path: Path)
         assert subject.project.design("Player") == document.design
     else:
         raise AssertionError("a file can hold it")
+
+
+def test_a_finding_of_the_file_is_told_once_beside_a_draft(tmp_path: Path) -> None:
+    workspace = open_forward(tmp_path)
+    file = tmp_path / "forward/turn.yaml"
+    file.write_text(f"{file.read_text().rstrip()}\nstrange: 1\n")
+    workspace.follow_disk()
+    rename_doc(workspace, "Turns\n\naround.\n")
+    snapshot = snapshot_of(workspace)
+    assert "Turn" in snapshot.drafts
+    assert [each.component for each in subject_at(snapshot).findings] == ["Turn"]

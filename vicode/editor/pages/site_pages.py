@@ -22,10 +22,6 @@ if TYPE_CHECKING:
 
 _TYPES = {".html": "text/html", ".css": "text/css", ".js": "text/javascript", ".svg": "image/svg+xml"}
 _FOLLOW = Path(__file__).with_name("follow.js")
-_MISSING = """<!doctype html>
-<html lang="en"><head><meta charset="utf-8"><title>Not there</title><link rel="stylesheet" href="site.css"></head>
-<body><main><h1>Not there</h1><p>The documentation of {name} has no such page just now.</p></main></body></html>
-"""
 
 
 @dataclass(eq=False)
@@ -59,7 +55,7 @@ def serve_site_pages(library: Library) -> None:
 
     @app.api_route("/docs/{key}/{path}", methods=["GET", "HEAD"])
     async def page(key: str, path: str, request: Request) -> Response:
-        from vicode.docsite import SiteBuilder
+        from vicode.docsite import SiteBuilder, missing_page
         from vicode.editor.session.described import snapshot_of
 
         workspace = library.workspace(key)
@@ -75,7 +71,7 @@ def serve_site_pages(library: Library) -> None:
         with contextlib.suppress(OSError):
             found = await run.io_bound(sites[key].file, snapshot_of(workspace), path, is_made=request.method == "GET")
         if found is None:
-            return _answer("missing.html", _MISSING.format(name=escape(workspace.project.name)), "missing", status=404)
+            return _answer("missing.html", missing_page(name=workspace.project.name), "missing", status=404)
         mark, text = found
         return _answer(path, text, mark)
 

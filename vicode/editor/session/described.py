@@ -7,9 +7,9 @@ from pathlib import Path
 from vicode.check import check_project
 from vicode.docsite import Subject, subject_of
 from vicode.editor.session.workspace import Workspace
-from vicode.findings import Finding, Severity
+from vicode.findings import Severity
 from vicode.model.design import Design
-from vicode.store import OpenProject, faulty_components, locate, open_project, read_design, save_design
+from vicode.store import OpenProject, faulty_components, locate, open_project, owners_of, read_design, save_design
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -69,14 +69,11 @@ def _with_draft(opened: OpenProject, name: str, draft: Draft) -> OpenProject:
         # No file can hold it as it is now: the lines of the last one have to do.
         return replace(opened, project=project)
     read = read_design(text, opened.sources[name].file)
+    owned = zip(opened.findings, owners_of(opened.findings, opened), strict=True)
     return replace(
         opened,
         project=project,
         sources={**opened.sources, name: read.source},
         texts={**opened.texts, name: text},
-        findings=(*(each for each in opened.findings if _owner(each) != name), *read.findings),
+        findings=(*(finding for finding, owner in owned if owner != name), *read.findings),
     )
-
-
-def _owner(finding: Finding) -> str:
-    return finding.thing.component if finding.thing else ""
