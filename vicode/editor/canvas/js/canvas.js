@@ -265,7 +265,7 @@ class Canvas {
     this.minimap = new Minimap(this.scene, this.viewport, colours);
     // What is painted last is heard first.
     const heard = { role: "group", "aria-label": "Drawing", "aria-owns": "nodes edges links" };
-    this.levels = new Levels(this, html("div", { class: "plane layer", ...heard }, this.painter.sheets), colours);
+    this.levels = new Levels(this, html("div", { class: "plane", ...heard }, this.painter.sheets), colours);
     this.theme = new Theme(this.stage, () => this.#coloursChanged());
     this.toolbar = new Toolbar(this);
     this.selection = new Selection(this);

@@ -16,7 +16,6 @@ export class Levels {
     this.far = false;
     this.frozen = false;
     this.shownZoom = 1;
-    this.sharpZoom = 1;
     this.overview = new Overview(canvas.scene, canvas.viewport, colours);
     this.snapshot = new Snapshot(canvas.painter, canvas.viewport, colours);
     this.elements = [...this.overview.elements, this.snapshot.element, plane];
@@ -91,7 +90,6 @@ export class Levels {
     this.#thaw();
     this.cull();
     if (this.far) this.overview.sharpen(this.canvas.selection.keys);
-    if (this.shownZoom !== this.sharpZoom) this.#rasterAnew();
     if (!this.far) this.snapshot.prepare(this.shownZoom);
   }
 
@@ -123,13 +121,6 @@ export class Levels {
   #uncovered(zooms) {
     if (zooms && this.overview.isThere()) this.#showUnderlay(true);
     else this.#mount();
-  }
-
-  /** A layer keeps the sharpness it was first drawn with; for a moment it must be none. */
-  #rasterAnew() {
-    this.sharpZoom = this.shownZoom;
-    this.plane.classList.remove("layer");
-    requestAnimationFrame(() => requestAnimationFrame(() => this.plane.classList.add("layer")));
   }
 
   #mount() {
