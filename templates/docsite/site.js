@@ -5,6 +5,9 @@
   const MOST_FOUND = 30;
   const ZOOM_STEP = 1.25;
   const PAN_STEP = 60;
+  const MOST_SEEN_AT_ONCE = 12;
+  const MOST_READABLE = 1800;
+  const MOST_FADING = 40;
 
   // ---- Search ----
 
@@ -168,9 +171,12 @@
       this.sheet = frame.querySelector(".sheet");
       this.svg = frame.querySelector("svg");
       if (!this.svg) return;
-      this.whole = this.svg.viewBox.baseVal;
-      this.whole = { x: this.whole.x, y: this.whole.y, width: this.whole.width, height: this.whole.height };
+      const [x, y, width, height] = this.svg.getAttribute("viewBox").split(" ").map(Number);
+      this.whole = { x, y, width, height };
       this.view = { ...this.whole };
+      this.nodes = new Map([...this.svg.querySelectorAll("[data-key]")].map((node) => [node.dataset.key, node]));
+      this.held = null;
+      frame.classList.toggle("is-large", this.nodes.size > MOST_FADING);
       frame.classList.add("is-live");
       this.addTools();
       this.listen();
@@ -179,6 +185,7 @@
     addTools() {
       const tools = document.createElement("div");
       tools.className = "tools";
+      if (this.nodes.size > MOST_SEEN_AT_ONCE) tools.append(...this.finder());
       const add = (sign, title, act) => {
         const button = document.createElement("button");
         button.type = "button";
@@ -193,6 +200,55 @@
       add("Fit", "Show all of it (0)", () => this.fit());
       if (document.fullscreenEnabled) add(frameSign(), "Full screen (F)", () => this.toggleFullScreen());
       this.frame.prepend(tools);
+    }
+
+    // A field that shows a box large, with all that are joined to it.
+    finder() {
+      const field = document.createElement("input");
+      const names = document.createElement("datalist");
+      names.id = `names-${document.querySelectorAll("datalist").length}`;
+      const keys = new Map([...this.nodes].map(([key, node]) => [node.querySelector("title").textContent.split("\n")[0], key]));
+      names.append(...[...keys.keys()].sort((a, b) => a.localeCompare(b)).map((name) => new Option(name, name)));
+      field.setAttribute("list", names.id);
+      field.type = "search";
+      field.placeholder = "Find in the drawing";
+      field.setAttribute("aria-label", field.placeholder);
+      field.autocomplete = "off";
+      field.spellcheck = false;
+      const look = (isWhole) => {
+        const text = field.value.trim().toLowerCase();
+        const named = [...keys].filter(([name]) => (isWhole ? name.toLowerCase().includes(text) : name.toLowerCase() === text));
+        if (!text) this.fit();
+        else if (named.length) this.hold(named.sort(([a], [b]) => a.length - b.length)[0][1]);
+      };
+      field.addEventListener("input", () => look(false));
+      field.addEventListener("keydown", (event) => {
+        if (event.key === "Enter") look(true);
+        if (event.key === "Escape") this.fit();
+      });
+      this.field = field;
+      return [field, names];
+    }
+
+    // Its neighbors are in the view as far as its name can be read then.
+    hold(key) {
+      this.held = key;
+      this.light(key);
+      const own = this.nodes.get(key).getBBox();
+      const boxes = [...this.nodes.values()].filter((node) => node.classList.contains("is-lit")).map((node) => node.getBBox());
+      const ratio = this.whole.width / this.whole.height;
+      const span = (start, size, most) => {
+        const from = Math.min(...boxes.map((box) => box[start])) - 40;
+        const to = Math.max(...boxes.map((box) => box[start] + box[size])) + 40;
+        const middle = own[start] + own[size] / 2;
+        return [Math.max(from, middle - most / 2), Math.min(to, middle + most / 2)];
+      };
+      const [left, right] = span("x", "width", MOST_READABLE);
+      const [top, bottom] = span("y", "height", MOST_READABLE / ratio);
+      const width = Math.max(right - left, (bottom - top) * ratio, 400);
+      const height = width / ratio;
+      this.view = { x: (left + right - width) / 2, y: (top + bottom - height) / 2, width, height };
+      this.show();
     }
 
     listen() {
@@ -247,6 +303,9 @@
     }
 
     fit() {
+      this.held = null;
+      this.light(null);
+      if (this.field) this.field.value = "";
       this.view = { ...this.whole };
       this.show();
     }
@@ -296,7 +355,8 @@
       window.addEventListener("pointerup", onUp, { once: true });
     }
 
-    light(key) {
+    light(asked) {
+      const key = asked ?? this.held;
       this.svg.classList.toggle("is-asked", key !== null);
       const lit = new Set();
       for (const each of this.svg.querySelectorAll("[data-from]")) {

@@ -13,6 +13,8 @@ from tests.editor.hostile_project import PAYLOADS, write_hostile_project
 from vicode.cli import main
 from vicode.docsite import Subject, build_site
 from vicode.docsite.docs import html_of, summary_of
+from vicode.docsite.searching import search_script
+from vicode.docsite.views import Entry
 from vicode.model.design import Call, Declaration, Design, Group, Guard, State, Stay, Transition, Use
 from vicode.model.project import Project
 from vicode.output import OutputFile
@@ -102,6 +104,40 @@ def test_languages_that_the_project_did_not_ask_for_are_shown(tmp_path: Path) ->
     assert "option calm" in read_page(page(files, "xabsl-Calm.html")).text.lower()
     assert "component-Calm.html#state-A-0" in read_page(page(files, "xabsl-Calm.html")).links
     assert not broken_links(files)
+
+
+def test_an_agent_has_a_page_with_what_it_may_activate(behavior: tuple[OutputFile, ...]) -> None:
+    agents = page(behavior, "agents.html")
+    assert "<svg" not in agents
+    links = [link for link in read_page(agents).links if link.startswith("agent-")]
+    assert {file.path for file in behavior if file.path.startswith("agent-")} == set(links)
+    reached = {name: set(read_page(page(behavior, name)).links) for name in links}
+    assert all("data-from" in page(behavior, name) for name in links)
+    assert all(any(link.startswith("component-opt") for link in found) for found in reached.values())
+    assert any(f'href="{links[0]}"' in file.text for file in behavior if file.path.startswith("component-"))
+
+
+def test_a_state_machine_is_shown_among_its_neighbors(forward: tuple[OutputFile, ...]) -> None:
+    text = page(forward, "component-SearchBall.html")
+    around = text[text.index('id="around"') : text.index('id="uses"')]
+    assert 'href="component-Player.html"' in around
+    assert 'href="component-Player.html#uses"' in around
+    assert 'href="component-SearchBall.html"' not in around
+
+
+def test_what_is_found_has_its_own_address_whatever_is_empty() -> None:
+    entries = [
+        Entry(name="A", kind="component", where="", href="component-A.html"),
+        Entry(name="B", kind="state", where="A", href="component-A.html#state-B"),
+        Entry(name="C", kind="agent", where="p", href="agent-C.html", doc="Plays."),
+        Entry(name="D", kind="state", where="A", href="component-A.html#state-D-2", words="x > 1\ny"),
+    ]
+    index = index_in(search_script(entries))
+    rows = [unpacked(row, index) for row in index["entries"]]
+    assert [(name, kind, where, href) for name, kind, where, href, _doc, _code in rows] == [
+        (each.name, each.kind, each.where or "", each.href) for each in entries
+    ]
+    assert [row[4:] for row in rows] == [["", ""], ["", ""], ["Plays.", ""], ["", "x > 1 y"]]
 
 
 @pytest.mark.parametrize("name", ["forward", "behavior"])

@@ -11,10 +11,12 @@ from tests.editor.hostile_project import PAYLOADS, write_hostile_project
 from vicode.cli import main
 
 FORWARD = Path(__file__).parents[2] / "designs" / "forward"
+BEHAVIOR = FORWARD.parents[1] / "tests" / "xabsl" / "cases" / "programs" / "p1" / "agents.xabsl"
 
 KINDS = (
     "index",
     "agents",
+    "agent-forward",
     "all",
     "component-Player",
     "component-Body",
@@ -32,6 +34,13 @@ KINDS = (
 def site(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("site")
     assert main(["docs", str(FORWARD), "--out", str(folder)]) == 0
+    return folder
+
+
+@pytest.fixture(scope="module")
+def behavior_site(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("behavior")
+    assert main(["docs", str(BEHAVIOR), "--out", str(folder)]) == 0
     return folder
 
 
@@ -73,9 +82,9 @@ def test_searching_by_keys(page: Page, site: Path) -> None:
 
 def test_a_drawing_zooms_and_tells_what_belongs_together(page: Page, site: Path) -> None:
     page.goto((site / "component-Player.html").as_uri())
-    drawing = page.locator(".drawing svg[viewBox]").and_(page.locator("[role=group]"))
+    drawing = page.locator(".drawing svg[role=group]").first
     whole = drawing.get_attribute("viewBox")
-    page.locator(".sheet").focus()
+    page.locator(".sheet").first.focus()
     page.keyboard.press("+")
     assert drawing.get_attribute("viewBox") != whole
     page.keyboard.press("ArrowRight")
@@ -84,6 +93,51 @@ def test_a_drawing_zooms_and_tells_what_belongs_together(page: Page, site: Path)
     page.locator("a.state[data-key='s:LookForBall']").hover()
     expect(page.locator("a.state.is-lit", has_text="FollowBall")).to_have_count(1)
     expect(page.locator("a.state:not(.is-lit)", has_text="AlignFront")).to_have_count(1)
+
+
+def test_a_box_of_a_large_map_is_found_with_its_neighbors(page: Page, behavior_site: Path) -> None:
+    page.goto((behavior_site / "index.html").as_uri())
+    drawing = page.locator(".drawing svg[role=group]")
+    whole = drawing.get_attribute("viewBox")
+    field = page.get_by_label("Find in the drawing")
+    field.press_sequentially("opt1")
+    expect(drawing).to_have_class("is-asked")
+    assert drawing.get_attribute("viewBox") != whole
+    found = drawing.locator("a[data-key='opt1']")
+    expect(found).to_have_class("state is-lit")
+    expect(found).to_be_in_viewport()
+    assert 1 < drawing.locator("[data-key].is-lit").count() < drawing.locator("[data-key]").count()
+    # The pointer asks for another one only as long as it is there.
+    found.hover()
+    page.locator("h1").hover()
+    expect(found).to_have_class("state is-lit")
+    field.fill("no such thing")
+    field.press("Enter")
+    expect(found).to_have_class("state is-lit")
+    field.press("Escape")
+    expect(field).to_have_value("")
+    expect(drawing).not_to_have_class("is-asked")
+    assert drawing.get_attribute("viewBox") == whole
+
+
+def test_a_small_drawing_needs_no_finding(page: Page, site: Path) -> None:
+    page.goto((site / "component-Turn.html").as_uri())
+    expect(page.get_by_role("button", name="Show all of it (0)").first).to_be_visible()
+    expect(page.get_by_label("Find in the drawing")).to_have_count(0)
+
+
+def test_a_drawing_is_dragged_without_selecting_its_texts(page: Page, behavior_site: Path) -> None:
+    page.goto((behavior_site / "index.html").as_uri())
+    drawing = page.locator(".drawing svg[role=group]")
+    whole = drawing.get_attribute("viewBox")
+    box = drawing.bounding_box()
+    assert box
+    page.mouse.move(box["x"] + 2, box["y"] + 2)
+    page.mouse.down()
+    page.mouse.move(box["x"] + box["width"] * 0.8, box["y"] + box["height"] * 0.8, steps=6)
+    page.mouse.up()
+    assert drawing.get_attribute("viewBox") != whole
+    assert page.evaluate("getSelection().toString()") == ""
 
 
 def test_a_decision_and_its_line_are_shown_together(page: Page, site: Path) -> None:

@@ -37,7 +37,7 @@ def usage_figure(
     roots = {agent.root for agent in project.agents}
     return Figure(
         nodes=tuple(_node(project, name, places[name], address_of, is_root=name in roots) for name in shown),
-        arrows=tuple(_arrows(uses, set(shown))),
+        arrows=tuple(arrows_of(uses, set(shown))),
     )
 
 
@@ -57,10 +57,11 @@ def _without_asked(uses: Uses, designs: Collection[str]) -> Uses:
 
 
 def _uses(project: Project) -> Uses:
-    return {design.component: found for design in project.designs if (found := _uses_of(design))}
+    return {design.component: found for design in project.designs if (found := uses_of(design))}
 
 
-def _uses_of(design: Design) -> Mapping[str, frozenset[str]]:
+def uses_of(design: Design) -> Mapping[str, frozenset[str]]:
+    """What a design uses, and how."""
     components = {use.alias: use.component for use in design.uses}
     kinds: dict[str, set[str]] = {component: set() for component in components.values()}
     actions = [*design.common.actions, *(action for state in design.states for action in state.all_actions)]
@@ -92,7 +93,8 @@ def _node(project: Project, name: str, at: Point, address_of: Callable[[str], st
     )
 
 
-def _arrows(uses: Uses, shown: set[str]) -> Iterator[Arrow]:
+def arrows_of(uses: Uses, shown: Collection[str]) -> Iterator[Arrow]:
+    """The arrows between the components that are shown."""
     for user, found in uses.items():
         for used, kinds in found.items():
             if used not in shown:

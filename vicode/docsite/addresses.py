@@ -57,7 +57,13 @@ class Addresses:
         self._project = project
         self._stems = _stems(design.component for design in project.designs)
         self._interfaces = _stems(each.component for each in project.components)
-        self.names = (tuple(self._stems), tuple(self._interfaces), tuple(each.name for each in project.enumerations))
+        self._agents = _stems(each.name for each in project.agents)
+        self.names = (
+            tuple(self._stems),
+            tuple(self._interfaces),
+            tuple(each.name for each in project.enumerations),
+            tuple(self._agents),
+        )
         """All that addresses are made from."""
 
     def component(self, name: str) -> str:
@@ -65,6 +71,10 @@ class Addresses:
         if name in self._stems:
             return f"component-{self._stems[name]}.html"
         return f"interface-{self._interfaces[name]}.html" if name in self._interfaces else ""
+
+    def has_design(self, name: str) -> bool:
+        """Whether a component is a state machine."""
+        return name in self._stems
 
     def thing(self, component: str, path: Path) -> str:
         """Where a thing of a design is described."""
@@ -95,8 +105,8 @@ class Addresses:
         return f"{TYPES}#constant-{slug(name)}"
 
     def agent(self, name: str) -> str:
-        """Where an agent is described."""
-        return f"{AGENTS}#agent-{slug(name)}"
+        """The page of an agent."""
+        return f"agent-{self._agents[name]}.html"
 
 
 def _stems(names: Iterable[str]) -> dict[str, str]:

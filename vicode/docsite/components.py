@@ -8,7 +8,7 @@ from vicode.docsite.addresses import Addresses, anchor_of, state_anchor
 from vicode.docsite.decisions import Places, blocks_of, pseudo_lines, transition_rows
 from vicode.docsite.declarations import tables_of
 from vicode.docsite.docs import html_of
-from vicode.docsite.drawings import draw_decisions, draw_design
+from vicode.docsite.drawings import draw_around, draw_decisions, draw_design
 from vicode.docsite.findings import finding_rows
 from vicode.docsite.linking import Linker, listed, plain
 from vicode.docsite.subject import Subject
@@ -49,10 +49,11 @@ def component_view(design: Design, made: Made) -> ComponentView:
         columns=frozenset(name for row in transitions for name in ("timer", "doc_html") if getattr(row, name)),
         common=_common(design, linker, made) if has_common else None,
         states=tuple(_state(design, state, linker, made) for state in design.states),
+        around_svg=draw_around(design, project, addresses),
         uses=tuple(use_rows(design, linker)),
         used_by=tuple(user_rows(project, design.component, addresses)),
         agents=listed(
-            Part(text=agent.name, href=addresses.agent(agent.name))
+            Part(text=agent.title or agent.name, href=addresses.agent(agent.name))
             for agent in project.agents
             if agent.root == design.component
         ),

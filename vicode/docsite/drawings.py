@@ -4,6 +4,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from functools import lru_cache, partial
 
+from vicode.diagram.around import USED, USERS, around_figure
 from vicode.diagram.drawing import draw_figure
 from vicode.diagram.figure import Arrow, Figure, Node, figure_of
 from vicode.diagram.layout import LayoutService
@@ -78,11 +79,29 @@ def draw_uses(project: Project, addresses: Addresses, title: str) -> str:
     """Who uses whom in a project or a part of one; an arrow leads to its user."""
     figure = usage_figure(project, sparse=True)
     nodes = tuple(replace(node, href=addresses.component(node.key)) for node in figure.nodes)
-    arrows = []
-    for arrow in figure.arrows:
-        user = arrow.target if arrow.of == "requires" else arrow.source
-        arrows.append(replace(arrow, href=f"{addresses.component(user)}#uses"))
-    return _svg(Figure(nodes=nodes, arrows=tuple(arrows)), title) if nodes else ""
+    return _svg(Figure(nodes=nodes, arrows=_linked_uses(figure, addresses)), title) if nodes else ""
+
+
+def draw_around(design: Design, project: Project, addresses: Addresses) -> str:
+    """A design with who uses it and what it uses; "" for one that is alone. An arrow leads to its user."""
+    name = design.component
+    figure = around_figure(project, name, addresses.has_design)
+    if len(figure.nodes) == 1:
+        return ""
+    rest = {USERS: "#used-by", USED: "#uses"}
+    nodes = tuple(
+        node if node.key == name else replace(node, href=rest.get(node.key) or addresses.component(node.key))
+        for node in figure.nodes
+    )
+    return _svg(Figure(nodes=nodes, arrows=_linked_uses(figure, addresses)), f"Neighbors of {name}")
+
+
+def _linked_uses(figure: Figure, addresses: Addresses) -> tuple[Arrow, ...]:
+    users = (arrow.target if arrow.of == "requires" else arrow.source for arrow in figure.arrows)
+    return tuple(
+        replace(arrow, href=f"{page}#uses" if (page := addresses.component(user)) else "#used-by")
+        for arrow, user in zip(figure.arrows, users, strict=True)
+    )
 
 
 @lru_cache(maxsize=256)

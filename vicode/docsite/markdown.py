@@ -17,6 +17,7 @@ _COLOUR = re.compile(r'(?<= )(fill|stroke)="var\(--drawn-([a-z-]+)\)"')
 _LINK = re.compile(r'<a ([^>]*?) href="[^"]*">')
 _LANGUAGES = {"Python": "python", "C++": "cpp", "XABSL": "", "YAML": "yaml"}
 _SECTIONS = {
+    "agent": "Agents",
     "component": "State machines",
     "interfaces": "Interfaces",
     "interface": "Interfaces",
@@ -148,7 +149,7 @@ def _contents(pages: Iterable[Content]) -> Iterator[str]:
 
 def _in_order(pages: Iterable[Content]) -> list[Content]:
     """Home first, texts last, what stands below a heading together."""
-    order = ["home", "agents", "component", "symbols", "types", "interfaces", "interface", "all", "code"]
+    order = ["home", "agents", "agent", "component", "symbols", "types", "interfaces", "interface", "all", "code"]
     return sorted(pages, key=lambda page: order.index(page.template))
 
 

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 from vicode.diagram.usage import leaves_out
-from vicode.docsite.addresses import AGENTS, EVERYTHING, INTERFACES, SYMBOLS, TYPES, Addresses, slug
+from vicode.docsite.addresses import AGENTS, EVERYTHING, INTERFACES, SYMBOLS, TYPES, Addresses
 from vicode.docsite.docs import html_of, line_html_of, summary_of
 from vicode.docsite.drawings import draw_uses
 from vicode.docsite.findings import finding_groups, finding_rows
@@ -12,10 +12,10 @@ from vicode.docsite.interfaces import symbol_count
 from vicode.docsite.linking import Linker, listed
 from vicode.docsite.ordering import by_name, sorted_designs
 from vicode.docsite.subject import Subject
-from vicode.docsite.views import AgentView, ComponentRow, HomeView, Part
+from vicode.docsite.views import AgentRow, AgentView, ComponentRow, HomeView, Part, ReachedRow
 from vicode.generators import collect_components
 from vicode.model.design import Design
-from vicode.model.project import Project
+from vicode.model.project import Agent, Project
 from vicode.model.walks import walk_transitions
 
 
@@ -28,39 +28,52 @@ def home_view(subject: Subject, addresses: Addresses, svg: str = "") -> HomeView
         numbers=tuple(_number(count, word, href) for count, word, href in _numbers(subject) if count),
         svg=svg,
         is_sparse=leaves_out(project) and symbol_count(project) > 0,
-        agents=tuple(
-            (
-                Part(text=agent.title or agent.name, href=addresses.agent(agent.name)),
-                linker.component(agent.root),
-                line_html_of(agent.doc),
-            )
-            for agent in project.agents
-        ),
+        agents=tuple(agent_rows(project, addresses)),
         components=tuple(_component_row(design, subject, linker) for design in sorted_designs(project)),
         findings=finding_groups(finding_rows(subject, addresses)),
     )
 
 
-def agent_views(project: Project, addresses: Addresses) -> Iterator[AgentView]:
-    """The agents, each with what it may activate."""
+def agent_rows(project: Project, addresses: Addresses) -> Iterator[AgentRow]:
+    """The agents as a list."""
     linker = Linker(project, addresses)
     for agent in project.agents:
-        designs = collect_components(project, (agent.root,)) if project.design(agent.root) else frozenset()
-        # A drawing of its own: among the places of the whole it would be lost.
-        part = replace(
-            project, agents=(agent,), designs=tuple(each for each in project.designs if each.component in designs)
-        )
-        used = {use.component for design in part.designs for use in design.uses}
-        reached = sorted({agent.root, *designs, *used}, key=by_name)
-        yield AgentView(
-            anchor=f"agent-{slug(agent.name)}",
+        yield AgentRow(
+            agent=Part(text=agent.title or agent.name, href=addresses.agent(agent.name)),
             name=agent.name,
-            title=agent.title,
-            doc_html=html_of(agent.doc),
             root=linker.component(agent.root),
-            reaches=listed(linker.component(name) for name in reached),
-            svg=draw_uses(part, addresses, f"What {agent.name} may activate"),
+            machines=len(_reached(project, agent)),
+            doc_html=line_html_of(agent.doc),
         )
+
+
+def agent_view(project: Project, agent: Agent, addresses: Addresses) -> AgentView:
+    """An agent with what it may activate."""
+    linker = Linker(project, addresses)
+    # A drawing of its own: among the places of the whole it would be lost.
+    part = replace(project, agents=(agent,), designs=_reached(project, agent))
+    names = {design.component for design in part.designs}
+    used = {use.component for design in part.designs for use in design.uses} | {agent.root}
+    return AgentView(
+        name=agent.name,
+        title=agent.title,
+        doc_html=html_of(agent.doc),
+        root=linker.component(agent.root),
+        machines=tuple(
+            ReachedRow(
+                component=linker.component(design.component), summary=summary_of(design.doc), states=len(design.states)
+            )
+            for design in sorted_designs(part)
+        ),
+        others=listed(linker.component(name) for name in sorted(used - names, key=by_name)),
+        svg=draw_uses(part, addresses, f"What {agent.name} may activate"),
+        is_sparse=leaves_out(part) and symbol_count(project) > 0,
+    )
+
+
+def _reached(project: Project, agent: Agent) -> tuple[Design, ...]:
+    names = collect_components(project, (agent.root,)) if project.design(agent.root) else frozenset()
+    return tuple(each for each in project.designs if each.component in names)
 
 
 def _numbers(subject: Subject) -> Iterator[tuple[int, str, str]]:

@@ -40,7 +40,11 @@ def search_script(entries: Iterable[Entry]) -> str:
         place = "" if each.where in each.doc else each.where
         row = [each.name, kinds.number(each.kind), places.number(place), pages.number(page)]
         row += [anchor_part, " ".join(each.doc.split()), words]
-        while not row[-1]:
+        empties: tuple[object, ...] = ([], "", 0)
+        for empty in empties:
+            # A text that is empty is a place, the page itself, unlike the number.
+            if row[-1] != empty:
+                break
             row.pop()
         rows.append(row)
     index = {

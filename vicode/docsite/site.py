@@ -23,14 +23,14 @@ from vicode.docsite.languages import Unsaid, language_views, unsaid_in
 from vicode.docsite.markdown import Content, markdown_files
 from vicode.docsite.memory import Memory, digest_of
 from vicode.docsite.ordering import sorted_designs
-from vicode.docsite.overview import agent_views, home_view
+from vicode.docsite.overview import agent_view, home_view
 from vicode.docsite.parts import part_around, skeleton_of
 from vicode.docsite.searching import entries_of, search_script
 from vicode.docsite.subject import Subject
 from vicode.docsite.views import Page, Part
 from vicode.docsite.writing import PlannedFile
 from vicode.model.design import Design
-from vicode.model.project import Project
+from vicode.model.project import Agent, Project
 from vicode.output import OutputFile
 from vicode.templating import render, text_of
 
@@ -104,8 +104,10 @@ class _Planner:
 
         yield self._page(_head(HOME, project.name), "home", (maps, home), drawn_home)
         if project.agents:
-            agents = _head(AGENTS, "Agents")
-            yield self._page(agents, "agents", maps, lambda: {"agents": tuple(agent_views(bones, addresses))})
+            yield self._viewed(_head(AGENTS, "Agents"), "agents", agents=home.agents)
+        for agent in project.agents:
+            head = _head(addresses.agent(agent.name), agent.title or agent.name, Part(text="Agents", href=AGENTS))
+            yield self._page(head, "agent", (maps, agent.name), partial(_agent, bones, agent, addresses))
         entries = entries_of(project, addresses)
         yield self._viewed(_head(EVERYTHING, "Everything"), "all", entries=entries)
         yield PlannedFile(path="search.js", key=digest_of(entries), make=partial(search_script, entries))
@@ -218,6 +220,10 @@ def _plain_file(path: str, text: str) -> PlannedFile:
 
 def _head(file: str, title: str, *crumbs: Part) -> Page:
     return Page(title=title, file=file, here=crumbs[-1].href if crumbs else file, crumbs=crumbs)
+
+
+def _agent(bones: Project, agent: Agent, addresses: Addresses) -> Views:
+    return {"view": agent_view(bones, agent, addresses)}
 
 
 def _component(design: Design, made: Made) -> Views:

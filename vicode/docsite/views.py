@@ -176,6 +176,7 @@ class ComponentView:
     columns: frozenset[str]
     common: StateView | None
     states: tuple[StateView, ...]
+    around_svg: str
     uses: tuple[UseRow, ...]
     used_by: tuple[UseRow, ...]
     agents: Line
@@ -237,16 +238,40 @@ class EnumerationView:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class AgentView:
-    """An agent with the drawing of all that it may activate."""
+class ReachedRow:
+    """A state machine that an agent may activate."""
 
-    anchor: str
+    component: Part
+    summary: str
+    states: int
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class AgentView:
+    """The page of an agent: all that it may activate, drawn and as lists; `others` are written by hand.
+
+    `is_sparse` says that something is not drawn.
+    """
+
     name: str
     title: str
     doc_html: str
     root: Part
-    reaches: Line
+    machines: tuple[ReachedRow, ...]
+    others: Line
     svg: str
+    is_sparse: bool
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class AgentRow:
+    """A line of the list of agents."""
+
+    agent: Part
+    name: str
+    root: Part
+    machines: int
+    doc_html: str
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -268,14 +293,9 @@ class HomeView:
     numbers: tuple[tuple[int, Part], ...]
     svg: str
     is_sparse: bool
-    agents: tuple[tuple[Part, Part, str], ...]
+    agents: tuple[AgentRow, ...]
     components: tuple[ComponentRow, ...]
     findings: tuple[FindingGroup, ...]
-
-    @property
-    def has_agent_docs(self) -> bool:
-        """Whether an agent is described."""
-        return any(doc_html for _agent, _root, doc_html in self.agents)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
