@@ -130,6 +130,18 @@ export class Router {
     const lengths = new Map(edges.map((edge) => [edge, this.way(edge).length]));
     edges.sort((a, b) => lengths.get(a) - lengths.get(b) || (a.key < b.key ? -1 : 1));
     for (const edge of edges) this.#label(edge);
+    this.#makeRoom(edges);
+  }
+
+  /** Where labels had no choice but to lie on others, these look again, now that they know of them. */
+  #makeRoom(edges) {
+    const fresh = new Set(edges.map(({ key }) => key));
+    const meet = (key, other) => key !== other && fresh.has(other) && overlaps(this.labelRects.get(key), this.labelRects.get(other));
+    const isCovered = (key) => this.labelRects.has(key) && [...this.labels.query(this.labelRects.get(key))].some((other) => meet(key, other));
+    for (const edge of edges.filter(({ key }) => isCovered(key))) {
+      this.labels.remove(edge.key);
+      this.#label(edge);
+    }
   }
 
   #label(edge) {
