@@ -169,7 +169,7 @@ def test_what_the_project_declares_is_written_into_its_file(editor: str, page: P
     assert "sideways: Outwards" in (folder / "project.yaml").read_text()
 
     # Who hears the form is told of the new name, too; and the history takes it back in all files.
-    kick.get_by_label("Enumeration").fill("Shot")
+    kick.get_by_label("Enumeration", exact=True).fill("Shot")
     page.keyboard.press("Enter")
     page.get_by_role("dialog", name="Rename enumeration Kick to Shot").get_by_role(
         "button", name="Rename everywhere"

@@ -10,10 +10,8 @@ import pytest
 from vicode.check import check_project
 from vicode.editor.session import Document, Library, Workspace, declared_names
 from vicode.editor.session.declared_names import plan_name, rename_in_files
-from vicode.editor.session.project_edits import change_project_file, take_back
 from vicode.model.design import Code, RunCode
 from vicode.model.edits import remove_states
-from vicode.model.project import Project
 from vicode.model.renaming import Declared, has_declared, names_beside
 from vicode.store import open_project
 
@@ -221,25 +219,3 @@ def test_a_class_written_by_hand_is_pointed_out(workspace: Workspace) -> None:
     plan = plan_name(workspace, Declared(component="Head", section="outputs", name="pan"), "yaw")
     assert "that class is written by hand" in plan.note
     assert "project.yaml" in [change.file.name for change in plan.changes]
-
-
-def test_a_change_of_the_project_is_written_and_taken_back(workspace: Workspace, folder: Path) -> None:
-    before = texts_of(folder)
-
-    def change(project: Project) -> Project:
-        return replace(project, enumerations=tuple(replace(each, internal=True) for each in project.enumerations))
-
-    written = change_project_file(workspace, change)
-    assert written.refused == ""
-    assert [each.internal for each in workspace.project.enumerations] == [True, True]
-    assert "# Lengths in mm" in (folder / "project.yaml").read_text()
-    assert take_back(workspace, written) == ""
-    assert texts_of(folder) == before
-
-    again = change_project_file(workspace, change)
-    (folder / "project.yaml").write_text(before["project.yaml"] + "# mine\n")
-    assert take_back(workspace, again) == "project.yaml was changed since"
-    (folder / "project.yaml").write_text("vicode: [")
-    assert change_project_file(workspace, change).refused == "project.yaml cannot be read"
-    (folder / "project.yaml").unlink()
-    assert change_project_file(workspace, change).refused == "there is no project.yaml"

@@ -117,10 +117,10 @@ def _form(desk: Desk, spot: Spot, declaration: Declaration, fields: list[Field])
                 _arguments(desk, spot, fields)
 
         key = f"{spot.section} {spot.index} {spot.argument}"
-        fold(desk, key, "More", _caption(spot, declaration), more).classes("declaration-more")
+        fold(desk, key, "More", caption_of(declaration, spot.kind), more).classes("declaration-more")
 
 
-def _caption(spot: Spot, declaration: Declaration) -> str:
+def caption_of(declaration: Declaration, kind: str) -> str:
     """What stands in a fold that is closed, or may."""
     said = []
     if declaration.range is not None:
@@ -129,7 +129,7 @@ def _caption(spot: Spot, declaration: Declaration) -> str:
         said.append(f"takes {', '.join(each.name for each in declaration.arguments) or 'nothing'}")
     if declaration.xabsl_name:
         said.append(f"{declaration.xabsl_name} in XABSL")
-    return "; ".join(said) or ("range, XABSL, arguments" if spot.kind == "output" else "range, XABSL")
+    return "; ".join(said) or ("range, XABSL, arguments" if kind == "output" else "range, XABSL")
 
 
 def _arguments(desk: Desk, spot: Spot, fields: list[Field]) -> None:
@@ -141,18 +141,22 @@ def _arguments(desk: Desk, spot: Spot, fields: list[Field]) -> None:
         _form(desk, replace(spot, argument=number), argument, fields)
     with ui.row().classes("adders"):
         name = f"Argument: {output.name} is a function of one more"
-        add_button("Argument", name, _changer(desk, spot, _with_argument))
+        add_button("Argument", name, _changer(desk, spot, with_argument))
         if output.arguments is not None:
-            add_button("No function", "No function: it is a value again", _changer(desk, spot, _plain), icon="close")
+            add_button(
+                "No function", "No function: it is a value again", _changer(desk, spot, without_arguments), icon="close"
+            )
 
 
-def _with_argument(output: Declaration) -> Declaration:
+def with_argument(output: Declaration) -> Declaration:
+    """The output as a function of one more argument."""
     known = output.arguments or ()
     name = free_name("argument", {each.name for each in known})
     return replace(output, arguments=(*known, Declaration(name=name, type="float")))
 
 
-def _plain(output: Declaration) -> Declaration:
+def without_arguments(output: Declaration) -> Declaration:
+    """The output as a value."""
     return replace(output, arguments=None)
 
 

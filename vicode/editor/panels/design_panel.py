@@ -12,7 +12,7 @@ from vicode.editor.panels.declarations import SECTIONS, declarations_form
 from vicode.editor.panels.desk import Desk
 from vicode.editor.panels.fields import Bound, Field, choice_field, flag_field, state_names, text_field
 from vicode.editor.panels.folds import fold
-from vicode.editor.panels.project_form import project_form
+from vicode.editor.panels.project.form import project_form
 from vicode.editor.panels.rows import add_button, heading, icon_button, panel_title
 from vicode.editor.session import numbers
 from vicode.model.design import COMMON

@@ -1,6 +1,6 @@
 """Form fields that show one value of the design and change it, without disturbing who types in them."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any, cast
 
@@ -12,7 +12,7 @@ from vicode.editor.panels.desk import Desk
 from vicode.editor.session.keystrokes import Keystrokes
 from vicode.editor.session.outline import is_same_place
 from vicode.editor.session.wording import words_of_path
-from vicode.findings import Path
+from vicode.findings import Finding, Path
 from vicode.model.design import Design
 
 Read = Callable[[Design], Any]
@@ -104,6 +104,10 @@ class Field:
         before, now = self._shown_in, self.desk.design
         return before is now or (before is not None and is_same_place(before, now, self.bound.place_in(before)))
 
+    def other_findings(self) -> list[Finding]:
+        """What is wrong with the value though it does not stand in the design."""
+        return []
+
     def _typed(self, value: Any) -> None:
         now = self.bound.read(self.desk.design)
         self.refused, self._refused_beside = self.bound.refuse(value), now
@@ -124,14 +128,9 @@ class Field:
         self._shown_in = self.desk.design
 
     def _show_findings(self, message: ui.label) -> None:
-        path = self.path
-        found = [
-            finding
-            for finding in self.desk.document.findings
-            if path and finding.thing is not None and finding.thing.path[: len(path)] == path
-        ]
-        words = [f"{each.message}{f' ({each.mend})' if each.mend else ''}" for each in found]
-        names = self.desk.company.typing_at(path, self.desk.window)
+        found = findings_at(self.path, self.desk.document.findings)
+        words = [f"{each.message}{f' ({each.mend})' if each.mend else ''}" for each in (*found, *self.other_findings())]
+        names = self.desk.company.typing_at(self.path, self.desk.window)
         others = [f"{' and '.join(names)} {'types' if len(names) == 1 else 'type'} here too"] if names else []
         text = " · ".join(([self.refused] if self.refused else words) + others)
         if message.text != text:
@@ -140,6 +139,15 @@ class Field:
         is_wrong = bool(self.refused or words)
         self.element.classes(add="has-finding" if is_wrong else None, remove=None if is_wrong else "has-finding")
         message.classes(add=None if is_wrong else "is-news", remove="is-news" if is_wrong else None)
+
+
+def findings_at(path: Path, findings: Iterable[Finding]) -> list[Finding]:
+    """The findings about what stands at a path, or in it."""
+    return [
+        finding
+        for finding in findings
+        if path and finding.thing is not None and finding.thing.path[: len(path)] == path
+    ]
 
 
 def text_field(desk: Desk, bound: Bound, *, monospace: bool = False, lines: bool = False) -> Field:

@@ -13,6 +13,7 @@ from vicode.editor.panels.state_panel import state_panel
 from vicode.editor.panels.use_panel import link_panel, use_panel
 from vicode.editor.session import outline
 from vicode.editor.session.following import follow
+from vicode.editor.session.project_spots import outline_of_project
 from vicode.editor.view import Selected
 
 # Who went into a field by keys gets back by one. A list that is open, or a completion, takes Escape for itself.
@@ -48,7 +49,8 @@ class Inspector:
     def refresh(self) -> None:
         """Show the selected thing as it is now."""
         self._count_things()
-        shape = (self.desk.selected, outline.outline_of(self.desk.design, self.desk.only))
+        project = outline_of_project(self.desk.workspace.project)
+        shape = (self.desk.selected, outline.outline_of(self.desk.design, self.desk.only), project)
         if shape == self.shape:
             self._refresh_fields()
         elif self._is_typed_in():

@@ -66,13 +66,15 @@ class NameField(Field):
     on_shown: Callable[[str], None] = field(default=lambda _name: None)
     may_be_empty: bool = False
     """Whether it is a text that may be missing, and no name."""
+    is_long: bool = False
+    """Whether it is a text of several lines: Enter is part of it."""
     _shown_name: str = ""
 
     def __post_init__(self) -> None:
         """Take the name over when it is typed."""
         super().__post_init__()
         # A key that saves, or leads elsewhere, tells of a change without leaving the field.
-        for event in ("keydown.enter", "change"):
+        for event in ("change",) if self.is_long else ("keydown.enter", "change"):
             self.element.on(event, self.finish)
 
     def refresh(self) -> None:

@@ -5,10 +5,12 @@ from nicegui import ui
 from vicode.editor.panels.desk import Desk
 from vicode.editor.panels.fields import Bound, Field
 from vicode.editor.panels.name_field import name_field, rename_by_gesture
+from vicode.editor.panels.project.components import component_form
 from vicode.editor.panels.rows import heading, panel_title
 from vicode.editor.session import numbers
+from vicode.editor.session.project_spots import Spot
 from vicode.editor.view import Selected
-from vicode.model.design import Declaration
+from vicode.model.design import Declaration, Use
 from vicode.model.edits import remove_uses, unlink
 from vicode.model.project import INTERNAL, WORLD, Interface
 
@@ -25,23 +27,10 @@ def use_panel(desk: Desk, alias: str) -> list[Field]:
     if interface is None:
         ui.label("Nothing in the project declares it.").classes("field-finding")
         return fields
-    if interface.title:
-        ui.label(interface.title).classes("interface-title")
-    ui.label(interface.doc).classes("doc")
-    ui.label(_facts(interface)).classes("small")
-    if project.design(use.component) is not None:
-        ui.button("Open its design", icon="open_in_new", on_click=lambda: desk.open(use.component)).props(
-            "flat no-caps dense"
-        )
+    if project.design(use.component) is None:
+        _hand_written(desk, use, fields)
     else:
-        ui.label(_ORIGINS.get(interface.implementation, f"Hand-written: {interface.implementation}")).classes("small")
-    heading(f"Outputs, read as {alias}.…")
-    _table(interface.outputs)
-    if interface.variables:
-        heading(f"Variables, read and set as {alias}.…")
-        _table(interface.variables)
-    heading("Parameters")
-    _table(interface.parameters)
+        _designed(desk, use, interface)
 
     def remove() -> None:
         desk.edit(f"stop using {alias}", lambda design: remove_uses(design, [alias]))
@@ -49,6 +38,31 @@ def use_panel(desk: Desk, alias: str) -> list[Field]:
 
     ui.button("Stop using it", icon="delete", on_click=remove).props("flat dense no-caps color=negative")
     return fields
+
+
+def _hand_written(desk: Desk, use: Use, fields: list[Field]) -> None:
+    """Of a component without a design the form: what it shows stands in project.yaml."""
+    components = desk.workspace.project.components
+    number = next(at for at, each in enumerate(components) if each.component == use.component)
+    ui.label(_ORIGINS.get(components[number].implementation, "Written by hand")).classes("small")
+    ui.label("Of all designs; a change is written into project.yaml at once.").classes("empty")
+    component_form(desk, Spot.of("components", number), fields, alias=use.alias)
+
+
+def _designed(desk: Desk, use: Use, interface: Interface) -> None:
+    """Of a component with a design what it shows: its form is elsewhere."""
+    alias = use.alias
+    if interface.title:
+        ui.label(interface.title).classes("interface-title")
+    ui.label(interface.doc).classes("doc")
+    ui.label(_facts(interface)).classes("small")
+    ui.button("Open its design", icon="open_in_new", on_click=lambda: desk.open(use.component)).props(
+        "flat no-caps dense"
+    )
+    heading(f"Outputs, read as {alias}.…")
+    _table(interface.outputs)
+    heading("Parameters")
+    _table(interface.parameters)
 
 
 def _alias(desk: Desk, alias: str) -> Field:

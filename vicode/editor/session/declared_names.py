@@ -66,7 +66,7 @@ def plan_name(workspace: Workspace, thing: Declared, new: str) -> NamePlan:
     renamed = rename_declared(project, thing, new)
     touched = [design.component for design in renamed.designs if project.design(design.component) != design]
     is_shared = any(getattr(renamed, section) != getattr(project, section) for section in _OF_THE_PROJECT)
-    refused = _refuse_outcome(project, renamed, touched if thing.component and not is_shared else None)
+    refused = refuse_outcome(project, renamed, touched if thing.component and not is_shared else None)
     refused = refused or _refuse_code(project, thing, new)
     if not refused and not is_shared and touched == [thing.component]:
         return NamePlan(thing=thing, new=new, design=renamed.design(thing.component))
@@ -190,9 +190,9 @@ def _refuse_code(project: Project, thing: Declared, new: str) -> str:
     return f"the code of {thing.component} says self.{new} already, and means something else" if is_said else ""
 
 
-def _refuse_outcome(project: Project, renamed: Project, components: Collection[str] | None) -> str:
-    """What errors the new name would bring, in words."""
-    before, after = (_errors(each, components) for each in (project, renamed))
+def refuse_outcome(project: Project, renamed: Project, components: Collection[str] | None) -> str:
+    """What errors a change would bring to the project or to designs of it (None: to all), in words."""
+    before, after = (errors_of(each, components) for each in (project, renamed))
     grown = Counter(each.rule.code for each in after) - Counter(each.rule.code for each in before)
     known = {each.message for each in before}
     found = next((each for each in after if each.rule.code in grown and each.message not in known), None)
@@ -202,7 +202,8 @@ def _refuse_outcome(project: Project, renamed: Project, components: Collection[s
     return f"{found.message}{f', in {where}' if where else ''}"
 
 
-def _errors(project: Project, components: Collection[str] | None) -> list[Finding]:
+def errors_of(project: Project, components: Collection[str] | None = None) -> list[Finding]:
+    """The errors of a project and all its designs, or those of `components`."""
     found = [each for each in check_project(project, components) if each.severity is Severity.ERROR]
     # What is wrong with a name itself comes first: it says most.
     return sorted(found, key=lambda each: each.rule.code not in ("D404", "D405", "D406", "D407"))

@@ -5,7 +5,7 @@ from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
-from vicode.check import check_design
+from vicode.check import check_design, check_project
 from vicode.editor.session import generating
 from vicode.editor.session.document import Act, Clash, Document, OnDisk, Sheet
 from vicode.editor.session.generating import Generated, Job, Prepared
@@ -54,6 +54,7 @@ class Workspace:
     _reading: dict[str, tuple[Finding, ...]] = field(init=False)
     _seen: frozenset[tuple[str, int, int]] = field(init=False, default=frozenset())
     _documents: dict[str, Document] = field(init=False, default_factory=dict)
+    _checked: tuple[Project, tuple[Finding, ...]] | None = field(init=False, default=None)
 
     def __post_init__(self) -> None:
         """Read the project."""
@@ -121,6 +122,13 @@ class Workspace:
         """What is wrong with a design as it is open; None when it is not."""
         document = self._documents.get(component)
         return document.findings if document else None
+
+    @property
+    def project_findings(self) -> tuple[Finding, ...]:
+        """What is wrong with what project.yaml declares."""
+        if self._checked is None or self._checked[0] is not self.project:
+            self._checked = (self.project, check_project(self.project, ()))
+        return self._checked[1]
 
     @property
     def seen(self) -> frozenset[tuple[str, int, int]]:

@@ -1,0 +1,168 @@
+"""What project.yaml declares, changed from the editor: written at once, refused in words, taken back."""
+
+import shutil
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from vicode.editor.session import Library, Workspace, project_edits
+from vicode.editor.session.mentions import Mention, mentions_of
+from vicode.editor.session.project_edits import change_project_file, take_back
+from vicode.editor.session.project_spots import Spot, outline_of_project
+from vicode.model.project import Project
+from vicode.model.renaming import Declared, names_beside
+from vicode.store import open_project
+
+DESIGNS = Path(__file__).parents[3] / "designs"
+KICK, NET_X = Spot.of("enumerations", 1), Spot.of("constants", 9)
+PERCEPTION, AGENT = Spot.of("components", 0), Spot.of("agents", 0)
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Path:
+    shutil.copytree(DESIGNS / "forward", tmp_path / "forward", ignore=shutil.ignore_patterns("__pycache__"))
+    return tmp_path / "forward"
+
+
+@pytest.fixture
+def workspace(folder: Path) -> Workspace:
+    return Library(folder.parent).workspaces[0]
+
+
+def texts_of(folder: Path) -> dict[str, str]:
+    return {file.name: file.read_text() for file in sorted(folder.glob("*.yaml"))}
+
+
+def test_a_change_of_the_project_is_written_and_taken_back(workspace: Workspace, folder: Path) -> None:
+    before = texts_of(folder)
+
+    def change(project: Project) -> Project:
+        return replace(project, enumerations=tuple(replace(each, internal=True) for each in project.enumerations))
+
+    written = change_project_file(workspace, change)
+    assert written.refused == ""
+    assert [each.internal for each in workspace.project.enumerations] == [True, True]
+    assert "# Lengths in mm" in (folder / "project.yaml").read_text()
+    assert take_back(workspace, written) == ""
+    assert texts_of(folder) == before
+
+    again = change_project_file(workspace, change)
+    (folder / "project.yaml").write_text(before["project.yaml"] + "# mine\n")
+    assert take_back(workspace, again) == "project.yaml was changed since"
+    (folder / "project.yaml").write_text("vicode: [")
+    assert change_project_file(workspace, change).refused == "project.yaml cannot be read"
+    (folder / "project.yaml").unlink()
+    # Without a file one is made; to take that back removes it.
+    made = change_project_file(workspace, change)
+    assert "internal: true" in (folder / "project.yaml").read_text()
+    assert take_back(workspace, made) == ""
+    assert not (folder / "project.yaml").exists()
+
+
+def test_each_part_of_the_project_can_be_added_changed_and_removed(workspace: Workspace, folder: Path) -> None:
+    before = workspace.project
+    for add in (
+        project_edits.add_enumeration,
+        project_edits.add_constant,
+        project_edits.add_component,
+        lambda project: project_edits.add_agent(project, "Turn"),
+        lambda project: KICK.write(project, project_edits.add_element),
+        *(
+            lambda project, section=section: PERCEPTION.write(
+                project, lambda part: project_edits.add_declaration(part, section)
+            )
+            for section in ("parameters", "outputs", "variables")
+        ),
+    ):
+        shape = outline_of_project(workspace.project)
+        assert change_project_file(workspace, add).refused == ""
+        assert outline_of_project(workspace.project) != shape
+        assert open_project(folder).findings == ()
+    project = workspace.project
+    assert project.enumerations[-1].element_names == ("first",)
+    assert project.agents[-1].root == "Turn"
+    for spot in (
+        Spot.of("enumerations", len(before.enumerations)),
+        Spot.of("constants", len(before.constants)),
+        Spot.of("components", len(before.components)),
+        Spot.of("agents", 1),
+        KICK.inner("elements", 3),
+        PERCEPTION.inner("parameters", 0),
+        PERCEPTION.inner("outputs", len(before.components[0].outputs)),
+        PERCEPTION.inner("variables", 0),
+    ):
+        assert mentions_of(workspace.project, spot.declared(workspace.project)) == ()
+        assert change_project_file(workspace, spot.without, spot).refused == ""
+    assert workspace.project == before
+    assert "# Lengths in mm" in (folder / "project.yaml").read_text()
+
+
+@pytest.mark.parametrize(
+    ("spot", "changes", "words"),
+    [
+        (NET_X, {"initial": "1 +"}, "invalid syntax"),
+        (NET_X, {"type": "length"}, "length"),
+        (NET_X, {"range": (10.0, 0.0)}, "no value lies from 10 to 0"),
+        (AGENT, {"root": "Nobody"}, "Nobody"),
+        (PERCEPTION, {"implementation": "here and there"}, "here and there"),
+        (KICK, {"elements": ()}, "Kick"),
+    ],
+)
+def test_what_makes_no_sound_project_is_refused(
+    workspace: Workspace, folder: Path, spot: Spot, changes: dict[str, object], words: str
+) -> None:
+    before = texts_of(folder)
+    written = change_project_file(workspace, lambda project: spot.write(project, lambda old: replace(old, **changes)))
+    assert words in written.refused
+    assert texts_of(folder) == before
+
+
+def test_what_is_used_is_told_before_it_is_removed_and_who_has_errors_afterwards(
+    workspace: Workspace, folder: Path
+) -> None:
+    before = texts_of(folder)
+    assert mentions_of(workspace.project, NET_X.declared(workspace.project)) == (
+        Mention(component="Player", words="transition 1 of state CircleBall, when"),
+        Mention(component="Player", words="enter 1 of state CircleBall, set, side"),
+    )
+    written = change_project_file(workspace, NET_X.without, NET_X)
+    assert written.broken == ("Player",)
+    assert take_back(workspace, written) == ""
+    assert texts_of(folder) == before
+    kick = mentions_of(workspace.project, KICK.declared(workspace.project))
+    assert Mention(words="type of parameter kick of Kicker") in kick
+    assert {each.component for each in kick} == {"", "Player"}
+    removed = change_project_file(workspace, KICK.without, KICK, is_agreed=True)
+    assert removed.broken == ("project.yaml", "Player")
+    assert "there is no type 'Kick'" in [each.message for each in workspace.project_findings]
+    assert take_back(workspace, removed) == ""
+    assert workspace.project_findings == ()
+
+
+def test_every_thing_is_found_where_another_name_for_it_would_be_said(workspace: Workspace) -> None:
+    project = workspace.project
+    spots = [
+        Spot.of(section, at) for section in ("constants", "components") for at in range(len(getattr(project, section)))
+    ]
+    spots += [PERCEPTION.inner("outputs", at) for at in range(len(project.components[0].outputs))]
+    spots += [
+        PERCEPTION.inner("outputs", len(project.components[0].outputs) - 1).inner("arguments", at) for at in (0, 1)
+    ]
+    for spot in spots:
+        thing = spot.declared(project)
+        assert thing.name == spot.name(project)
+        assert thing.name in names_beside(project, thing)
+        texts = "".join(repr(design) for design in project.designs) + repr(project.agents)
+        assert bool(mentions_of(project, thing)) <= (thing.name in texts)
+    assert Declared(component="Perception", section="outputs", name="ball_seen") in [
+        spot.declared(project) for spot in spots
+    ]
+
+
+def test_a_file_that_another_program_changed_is_looked_at_first(workspace: Workspace, folder: Path) -> None:
+    file = folder / "project.yaml"
+    file.write_text(file.read_text().replace("net_x:", "goal_x:"))
+    written = change_project_file(workspace, NET_X.without, NET_X)
+    assert written.refused == "project.yaml was just changed by another program: look again"
+    assert "goal_x:" in file.read_text()

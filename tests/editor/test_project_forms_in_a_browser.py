@@ -1,0 +1,143 @@
+"""What project.yaml declares, in a browser: added, changed and removed by mouse and keys, each a step to take back."""
+
+from pathlib import Path
+
+from playwright.sync_api import Locator, Page, expect
+
+from tests.editor.player_page import open_player
+
+expect.set_options(timeout=20_000)
+
+
+def open_project_fold(page: Page, url: str) -> Locator:
+    """The inspector with the fold of the project open."""
+    open_player(page, url)
+    inspector = page.get_by_label("Inspector")
+    inspector.get_by_text("Project Forward").click()
+    expect(inspector.get_by_role("group", name="enumeration Side", exact=True)).to_be_visible()
+    return inspector
+
+
+def undo(page: Page) -> None:
+    page.get_by_role("status").get_by_role("button", name="Undo").click()
+
+
+def test_an_element_is_added_named_and_taken_back(editor: str, page: Page, project: Path) -> None:
+    file = project / "forward" / "project.yaml"
+    before = file.read_text()
+    inspector = open_project_fold(page, editor)
+    side = inspector.get_by_role("group", name="enumeration Side", exact=True)
+    side.get_by_role("button", name="Element: one more of Side").click()
+    expect(side.get_by_label("Element 3", exact=True)).to_have_value("element")
+    added = file.read_text()
+    side.get_by_label("Element 3", exact=True).fill("left")
+    page.keyboard.press("Enter")
+    expect(side.get_by_text("there is already an element left")).to_be_visible()
+    side.get_by_label("Element 3", exact=True).fill("no name")
+    expect(side.get_by_text("use letters, digits and underscores")).to_be_visible()
+    assert file.read_text() == added
+    side.get_by_label("Element 3", exact=True).fill("both")
+    page.keyboard.press("Enter")
+    page.get_by_role("dialog").get_by_role("button", name="Rename everywhere").click()
+    third = inspector.get_by_role("group", name="element both", exact=True)
+    third.get_by_label("Meaning").fill("On both legs.")
+    page.keyboard.press("Tab")
+    expect(page.get_by_text("project.yaml is written: both of Side")).to_be_visible()
+    assert "both: 'On both legs.'" in file.read_text()
+    # Nothing says it: it goes at once, and comes back.
+    third.get_by_role("button", name="Remove element both").click()
+    expect(third).to_have_count(0)
+    undo(page)
+    expect(third.get_by_label("Meaning")).to_have_value("On both legs.")
+    third.get_by_role("button", name="Remove element both").click()
+    expect(third).to_have_count(0)
+    assert file.read_text() == before
+
+
+def test_a_constant_that_is_used_is_removed_after_its_users_were_listed(editor: str, page: Page, project: Path) -> None:
+    file = project / "forward" / "project.yaml"
+    before = file.read_text()
+    inspector = open_project_fold(page, editor)
+    constant = inspector.get_by_role("group", name="constant net_x", exact=True)
+    constant.get_by_label("Type").fill("length")
+    page.keyboard.press("Enter")
+    expect(constant.get_by_text("there is no type 'length'")).to_be_visible()
+    constant.get_by_label("Type").fill("float")
+    page.keyboard.press("Enter")
+    expect(page.get_by_text("project.yaml is written: net_x")).to_be_visible()
+    undo(page)
+    expect(constant.get_by_label("Type")).to_have_value("")
+    constant.get_by_role("button", name="Remove constant net_x").click()
+    dialog = page.get_by_role("dialog", name="Remove constant net_x?")
+    expect(dialog.get_by_text("transition 1 of state CircleBall, when")).to_be_visible()
+    dialog.get_by_role("button", name="Cancel").click()
+    expect(dialog).to_have_count(0)
+    assert file.read_text() == before
+    constant.get_by_role("button", name="Remove constant net_x").click()
+    dialog.get_by_role("button", name="Remove anyway").click()
+    expect(constant).to_have_count(0)
+    expect(page.get_by_text("now with errors: Player")).to_be_visible()
+    assert "net_x" not in file.read_text()
+    undo(page)
+    expect(constant.get_by_label("Value")).to_have_value("3000.0")
+    assert file.read_text() == before
+
+
+def test_a_component_written_by_hand_is_edited_where_it_is_used(editor: str, page: Page, project: Path) -> None:
+    file = project / "forward" / "project.yaml"
+    before = file.read_text()
+    open_player(page, editor)
+    page.locator('g[data-kind="component"][data-id="perception"]').click(force=True)
+    inspector = page.get_by_label("Inspector")
+    component = inspector.get_by_role("group", name="component Perception", exact=True)
+    component.get_by_label("Frequency, Hz").fill("often")
+    expect(component.get_by_text("'often' is no number")).to_be_visible()
+    component.get_by_label("Frequency, Hz").fill("30")
+    page.keyboard.press("Enter")
+    expect(page.get_by_text("project.yaml is written: Perception")).to_be_visible()
+    assert "frequency: 30\n    doc: Finds ball" in file.read_text()
+    undo(page)
+    expect(component.get_by_label("Frequency, Hz")).to_have_value("15")
+
+    inspector.get_by_text("ball_age", exact=True).click()
+    output = inspector.get_by_role("group", name="output ball_age", exact=True)
+    output.get_by_text("More").click()
+    output.get_by_label("Range").fill("1000, 0")
+    expect(output.get_by_text("the lowest value comes first")).to_be_visible()
+    output.get_by_label("Range").fill("0, 60")
+    page.keyboard.press("Enter")
+    expect(output.get_by_text("from 0 to 60")).to_be_visible()
+    assert "range: [0, 60], doc: Since the ball was last seen." in file.read_text()
+    undo(page)
+    expect(output.get_by_text("from 0 to 1000")).to_be_visible()
+    assert file.read_text() == before
+
+    inspector.get_by_role("button", name="Declare: one more of the parameters").click()
+    inspector.get_by_text("parameter", exact=True).click()
+    parameter = inspector.get_by_role("group", name="parameter parameter", exact=True)
+    parameter.get_by_label("Unit").fill("Hz")
+    page.keyboard.press("Tab")
+    expect(page.get_by_text("project.yaml is written: parameter of Perception")).to_be_visible()
+    assert "parameter: {type: float, unit: Hz}" in file.read_text()
+
+
+def test_an_agent_is_edited_and_another_one_added(editor: str, page: Page, project: Path) -> None:
+    file = project / "forward" / "project.yaml"
+    inspector = open_project_fold(page, editor)
+    inspector.get_by_role("button", name="Agent: one more in the project").click()
+    agent = inspector.get_by_role("group", name="agent agent", exact=True)
+    agent.get_by_role("combobox").click()
+    page.get_by_role("option", name="SearchBall").click()
+    expect(page.get_by_text("project.yaml is written: agent")).to_be_visible()
+    agent.get_by_label("Title").fill("Seeker")
+    page.keyboard.press("Enter")
+    expect(agent.get_by_label("Title")).to_have_value("Seeker")
+    agent.get_by_label("Agent", exact=True).fill("seeker")
+    page.keyboard.press("Enter")
+    page.get_by_role("dialog").get_by_role("button", name="Rename everywhere").click()
+    renamed = inspector.get_by_role("group", name="agent seeker", exact=True)
+    expect(renamed.get_by_label("Title")).to_have_value("Seeker")
+    assert "seeker: {root: SearchBall, title: Seeker}" in file.read_text()
+    renamed.get_by_role("button", name="Remove agent seeker").click()
+    expect(renamed).to_have_count(0)
+    assert "seeker" not in file.read_text()
