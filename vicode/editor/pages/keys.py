@@ -5,7 +5,7 @@ from collections.abc import Sequence
 
 from nicegui import ui
 
-from vicode.editor.pages.typing_on import keep_what_is_typed
+from vicode.editor.pages.forms_anew import carry_on_in_new_forms
 from vicode.editor.panels.command import Command
 
 PRESSED_BY_ESCAPE = "data-pressed-by-escape"
@@ -77,5 +77,5 @@ def listen_to_keys(commands: Sequence[Command]) -> None:
             wishes[keys] = {"name": command.name, "typing": command.while_typing}
         if command.keys:
             ui.on(f"command-{command.name}", command.act)
-    keep_what_is_typed()
+    carry_on_in_new_forms()
     ui.add_body_html(_LISTEN.replace("WISHES", json.dumps(wishes)).replace("ESCAPE", PRESSED_BY_ESCAPE))

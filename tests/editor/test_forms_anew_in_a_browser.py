@@ -1,11 +1,11 @@
-"""What is typed into a form that the server has built anew, before the browser has heard of it."""
+"""What is typed or pressed in a form that the server has built anew, before the browser has heard of it."""
 
 from pathlib import Path
 
 import pytest
-from playwright.sync_api import Page, WebSocketRoute, expect
+from playwright.sync_api import Locator, Page, WebSocketRoute, expect
 
-from tests.editor.player_page import save
+from tests.editor.player_page import open_player, save, select_state, state
 
 expect.set_options(timeout=20_000)
 
@@ -97,3 +97,43 @@ def test_who_stays_in_the_field_types_on_in_the_new_one(editor: str, page: Page,
     file = project / "forward" / "player.yaml"
     save(page, file)
     assert doc_in(file).endswith("And then.")
+
+
+def final(page: Page) -> Locator:
+    return page.get_by_role("checkbox", name="Final")
+
+
+def test_a_press_that_comes_too_early_for_the_new_form_is_done_there(editor: str, page: Page, line: SlowLine) -> None:
+    open_player(page, editor)
+    select_state(page, "Kick")
+    line.hold()
+    state(page, "GetUp").locator("rect.box").click(force=True)
+    final(page).click()
+    line.let_go()
+    expect(page.get_by_label("State", exact=True)).to_have_value("GetUp")
+    expect(final(page)).to_be_checked()
+    expect(state(page, "GetUp")).to_have_attribute("aria-label", "State GetUp, final, requires 1, modulates 1")
+    select_state(page, "Kick")
+    expect(final(page)).not_to_be_checked()
+
+
+def test_a_press_on_what_is_built_anew_before_the_hand_lets_go(editor: str, page: Page, line: SlowLine) -> None:
+    open_player(page, editor)
+    select_state(page, "Kick")
+    line.hold()
+    state(page, "GetUp").locator("rect.box").click(force=True)
+    final(page).hover()
+    page.mouse.down()
+    line.let_go()
+    expect(page.get_by_label("State", exact=True)).to_have_value("GetUp")
+    page.mouse.up()
+    expect(final(page)).to_be_checked()
+
+
+def test_each_press_on_what_is_there_is_done_once(editor: str, page: Page, project: Path) -> None:
+    open_player(page, editor)
+    select_state(page, "GetUp")
+    for _ in range(3):
+        page.get_by_role("button", name="Add: Stay").click()
+    expect(page.get_by_label("Inspector").get_by_text("stay", exact=True)).to_have_count(3)
+    assert save(page, project / "forward" / "player.yaml").count("stay: true") == 3

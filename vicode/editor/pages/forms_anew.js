@@ -1,25 +1,11 @@
-"""Nothing typed into a form is lost when the form is built anew, by whomever and at whatever moment.
-
-A form is built anew when its thing is renamed, or its parts come and go. Until the browser has heard of it, people type
-into fields that the server no longer has: what they say by themselves reaches nobody.
-
-- Who is still in such a field when the new form comes goes on in the new one, with what was typed since.
-- Who has left it by then tells what was typed, with the number of the field. The inspector knows the fields of forms
-  before, and brings it to the field that took the place (`Inspector.hear_late`).
-"""
-
-from nicegui import ui
-
-_KEEP = """
-<script>
+// A form that the server builds anew, at whatever moment: what was typed or pressed in the one before is not lost.
 {
   let held = null;
-  const nameOf = (field) => field.getAttribute("aria-label") ?? field.textContent;
-  const alike = (panel, field) =>
-    [...panel.querySelectorAll(field.tagName)].filter((each) => nameOf(each) === nameOf(field));
+  const nameOf = (element) => element.getAttribute("aria-label") ?? element.textContent;
+  const alike = (panel, element) => [...panel.querySelectorAll(element.tagName)].filter((each) => nameOf(each) === nameOf(element));
+  const numberOf = (element) => Number(element.closest("[id^=c]")?.id.slice(1));
   const isText = (field) => field.matches("input:not([role], [type=checkbox]), textarea");
   const isTypedIn = (field) => isText(field) || field.isContentEditable || field.matches(".cm-content");
-  const numberOf = (field) => Number((isText(field) ? field : field.closest("[id^=c]"))?.id?.slice(1));
   document.addEventListener("focusin", ({ target }) => {
     const panel = target.closest("[data-form]");
     if (target === held?.field) return;
@@ -79,11 +65,41 @@ _KEEP = """
     panel.focus({ preventScroll: true });
     if (isSame) held = was;
   }).observe(document.body, { childList: true, subtree: true });
+
+  // A press on a button of a form that the server has built anew since reaches nobody. It is told beside the click, and
+  // before it: whoever hears it knows whether the button was still there.
+  const BUTTON = "button, [role=button], [role=checkbox], [role=switch]";
+  const WAIT_MS = 1000;
+  let pressed = null;
+  const press = (target) => {
+    const button = target.closest?.(BUTTON);
+    const panel = button?.closest("[data-form]");
+    return panel ? { button, at: alike(panel, button).indexOf(button) } : null;
+  };
+  document.addEventListener("pointerdown", ({ target }) => (pressed = press(target)), true);
+  document.addEventListener("pointerup", ({ target }) => {
+    // Replaced under the hand, which lets go above the new one: for browsers that is no click.
+    const next = pressed && !pressed.button.isConnected && press(target);
+    if (next && nameOf(next.button) === nameOf(pressed.button)) next.button.click();
+  });
+  document.addEventListener(
+    "click",
+    ({ detail, isTrusted, target }) => {
+      if (!isTrusted) return;
+      // A key clicks as well.
+      if (detail === 0) pressed = press(target);
+      if (pressed?.button.contains(target)) emitEvent("pressed", numberOf(pressed.button));
+    },
+    true,
+  );
+  const again = (was, sinceMs) => {
+    // Whoever pressed something else meanwhile has gone on.
+    if (pressed !== was) return;
+    const panel = document.querySelector("[data-form]");
+    const next = panel && !was.button.isConnected && alike(panel, was.button)[was.at];
+    if (next) next.click();
+    else if (performance.now() - sinceMs < WAIT_MS) requestAnimationFrame(() => again(was, sinceMs));
+  };
+  // The answer, when it was not there any more.
+  window.pressAgain = () => pressed && again(pressed, performance.now());
 }
-</script>
-"""
-
-
-def keep_what_is_typed() -> None:
-    """Add to the page what watches over its forms."""
-    ui.add_body_html(_KEEP)
