@@ -53,18 +53,10 @@ export class Guides {
   }
 
   #nearest(rect, axis, reach) {
-    let best = null;
-    for (const other of this.rects) {
-      for (const stop of stops(other, axis)) {
-        for (const own of stops(rect, axis)) {
-          const by = stop - own;
-          if (Math.abs(by) <= reach && (best === null || Math.abs(by) < Math.abs(best))) best = by;
-        }
-      }
-    }
-    if (best !== null) return best;
-    const even = spacings(rect, this.rects, axis).map(({ by }) => by).filter((by) => Math.abs(by) <= reach);
-    return even.length ? even.reduce((one, other) => (Math.abs(other) < Math.abs(one) ? other : one)) : null;
+    const inLine = this.rects.flatMap((other) => stops(other, axis).flatMap((stop) => stops(rect, axis).map((own) => stop - own)));
+    const even = spacings(rect, this.rects, axis).map(({ by }) => by);
+    const near = [...inLine, ...even].filter((by) => Math.abs(by) <= reach);
+    return near.length ? near.reduce((best, by) => (Math.abs(by) < Math.abs(best) ? by : best)) : null;
   }
 }
 
