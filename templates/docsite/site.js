@@ -8,6 +8,7 @@
   const MOST_SEEN_AT_ONCE = 12;
   const MOST_READABLE = 1800;
   const MOST_FADING = 40;
+  const TALLEST = 640;
 
   // ---- Search ----
 
@@ -27,11 +28,11 @@
     return loading;
   }
 
-  // Entries as [name, kind, where, address, doc, code]; what they share is written once.
+  // Entries as [name, kind, where, address, doc, pieces of code]; what they share is written once.
   function unpacked({ kinds, places, pages, pieces, entries }) {
     return entries.map(([name, kind, where, page, anchor = 0, doc = "", words = []]) => {
       const place = anchor === 0 ? `${kinds[kind]}-${name}` : anchor;
-      const code = words.map((number) => pieces[number]).join(" ");
+      const code = words.map((number) => pieces[number]);
       return [name, kinds[kind], places[where], pages[page] + (place ? `#${place}` : ""), doc, code];
     });
   }
@@ -39,7 +40,7 @@
   // The better the earlier: the name, its beginning, its inside, then docs, then code. Every word must be somewhere.
   function rank(entry, words) {
     let worst = 0;
-    const [name, kind, where, , doc, code] = entry.map((text) => text.toLowerCase());
+    const [name, kind, where, , doc, code] = entry.map((text) => text.toString().toLowerCase());
     for (const word of words) {
       let place = 6;
       if (name === word) place = 0;
@@ -64,15 +65,36 @@
       .map((each) => each.entry);
   }
 
-  // What stands around the first word that was found, so that a reader sees why.
+  // The doc, or the guard or line of code, that says most of the words, around the first of them; and whether it is code.
   function excerpt(entry, text) {
-    const [, , where, , doc, code] = entry;
-    const word = text.toLowerCase().split(/\s+/).filter(Boolean)[0] ?? "";
-    for (const body of [doc, code]) {
-      const at = body.toLowerCase().indexOf(word);
-      if (at >= 0) return (at > 40 ? "… " : "") + body.slice(Math.max(0, at - 40), at + 80);
-    }
-    return doc.slice(0, 120) || where;
+    const [name, kind, where, , doc, code] = entry;
+    const words = text.toLowerCase().split(/\s+/).filter((word) => word && !name.toLowerCase().includes(word));
+    const said = (body) => words.filter((word) => body.toLowerCase().includes(word));
+    const best = [doc, ...code].reduce((one, other) => (said(other).length > said(one).length ? other : one));
+    // Of what is part of another thing the line above says of which.
+    if (!said(best).length) return [cut(doc, 0) || (isWhole(kind) ? where : ""), false];
+    const at = Math.min(...said(best).map((word) => best.toLowerCase().indexOf(word)));
+    const start = at > 60 || best.length > 140 ? Math.max(0, at - 40) : 0;
+    return [(start ? "… " : "") + cut(best, start), best !== doc];
+  }
+
+  const isWhole = (kind) => ["component", "interface"].includes(kind);
+
+  // From a place on, to the last whole word that there is room for.
+  function cut(text, start) {
+    const end = start + 140;
+    return text.length <= end ? text.slice(start) : `${text.slice(start, end).replace(/\s+\S*$/, "")} …`;
+  }
+
+  // A text with the words that were looked for marked in it.
+  function marked(body, text) {
+    const words = text.split(/\s+/).filter(Boolean).map((word) => word.replace(/[.*+?^${}()|[\]\\]/g, "\\$&"));
+    return body.split(new RegExp(`(${words.join("|")})`, "i")).map((part, at) => {
+      if (at % 2 === 0) return part;
+      const mark = document.createElement("mark");
+      mark.textContent = part;
+      return mark;
+    });
   }
 
   function row(entry, index, text) {
@@ -80,13 +102,14 @@
     item.id = `found-${index}`;
     item.role = "option";
     const name = document.createElement("bdi");
-    name.textContent = entry[0];
+    name.append(...marked(entry[0], text));
     const kind = document.createElement("span");
     kind.className = "kind";
-    kind.textContent = ["component", "interface"].includes(entry[1]) ? entry[1] : `${entry[1]} of ${entry[2]}`;
-    const about = document.createElement("span");
+    kind.textContent = isWhole(entry[1]) ? entry[1] : `${entry[1]} of ${entry[2]}`;
+    const [said, isCode] = excerpt(entry, text);
+    const about = document.createElement(isCode ? "code" : "span");
     about.className = "about";
-    about.textContent = excerpt(entry, text);
+    about.append(...marked(said, text));
     item.append(kind, name, about);
     item.addEventListener("mousedown", (event) => event.preventDefault());
     item.addEventListener("click", () => go(entry[3]));
@@ -285,6 +308,15 @@
       return { x: (event.clientX - rect.left) / rect.width, y: (event.clientY - rect.top) / rect.height };
     }
 
+    // In its own size from its upper left corner on.
+    begin(height) {
+      const width = this.sheet.clientWidth - 16;
+      this.svg.setAttribute("width", width);
+      this.svg.setAttribute("height", height);
+      this.view = { x: this.whole.x, y: this.whole.y, width, height };
+      this.show();
+    }
+
     zoom(factor, at = { x: 0.5, y: 0.5 }) {
       const least = Math.min(this.whole.width, 200);
       const width = Math.max(least, Math.min(this.whole.width * 2, this.view.width * factor));
@@ -386,9 +418,27 @@
     }
   }
 
-  // One that is little wider than its place is shown a little smaller; a wide one is moved in it.
-  for (const tree of document.querySelectorAll(".tree")) {
-    tree.classList.toggle("is-fitted", tree.scrollWidth > tree.clientWidth && tree.scrollWidth < tree.clientWidth * 1.4);
+  // One that is little wider than its place is shown a little smaller. A wide one gets the tools of a drawing, and begins
+  // in its own size; a finger moves it as it moves the page.
+  const hasPointer = matchMedia("(pointer: fine)").matches;
+  const trees = [...document.querySelectorAll(".tree")].map((tree) => ({ tree, room: tree.clientWidth, width: tree.scrollWidth }));
+  for (const { tree, room, width } of trees) {
+    if (width <= room) continue;
+    if (width < room * 1.4 || !hasPointer) tree.classList.toggle("is-fitted", width < room * 1.4);
+    else makeMovable(tree);
+  }
+
+  function makeMovable(tree) {
+    const sheet = document.createElement("div");
+    sheet.className = "sheet";
+    for (const name of ["tabindex", "role", "aria-label"]) {
+      sheet.setAttribute(name, tree.getAttribute(name));
+      tree.removeAttribute(name);
+    }
+    sheet.append(...tree.childNodes);
+    tree.append(sheet);
+    tree.classList.add("drawing");
+    new Drawing(tree).begin(Math.min(TALLEST, Number(sheet.querySelector("svg").getAttribute("height"))));
   }
 
   function showTarget() {

@@ -33,8 +33,12 @@ decisions = st.recursive(
 )
 
 
-def draw(items: tuple[Decision, ...]) -> Drawing | None:
-    return draw_tree(items, PATH, title="t", links=LINKS, palette=LIGHT)
+def draw(items: tuple[Decision, ...], most: int = MOST_NODES) -> Drawing | None:
+    return draw_tree(items, PATH, title="t", links=LINKS, palette=LIGHT, most=most)
+
+
+def boxes_in(drawing: Drawing) -> list[Shapes]:
+    return [group for group in drawing.groups if group.kind != "way"]
 
 
 def points_of(group: Shapes) -> list[tuple[float, float]]:
@@ -75,6 +79,10 @@ def test_what_a_tree_says() -> None:
 def test_nothing_stands_in_the_way(items: tuple[Decision, ...]) -> None:
     drawing = draw(items)
     assert drawing is not None
+    nothing_overlaps(drawing)
+
+
+def nothing_overlaps(drawing: Drawing) -> None:
     boxes = [rect_of(group) for group in drawing.groups if group.kind != "way"]
     for one, other in combinations(boxes, 2):
         assert one[2] < other[0] or other[2] < one[0] or one[3] < other[1] or other[3] < one[1]
@@ -93,9 +101,52 @@ def runs_through(start: tuple[float, float], end: tuple[float, float], box: Rect
     return left < box[2] - 1 and right > box[0] + 1 and top < box[3] - 1 and bottom > box[1] + 1
 
 
-def test_nothing_to_decide_and_too_much() -> None:
+def test_nothing_to_decide() -> None:
     assert draw(()) is None
-    assert draw(tuple(Stay(guard=Guard(when="a")) for _ in range(MOST_NODES))) is None
+
+
+def nested(depth: int, wide: int) -> tuple[Decision, ...]:
+    if not depth:
+        return (Transition(to="B", guard=Guard(when="last")),)
+    return tuple(Group(guard=Guard(when=f"a{index}"), then=nested(depth - 1, wide)) for index in range(wide))
+
+
+def test_of_many_tests_the_first_are_drawn_and_a_box_leads_to_the_rest() -> None:
+    drawing = draw(tuple(Transition(to="B", guard=Guard(when=f"a == {number}")) for number in range(MOST_NODES)))
+    assert drawing is not None
+    boxes = [group for group in drawing.groups if group.kind != "way"]
+    assert len(boxes) <= MOST_NODES
+    (folded,) = [group for group in boxes if group.kind == "folded"]
+    drawn = sum(group.kind == "condition" for group in boxes)
+    assert folded.title == f"{MOST_NODES - drawn} more tests, which are not drawn"
+    assert folded.href == f"#states-A-transitions-{drawn}"
+    assert boxes[-1].title == "stay"
+
+
+def test_of_deep_tests_the_upper_levels_are_drawn_and_boxes_lead_to_the_rest() -> None:
+    drawing = draw(nested(5, 3))
+    assert drawing is not None
+    boxes = [group for group in drawing.groups if group.kind != "way"]
+    folded = [group for group in boxes if group.kind == "folded"]
+    # Levels of 3, 9 and 27 tests fit, one of 81 does not; below each of the 27 there are 3 with 3 each and their ends.
+    assert sum(group.kind == "condition" for group in boxes) == 3 + 9 + 27
+    assert [group.title for group in folded] == ["21 more tests, which are not drawn"] * 27
+    assert folded[0].href == "#states-A-transitions-0-then-0-then-0-then-0"
+
+
+@given(st.lists(decisions, min_size=1, max_size=4).map(tuple), st.integers(1, 12))
+def test_a_folded_tree_is_a_tree(items: tuple[Decision, ...], most: int) -> None:
+    whole, part = draw(items), draw(items, most)
+    assert whole is not None
+    assert part is not None
+    boxes_of = {"whole": boxes_in(whole), "part": boxes_in(part)}
+    assert len(boxes_of["part"]) <= len(boxes_of["whole"]) + 1
+    nothing_overlaps(part)
+    folded = [group for group in boxes_of["part"] if group.kind == "folded"]
+    assert all(group.href.startswith("#states-A-transitions-") for group in folded)
+    shown = [(group.title, group.href) for group in boxes_of["part"] if group.kind == "condition"]
+    assert set(shown) <= {(group.title, group.href) for group in boxes_of["whole"]}
+    assert len(shown) == sum(group.kind == "condition" for group in boxes_of["whole"]) or folded
 
 
 @given(st.lists(decisions, min_size=1, max_size=4).map(tuple))

@@ -1,6 +1,8 @@
 """Building again after an edit: the same bytes as from nothing, and nothing touched that the edit does not concern."""
 
 import random
+import re
+import shutil
 from dataclasses import replace
 from pathlib import Path
 
@@ -190,3 +192,33 @@ def test_a_file_that_is_something_else_is_told_so(
     assert f"{name} is neither a design nor an XABSL behavior; name a design (.yaml)" in told
     assert "Y1" not in told
     assert not (tmp_path / "site").exists()
+
+
+def test_a_site_has_the_title_it_is_given(tmp_path: Path) -> None:
+    out = tmp_path / "site"
+    program = ROOT / "tests" / "xabsl" / "cases" / "programs" / "p1" / "agents.xabsl"
+    command = ["docs", str(program), "--out", str(out)]
+    assert main([*command, "--title", "Red <b>team</b>"]) == 0
+    pages = {file.name: file.read_text("utf-8") for file in out.glob("*.html")}
+    assert "<h1><bdi>Red &lt;b&gt;team&lt;/b&gt;</bdi></h1>" in pages["index.html"]
+    assert all("Red &lt;b&gt;team&lt;/b&gt;</bdi></a>" in text for text in pages.values())
+    assert not [name for name, text in pages.items() if "<b>team" in text]
+    assert main(command) == 0
+    # What is generated is not called so.
+    listing = pages["python-opt0.html"].partition('class="listing"')[2]
+    assert listing
+    assert listing in (out / "python-opt0.html").read_text("utf-8")
+    assert "<h1><bdi>p1</bdi></h1>" in (out / "index.html").read_text("utf-8")
+    both = ["docs", str(ROOT / "designs" / "blink"), str(program), "--out", str(tmp_path / "both"), "--title", "League"]
+    assert main(both) == 0
+    assert "<h1><bdi>League</bdi></h1>" in (tmp_path / "both" / "index.html").read_text("utf-8")
+    assert "<h1><bdi>p1</bdi></h1>" in (tmp_path / "both" / "p1" / "index.html").read_text("utf-8")
+
+
+def test_a_behavior_of_one_agent_is_called_as_that(tmp_path: Path) -> None:
+    behavior = tmp_path / "folder"
+    shutil.copytree(ROOT / "tests" / "xabsl" / "cases" / "programs" / "drive_circle", behavior)
+    (agents,) = [file for file in behavior.glob("*.xabsl") if "agent " in file.read_text("utf-8")]
+    (title,) = re.findall(r'agent \w+\("([^"]+)"', agents.read_text("utf-8"))
+    assert main(["docs", str(agents), "--out", str(tmp_path / "site")]) == 0
+    assert f"<h1><bdi>{title}</bdi></h1>" in (tmp_path / "site" / "index.html").read_text("utf-8")

@@ -9,6 +9,9 @@ from playwright.sync_api import Page, expect
 
 from tests.editor.hostile_project import PAYLOADS, write_hostile_project
 from vicode.cli import main
+from vicode.docsite import Subject, build_site
+from vicode.model.design import Decision, Design, Group, Guard, State, Transition
+from vicode.model.project import Project
 
 FORWARD = Path(__file__).parents[2] / "designs" / "forward"
 BEHAVIOR = FORWARD.parents[1] / "tests" / "xabsl" / "cases" / "programs" / "p1" / "agents.xabsl"
@@ -78,6 +81,65 @@ def test_searching_by_keys(page: Page, site: Path) -> None:
     page.keyboard.press("/")
     page.keyboard.type("nobody says this")
     expect(page.locator("#found")).to_contain_text("Nothing")
+
+
+def test_what_is_found_in_a_transition_shows_it(page: Page, site: Path) -> None:
+    page.goto((site / "index.html").as_uri())
+    page.keyboard.press("/")
+    page.keyboard.type("net ahead AlignFront")
+    found = page.get_by_role("option").first
+    expect(found).to_contain_text("state of Player")
+    expect(found.locator("code.about")).to_contain_text("→ AlignFront")
+    expect(found.locator("mark").first).to_be_visible()
+    page.locator("#search").fill("( [a .*")
+    expect(page.locator("#found")).to_contain_text("Nothing")
+    page.locator("#search").fill("AlignFront")
+    expect(page.get_by_role("option").first.locator("bdi mark")).to_have_text("AlignFront")
+
+
+@pytest.fixture(scope="module")
+def deep_site(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A machine with more tests than a drawing has room for, and one whose tests are a long row."""
+    folder = tmp_path_factory.mktemp("deep")
+    states = (State(name="Many", transitions=nested(5, 3)), State(name="Row", transitions=nested(6, 1)))
+    design = Design(component="Deep", initial="Many", states=states)
+    for file in build_site(Subject(project=Project(name="deep", designs=(design,)))):
+        (folder / file.path).write_text(file.text, "utf-8")
+    return folder
+
+
+def nested(depth: int, wide: int) -> tuple[Decision, ...]:
+    if not depth:
+        return (Transition(to="Row", guard=Guard(when="last_of_them > 3")),)
+    guards = (Guard(when=f"something.seen and distance < {index}") for index in range(wide))
+    return tuple(Group(guard=guard, then=nested(depth - 1, wide)) for guard in guards)
+
+
+def test_a_box_stands_for_tests_that_are_not_drawn(page: Page, deep_site: Path) -> None:
+    page.goto((deep_site / "component-Deep.html").as_uri())
+    expect(page.locator("#state-Many").get_by_text("too many tests for one drawing")).to_be_visible()
+    expect(page.locator("#state-Row").get_by_text("too many tests for one drawing")).to_have_count(0)
+    page.locator("#state-Many a.folded").nth(4).click()
+    expect(page.locator("li:target")).to_be_in_viewport()
+    expect(page.locator("li:target")).to_contain_text("something.seen and distance < 0")
+
+
+def test_a_wide_tree_is_moved_as_a_drawing(page: Page, deep_site: Path) -> None:
+    page.goto((deep_site / "component-Deep.html").as_uri())
+    tree = page.locator("#state-Row .tree")
+    drawing = tree.locator("svg[role=group]")
+    expect(tree.get_by_role("group", name="Decision tree of Row; the lines below say the same")).to_be_visible()
+    # It begins in its own size: letters of 12 pixels are 12 pixels high.
+    scale = drawing.evaluate("(svg) => svg.getScreenCTM().a")
+    assert scale == pytest.approx(1, abs=0.05)
+    begun = drawing.get_attribute("viewBox")
+    tree.get_by_role("button", name="Show all of it (0)").click()
+    whole = drawing.get_attribute("viewBox")
+    assert whole != begun
+    expect(drawing.locator("a.target")).to_be_in_viewport()
+    tree.get_by_role("button", name="Zoom in (+)").click()
+    assert drawing.get_attribute("viewBox") != whole
+    expect(page.locator("#state-Many .tree").get_by_role("button")).to_have_count(0)
 
 
 def test_a_drawing_zooms_and_tells_what_belongs_together(page: Page, site: Path) -> None:

@@ -28,6 +28,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--format", choices=("html", "markdown"), default="html", help="markdown: pages for mkdocs and Sphinx (html)"
     )
+    parser.add_argument(
+        "--title", metavar="TEXT", default="", help="what the site is called, or the home of several (their own names)"
+    )
     parser.add_argument("--strict", action="store_true", help="fail on findings; the site is written all the same")
     parser.add_argument("--fresh", action="store_true", help="make every page anew, whatever is known of the last time")
     parser.add_argument(
@@ -49,8 +52,9 @@ def run(args: argparse.Namespace) -> int:
     if args.watch:
         from vicode.cli.docs_watch import watch_sites
 
-        return watch_sites(args.path, args.out, port=args.port, is_fresh=args.fresh, opens=not args.no_open)
-    sites = Sites(out=args.out, is_fresh=args.fresh, is_markdown=is_markdown)
+        sites = Sites(out=args.out, is_fresh=args.fresh, title=args.title)
+        return watch_sites(args.path, sites, port=args.port, opens=not args.no_open)
+    sites = Sites(out=args.out, is_fresh=args.fresh, is_markdown=is_markdown, title=args.title)
     with _uncollected(), sites, progress() as step:
         readings = read_subjects(args.path)
         for reading in readings:

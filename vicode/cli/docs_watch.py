@@ -21,16 +21,16 @@ _SUFFIXES = (*BEHAVIORS, *DESIGNS)
 _QUIET_MS, _LONGEST_MS, _LOOK_MS = 40, 400, 500
 
 
-def watch_sites(paths: Sequence[Path], out: Path, *, port: int = 0, is_fresh: bool = False, opens: bool = True) -> int:
+def watch_sites(paths: Sequence[Path], sites: Sites, *, port: int = 0, opens: bool = True) -> int:
     """Build and serve until it is ended; 2 where files of others stand in the way."""
     news = News()
-    with Sites(out=out, is_fresh=is_fresh) as sites:
+    with sites:
         watcher = Watcher(paths, sites, news)
         if not watcher.update(is_first=True):
             return 2
         # What is kept from now on need not be looked through for circles again and again.
         gc.freeze()
-        with SiteServer(out, news, port) as server:
+        with SiteServer(sites.out, news, port) as server:
             print(f"{server.address} shows it, and goes on; Ctrl-C ends it.", flush=True)
             if opens:
                 webbrowser.open(server.address)

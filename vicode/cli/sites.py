@@ -1,7 +1,7 @@
 """Builds the sites of a command, once or again and again: one alone, several beside each other with a home."""
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -29,11 +29,15 @@ class Built:
 
 @dataclass(slots=True)
 class Sites:
-    """The sites in a folder; `is_fresh` makes all pages anew the first time. Close it in the end."""
+    """The sites in a folder; `is_fresh` makes all pages anew the first time. Close it in the end.
+
+    `title` is what the whole is called: the one site, or the home of several.
+    """
 
     out: Path
     is_fresh: bool = False
     is_markdown: bool = False
+    title: str = ""
     _builders: dict[str, "SiteBuilder"] = field(default_factory=dict)
 
     def build(self, readings: Sequence[Reading], step: Step = lambda _name, _done, _all: None) -> Built:
@@ -46,10 +50,11 @@ class Sites:
             step(reading.name, 0, 0)
             builder = self._builders.setdefault(name, SiteBuilder())
             assert reading.subject is not None
-            plans[name] = builder.plan(reading.subject, is_markdown=self.is_markdown)
+            subject = reading.subject if name else replace(reading.subject, title=self.title or reading.subject.title)
+            plans[name] = builder.plan(subject, is_markdown=self.is_markdown)
         if len(readings) > 1:
-            projects = {name: each.subject.project for name, each in named.items() if each.subject}
-            plans[""] = plan_home(projects, is_markdown=self.is_markdown)
+            subjects = {name: each.subject for name, each in named.items() if each.subject}
+            plans[""] = plan_home(subjects, title=self.title, is_markdown=self.is_markdown)
         built = Built()
         for name, plan in plans.items():
             title = named[name].name if name in named else self.out.name

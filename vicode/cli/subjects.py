@@ -123,7 +123,11 @@ def _subject_of_behavior(agents: Path, source: "Source", compiled: "Compiled") -
         language: frozenset(each.component for each in errors if each.finding.concerns(language))
         for language in project.languages
     }
-    return Subject(project=project, findings=tuple(found), sources=_sources(source, imported), faulty=faulty)
+    # The only thing in XABSL that has a title.
+    title = project.agents[0].title if len(project.agents) == 1 else ""
+    return Subject(
+        project=project, findings=tuple(found), sources=_sources(source, imported), faulty=faulty, title=title
+    )
 
 
 def _sources(source: "Source", imported: "Imported") -> "dict[str, SourceText]":

@@ -3,6 +3,7 @@
 Rows and columns follow from the order of the tests, so that nothing has to be searched for, and no tree is too hard.
 """
 
+import sys
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 
@@ -14,12 +15,13 @@ from vicode.findings import Path as ThingPath
 from vicode.model.design import Decision, Point, Transition
 from vicode.model.design import Group as Branch
 
-_ROW, _HEIGHT, _BETWEEN, _MARGIN = 56.0, 32.0, 56.0, 16.0
+_ROW, _HEIGHT, _BETWEEN, _MARGIN = 62.0, 32.0, 56.0, 16.0
 _ROOM, _PADDING, _SLANT = 230.0, 14.0, 10.0
-_TURN, _GUTTER, _HEAD = 12.0, 22.0, 8.0
+# A way back runs below the word beside the way down.
+_TURN, _GUTTER, _HEAD = 17.0, 22.0, 8.0
 _SHORT_DOC = 34
 MOST_NODES = 200
-"""A larger tree is no drawing that anybody reads."""
+"""Of a larger tree the upper levels are drawn: more is no drawing that anybody reads."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -62,9 +64,11 @@ class _Exit:
 
 @dataclass(slots=True)
 class _Grid:
-    """What stands where, and who follows whom."""
+    """What stands where, and who follows whom; what is beyond the column `deepest` or after `most` boxes is folded."""
 
     links: Links
+    deepest: int = sys.maxsize
+    most: int = sys.maxsize
     nodes: list[_Node] = field(default_factory=list)
     edges: list[tuple[_Exit, _Node]] = field(default_factory=list)
 
@@ -83,6 +87,8 @@ class _Grid:
             is_off = off or item.disabled
             if not entries:
                 break
+            if len(self.nodes) >= self.most:
+                return self._folded(items[index:], (*path, index), (column, row), entries)
             follow = entries
             if not item.guard.is_empty:
                 condition = self.put(self._condition(item, here, (column, row), off=is_off), entries)
@@ -91,7 +97,9 @@ class _Grid:
                 entries = []
             beside = (column + (not item.guard.is_empty), row)
             if isinstance(item, Branch):
-                through, row = self.items(item.then, (*here, "then"), beside, follow, is_off)
+                put = self._folded if beside[0] >= self.deepest and _is_nested(item.then) else self.items
+                inner = (*here, "then", 0) if put == self._folded else (*here, "then")
+                through, row = put(item.then, inner, beside, follow, is_off)
                 if item.otherwise and entries:
                     entries, row = self.items(item.otherwise, (*here, "else"), (column, row), entries, is_off)
                 entries = [*through, *entries]
@@ -99,6 +107,20 @@ class _Grid:
                 self.put(self._outcome(item, here, beside, off=is_off), follow)
                 row += 1
         return entries, row
+
+    def _folded(
+        self, items: Sequence[Decision], path: ThingPath, at: tuple[int, int], entries: list[_Exit], off: bool = False
+    ) -> tuple[list[_Exit], int]:
+        """One box for decisions, the first of which has this path; it leads to where all of them are said."""
+        start, column, row = _Exit(_Node(kind="", column=0, row=-1, label="", title=""), False), *at
+        hidden = _Grid(self.links)
+        through, _row = hidden.items(items, path[:-1], (0, 0), [start], off)
+        count = sum(node.kind == "condition" for node in hidden.nodes) or len(hidden.nodes)
+        label = f"{count} more test{'s' * (count != 1)}"
+        title, href = f"{label}, which are not drawn", self.links.condition(path)
+        box = _Node(kind="folded", column=column, row=row, label=label, title=title, href=href, off=off)
+        self.put(box, entries)
+        return [_Exit(box, False)] if through else [], row + 1
 
     def _condition(self, item: Decision, path: ThingPath, at: tuple[int, int], *, off: bool) -> _Node:
         guard, doc = guard_label(item.guard, self.links.unit, spelled=True), " ".join(item.doc.split())
@@ -119,19 +141,31 @@ class _Grid:
 
 
 def draw_tree(
-    items: Sequence[Decision], path: ThingPath, *, title: str, links: Links, palette: Palette
+    items: Sequence[Decision], path: ThingPath, *, title: str, links: Links, palette: Palette, most: int = MOST_NODES
 ) -> Drawing | None:
-    """The drawing of decisions; None where there is nothing to decide, or too much."""
+    """The drawing of decisions, the upper levels where there are more than so many boxes; None for no decisions."""
     if not items:
         return None
-    grid = _Grid(links)
+    grid = _filled(_Grid(links), items, path)
+    while len(grid.nodes) > most and grid.deepest > 1:
+        columns = max(node.column for node in grid.nodes)
+        grid = _filled(_Grid(links, deepest=max(1, min(columns, grid.deepest) - 1)), items, path)
+    if len(grid.nodes) > most:
+        grid = _filled(_Grid(links, deepest=1, most=most * 9 // 10), items, path)
+    return _Artist(grid, palette).drawing(title)
+
+
+def _filled(grid: _Grid, items: Sequence[Decision], path: ThingPath) -> _Grid:
     entries, row = grid.items(items, path, (0, 0), [_Exit(_Node(kind="", column=0, row=-1, label="", title=""), False)])
     if entries:
-        last = _Node(kind="stay", column=0, row=row, label=links.last, title=links.last)
+        last = _Node(kind="stay", column=0, row=row, label=grid.links.last, title=grid.links.last)
         grid.put(last, entries)
-    if len(grid.nodes) > MOST_NODES:
-        return None
-    return _Artist(grid, palette).drawing(title)
+    return grid
+
+
+def _is_nested(items: Sequence[Decision]) -> bool:
+    """Whether there is more to it than one outcome."""
+    return len(items) > 1 or any(isinstance(item, Branch) or not item.guard.is_empty for item in items)
 
 
 class _Artist:
@@ -165,7 +199,7 @@ class _Artist:
     def _node(self, node: _Node) -> Group:
         pal, (x, y), half = self.palette, self._centre(node), node.width / 2
         fill, text = (pal.faint, pal.muted) if node.off else (pal.box, pal.text)
-        dash = (4.0, 4.0) if node.off or node.kind == "stay" else ()
+        dash = (4.0, 4.0) if node.off or node.kind in ("stay", "folded") else ()
         h = _HEIGHT / 2
         if node.kind == "condition":
             corners = (
@@ -191,13 +225,15 @@ class _Artist:
         shaft = Path(steps=line(points), stroke=pal.edge, width=1.4, dash=dash)
         head = Path(steps=_head(before, tip), fill=pal.edge)
         shapes: list[Path | Text] = [shaft, head]
-        if way.node.kind:
+        if way.node.kind and way.node.kind != "folded":
             x, y = points[0]
             word = "yes" if way.holds else "else"
-            place = (x + 8, y - 8) if way.holds else (x + 6, y + 10)
+            place = (x + 8, y - 8) if way.holds else (x + 6, y + 8)
             shapes.append(Text(x=place[0], y=place[1], text=word, fill=pal.muted, letters=SMALL))
         # Its boxes say it all to who cannot see the line.
         said = f"{'when' if way.holds else 'when not'} {way.node.title}" if way.node.kind else ""
+        if way.node.kind == "folded":
+            said = f"after {way.node.label}"
         return Group(title=said, kind="way", shapes=tuple(shapes), href=node.href if said else "", is_echo=bool(said))
 
     def _points(self, way: _Exit, node: _Node) -> Iterator[Point]:
@@ -214,9 +250,10 @@ class _Artist:
         yield (spine, down)
         if node.column != way.node.column:
             # Back to an earlier column beside the boxes, and in just above the next test.
+            above = top - (_ROW - _HEIGHT - _TURN)
             gutter = self.lefts[way.node.column] - _GUTTER
-            yield from ((spine, down + _TURN), (gutter, down + _TURN), (gutter, top - _TURN))
-            yield (self._spine(node), top - _TURN)
+            yield from ((spine, down + _TURN), (gutter, down + _TURN), (gutter, above))
+            yield (self._spine(node), above)
         yield (self._spine(node), top)
 
     def _spine(self, node: _Node) -> float:

@@ -85,6 +85,9 @@ def _state(design: Design, state: State, linker: Linker, made: Made) -> StateVie
         words.append("initial")
     words += [word for word in ("final", "disabled") if getattr(state, word)]
     words += [f"{word} {getattr(state, word):g}" for word in ("capacity", "synchronized") if getattr(state, word)]
+    tree_svg, is_folded = draw_decisions(
+        state.transitions, ("states", state.name, "transitions"), design, made.addresses
+    )
     phases = [Phase(title=title, actions=tuple(_actions(getattr(state, name), linker))) for name, title in _PHASES]
     phases.insert(2, Phase(title="Modulates", actions=tuple(_actions(state.modulates, linker))))
     return StateView(
@@ -99,12 +102,14 @@ def _state(design: Design, state: State, linker: Linker, made: Made) -> StateVie
             Part(text="every state", href="#common") if source == COMMON else linker.state(source) for source in sources
         ),
         places=made.places.get(("states", state.name), ()),
-        tree_svg=draw_decisions(state.transitions, ("states", state.name, "transitions"), design, made.addresses),
+        tree_svg=tree_svg,
+        is_folded=is_folded,
     )
 
 
 def _common(design: Design, linker: Linker, made: Made) -> StateView:
     actions = tuple(_actions(design.common.actions, linker))
+    tree_svg, is_folded = draw_decisions(design.common.transitions, ("common", "transitions"), design, made.addresses)
     return StateView(
         anchor=anchor_of(("common",)),
         name="Every state",
@@ -115,7 +120,8 @@ def _common(design: Design, linker: Linker, made: Made) -> StateView:
         pseudo=pseudo_lines(design.common.transitions, linker, ("common", "transitions"), made.places),
         comes_from=(),
         places=made.places.get(("common",), ()),
-        tree_svg=draw_decisions(design.common.transitions, ("common", "transitions"), design, made.addresses),
+        tree_svg=tree_svg,
+        is_folded=is_folded,
     )
 
 

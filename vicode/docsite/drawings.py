@@ -60,8 +60,8 @@ def draw_design(design: Design, addresses: Addresses) -> str:
     return _svg(Figure(nodes=nodes, arrows=arrows), f"State machine of {design.component}")
 
 
-def draw_decisions(items: Sequence[Decision], path: Path, design: Design, addresses: Addresses) -> str:
-    """The decision tree of a state, or the common one; "" where nothing is decided."""
+def draw_decisions(items: Sequence[Decision], path: Path, design: Design, addresses: Addresses) -> tuple[str, bool]:
+    """The decision tree of a state, or the common one, and whether a part of it is folded; "" for no decisions."""
     is_common = path[0] == "common"
     links = Links(
         condition=lambda path: addresses.thing(design.component, path),
@@ -72,7 +72,9 @@ def draw_decisions(items: Sequence[Decision], path: Path, design: Design, addres
     )
     title = "Decision tree of every state" if is_common else f"Decision tree of {path[1]}"
     drawing = draw_tree(items, path, title=title, links=links, palette=from_properties())
-    return write_svg(drawing, is_part=True) if drawing else ""
+    if drawing is None:
+        return "", False
+    return write_svg(drawing, is_part=True), any(group.kind == "folded" for group in drawing.groups)
 
 
 def draw_uses(project: Project, addresses: Addresses, title: str) -> str:

@@ -30,7 +30,7 @@ def finding_groups(rows: Iterable[FindingRow]) -> tuple[FindingGroup, ...]:
 def row_of(own: OwnFinding, subject: Subject, addresses: Addresses) -> FindingRow:
     """One finding; where it has no line, the one of the thing it is about."""
     finding = own.finding
-    name = own.component or subject.project.name
+    name = own.component or subject.name
     path = finding.thing.path if finding.thing else ()
     href = addresses.thing(own.component, path) if own.component else ""
     place = Part(text="")

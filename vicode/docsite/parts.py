@@ -20,7 +20,7 @@ def part_around(subject: Subject, design: Design) -> Subject:
     part = replace(project, designs=designs, components=tuple(each for each in interfaces if each is not None))
     sources = {each: replace(source, text="") for each, source in subject.sources.items() if each in ("", name)}
     findings = tuple(each for each in subject.findings if each.component in ("", name))
-    return Subject(project=part, findings=findings, sources=sources)
+    return Subject(project=part, findings=findings, sources=sources, title=subject.title)
 
 
 def skeleton_of(project: Project) -> Project:

@@ -7,16 +7,17 @@ from vicode.docsite.addresses import Addresses
 from vicode.docsite.docs import summary_of
 from vicode.docsite.views import Entry
 from vicode.findings import Path
-from vicode.model.design import Design
+from vicode.model.design import Design, Transition
 from vicode.model.project import Interface, Project
 from vicode.model.texts import TextKind, walk_texts
+from vicode.model.walks import walk_decisions
 
 _KINDS = {"parameters": "parameter", "outputs": "output", "variables": "variable"}
 
 
-def entries_of(project: Project, addresses: Addresses) -> tuple[Entry, ...]:
-    """Everything that has a name, by name."""
-    entries = [*_of_project(project, addresses)]
+def entries_of(project: Project, addresses: Addresses, title: str) -> tuple[Entry, ...]:
+    """Everything that has a name, by name; `title` is what readers call the project."""
+    entries = [*_of_project(project, addresses, title)]
     for design in project.designs:
         entries += _of_design(design, addresses)
     for interface in project.components:
@@ -74,20 +75,20 @@ class _Table:
         return list(self._numbers)
 
 
-def _of_project(project: Project, addresses: Addresses) -> Iterator[Entry]:
+def _of_project(project: Project, addresses: Addresses, title: str) -> Iterator[Entry]:
     for agent in project.agents:
         href = addresses.agent(agent.name)
-        yield Entry(name=agent.name, kind="agent", where=project.name, href=href, doc=agent.doc)
+        yield Entry(name=agent.name, kind="agent", where=title, href=href, doc=agent.doc)
     for each in project.enumerations:
         href = addresses.enumeration(each.name)
-        yield Entry(name=each.name, kind="type", where=project.name, href=href, doc=each.doc)
+        yield Entry(name=each.name, kind="type", where=title, href=href, doc=each.doc)
         for name, doc in each.elements:
             href = addresses.enumeration(each.name, name)
             yield Entry(name=name, kind="element", where=each.name, href=href, doc=doc)
     for constant in project.constants:
         href = addresses.constant(constant.name)
         words = constant.initial
-        yield Entry(name=constant.name, kind="constant", where=project.name, href=href, doc=constant.doc, words=words)
+        yield Entry(name=constant.name, kind="constant", where=title, href=href, doc=constant.doc, words=words)
 
 
 def _of_design(design: Design, addresses: Addresses) -> Iterator[Entry]:
@@ -122,11 +123,18 @@ def _of_interface(interface: Interface, addresses: Addresses) -> Iterator[Entry]
 
 
 def _words(design: Design) -> dict[Path, str]:
-    """Expressions, code and docs of decisions, a line each, by the state they are in; () for what is in none."""
+    """Expressions, code and docs of decisions, a line each, by the state they are in; () for what is in none.
+
+    What decides about a transition has its target behind it.
+    """
+    found = ((each.path, each.decision) for each in walk_decisions(design))
+    targets = {path: decision.to for path, decision in found if isinstance(decision, Transition)}
     words: dict[Path, list[str]] = {}
     for placed in walk_texts(design):
         path = placed.path[:2] if placed.path[0] == "states" else ()
         is_own_doc = placed.kind is TextKind.DOC and len(placed.path) <= 3
         if not is_own_doc:
-            words.setdefault(path, []).append(" ".join(placed.text.split()))
-    return {path: "\n".join(found) for path, found in words.items()}
+            target = targets.get(placed.path[:-1], "")
+            text = " ".join(placed.text.split())
+            words.setdefault(path, []).append(f"{text} → {target}" if target else text)
+    return {path: "\n".join(lines) for path, lines in words.items()}

@@ -97,18 +97,18 @@ class _Planner:
         project, addresses = self.subject.project, self.addresses
         bones = skeleton_of(project)
         maps, home = digest_of(bones), home_view(self.subject, addresses)
-        title = f"Who uses whom in {project.name}"
+        title = f"Who uses whom in {self.subject.name}"
 
         def drawn_home() -> Views:
             return {"view": replace(home, svg=draw_uses(bones, addresses, title))}
 
-        yield self._page(_head(HOME, project.name), "home", (maps, home), drawn_home)
+        yield self._page(_head(HOME, self.subject.name), "home", (maps, home), drawn_home)
         if project.agents:
             yield self._viewed(_head(AGENTS, "Agents"), "agents", agents=home.agents)
         for agent in project.agents:
             head = _head(addresses.agent(agent.name), agent.title or agent.name, Part(text="Agents", href=AGENTS))
             yield self._page(head, "agent", (maps, agent.name), partial(_agent, bones, agent, addresses))
-        entries = entries_of(project, addresses)
+        entries = entries_of(project, addresses, self.subject.name)
         yield self._viewed(_head(EVERYTHING, "Everything"), "all", entries=entries)
         yield PlannedFile(path="search.js", key=digest_of(entries), make=partial(search_script, entries))
 
@@ -148,7 +148,7 @@ class _Planner:
     def codes(self) -> Iterator[PlannedFile]:
         """A page a text."""
         for name, texts in self.texts.items():
-            component = Part(text=name or self.subject.project.name, href=self.addresses.component(name) or HOME)
+            component = Part(text=name or self.subject.name, href=self.addresses.component(name) or HOME)
             links = text_links(texts, self.addresses)
             for text in texts:
                 crumbs = (component,) if name else ()
@@ -161,13 +161,12 @@ class _Planner:
         return self._page(head, template, views, lambda: views)
 
     def _page(self, head: Page, template: str, key: object, views: Callable[[], Views]) -> PlannedFile:
-        project = self.subject.project
-        about = summary_of(project.doc)
-        self.contents.append(Content(head=head, template=template, site=project.name, views=views))
+        name, about = self.subject.name, summary_of(self.subject.project.doc)
+        self.contents.append(Content(head=head, template=template, site=name, views=views))
 
         def make() -> str:
-            menu, name = self._menu_html(head.here), f"docsite/{template}.html.jinja"
-            return render(name, page=head, site=project.name, about=about, menu_html=menu, **views())
+            menu, page = self._menu_html(head.here), f"docsite/{template}.html.jinja"
+            return render(page, page=head, site=name, about=about, menu_html=menu, **views())
 
         return PlannedFile(path=head.file, key=digest_of(template, head, self.frame, key), make=make)
 
@@ -190,7 +189,7 @@ def _planner_of(subject: Subject, memory: Memory) -> _Planner:
         unsaid=unsaid,
         menu=menu,
         machines=machines,
-        frame=digest_of(project.name, project.doc, menu, machines, addresses.names),
+        frame=digest_of(subject.name, project.doc, menu, machines, addresses.names),
     )
 
 

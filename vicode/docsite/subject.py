@@ -46,6 +46,12 @@ class Subject:
     findings: tuple[OwnFinding, ...] = ()
     sources: Mapping[str, SourceText] = field(default_factory=dict)
     faulty: Mapping[str, frozenset[str]] = field(default_factory=dict)
+    title: str = ""
+
+    @property
+    def name(self) -> str:
+        """What readers call it: its title, else the name of the project."""
+        return self.title or self.project.name
 
 
 def subject_of(

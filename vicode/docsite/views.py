@@ -99,7 +99,10 @@ class Phase:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class StateView:
-    """A state, or what is common to all; `comes_from` are the states that lead here."""
+    """A state, or what is common to all; `comes_from` are the states that lead here.
+
+    `is_folded` says that the tree shows only a part of the decisions.
+    """
 
     anchor: str
     name: str
@@ -111,6 +114,7 @@ class StateView:
     comes_from: Line
     places: tuple[Part, ...]
     tree_svg: str = ""
+    is_folded: bool = False
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
