@@ -66,6 +66,25 @@ def test_a_new_name_of_a_variable_is_one_step(editor: str, page: Page, project: 
     assert file.read_text() == before
 
 
+def test_code_in_which_a_name_may_mean_anything_is_listed_first(editor: str, page: Page, project: Path) -> None:
+    file = project / "forward" / "player.yaml"
+    code = 'members: {cpp: "int hits() { return kick + this->kick; }"}'
+    file.write_text(file.read_text().replace("component: Player\n", f"component: Player\n{code}\n"))
+    open_design(page, editor, "Player")
+    name_of(page, "variable kick").fill("shot")
+    page.keyboard.press("Enter")
+    dialog = page.get_by_role("dialog", name="Rename variable kick to shot")
+    expect(dialog.get_by_text("Player: members of the design, C++")).to_be_visible()
+    dialog.get_by_role("button", name="Cancel").click()
+    expect(dialog).to_have_count(0)
+    expect(name_of(page, "variable kick")).to_have_value("kick")
+    name_of(page, "variable kick").fill("shot")
+    page.keyboard.press("Enter")
+    dialog.get_by_role("button", name="Rename", exact=True).click()
+    expect(name_of(page, "variable shot")).to_have_value("shot")
+    assert "return kick + this->shot" in save(page, file)
+
+
 def test_a_new_name_that_others_say_is_written_everywhere(editor: str, page: Page, other: Page, project: Path) -> None:
     folder = project / "forward"
     before = {file.name: file.read_text() for file in folder.glob("*.yaml")}

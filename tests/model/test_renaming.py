@@ -13,6 +13,7 @@ from vicode.check import check_project
 from vicode.model.design import Assign, Call, Code, Common, Declaration, Design, Guard, RunCode, State, Transition, Use
 from vicode.model.project import Project
 from vicode.model.renaming import Declared, Said, Way, has_declared, names_beside, rename_declared
+from vicode.model.renaming.cpp import rename_in_cpp
 from vicode.model.renaming.expressions import rename_in_expression
 from vicode.model.renaming.python import rename_in_python
 
@@ -111,6 +112,56 @@ SHARED = Said(way=Way.ENUMERATION, old="Side", new="Half")
 )
 def test_only_what_is_certain_is_renamed_in_python(role: str, said: Said, text: str, wanted: str) -> None:
     assert rename_in_python(text, role, said) == wanted
+
+
+ELEMENT = Said(way=Way.ELEMENT, owner="Side", old="left", new="west")
+EYES = Said(way=Way.MEMBER, owner="eyes", old="tries", new="attempts")
+
+
+@pytest.mark.parametrize(
+    ("role", "said", "text", "wanted"),
+    [
+        ("action", OWN, "this->tries += 1; // this->tries", "this->attempts += 1; // this->tries"),
+        ("action", OWN, "/* this->tries */ f(this -> tries);", "/* this->tries */ f(this -> attempts);"),
+        (
+            "action",
+            OWN,
+            'log("this->tries", R"x(this->tries)")x"); this->tries = 0;',
+            'log("this->tries", R"x(this->tries)")x"); this->attempts = 0;',
+        ),
+        ("action", OWN, "log('\"', this->tries); // it's", "log('\"', this->attempts); // it's"),
+        ("action", OWN, "x = 1'000; this->tries = x;", "x = 1'000; this->attempts = x;"),
+        ("action", OWN, "tries = other->tries + that.tries;", "tries = other->tries + that.tries;"),
+        (
+            "action",
+            OWN,
+            "struct A { int tries; int f() { return this->tries; } };",
+            "struct A { int tries; int f() { return this->tries; } };",
+        ),
+        ("module", OWN, "int f() { return this->tries; }", "int f() { return this->tries; }"),
+        ("predicate", OWN, "return this->triesLeft > this->tries", "return this->triesLeft > this->attempts"),
+        (
+            "action",
+            EYES,
+            "this->eyes.tries + this->eyes->tries + eyes.tries + this->tries;",
+            "this->eyes.attempts + this->eyes->attempts + eyes.tries + this->tries;",
+        ),
+        ("action", SHARED, "Side s = Side::left; other::Side::left;", "Side s = Half::left; other::Side::left;"),
+        ("action", ELEMENT, "s == Side::left && left && Foot::left", "s == Side::west && left && Foot::left"),
+        ("action", ELEMENT, "enum class Side { left }; s = Side::left;", "enum class Side { left }; s = Side::left;"),
+        ("action", ELEMENT, "using Side = Foot; s = Side::left;", "using Side = Foot; s = Side::left;"),
+        ("action", OWN, "this->tries /* open", "this->attempts /* open"),
+        ("action", OWN, 'x = "open; this->tries', 'x = "open; this->tries'),
+    ],
+)
+def test_only_what_is_certain_is_renamed_in_cpp(role: str, said: Said, text: str, wanted: str) -> None:
+    assert rename_in_cpp(text, role, said) == wanted
+
+
+@given(st.text(alphabet="self.this->tries\"'/*() \n\\R:{};", max_size=60))
+def test_cpp_of_any_kind_is_read_and_only_names_change(text: str) -> None:
+    renamed = rename_in_cpp(text, "action", OWN)
+    assert renamed.replace("attempts", "tries") == text
 
 
 def code(text: str) -> Code:

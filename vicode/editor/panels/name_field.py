@@ -35,14 +35,14 @@ def name_field(
 def take_declared(desk: Desk, thing: Declared, new: str) -> str:
     """Give a declared thing another name; returns why not.
 
-    What only the open design says is an edit of it. Else all that changes is listed first, and the name stays until
-    that was agreed to.
+    What only the open design says is an edit of it. Else all that changes, and what a person must look at, is listed
+    first, and the name stays until that was agreed to.
     """
     plan = plan_name(desk.workspace, thing, new)
     if plan.refused:
         return plan.refused
     design = plan.design
-    if design is not None:
+    if design is not None and not plan.by_hand:
         desk.edit(f"rename {thing.name} to {new}", lambda _design: design)
         return ""
     _ask(desk, plan)
@@ -135,26 +135,44 @@ def _ask(desk: Desk, plan: NamePlan) -> None:
     """List what a name changes in the project's files, and change it."""
     what = words_of_declared(plan.thing)
     with titled_dialog(f"Rename {what} to {plan.new}") as dialog:
-        ui.label("What changes, and is written at once").classes("field-label")
-        with ui.column().classes("change-list"):
-            for change in plan.changes:
-                ui.label(change.file.name).classes("mono")
-                ui.label(change.words)
+        if plan.changes:
+            ui.label("What changes, and is written at once").classes("field-label")
+            with ui.column().classes("change-list"):
+                for change in plan.changes:
+                    ui.label(change.file.name).classes("mono")
+                    ui.label(change.words)
+        if plan.by_hand:
+            ui.label("Look here by hand: code that says the name, and may mean something else").classes("field-label")
+            with ui.column().classes("by-hand-list").props("role=list"):
+                for words in plan.by_hand:
+                    ui.label(words).props("role=listitem")
         if desk.workspace.broken:
             ui.label(f"Not looked into, as it cannot be read: {', '.join(desk.workspace.broken)}").classes("empty")
         if plan.note:
             ui.label(plan.note).classes("field-finding")
 
         def rename() -> None:
-            if carry_out(desk, plan):
+            if plan.design is not None:
+                _edit_as_planned(desk, plan)
+            elif carry_out(desk, plan):
                 whole = NewName(workspace=desk.workspace, thing=plan.thing, new=plan.new)
                 desk.offer_undo(f"{plan.thing.name} is {plan.new} now", lambda: _take_back(desk, whole))
             dialog.close()
 
         with ui.row().classes("dialog-buttons"):
             ui.button("Cancel", on_click=dialog.close).props("flat no-caps")
-            primary_button("Rename everywhere", rename).props("autofocus")
+            primary_button("Rename everywhere" if plan.changes else "Rename", rename).props("autofocus")
     dialog.on("hide", dialog.delete)
+
+
+def _edit_as_planned(desk: Desk, plan: NamePlan) -> None:
+    """Rename in the one design that says it, as it is by now."""
+    again = plan_name(desk.workspace, plan.thing, plan.new)
+    design = again.design
+    if design is None:
+        desk.say(again.refused or "A design has changed meanwhile: rename it once more", "warning")
+        return
+    desk.edit(f"rename {plan.thing.name} to {plan.new}", lambda _design: design)
 
 
 def carry_out(desk: Desk, plan: NamePlan) -> bool:

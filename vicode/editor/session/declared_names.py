@@ -1,21 +1,23 @@
 """Another name for something that is declared: an edit where one design says it, else planned and written to files."""
 
 from collections import Counter
-from collections.abc import Collection
+from collections.abc import Collection, Iterator
 from dataclasses import dataclass, replace
 from difflib import SequenceMatcher
 from pathlib import Path
 
 from vicode.check import check_project
 from vicode.editor.session.document import Act, Document
+from vicode.editor.session.names_in_xabsl import count_in_xabsl, follow_in_xabsl, new_words
 from vicode.editor.session.renaming import Change, refuse_touching
-from vicode.editor.session.wording import reason_of
+from vicode.editor.session.wording import reason_of, words_of_path
 from vicode.editor.session.workspace import Workspace
 from vicode.findings import Finding, Severity
 from vicode.model.design import Design
 from vicode.model.names import is_name, name_like
 from vicode.model.project import Project
 from vicode.model.renaming import Declared, Said, Way, has_declared, names_beside, rename_declared
+from vicode.model.renaming.cpp import count_in_cpp, says_in_cpp
 from vicode.model.renaming.python import says_in_python
 from vicode.model.walks import walk_code
 from vicode.store import is_read_only, project_file_in, read_project_file, save_design, save_project_file, write_text
@@ -38,6 +40,8 @@ class NamePlan:
     design: Design | None = None
     changes: tuple[Change, ...] = ()
     note: str = ""
+    by_hand: tuple[str, ...] = ()
+    """Where code says the name and it is not certain what it means there."""
 
 
 def words_of_declared(thing: Declared) -> str:
@@ -63,13 +67,14 @@ def plan_name(workspace: Workspace, thing: Declared, new: str) -> NamePlan:
     refused = _refuse_name(project, thing, new)
     if refused:
         return NamePlan(thing=thing, new=new, refused=refused)
-    renamed = rename_declared(project, thing, new)
+    renamed = follow_in_xabsl(project, rename_declared(project, thing, new))
+    by_hand = tuple(_left_in_code(project, renamed, thing))
     touched = [design.component for design in renamed.designs if project.design(design.component) != design]
     is_shared = any(getattr(renamed, section) != getattr(project, section) for section in _OF_THE_PROJECT)
     refused = refuse_outcome(project, renamed, touched if thing.component and not is_shared else None)
     refused = refused or _refuse_code(project, thing, new)
     if not refused and not is_shared and touched == [thing.component]:
-        return NamePlan(thing=thing, new=new, design=renamed.design(thing.component))
+        return NamePlan(thing=thing, new=new, design=renamed.design(thing.component), by_hand=by_hand)
     file = project_file_in(workspace.folder) if is_shared else None
     refused = refused or refuse_touching(workspace, touched) or _refuse_project_file(project, file)
     if refused or (is_shared and file is None):
@@ -77,7 +82,7 @@ def plan_name(workspace: Workspace, thing: Declared, new: str) -> NamePlan:
     changes = [_design_change(workspace, design) for design in renamed.designs if design.component in touched]
     if file is not None:
         changes.append(_project_change(file, renamed))
-    return NamePlan(thing=thing, new=new, changes=tuple(changes), note=_note(project, thing))
+    return NamePlan(thing=thing, new=new, changes=tuple(changes), note=_note(project, thing), by_hand=by_hand)
 
 
 def rename_in_files(workspace: Workspace, plan: NamePlan, person: str = "") -> str:
@@ -181,13 +186,15 @@ def _refuse_name(project: Project, thing: Declared, new: str) -> str:
 
 
 def _refuse_code(project: Project, thing: Declared, new: str) -> str:
-    """Whether code of the design already says `self.NEW`: it would mean something else then."""
+    """Whether code of the design already says `self.NEW`, or `this->NEW`: it would mean something else then."""
     design, said = project.design(thing.component), Said(way=Way.OWN, old=new, new=f"{new}_")
     if design is None or thing.section == "arguments":
         return ""
-    texts = ((placed.code.in_language("python") or "", placed.role) for placed in walk_code(design))
-    is_said = any(says_in_python(text, role, said) for text, role in texts)
-    return f"the code of {thing.component} says self.{new} already, and means something else" if is_said else ""
+    for language, says, me in (("python", says_in_python, "self."), ("cpp", says_in_cpp, "this->")):
+        texts = ((placed.code.in_language(language) or "", placed.role) for placed in walk_code(design))
+        if any(says(text, role, said) for text, role in texts):
+            return f"the code of {thing.component} says {me}{new} already, and means something else"
+    return ""
 
 
 def refuse_outcome(project: Project, renamed: Project, components: Collection[str] | None) -> str:
@@ -246,6 +253,25 @@ def _count_lines(old: str, new: str) -> str:
     blocks = SequenceMatcher(None, old.splitlines(), new.splitlines(), autojunk=False).get_opcodes()
     count = sum(max(block[2] - block[1], block[4] - block[3]) for block in blocks if block[0] != "equal")
     return "1 line" if count == 1 else f"{count} lines"
+
+
+def _left_in_code(project: Project, renamed: Project, thing: Declared) -> Iterator[str]:
+    """Where C++ and XABSL still say the old name: there a person must look."""
+    words = new_words(project, renamed).old
+    in_xabsl = {*words, thing.name} if words else set()
+    for design in renamed.designs:
+        used = [use.component for use in design.uses]
+        if thing.component and thing.component not in (design.component, *used):
+            continue
+        for placed in walk_code(design):
+            for language, text in placed.code.texts:
+                name, count = {
+                    "cpp": ("C++", count_in_cpp(text, thing.name)),
+                    "xabsl": ("XABSL", count_in_xabsl(text, in_xabsl)),
+                }.get(language, ("", 0))
+                if count:
+                    often = f", {count} times" if count > 1 else ""
+                    yield f"{design.component}: {words_of_path(placed.path[:-1] or placed.path)}, {name}{often}"
 
 
 def _note(project: Project, thing: Declared) -> str:

@@ -1,5 +1,6 @@
-"""Renames in everything a design says: expressions, links, calls, types and Python."""
+"""Renames in everything a design says: expressions, links, calls, types and code."""
 
+from collections.abc import Callable
 from dataclasses import replace
 
 from vicode.model.design import (
@@ -15,6 +16,7 @@ from vicode.model.design import (
     RunCode,
     State,
 )
+from vicode.model.renaming.cpp import binds_in_cpp, rename_in_cpp
 from vicode.model.renaming.expressions import rename_in_expression
 from vicode.model.renaming.names import Said, Way
 from vicode.model.renaming.python import binds_in_python, rename_in_python
@@ -24,7 +26,44 @@ _Pairs = tuple[tuple[str, str], ...]
 
 def renamed_in_design(design: Design, said: Said) -> Design:
     """The design with the new name wherever it is said; where it is declared it stays."""
-    speaker = _Speaker(said, is_hidden=_is_hidden(design, said))
+    hidden = _languages_that_hide(design, said)
+
+    def in_code(code: Code, role: str) -> Code:
+        texts = (
+            (language, text if language in hidden else _in_text(text, language, role, said))
+            for language, text in code.texts
+        )
+        return replace(code, texts=tuple(texts))
+
+    return replace(
+        _spoken(design, _Speaker(said, in_code)),
+        parameters=renamed_in_declarations(design.parameters, said),
+        outputs=renamed_in_declarations(design.outputs, said),
+        variables=renamed_in_declarations(design.variables, said),
+    )
+
+
+def map_code(design: Design, change: Callable[[Code, str], Code]) -> Design:
+    """The design with other hand-written code; `change` is given each piece and its role."""
+    return _spoken(design, _Speaker(_NOTHING, change))
+
+
+_NOTHING = Said(way=Way.PARAMETER, old="", new="")
+"""What no text says."""
+
+
+def _in_text(text: str, language: str, role: str, said: Said) -> str:
+    match language:
+        case "python":
+            return rename_in_python(text, role, said)
+        case "cpp":
+            return rename_in_cpp(text, role, said)
+        case _:
+            return text
+
+
+def _spoken(design: Design, speaker: "_Speaker") -> Design:
+    """The design as a speaker says it, but for what it declares."""
     common = replace(
         design.common,
         actions=speaker.actions(design.common.actions),
@@ -32,9 +71,6 @@ def renamed_in_design(design: Design, said: Said) -> Design:
     )
     return replace(
         design,
-        parameters=renamed_in_declarations(design.parameters, said),
-        outputs=renamed_in_declarations(design.outputs, said),
-        variables=renamed_in_declarations(design.variables, said),
         module=speaker.code(design.module, "module"),
         members=speaker.code(design.members, "members"),
         common=common,
@@ -58,34 +94,27 @@ def _renamed_in_declaration(declaration: Declaration, said: Said) -> Declaration
     )
 
 
-def _is_hidden(design: Design, said: Said) -> bool:
-    """Whether the module's own code gives a name of the project another meaning in all code of the design."""
+def _languages_that_hide(design: Design, said: Said) -> frozenset[str]:
+    """Those in which the module's own code gives a name of the project another meaning in all code of the design."""
     if said.way not in (Way.CONSTANT, Way.ENUMERATION, Way.ELEMENT):
-        return False
-    text = design.module.in_language("python") or ""
-    return binds_in_python(text, "module", said.owner or said.old)
+        return frozenset()
+    name = said.owner or said.old
+    own, cpp = (design.module.in_language(language) or "" for language in ("python", "cpp"))
+    found = (("python", binds_in_python(own, "module", name)), ("cpp", binds_in_cpp(cpp, name)))
+    return frozenset(language for language, is_hidden in found if is_hidden)
 
 
 class _Speaker:
     """Says the new name in each part of a design."""
 
-    def __init__(self, said: Said, *, is_hidden: bool) -> None:
-        self.said, self.is_hidden = said, is_hidden
+    def __init__(self, said: Said, code: Callable[[Code, str], Code]) -> None:
+        self.said, self.code = said, code
 
     def alias(self, alias: str) -> str:
         return self.said.new if self.said.way == Way.ALIAS and alias == self.said.old else alias
 
     def expression(self, text: str) -> str:
         return rename_in_expression(text, self.said)
-
-    def code(self, code: Code, role: str) -> Code:
-        if self.is_hidden:
-            return code
-        texts = (
-            (language, rename_in_python(text, role, self.said) if language == "python" else text)
-            for language, text in code.texts
-        )
-        return replace(code, texts=tuple(texts))
 
     def values(self, pairs: _Pairs) -> _Pairs:
         return tuple((self.expression(name), self.expression(text)) for name, text in pairs)

@@ -1,0 +1,156 @@
+"""New names in hand-written C++ and XABSL: followed where it is certain, else pointed out."""
+
+from pathlib import Path
+
+import pytest
+
+from vicode.editor.session import Library, Workspace
+from vicode.editor.session.declared_names import NamePlan, plan_name, rename_in_files
+from vicode.model.design import Design
+from vicode.model.renaming import Declared
+from vicode.model.walks import walk_code
+
+PROJECT = """\
+vicode: 1
+project: Team
+languages: [xabsl]
+enumerations:
+  Side: [left, right]
+  Foot: [left, both]
+constants:
+  far: {value: 300, unit: mm}
+components:
+  Legs:
+    implementation: world
+    parameters:
+      speed: {type: float}
+      side: {type: Side}
+    outputs:
+      near: {type: bool}
+      reach: {type: float, arguments: {x: {type: float}}}
+"""
+WALK = """\
+vicode: 1
+component: Walk
+uses: {legs: Legs}
+parameters:
+  pace: {type: float, default: 1}
+outputs:
+  done_so_far: {type: float, initial: 0}
+initial: Go
+states:
+  Go:
+    actions:
+      - code:
+          xabsl: |
+            walk.done_so_far = walk.done_so_far + @pace; // walk.done_so_far
+            Legs(speed = @pace + far, side = Side.right);
+          cpp: |
+            this->done_so_far += this->pace; // pace
+            log("pace", pace);
+    transitions:
+      - {to: Go, code: {xabsl: "legs.near && legs.reach(x = far) > far", cpp: "this->legs->near && far > 2"}}
+"""
+MAIN = """\
+vicode: 1
+component: Main
+uses: {walk: Walk, legs: Legs}
+initial: On
+states:
+  On:
+    actions:
+      - code:
+          xabsl: |
+            Walk(pace = 2);
+            Legs(speed = 1, side = left);
+          cpp: |
+            this->walk->pace = Side::left;
+    transitions:
+      - {to: On, code: {xabsl: "walk.done_so_far > far", cpp: "this->walk.done_so_far > 1"}}
+"""
+
+
+@pytest.fixture
+def workspace(tmp_path: Path) -> Workspace:
+    for name, text in (("project", PROJECT), ("walk", WALK), ("main", MAIN)):
+        (tmp_path / f"{name}.yaml").write_text(text)
+    return Library(tmp_path).workspaces[0]
+
+
+def planned(workspace: Workspace, thing: Declared, new: str) -> NamePlan:
+    plan = plan_name(workspace, thing, new)
+    assert plan.refused == ""
+    return plan
+
+
+def carried_out(workspace: Workspace, thing: Declared, new: str) -> tuple[str, NamePlan]:
+    """All code of the project after a new name."""
+    plan = planned(workspace, thing, new)
+    assert rename_in_files(workspace, plan) == ""
+    return "\n".join(code_of(design) for design in workspace.project.designs), plan
+
+
+def code_of(design: Design) -> str:
+    return "\n".join(text for placed in walk_code(design) for _language, text in placed.code.texts)
+
+
+def test_a_parameter_is_followed_where_it_is_given_and_where_it_is_read(workspace: Workspace) -> None:
+    code, plan = carried_out(workspace, Declared(component="Walk", section="parameters", name="pace"), "tempo")
+    assert "walk.done_so_far + @tempo; // walk.done_so_far" in code
+    assert "Legs(speed = @tempo + far, side = Side.right)" in code
+    assert "Walk(tempo = 2)" in code
+    assert "this->done_so_far += this->tempo; // pace" in code
+    assert 'log("pace", pace);' in code
+    assert "this->walk->tempo = Side::left;" in code
+    assert plan.by_hand == ("Walk: actions 1 of state Go, C++",)
+
+
+def test_an_output_is_a_symbol_in_xabsl(workspace: Workspace) -> None:
+    thing = Declared(component="Walk", section="outputs", name="done_so_far")
+    code, plan = carried_out(workspace, thing, "way")
+    assert "walk.way = walk.way + @pace; // walk.done_so_far" in code
+    assert "walk.way > far" in code
+    assert "this->walk.way > 1" in code
+    assert plan.by_hand == ()
+    # And back, to the same bytes.
+    files = {
+        each.component: file.read_text()
+        for each in workspace.project.designs
+        for file in [workspace.files[each.component]]
+    }
+    back, _plan = carried_out(workspace, Declared(component="Walk", section="outputs", name="way"), "done_so_far")
+    assert "walk.way" not in back
+    assert files != {"Walk": WALK, "Main": MAIN}
+    assert {name: workspace.files[name].read_text() for name in files} == {"Walk": WALK, "Main": MAIN}
+
+
+def test_what_two_enumerations_have_is_left_to_a_person(workspace: Workspace) -> None:
+    code, plan = carried_out(workspace, Declared(section="elements", owner="Side", name="left"), "west")
+    assert "side = left" in code
+    assert "this->walk->pace = Side::west;" in code
+    assert plan.by_hand == ("Main: actions 1 of state On, XABSL",)
+    code, plan = carried_out(workspace, Declared(section="elements", owner="Side", name="right"), "east")
+    assert "side = Side.east" in code
+    assert plan.by_hand == ()
+
+
+def test_constants_and_arguments_of_functions_are_followed_in_xabsl(workspace: Workspace) -> None:
+    code, plan = carried_out(workspace, Declared(section="constants", name="far"), "afar")
+    assert "legs.reach(x = afar) > afar" in code
+    assert "@pace + afar" in code
+    # A name by itself may be anything in C++.
+    assert "this->legs->near && far > 2" in code
+    assert plan.by_hand == ("Walk: transition 1 of state Go, C++",)
+    thing = Declared(component="Legs", section="arguments", owner="reach", name="x")
+    code, _plan = carried_out(workspace, thing, "ahead")
+    assert "legs.reach(ahead = afar) > afar" in code
+    code, _plan = carried_out(workspace, Declared(section="components", name="Legs"), "Feet")
+    assert "Feet(speed = @pace + afar, side = Side.right)" in code
+    assert "feet.near && feet.reach(ahead = afar) > afar" in code
+
+
+def test_code_that_nobody_can_read_is_left_to_a_person(workspace: Workspace, tmp_path: Path) -> None:
+    (tmp_path / "walk.yaml").write_text(WALK.replace("@pace; //", "@pace ; ) //"))
+    workspace.follow_disk()
+    plan = planned(workspace, Declared(component="Walk", section="outputs", name="done_so_far"), "way")
+    assert plan.by_hand == ("Walk: actions 1 of state Go, XABSL, 2 times",)
