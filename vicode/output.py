@@ -95,26 +95,38 @@ def diff(difference: Difference) -> str:
     return "".join(unified_diff(old.splitlines(keepends=True), new.splitlines(keepends=True), before, after))
 
 
-def write_atomically(path: Path, text: str, *, is_kept: bool = True) -> None:
-    """Replace a file in one step: a reader, or a crash in the middle, sees the old text or the new one.
+def write_atomically(path: Path, content: str | bytes, *, is_kept: bool = True) -> None:
+    """Replace a file in one step: a reader, or a crash in the middle, sees the old content or the new one.
 
     With `is_kept` the new one also outlives a loss of power right after; what can be made again need not wait for that.
+
+    Raises:
+        OSError: It cannot be written; the error names this file, which is as it was.
     """
     target = path.resolve()
     temporary = target.with_name(f".{target.name}.{secrets.token_hex(4)}.tmp")
-    descriptor = os.open(temporary, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o666)
     try:
-        with os.fdopen(descriptor, "wb") as file:
-            file.write(text.encode("utf-8"))
-            file.flush()
-            if is_kept:
-                os.fsync(file.fileno())
+        _write_new(temporary, content.encode("utf-8") if isinstance(content, str) else content, is_kept=is_kept)
         if target.exists():
             temporary.chmod(target.stat().st_mode & 0o777)
         temporary.replace(target)
+    except OSError as error:
+        temporary.unlink(missing_ok=True)
+        if error.errno is None:
+            raise
+        raise OSError(error.errno, error.strerror, str(path)) from error
     except BaseException:
         temporary.unlink(missing_ok=True)
         raise
+
+
+def _write_new(file: Path, content: bytes, *, is_kept: bool) -> None:
+    descriptor = os.open(file, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o666)
+    with os.fdopen(descriptor, "wb") as stream:
+        stream.write(content)
+        stream.flush()
+        if is_kept:
+            os.fsync(stream.fileno())
 
 
 def _compare_one(path: str, new: str, old: str | None) -> Difference:

@@ -1,5 +1,7 @@
 """Files against a folder: new, changed, unchanged, stale; written whole or not at all."""
 
+import errno
+import os
 from pathlib import Path
 
 import pytest
@@ -78,12 +80,13 @@ def test_the_difference_reads_as_a_diff(tmp_path: Path) -> None:
 def test_a_failed_write_leaves_the_old_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     file = write(tmp_path, "a.py", "old")
 
-    def fail(_self: Path, _target: Path) -> None:
-        raise OSError("disk full")
+    def fail(_descriptor: int) -> None:
+        raise OSError(errno.ENOSPC, "No space left on device")
 
-    monkeypatch.setattr(Path, "replace", fail)
-    with pytest.raises(OSError, match="disk full"):
+    monkeypatch.setattr(os, "fsync", fail)
+    with pytest.raises(OSError, match="No space left on device") as told:
         output.write_atomically(file, "new")
+    assert told.value.filename == str(file)
     assert file.read_text() == "old"
     assert list(tmp_path.iterdir()) == [file]
 

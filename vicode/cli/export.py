@@ -32,6 +32,7 @@ def run(args: argparse.Namespace) -> int:
     # Drawing loads Graphviz's and PDF's writers, which --help has no need of.
     from vicode.diagram.export import export
     from vicode.diagram.formats import Format, Wish
+    from vicode.output import write_atomically
 
     only = _states(args.states)
     unknown = sorted((only or frozenset()) - {state.name for state in design.states})
@@ -45,7 +46,7 @@ def run(args: argparse.Namespace) -> int:
         sys.stdout.buffer.write(content)
         return 0
     out = Path(args.out) if args.out else Path(args.file).with_suffix(form.suffix)
-    out.write_bytes(content)
+    write_atomically(out, content)
     print(f"wrote {out.as_posix()}")
     return 0
 
