@@ -1,5 +1,6 @@
 """What project.yaml declares, in a browser: added, changed and removed by mouse and keys, each a step to take back."""
 
+import re
 from pathlib import Path
 
 from playwright.sync_api import Locator, Page, expect
@@ -119,6 +120,26 @@ def test_a_component_written_by_hand_is_edited_where_it_is_used(editor: str, pag
     page.keyboard.press("Tab")
     expect(page.get_by_text("project.yaml is written: parameter of Perception")).to_be_visible()
     assert "parameter: {type: float, unit: Hz}" in file.read_text()
+
+
+def test_the_project_itself_has_a_form(editor: str, page: Page, project: Path) -> None:
+    file = project / "forward" / "project.yaml"
+    inspector = open_project_fold(page, editor)
+    inspector.get_by_label("Languages").fill("python, cobol")
+    page.keyboard.press("Enter")
+    expect(inspector.get_by_text("'cobol'")).to_be_visible()
+    inspector.get_by_label("Languages").fill("python, xabsl")
+    page.keyboard.press("Enter")
+    expect(page.get_by_text("project.yaml is written: Forward")).to_be_visible()
+    assert "languages: [python, xabsl]" in file.read_text()
+    inspector.get_by_label("Doc of the project").fill("It plays.")
+    page.keyboard.press("Enter")
+    page.keyboard.type("And scores.")
+    page.keyboard.press("Tab")
+    expect(inspector.get_by_label("Languages")).to_be_focused()
+    expect(inspector.get_by_label("Doc of the project")).to_have_value("It plays.\nAnd scores.")
+    undo(page)
+    expect(inspector.get_by_label("Doc of the project")).to_have_value(re.compile("^A forward soccer player"))
 
 
 def test_an_agent_is_edited_and_another_one_added(editor: str, page: Page, project: Path) -> None:

@@ -107,6 +107,8 @@ def test_each_part_of_the_project_can_be_added_changed_and_removed(workspace: Wo
         (AGENT, {"root": "Nobody"}, "Nobody"),
         (PERCEPTION, {"implementation": "here and there"}, "here and there"),
         (KICK, {"elements": ()}, "Kick"),
+        (Spot(steps=()), {"languages": ("cobol",)}, "cobol"),
+        (Spot(steps=()), {"name": "json"}, "would hide a module of Python's library"),
     ],
 )
 def test_what_makes_no_sound_project_is_refused(

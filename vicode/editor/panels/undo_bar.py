@@ -15,7 +15,8 @@ class UndoBar:
         self._act: Callable[[], object] = lambda: None
         with ui.element("div").classes("undo-bar").props('role="status"') as self._bar:
             self._words = ui.label()
-            ui.button("Undo", on_click=self._undo).props("flat no-caps dense")
+            # Without a colour of Quasar's, which is too dark to be read on the bar of a light page.
+            ui.button("Undo", on_click=self._undo, color=None).props("flat no-caps dense")
             icon_button("close", "Dismiss", self._hide)
         self._hide()
 

@@ -15,6 +15,8 @@ Change = Callable[[Any], Any]
 class Spot:
     """Where a thing stands: the keys that lead to it, each with a number, such as ("components", 0), ("outputs", 3).
 
+    None lead to the project itself.
+
     What stands there is an enumeration, a constant, a component, an agent, another declaration, or an element with
     what it means.
     """
@@ -32,8 +34,8 @@ class Spot:
 
     @property
     def section(self) -> str:
-        """The key that it stands below."""
-        return self.steps[-1][0]
+        """The key that it stands below; "" for the project itself."""
+        return self.steps[-1][0] if self.steps else ""
 
     @property
     def kind(self) -> str:

@@ -216,7 +216,8 @@ def _same(design: Design, _value: Any) -> Design:
 
 def write(desk: Desk, spot: Spot, change: Callable[[Any], Any]) -> str:
     """Write another thing into project.yaml; returns why not."""
-    name = " of ".join(reversed(spot.names(desk.workspace.project)))
+    project = desk.workspace.project
+    name = " of ".join(reversed(spot.names(project) or (project.name,)))
     return write_project(desk, lambda project: spot.write(project, change), f"project.yaml is written: {name}", spot)
 
 

@@ -24,9 +24,23 @@ from vicode.editor.panels.project.fields import (
 )
 from vicode.editor.panels.rows import add_button, heading
 from vicode.editor.session import project_edits
+from vicode.editor.session.declared_names import refuse_shape
 from vicode.editor.session.project_spots import Spot
 from vicode.model.design import Design
 from vicode.model.project import Enumeration, Project
+
+_OF_THE_PROJECT = (
+    Line(label="Name of the project", attribute="name", refuse=refuse_shape),
+    replace(DOC, label="Doc of the project"),
+    Line(
+        label="Languages",
+        attribute="languages",
+        hint="python",
+        text_of=", ".join,
+        value_of=lambda text: tuple(text.replace(",", " ").split()),
+    ),
+    Line(label="World", attribute="world", hint="module:Class"),
+)
 
 
 def project_form(desk: Desk, fields: list[Field]) -> None:
@@ -42,6 +56,7 @@ def project_form(desk: Desk, fields: list[Field]) -> None:
 
     def build() -> None:
         ui.label("Of all designs; a change is written into project.yaml at once.").classes("empty")
+        fields.extend(line_in_file(desk, Spot(steps=()), line) for line in _OF_THE_PROJECT)
         heading("Enumerations", hint="types whose values are named")
         for number in range(len(project.enumerations)):
             _enumeration(desk, Spot.of("enumerations", number), fields)
