@@ -6,6 +6,7 @@ import pytest
 
 from vicode.editor.session import Library, Workspace
 from vicode.editor.session.declared_names import NamePlan, plan_name, rename_in_files
+from vicode.editor.session.renaming import plan_renaming, rename_component
 from vicode.model.design import Design
 from vicode.model.renaming import Declared
 from vicode.model.walks import walk_code
@@ -154,3 +155,18 @@ def test_code_that_nobody_can_read_is_left_to_a_person(workspace: Workspace, tmp
     workspace.follow_disk()
     plan = planned(workspace, Declared(component="Walk", section="outputs", name="done_so_far"), "way")
     assert plan.by_hand == ("Walk: actions 1 of state Go, XABSL, 2 times",)
+
+
+def test_a_component_with_a_design_is_followed_in_xabsl(workspace: Workspace, tmp_path: Path) -> None:
+    plan = plan_renaming(workspace, "Walk", "GoAhead")
+    assert [change.words for change in plan.changes] == [
+        "component Walk → GoAhead; walk.yaml becomes go_ahead.yaml",
+        "Main uses GoAhead as walk",
+    ]
+    assert rename_component(workspace, plan) == ""
+    assert "go_ahead.done_so_far = go_ahead.done_so_far + @pace" in (tmp_path / "go_ahead.yaml").read_text()
+    assert "GoAhead(pace = 2);" in (tmp_path / "main.yaml").read_text()
+    back = plan_renaming(workspace, "GoAhead", "Walk")
+    assert rename_component(workspace, back) == ""
+    assert (tmp_path / "main.yaml").read_text() == MAIN
+    assert (tmp_path / "walk.yaml").read_text() == WALK

@@ -5,6 +5,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from vicode.editor.session.document import Act
+from vicode.editor.session.names_in_xabsl import follow_in_xabsl
 from vicode.editor.session.people import DISK
 from vicode.editor.session.workspace import Workspace
 from vicode.model.design import Design
@@ -42,6 +43,9 @@ def plan_renaming(workspace: Workspace, old: str, new: str) -> Renaming:
     """What renaming a component would change; nothing is touched."""
     project = workspace.project
     refused = _refuse(workspace, old, new)
+    renamed = {} if refused else _renamed(project, old, new)
+    touched = [name for name, design in renamed.items() if project.design(name) != design]
+    refused = refused or refuse_touching(workspace, touched)
     file = workspace.files.get(old)
     design = project.design(old)
     if refused or file is None or design is None:
@@ -50,12 +54,8 @@ def plan_renaming(workspace: Workspace, old: str, new: str) -> Renaming:
     is_moved = target.resolve() != file.resolve()
     if is_moved and target.exists():
         return Renaming(old=old, new=new, refused=f"there is already a file {target.name}")
-    own = _own_change(design, file, target if is_moved else file, (old, new))
-    users = [
-        _user_change(each, workspace.files[each.component], (old, new))
-        for each in project.designs
-        if each.component != old and any(use.component == old for use in each.uses)
-    ]
+    own = _own_change(renamed[old], file, target if is_moved else file, (old, new))
+    users = [_user_change(renamed[name], workspace.files[name], new) for name in touched if name != old]
     of_project = _project_change(workspace.folder, (old, new))
     changes = (own, *users, *([of_project] if of_project else []))
     return Renaming(old=old, new=new, changes=changes, removed=file if is_moved else None)
@@ -86,10 +86,19 @@ def _refuse(workspace: Workspace, old: str, new: str) -> str:
         return f"a component is named in letters, digits and underscores, such as {name_like(new) or 'FollowBall'}"
     if new == old:
         return "that is its name already"
-    if workspace.project.interface(new) is not None:
-        return f"there is already a component {new}"
-    touched = {old, *(each.component for each in workspace.project.designs if _uses(each, old))}
-    return refuse_touching(workspace, touched)
+    return f"there is already a component {new}" if workspace.project.interface(new) is not None else ""
+
+
+def _renamed(project: Project, old: str, new: str) -> dict[str, Design]:
+    """The designs as they would be, by the names that they have; hand-written XABSL follows where it is certain."""
+
+    def renamed(design: Design) -> Design:
+        uses = (replace(use, component=new) if use.component == old else use for use in design.uses)
+        component = new if design.component == old else design.component
+        return replace(design, component=component, uses=tuple(uses))
+
+    after = follow_in_xabsl(project, replace(project, designs=tuple(map(renamed, project.designs))))
+    return {before.component: now for before, now in zip(project.designs, after.designs, strict=True)}
 
 
 def refuse_touching(workspace: Workspace, components: Collection[str]) -> str:
@@ -105,26 +114,20 @@ def refuse_touching(workspace: Workspace, components: Collection[str]) -> str:
     return f"{workspace.files[stale[0]].name} was just changed by another program: look again" if stale else ""
 
 
-def _uses(design: Design, component: str) -> bool:
-    return any(use.component == component for use in design.uses)
-
-
 def _own_change(design: Design, file: Path, target: Path, names: tuple[str, str]) -> Change:
     text = _read(file)
-    new = save_design(replace(design, component=names[1]), text)
+    new = save_design(design, text)
     words = f"component {names[0]} → {names[1]}"
     if target == file:
         return Change(file=file, old=text, new=new, words=words)
     return Change(file=target, old=None, new=new, words=f"{words}; {file.name} becomes {target.name}")
 
 
-def _user_change(design: Design, file: Path, names: tuple[str, str]) -> Change:
-    old, new = names
-    aliases = [use.alias for use in design.uses if use.component == old]
-    uses = tuple(replace(use, component=new) if use.component == old else use for use in design.uses)
+def _user_change(design: Design, file: Path, new: str) -> Change:
+    aliases = [use.alias for use in design.uses if use.component == new]
     text = _read(file)
-    words = f"{design.component} uses {new} as {', '.join(aliases)}"
-    return Change(file=file, old=text, new=save_design(replace(design, uses=uses), text), words=words)
+    words = f"{design.component} uses {new} as {', '.join(aliases)}" if aliases else f"{design.component} says {new}"
+    return Change(file=file, old=text, new=save_design(design, text), words=words)
 
 
 def _project_change(folder: Path, names: tuple[str, str]) -> Change | None:
