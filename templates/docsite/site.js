@@ -165,6 +165,8 @@
 
   if (box) {
     box.hidden = false;
+    // Where there is little room there is no key either.
+    if (matchMedia("(max-width: 800px)").matches) field.placeholder = "Search";
     field.addEventListener("focus", loadEntries);
     field.addEventListener("input", search);
     field.addEventListener("keydown", onSearchKey);
@@ -447,6 +449,11 @@
   }
   window.addEventListener("hashchange", showTarget);
   showTarget();
+
+  // Of a long menu the part with this page is shown.
+  const menu = document.querySelector(".menu");
+  const here = menu?.querySelector("[aria-current]");
+  if (here && here.offsetTop + here.offsetHeight > menu.clientHeight) menu.scrollTop = here.offsetTop - menu.clientHeight / 2;
 
   // Wide screens show the menu without opening it, where the style sheet can say so.
   const showsClosed = window.CSS?.supports?.("selector(::details-content)");

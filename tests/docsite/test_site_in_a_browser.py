@@ -240,6 +240,28 @@ def test_the_menu_waits_to_be_opened_on_a_telephone(page: Page, site: Path) -> N
     expect(page.locator("h1")).to_have_text("Symbols")
 
 
+def test_on_paper_nothing_is_cut_off(page: Page, behavior_site: Path) -> None:
+    page.set_viewport_size({"width": 700, "height": 990})
+    page.emulate_media(media="print")
+    for name in ("index", "symbols", "agents", "component-opt0", "interfaces", "types"):
+        page.goto((behavior_site / f"{name}.html").as_uri())
+        assert page.evaluate("document.documentElement.scrollWidth") <= 700, name
+    page.goto((behavior_site / "index.html").as_uri())
+    # Groups of findings are closed on the screen.
+    expect(page.locator("details.finding-group:not([open]) .findings li").first).to_be_visible()
+    page.emulate_media(media="screen")
+    expect(page.locator("details.finding-group:not([open]) .findings li").first).not_to_be_visible()
+
+
+def test_a_long_menu_shows_where_one_is(page: Page, behavior_site: Path) -> None:
+    page.set_viewport_size({"width": 1366, "height": 500})
+    page.goto((behavior_site / "component-opt18.html").as_uri())
+    expect(page.locator(".menu [aria-current]")).to_be_in_viewport()
+    assert page.evaluate("scrollY") == 0
+    page.goto((behavior_site / "index.html").as_uri())
+    expect(page.locator(".menu [aria-current]")).to_be_in_viewport()
+
+
 def test_fingers_find_every_link_on_a_telephone(page: Page, site: Path) -> None:
     page.set_viewport_size({"width": 390, "height": 800})
     for name in KINDS:
