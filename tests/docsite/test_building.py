@@ -3,8 +3,10 @@
 import random
 import re
 import shutil
+from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import pytest
 from hypothesis import given, settings
@@ -14,6 +16,7 @@ from tests.docsite.crawling import broken_links
 from tests.docsite.editing import EDITS, FORWARD, Edit
 from vicode.check import check_project
 from vicode.cli import main
+from vicode.cli.subjects import read_subjects
 from vicode.docsite import (
     Manifest,
     OwnFinding,
@@ -21,12 +24,14 @@ from vicode.docsite import (
     SourceText,
     Subject,
     build_site,
+    generated,
     load_manifest,
     save_manifest,
     write_site,
 )
 from vicode.docsite.writing import tool_digest
 from vicode.findings import Severity
+from vicode.generators import ComponentText
 from vicode.model.design import Design
 from vicode.model.project import Project
 from vicode.output import OutputFile
@@ -222,3 +227,44 @@ def test_a_behavior_of_one_agent_is_called_as_that(tmp_path: Path) -> None:
     (title,) = re.findall(r'agent \w+\("([^"]+)"', agents.read_text("utf-8"))
     assert main(["docs", str(agents), "--out", str(tmp_path / "site")]) == 0
     assert f"<h1><bdi>{title}</bdi></h1>" in (tmp_path / "site" / "index.html").read_text("utf-8")
+
+
+@pytest.mark.parametrize("name", ["forward", "p1"])
+def test_a_single_file_is_the_one_of_the_whole_site(name: str) -> None:
+    program = ROOT / "tests" / "xabsl" / "cases" / "programs" / "p1" / "agents.xabsl"
+    (reading,) = read_subjects([program])
+    subject = subject_of_model(FORWARD) if name == "forward" else reading.subject
+    assert subject is not None
+    with SiteBuilder() as builder, SiteBuilder() as other:
+        find = builder.open(subject)
+        for planned in other.plan(subject):
+            found = find(planned.path)
+            assert found is not None, planned.path
+            assert (found.path, found.key, found.make()) == (planned.path, planned.key, planned.make())
+        assert [find(path) for path in ("nothing.html", "component-Nobody.html", "python-Nobody.html", "")] == [
+            None
+        ] * 4
+
+
+def test_a_single_page_is_made_without_the_texts_of_others(monkeypatch: pytest.MonkeyPatch) -> None:
+    written: list[str] = []
+    begin = generated.component_texts
+
+    def listening(*given: Any) -> Callable[[Design], ComponentText | None]:
+        write = begin(*given)
+        return lambda design: written.append(design.component) or write(design)
+
+    monkeypatch.setattr(generated, "component_texts", listening)
+    with SiteBuilder() as builder:
+        find = builder.open(subject_of_model(FORWARD))
+        assert find("index.html") is not None
+        assert written == []
+        page = find("component-Player.html")
+        assert page is not None
+        assert "python-Player.html" in page.make()
+        assert set(written) == {"Player"}
+        # A page that was found before is not looked for again, and what it was made from is still known later.
+        assert find("component-Player.html") is page
+        count = len(written)
+        assert builder.open(subject_of_model(FORWARD))("component-Player.html") is not None
+        assert len(written) == count

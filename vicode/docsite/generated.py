@@ -13,6 +13,7 @@ from vicode.docsite.subject import Subject
 from vicode.docsite.views import CodeView, Part
 from vicode.findings import Path
 from vicode.generators import GENERATORS, ComponentText, Origin, component_texts
+from vicode.model.design import Design
 
 _LINKED = ("states", "common", "parameters", "outputs", "variables")
 
@@ -34,24 +35,50 @@ class Text:
         return "Source" if self.form == "source" else TITLES.get(self.form, self.form)
 
 
-def texts_of(subject: Subject, unsaid: Unsaid, memory: Memory) -> dict[str, tuple[Text, ...]]:
-    """All texts by component: what somebody wrote, and what is generated where nothing stands in the way."""
-    texts: dict[str, list[Text]] = {}
-    for name, source in subject.sources.items():
-        text = Text(
-            component=name,
-            form="source",
-            path=source.path,
-            text=source.text,
-            language=source.language,
-            lines=source.lines,
-        )
-        texts.setdefault(name, []).append(text)
-    outside = digest_of(outside_of(subject.project))
-    for language in GENERATORS:
-        for text in _generated(subject, language, faulty_in(subject, language, unsaid), (outside, memory)):
-            texts.setdefault(text.component, []).append(text)
-    return {name: tuple(found) for name, found in texts.items()}
+class Texts:
+    """All texts by component: what somebody wrote, and what is generated where nothing stands in the way.
+
+    Those of a component are made when they are asked for, which takes longer than all the rest of its page.
+    """
+
+    def __init__(self, subject: Subject, unsaid: Unsaid, memory: Memory) -> None:
+        project = subject.project
+        self._subject, self._memory = subject, memory
+        self._outside = digest_of(outside_of(project))
+        self._sources = {name: source.path for name, source in subject.sources.items() if name}
+        self._faulty = {language: faulty_in(subject, language, unsaid) for language in GENERATORS}
+        self._write = {language: component_texts(project, language, self._sources) for language in GENERATORS}
+        self._made: dict[str, tuple[Text, ...]] = {}
+        self.names = tuple(dict.fromkeys([*subject.sources, *(design.component for design in project.designs)]))
+
+    def of(self, name: str) -> tuple[Text, ...]:
+        """The texts of a component, "" for those of the project."""
+        if name not in self._made:
+            self._made[name] = (*self._source(name), *self._generated(self._subject.project.design(name)))
+        return self._made[name]
+
+    def _source(self, name: str) -> Iterator[Text]:
+        source = self._subject.sources.get(name)
+        if source:
+            yield Text(
+                component=name,
+                form="source",
+                path=source.path,
+                text=source.text,
+                language=source.language,
+                lines=source.lines,
+            )
+
+    def _generated(self, design: Design | None) -> Iterator[Text]:
+        """The text in each language in which nothing is wrong with it."""
+        for language in GENERATORS:
+            if design is None or design.component in self._faulty[language]:
+                continue
+            used = tuple(self._subject.project.interface(use.component) for use in design.uses)
+            key = (language, design, used, self._sources.get(design.component, ""), self._outside)
+            written = self._memory.recall("text", key, partial(self._write[language], design))
+            if written is not None:
+                yield _text_of(design.component, language, written)
 
 
 def places_in(texts: tuple[Text, ...], addresses: Addresses) -> dict[Path, tuple[Part, ...]]:
@@ -96,21 +123,6 @@ def text_links(texts: tuple[Text, ...], addresses: Addresses) -> tuple[Part, ...
     return tuple(
         Part(text=each.title, href=addresses.code(each.component, each.form), title=each.path) for each in texts
     )
-
-
-def _generated(subject: Subject, language: str, faulty: frozenset[str], known: tuple[str, Memory]) -> Iterator[Text]:
-    """The text of each component that nothing is wrong with; `known` are what it sees of the others, and the memory."""
-    project, (outside, memory) = subject.project, known
-    sources = {name: source.path for name, source in subject.sources.items() if name}
-    write = component_texts(project, language, sources)
-    for design in project.designs:
-        if design.component in faulty:
-            continue
-        used = tuple(project.interface(use.component) for use in design.uses)
-        key = (language, design, used, sources.get(design.component, ""), outside)
-        written = memory.recall("text", key, partial(write, design))
-        if written is not None:
-            yield _text_of(design.component, language, written)
 
 
 def _text_of(component: str, language: str, written: ComponentText) -> Text:

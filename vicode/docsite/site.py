@@ -2,14 +2,14 @@
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, replace
-from functools import partial
+from functools import cache, partial
 
 from vicode.diagram.layout import LayoutService
 from vicode.docsite.addresses import AGENTS, EVERYTHING, HOME, INTERFACES, SYMBOLS, TYPES, Addresses
 from vicode.docsite.components import Made, component_view
 from vicode.docsite.docs import summary_of
 from vicode.docsite.drawings import draw_uses, laid_out
-from vicode.docsite.generated import Text, code_view, places_in, text_links, texts_of, title_of
+from vicode.docsite.generated import Text, Texts, code_view, places_in, text_links, title_of
 from vicode.docsite.interfaces import (
     constant_table,
     enumeration_views,
@@ -29,6 +29,7 @@ from vicode.docsite.searching import entries_of, search_script
 from vicode.docsite.subject import Subject
 from vicode.docsite.views import Page, Part
 from vicode.docsite.writing import PlannedFile
+from vicode.generators import GENERATORS
 from vicode.model.design import Design
 from vicode.model.project import Agent, Project
 from vicode.output import OutputFile
@@ -37,7 +38,7 @@ from vicode.templating import render, text_of
 Views = dict[str, object]
 """What a template sees, by name."""
 
-_ASSETS = ("site.css", "site.js")
+_ASSETS, _SEARCH = ("site.css", "site.js"), "search.js"
 
 
 def build_site(subject: Subject) -> tuple[OutputFile, ...]:
@@ -58,14 +59,23 @@ class SiteBuilder:
 
         In Markdown all are made at once, since only the pages know how many pictures there are.
         """
-        whole = replace(subject, project=laid_out(subject.project, self._service, self._memory))
-        planner = _planner_of(whole, self._memory)
+        planner = self._planner(subject)
+        files = tuple(planner.files())
         self._memory.forget_unasked()
-        files = [*planner.overview(), *planner.interfaces(), *planner.components(), *planner.codes()]
         if is_markdown:
             return tuple(_plain_file(each.path, each.text) for each in markdown_files(planner.contents))
-        files += [_plain_file(name, text_of(f"docsite/{name}")) for name in _ASSETS]
         return tuple(sorted(files, key=lambda file: file.path))
+
+    def open(self, subject: Subject) -> Callable[[str], PlannedFile | None]:
+        """What finds single files of a site by their paths, each made from as little as it needs; None for no file."""
+        # What was asked of the one before is remembered until the next.
+        self._memory.forget_unasked()
+        planner = self._planner(subject)
+        return cache(lambda path: next((each for each in planner.files(path) if each.path == path), None))
+
+    def _planner(self, subject: Subject) -> "_Planner":
+        whole = replace(subject, project=laid_out(subject.project, self._service, self._memory))
+        return _planner_of(whole, self._memory)
 
     def close(self) -> None:
         """End the process that lays designs out."""
@@ -84,7 +94,7 @@ class _Planner:
 
     subject: Subject
     addresses: Addresses
-    texts: dict[str, tuple[Text, ...]]
+    texts: Texts
     unsaid: Unsaid
     menu: tuple[Part, ...]
     machines: tuple[Part, ...]
@@ -92,8 +102,24 @@ class _Planner:
     contents: list[Content] = field(default_factory=list)
     _menus: list[str] = field(default_factory=list)
 
-    def overview(self) -> Iterator[PlannedFile]:
+    def files(self, only: str = "") -> Iterator[PlannedFile]:
+        """All files, or some of those among which the one with a path is."""
+        if only not in {each.path for each in self._assets()}:
+            yield from self.overview(only)
+            yield from self.interfaces(only)
+            yield from self.components(only)
+            yield from self.codes(only)
+        yield from self._assets()
+
+    def _assets(self) -> Iterator[PlannedFile]:
+        for name in _ASSETS:
+            yield _plain_file(name, text_of(f"docsite/{name}"))
+
+    def overview(self, only: str = "") -> Iterator[PlannedFile]:
         """The pages about the whole, and what the search looks through."""
+        agents = {self.addresses.agent(agent.name) for agent in self.subject.project.agents}
+        if only and only not in {HOME, AGENTS, EVERYTHING, _SEARCH, *agents}:
+            return
         project, addresses = self.subject.project, self.addresses
         bones = skeleton_of(project)
         maps, home = digest_of(bones), home_view(self.subject, addresses)
@@ -110,10 +136,13 @@ class _Planner:
             yield self._page(head, "agent", (maps, agent.name), partial(_agent, bones, agent, addresses))
         entries = entries_of(project, addresses, self.subject.name)
         yield self._viewed(_head(EVERYTHING, "Everything"), "all", entries=entries)
-        yield PlannedFile(path="search.js", key=digest_of(entries), make=partial(search_script, entries))
+        yield PlannedFile(path=_SEARCH, key=digest_of(entries), make=partial(search_script, entries))
 
-    def interfaces(self) -> Iterator[PlannedFile]:
+    def interfaces(self, only: str = "") -> Iterator[PlannedFile]:
         """The pages about what designs know and share; none about what there is nothing of."""
+        pages = {self.addresses.component(each.component) for each in self.subject.project.components}
+        if only and only not in {INTERFACES, SYMBOLS, TYPES, *pages}:
+            return
         known = known_of(self.subject, self.addresses)
         project = known.project
         if project.components:
@@ -128,11 +157,13 @@ class _Planner:
             types, constants = tuple(enumeration_views(known)), constant_table(known)
             yield self._viewed(_head(TYPES, "Types and constants"), "types", enumerations=types, constants=constants)
 
-    def components(self) -> Iterator[PlannedFile]:
+    def components(self, only: str = "") -> Iterator[PlannedFile]:
         """A page a design."""
         for design in self.subject.project.designs:
             name = design.component
-            texts = self.texts.get(name, ())
+            if only not in ("", self.addresses.component(name)):
+                continue
+            texts = self.texts.of(name)
             written = {text.form: text.path for text in texts}
             made = Made(
                 subject=part_around(self.subject, design),
@@ -145,9 +176,12 @@ class _Planner:
             head = _head(self.addresses.component(name), name)
             yield self._page(head, "component", key, partial(_component, design, made))
 
-    def codes(self) -> Iterator[PlannedFile]:
+    def codes(self, only: str = "") -> Iterator[PlannedFile]:
         """A page a text."""
-        for name, texts in self.texts.items():
+        for name in self.texts.names:
+            if only and only not in {self.addresses.code(name, form) for form in ("source", *GENERATORS)}:
+                continue
+            texts = self.texts.of(name)
             component = Part(text=name or self.subject.name, href=self.addresses.component(name) or HOME)
             links = text_links(texts, self.addresses)
             for text in texts:
@@ -180,8 +214,8 @@ class _Planner:
 
 def _planner_of(subject: Subject, memory: Memory) -> _Planner:
     project, unsaid = subject.project, unsaid_in(subject)
-    addresses, texts = Addresses(project), texts_of(subject, unsaid, memory)
-    menu, machines = tuple(_menu(project, addresses, has_file="" in texts)), tuple(_machines(project, addresses))
+    addresses, texts = Addresses(project), Texts(subject, unsaid, memory)
+    menu, machines = tuple(_menu(project, addresses, has_file="" in texts.names)), tuple(_machines(project, addresses))
     return _Planner(
         subject=subject,
         addresses=addresses,

@@ -2,6 +2,7 @@
 
 import contextlib
 import threading
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from html import escape
 from pathlib import Path
@@ -28,9 +29,9 @@ _FOLLOW = Path(__file__).with_name("follow.js")
 class _Site:
     """The site of one project, planned anew when the project is another one."""
 
-    builder: "SiteBuilder"
+    builder: "SiteBuilder | None" = None
     shown: "Snapshot | None" = None
-    planned: "dict[str, PlannedFile]" = field(default_factory=dict)
+    find: "Callable[[str], PlannedFile | None]" = lambda _path: None
     lock: threading.Lock = field(default_factory=threading.Lock)
 
     def file(self, snapshot: "Snapshot", path: str, *, is_made: bool) -> tuple[str, str] | None:
@@ -39,13 +40,16 @@ class _Site:
         Raises:
             OSError: The project is gone.
         """
+        from vicode.docsite import SiteBuilder
         from vicode.editor.session.described import subject_at
 
         with self.lock:
+            self.builder = self.builder or SiteBuilder()
             if snapshot != self.shown:
-                self.planned = {each.path: each for each in self.builder.plan(subject_at(snapshot))}
+                # Only the page that is asked for is drawn: nobody waits for those of all the others.
+                self.find = self.builder.open(subject_at(snapshot))
                 self.shown = snapshot
-            found = self.planned.get(path)
+            found = self.find(path)
             return None if found is None else (found.key, found.make() if is_made else "")
 
 
@@ -55,7 +59,6 @@ def serve_site_pages(library: Library) -> None:
 
     @app.api_route("/docs/{key}/{path}", methods=["GET", "HEAD"])
     async def page(key: str, path: str, request: Request) -> Response:
-        from vicode.docsite import SiteBuilder, missing_page
         from vicode.editor.session.described import snapshot_of
 
         workspace = library.workspace(key)
@@ -66,11 +69,13 @@ def serve_site_pages(library: Library) -> None:
         with contextlib.suppress(OSError):
             workspace.glance()
         if key not in sites:
-            sites[key] = _Site(SiteBuilder())
+            sites[key] = _Site()
         found = None
         with contextlib.suppress(OSError):
             found = await run.io_bound(sites[key].file, snapshot_of(workspace), path, is_made=request.method == "GET")
         if found is None:
+            from vicode.docsite import missing_page
+
             return _answer("missing.html", missing_page(name=workspace.project.name), "missing", status=404)
         mark, text = found
         return _answer(path, text, mark)
@@ -78,7 +83,8 @@ def serve_site_pages(library: Library) -> None:
     @app.on_shutdown
     def close() -> None:
         for site in sites.values():
-            site.builder.close()
+            if site.builder:
+                site.builder.close()
 
 
 def page_command(desk: Desk) -> Command:
