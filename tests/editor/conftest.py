@@ -16,6 +16,8 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import Page
 
+from tests.editor.slow_line import SlowLine
+
 ROOT = Path(__file__).parents[2]
 
 
@@ -32,6 +34,12 @@ def editor(project: Path, tmp_path: Path) -> Iterator[str]:
     """The URL of an editor started as a user would start it."""
     with started_editor(project, tmp_path / "storage") as url:
         yield url
+
+
+@pytest.fixture
+def line(page: Page) -> SlowLine:
+    """What lies between the page and the editor."""
+    return SlowLine(page)
 
 
 @pytest.fixture

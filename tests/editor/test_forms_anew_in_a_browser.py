@@ -3,45 +3,12 @@
 from pathlib import Path
 
 import pytest
-from playwright.sync_api import Locator, Page, WebSocketRoute, expect
+from playwright.sync_api import Locator, Page, expect
 
 from tests.editor.player_page import open_player, save, select_state, state
+from tests.editor.slow_line import SlowLine
 
 expect.set_options(timeout=20_000)
-
-
-class SlowLine:
-    """What the server says to a page can be held back; what the page says arrives at once."""
-
-    def __init__(self, page: Page) -> None:
-        self.is_held = False
-        self.waiting: list[tuple[WebSocketRoute, str | bytes]] = []
-        page.route_web_socket("**/*", self._connect)
-
-    def hold(self) -> None:
-        self.is_held = True
-
-    def let_go(self) -> None:
-        self.is_held = False
-        for route, message in self.waiting:
-            route.send(message)
-        self.waiting.clear()
-
-    def _connect(self, route: WebSocketRoute) -> None:
-        server = route.connect_to_server()
-
-        def pass_on(message: str | bytes) -> None:
-            if self.is_held:
-                self.waiting.append((route, message))
-            else:
-                route.send(message)
-
-        server.on_message(pass_on)
-
-
-@pytest.fixture
-def line(page: Page) -> SlowLine:
-    return SlowLine(page)
 
 
 def rename_kick(page: Page, url: str, line: SlowLine) -> None:

@@ -10,6 +10,7 @@ import { Levels } from "./levels.js";
 import { Menu } from "./menu.js";
 import { arrive, remember } from "./memory.js";
 import { Minimap } from "./minimap.js";
+import { Nudging } from "./nudging.js";
 import { Painter } from "./painter.js";
 import { Peek } from "./peek.js";
 import { People } from "./people.js";
@@ -43,7 +44,6 @@ class Canvas {
     this.activeSeq = -1;
     this.told = 0;
     this.fitPending = true;
-    this.nudged = null;
     this.frame = new Frame();
     this.scene = new Scene();
     this.router = new Router(this.scene);
@@ -60,6 +60,7 @@ class Canvas {
     this.painter.clear();
     this.router.clear();
     this.scene.load(view);
+    this.nudging.forget();
     this.theme.set(view.theme);
     this.fitPending = this.fitPending || !same;
     this.selection.keys = new Set();
@@ -72,6 +73,7 @@ class Canvas {
 
   apply(changes) {
     const change = this.scene.apply(changes);
+    this.nudging.hear();
     this.painter.refresh(change);
     if (this.selection.prune()) this.painter.mark("selected", this.selection.keys);
     this.gestures.sceneChanged();
@@ -163,7 +165,7 @@ class Canvas {
 
   /** Sends one gesture to Python. */
   report(kind, payload) {
-    if (kind !== "move") this.nudged = null;
+    if (kind !== "move") this.nudging.forget();
     this.emit("gesture", { kind, ...payload, rev: this.scene.rev });
   }
 
@@ -286,6 +288,7 @@ class Canvas {
     const above = [this.empty, this.message, this.rename.input, corner, this.peek.element, this.menu.element];
     this.stage.append(this.dots, ...this.levels.elements, ...this.people.elements, ...above);
     this.keyboard = new Keyboard(this);
+    this.nudging = new Nudging(this);
   }
 
   #wire() {

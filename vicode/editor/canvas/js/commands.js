@@ -6,7 +6,6 @@ import { nearest, walkOf } from "./walking.js";
 
 const ARROWS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
 const PAN = 60;
-const ECHO_MS = 400;
 
 export class Commands {
   constructor(canvas, table) {
@@ -148,16 +147,7 @@ function nudge(canvas, boxes, [dx, dy], by) {
   const edge = scene.edges.get(selection.single());
   if (edge?.of === "transitions" && scene.isDrawable(edge)) return nudgeLabel(canvas, edge, dx * by, dy * by);
   if (!boxes.length) return viewport.panBy(-dx * PAN, -dy * PAN);
-  canvas.moveTo(stepped(canvas, boxes, dx * by, dy * by), "nudge");
-}
-
-/** A step further from where the last one led: its echo may still be on the way, and an older one may have come since. */
-function stepped(canvas, boxes, dx, dy) {
-  const isFresh = canvas.nudged && performance.now() - canvas.nudged.time < ECHO_MS;
-  const from = isFresh ? canvas.nudged.places : new Map();
-  const places = new Map(boxes.map(({ key, x, y }) => [key, from.get(key) ?? { x, y }]).map(([key, at]) => [key, { x: at.x + dx, y: at.y + dy }]));
-  canvas.nudged = { places, time: performance.now() };
-  return places;
+  canvas.moveTo(canvas.nudging.step(boxes, dx * by, dy * by), "nudge");
 }
 
 /** Tab goes through the things in the order of the design; past the last it leaves the canvas. */

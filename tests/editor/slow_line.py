@@ -1,0 +1,51 @@
+"""A line between page and server that can be slow."""
+
+import time
+
+from playwright.sync_api import Page, WebSocketRoute
+
+
+class SlowLine:
+    """What the server says to a page can be held back; what the page says arrives at once."""
+
+    def __init__(self, page: Page) -> None:
+        self.is_held = False
+        self.waiting: list[tuple[WebSocketRoute, str | bytes]] = []
+        page.route_web_socket("**/*", self._connect)
+
+    def hold(self) -> None:
+        self.is_held = True
+
+    def let_go(self) -> None:
+        """Hand on all that waits, and all that comes from now on."""
+        self.is_held = False
+        self._send(len(self.waiting))
+
+    def let_through(self, page: Page, words: str) -> None:
+        """Hand on what waits, up to the first message that says these words; it may be on the way still."""
+        until_s = time.monotonic() + 20
+        while not (found := [at for at, (_route, said) in enumerate(self.waiting) if words in _plain(said)]):
+            assert time.monotonic() < until_s, [str(said)[:300] for _route, said in self.waiting]
+            page.wait_for_timeout(20)
+        self._send(found[0] + 1)
+
+    def _send(self, count: int) -> None:
+        for route, message in self.waiting[:count]:
+            route.send(message)
+        del self.waiting[:count]
+
+    def _connect(self, route: WebSocketRoute) -> None:
+        server = route.connect_to_server()
+
+        def pass_on(message: str | bytes) -> None:
+            if self.is_held:
+                self.waiting.append((route, message))
+            else:
+                route.send(message)
+
+        server.on_message(pass_on)
+
+
+def _plain(said: str | bytes) -> str:
+    """Without what quotes need in the texts in texts."""
+    return str(said).replace("\\", "")
