@@ -211,18 +211,18 @@
       const tools = document.createElement("div");
       tools.className = "tools";
       if (this.nodes.size > MOST_SEEN_AT_ONCE) tools.append(...this.finder());
-      const add = (sign, title, act) => {
+      const add = (sign, title, act, name = title) => {
         const button = document.createElement("button");
         button.type = "button";
         button.append(sign);
         button.title = title;
-        button.setAttribute("aria-label", title);
+        button.setAttribute("aria-label", name);
         button.addEventListener("click", act);
         tools.append(button);
       };
       add("+", "Zoom in (+)", () => this.zoom(1 / ZOOM_STEP));
       add("−", "Zoom out (-)", () => this.zoom(ZOOM_STEP));
-      add("Fit", "Show all of it (0)", () => this.fit());
+      add("Fit", "Show all of it (0)", () => this.fit(), "Fit: show all of it (0)");
       if (document.fullscreenEnabled) add(frameSign(), "Full screen (F)", () => this.toggleFullScreen());
       this.frame.prepend(tools);
     }

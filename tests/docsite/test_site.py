@@ -242,7 +242,9 @@ def test_the_same_project_gives_the_same_bytes(forward: tuple[OutputFile, ...], 
 
 def test_docs_are_markdown_without_danger() -> None:
     html = html_of("# Title\n\n*soft* [evil](javascript:x) [page](gone.html) ![p](http://x/y.png) <b>x</b>\n\n- `a`")
-    assert "<h4>Title</h4>" in html
+    assert "<h2>Title</h2>" in html
+    inner = html_of("## One\n\n### Two\n\n###### Last", below=3)
+    assert [inner.count(f"<h{level}>") for level in (4, 5, 6)] == [1, 1, 1]
     assert "<em>soft</em>" in html
     assert "<li>" in html
     assert re.findall(r'href="([^"]*)"', html) == ["http://x/y.png"]

@@ -8,16 +8,15 @@ from markdown_it import MarkdownIt
 _ALLOWED = re.compile(r"(?i)(https?://|mailto:)")
 # Words without any of these are said plainly already.
 _MARKUP = re.compile(r"[*_`\[\\&<]")
-# A doc stands below the headings of its page.
-_DEEPER = 3
 
 
-def html_of(text: str) -> str:
-    """A doc of paragraphs, lists and the like."""
+def html_of(text: str, below: int = 1) -> str:
+    """A doc of paragraphs, lists and the like; its highest headings stand one level below that of what it is about."""
     tokens = _markdown().parse(text)
-    for token in tokens:
-        if token.type in ("heading_open", "heading_close"):
-            token.tag = f"h{min(6, int(token.tag[1]) + _DEEPER)}"
+    headings = [token for token in tokens if token.type in ("heading_open", "heading_close")]
+    highest = min((int(token.tag[1]) for token in headings), default=1)
+    for token in headings:
+        token.tag = f"h{min(6, int(token.tag[1]) - highest + below + 1)}"
     rendered: str = _markdown().renderer.render(tokens, _markdown().options, {})
     return rendered
 

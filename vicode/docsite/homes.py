@@ -39,6 +39,6 @@ def _row(folder: str, subject: Subject) -> HomeRow:
     return HomeRow(
         site=Part(text=subject.name, href=f"{folder}/{HOME}"),
         folder=folder,
-        doc_html=html_of(project.doc),
+        doc_html=html_of(project.doc, below=2),
         facts=tuple(f"{count} {word}{'s' * (count != 1)}" for count, word in counts if count),
     )

@@ -108,7 +108,7 @@ def enumeration_views(known: Known) -> Iterator[EnumerationView]:
         yield EnumerationView(
             anchor=anchor,
             name=each.name,
-            doc_html=html_of(each.doc),
+            doc_html=html_of(each.doc, below=2),
             elements=tuple((f"{anchor}-{slug(name)}", name, line_html_of(doc)) for name, doc in each.elements),
             facts=tuple(_facts_of_type(each)),
             declares=listed(_declared_of(each.name, known)),
