@@ -68,7 +68,7 @@ def look_at_names(page: Page, editor: str) -> None:
     link = page.get_by_role("link", name="Wave")
     if link.count():
         link.click()
-        expect(page.get_by_role("heading", name="Wave")).to_be_visible()
+        expect(page.get_by_role("heading", name="Wave", exact=True)).to_be_visible()
         expect(page.locator(".vicode-canvas[data-ready]")).to_be_attached()
         assert_harmless(page)
     page.goto(editor)

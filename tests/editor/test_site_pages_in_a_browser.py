@@ -30,6 +30,8 @@ def test_the_page_of_a_design_follows_what_is_edited(editor: str, page: Page, pr
     # The other pages of the site are there, too, and its search.
     shown.get_by_role("link", name="SearchBall").first.click()
     expect(shown.get_by_role("heading", name="SearchBall", exact=True).first).to_be_visible()
+    # Its script hears keys from then on.
+    shown.wait_for_load_state()
     shown.keyboard.press("/")
     shown.keyboard.type("shoots")
     expect(shown.get_by_role("option").first).to_contain_text("Kick")
