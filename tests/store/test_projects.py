@@ -105,3 +105,12 @@ def test_a_design_in_another_encoding_is_not_passed_over(tmp_path: Path) -> None
     project = open_project(tmp_path)
     assert project.broken == (tmp_path / "player.yaml",)
     assert [finding.rule.code for finding in project.findings] == ["Y110"]
+
+
+def test_a_file_that_says_the_same_is_not_parsed_again(tmp_path: Path) -> None:
+    _write(tmp_path, a=_design("A"), b=_design("B"))
+    before = open_project(tmp_path)
+    _write(tmp_path, b=_design("B") + "doc: other\n")
+    after = open_project(tmp_path)
+    assert after.sources["A"] is before.sources["A"]
+    assert [design.doc for design in after.project.designs] == ["", "other"]

@@ -25,6 +25,9 @@ SUFFIXES = (".yaml", ".yml")
 _LOOKS_LIKE_DESIGN = re.compile(rb"^(vicode|component|states)[ \t]*:", re.MULTILINE)
 _SKIPPED_FOLDERS = {"node_modules", "__pycache__", "site-packages"}
 _LEVELS_ABOVE = 8
+# What each file said when it was read last, by its content and the name that messages give it.
+_MOST_KNOWN = 4096
+_known: dict[Path, tuple[bytes, str, ReadDesign]] = {}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -143,7 +146,7 @@ class _Opening:
             return
         if not is_meant and not _looks_like_design(content):
             return
-        read = read_design(content, shown_path(file))
+        read = _read_again(file, content)
         self.findings += read.findings
         if read.design is None:
             self.broken.append(file)
@@ -186,6 +189,19 @@ class _Opening:
         report.add("Y110", f"the file cannot be read: {error.strerror}", (0, 1))
         self.findings += report.findings
         self.broken.append(file)
+
+
+def _read_again(file: Path, content: bytes) -> ReadDesign:
+    """Read a design; a file that says what it said before is not parsed anew, so that large projects open again at once."""
+    place, shown = file.absolute(), shown_path(file)
+    known = _known.get(place)
+    if known is not None and known[:2] == (content, shown):
+        return known[2]
+    if len(_known) >= _MOST_KNOWN:
+        _known.clear()
+    read = read_design(content, shown)
+    _known[place] = (content, shown, read)
+    return read
 
 
 def _content(file: Path) -> bytes:
