@@ -192,7 +192,7 @@ class _Opening:
 
 
 def _read_again(file: Path, content: bytes) -> ReadDesign:
-    """Read a design; a file that says what it said before is not parsed anew, so that large projects open again at once."""
+    """Read a design; a file that says what it said before is not parsed anew: large projects open again at once."""
     place, shown = file.absolute(), shown_path(file)
     known = _known.get(place)
     if known is not None and known[:2] == (content, shown):
