@@ -45,6 +45,9 @@ def test_axe_finds_nothing(editor: str, page: Page, colours: str) -> None:
     page.emulate_media(color_scheme="dark" if colours == "dark" else "light", reduced_motion="reduce")
     open_player(page, editor)
     found = {"design": complaints(page)}
+    page.get_by_label("Inspector").get_by_text("Project Forward").click()
+    expect(page.get_by_label("Name of the project")).to_be_visible()
+    found["project"] = complaints(page, ".inspector")
     box = page.locator('g[data-id="WatchBall"] rect.box').bounding_box()
     assert box is not None
     page.mouse.click(box["x"] + box["width"] / 2, box["y"] + 8)
