@@ -1,5 +1,6 @@
 """Starts the editor's server: one process, this machine only unless told otherwise."""
 
+import ast
 import asyncio
 import gc
 import os
@@ -73,7 +74,10 @@ def serve(path: Path, address: Address, *, open_browser: bool = True, tour: bool
     from vicode.editor.session import Library
     from vicode.editor.session.keeper import Keeper
     from vicode.editor.session.recovery import open_recovery
+    from vicode.model.parsing import take_turns
 
+    # NiceGUI reads the quoted values of props by it, while code is parsed beside.
+    ast.literal_eval = take_turns(ast.literal_eval)
     library = Library(path)
     add_pages(library, Keeper(library, open_recovery()), tour=tour)
     _add_guard(app, address)

@@ -1,14 +1,19 @@
 """Python's own parser, in one thread at a time.
 
 While it makes objects of a tree CPython counts its depth in a place that all threads share: two at once end in
-"SystemError: AST constructor recursion depth mismatch" (seen in 3.11, with the editor checking while it generates).
+"SystemError: AST constructor recursion depth mismatch" (before 3.11.8 and 3.12.2; seen with the editor checking while
+it generates).
 """
 
 import ast
 import warnings
-from threading import Lock
+from collections.abc import Callable
+from functools import wraps
+from threading import RLock
+from typing import Any
 
-_ONE_AT_A_TIME = Lock()
+# Of the same thread it may be asked again: what the garbage collector ends may parse as well.
+_ONE_AT_A_TIME = RLock()
 
 
 def parse_module(source: str) -> ast.Module:
@@ -34,3 +39,14 @@ def compile_check(tree: ast.Module) -> None:
     with _ONE_AT_A_TIME, warnings.catch_warnings():
         warnings.simplefilter("ignore")
         compile(tree, "<code>", "exec", dont_inherit=True)
+
+
+def take_turns(parse: Callable[..., Any]) -> Callable[..., Any]:
+    """Another way to the same parser, that waits for its turn."""
+
+    @wraps(parse)
+    def waits(*args: Any, **kwargs: Any) -> Any:
+        with _ONE_AT_A_TIME:
+            return parse(*args, **kwargs)
+
+    return waits
