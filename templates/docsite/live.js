@@ -30,8 +30,15 @@
 
   function hear(event) {
     const news = JSON.parse(event.data);
-    if (news.changed.some(concerns)) location.reload();
+    if (news.changed.some(concerns)) reload();
     else show(news.errors);
+  }
+
+  // Who looks for something goes on first.
+  function reload() {
+    const field = document.activeElement;
+    if (field?.matches("#search") && field.value) field.addEventListener("blur", () => location.reload(), { once: true });
+    else location.reload();
   }
 
   // A browser has few connections to one server: pages that nobody sees leave them to the others.

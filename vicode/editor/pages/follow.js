@@ -5,10 +5,13 @@
   const mark = `"${document.currentScript.dataset.mark}"`;
   const PAUSE_MS = 1000;
 
+  // Who looks for something goes on.
+  const isSearched = () => Boolean(document.activeElement?.matches("#search") && document.activeElement.value);
+
   async function look() {
     try {
-      const isOld = !document.hidden && (await fetch(location.pathname, { method: "HEAD" })).headers.get("etag") !== mark;
-      if (isOld) return location.reload();
+      const isOld = !document.hidden && !isSearched() && (await fetch(location.pathname, { method: "HEAD" })).headers.get("etag") !== mark;
+      if (isOld && !isSearched()) return location.reload();
     } catch {
       // The editor was ended. What is shown stays.
     }
