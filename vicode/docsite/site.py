@@ -38,7 +38,16 @@ from vicode.templating import render, text_of
 Views = dict[str, object]
 """What a template sees, by name."""
 
-_ASSETS, _SEARCH = ("site.css", "site.js"), "search.js"
+_SEARCH = "search.js"
+_SCRIPT = """\
+/* vicode docs: search, and drawings that can be moved. Without it every page can be read all the same. */
+(() => {{
+"use strict";
+
+{}}})();
+"""
+# In this order: what is joined shares its names.
+_PARTS = ("finding", "drawing", "trees", "menu")
 
 
 def build_site(subject: Subject) -> tuple[OutputFile, ...]:
@@ -112,8 +121,9 @@ class _Planner:
         yield from self._assets()
 
     def _assets(self) -> Iterator[PlannedFile]:
-        for name in _ASSETS:
-            yield _plain_file(name, text_of(f"docsite/{name}"))
+        yield _plain_file("site.css", text_of("docsite/site.css"))
+        parts = "\n".join(text_of(f"docsite/js/{name}.js") for name in _PARTS)
+        yield _plain_file("site.js", _SCRIPT.format(parts))
 
     def overview(self, only: str = "") -> Iterator[PlannedFile]:
         """The pages about the whole, and what the search looks through."""
