@@ -11,6 +11,8 @@ from pathlib import Path
 
 import pytest
 
+from vicode.cli.docs_watch import changes_in
+
 ROOT = Path(__file__).parents[2]
 
 
@@ -85,6 +87,16 @@ def test_a_folder_that_is_put_in_the_place_of_another_is_followed(watching: Watc
     while "0 changed" in watching.lines[-1]:
         watching.wait_for("no findings")
     assert "state-Lit" in watching.page()
+
+
+def test_a_folder_in_the_place_of_another_is_known_though_it_could_have_its_number(tmp_path: Path) -> None:
+    folder = tmp_path / "Blink"
+    folder.mkdir()
+    changes = changes_in([folder])
+    next(changes)
+    folder.rmdir()
+    folder.mkdir()
+    assert next(changes, "over") == "over"
 
 
 def test_what_cannot_be_written_is_said_and_it_goes_on(watching: Watching) -> None:

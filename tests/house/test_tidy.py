@@ -74,7 +74,9 @@ FILES = _list_files()
 PYTHON = tuple(path for path in FILES if path.endswith(".py") and path.startswith(("vicode/", "tests/", "benchmarks/")))
 # Cases hold what generators are expected to write, from designs made to be difficult.
 PYTHON = tuple(path for path in PYTHON if "/cases/" not in path)
-JAVASCRIPT = tuple(path for path in FILES if path.endswith((".js", ".mjs")) and path.startswith(("vicode/", "templates/", "tests/")))
+JAVASCRIPT = tuple(
+    path for path in FILES if path.endswith((".js", ".mjs")) and path.startswith(("vicode/", "templates/", "tests/"))
+)
 PACKAGE = tuple(path for path in PYTHON if path.startswith("vicode/"))
 
 

@@ -1,11 +1,12 @@
 """`vicode docs --watch`: builds the site again after every change, and serves it to the browsers of this machine."""
 
 import gc
+import os
 import sys
 import time
 import webbrowser
 from collections.abc import Iterator, Sequence
-from contextlib import suppress
+from contextlib import ExitStack, suppress
 from pathlib import Path
 
 from watchfiles import Change, watch
@@ -104,24 +105,25 @@ class Watcher:
 
 def changes_in(folders: Sequence[Path]) -> Iterator[None]:
     """Comes back each time that a design or a behavior in these folders has changed; ends when a folder is another."""
-    known = {folder: _identity(folder) for folder in folders}
-    wanted = watch(
-        *(folder for folder, identity in known.items() if identity),
-        watch_filter=_is_meant,
-        step=_QUIET_MS,
-        debounce=_LONGEST_MS,
-        rust_timeout=_LOOK_MS,
-        yield_on_timeout=True,
-    )
-    # What changed before the watching began is found by looking once.
-    is_first = True
-    for changes in wanted:
-        if changes or is_first:
-            yield
-        is_first = is_first and bool(changes)
-        # One that was taken away tells nothing any more, nor does the one that is put in its place.
-        if known != {folder: _identity(folder) for folder in folders}:
-            return
+    with ExitStack() as stack, suppress(FileNotFoundError):
+        held = {folder: number for folder in folders if (number := _hold(folder, stack)) is not None}
+        wanted = watch(
+            *held,
+            watch_filter=_is_meant,
+            step=_QUIET_MS,
+            debounce=_LONGEST_MS,
+            rust_timeout=_LOOK_MS,
+            yield_on_timeout=True,
+        )
+        # What changed before the watching began is found by looking once.
+        is_first = True
+        for changes in wanted:
+            if changes or is_first:
+                yield
+            is_first = is_first and bool(changes)
+            # One that was taken away tells nothing any more, nor does the one that is put in its place.
+            if held != {folder: number for folder in folders if (number := _number_of(folder)) is not None}:
+                return
 
 
 def _is_meant(_change: Change, path: str) -> bool:
@@ -129,9 +131,20 @@ def _is_meant(_change: Change, path: str) -> bool:
     return file.suffix in _SUFFIXES and not file.name.startswith(".")
 
 
-def _identity(folder: Path) -> tuple[int, int] | None:
-    try:
-        status = folder.stat()
-    except OSError:
-        return None
+def _hold(folder: Path, stack: ExitStack) -> tuple[int, int] | None:
+    """The number of a folder, if it is there; as long as it is held open, the one in its place gets another."""
+    with suppress(OSError):
+        descriptor = os.open(folder, os.O_RDONLY)
+        stack.callback(os.close, descriptor)
+        return _number_in(os.fstat(descriptor))
+    return None
+
+
+def _number_of(folder: Path) -> tuple[int, int] | None:
+    with suppress(OSError):
+        return _number_in(folder.stat())
+    return None
+
+
+def _number_in(status: os.stat_result) -> tuple[int, int]:
     return status.st_dev, status.st_ino
