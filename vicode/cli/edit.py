@@ -22,9 +22,11 @@ def _port(text: str) -> int:
 
 def run(args: argparse.Namespace) -> int:
     """Serve the editor until it is ended."""
+    from vicode.cli.opening import refuse_other_files
     from vicode.editor.serve import choose_address, serve
 
     path = Path(args.path)
     path.stat()
+    refuse_other_files(path)
     serve(path, choose_address(args.host, args.port), open_browser=not args.no_open, tour=not args.no_tour)
     return 0

@@ -10,6 +10,9 @@ from vicode.findings import Finding, Severity
 if TYPE_CHECKING:
     from vicode.store import OpenProject
 
+DESIGNS = (".yaml", ".yml")
+BEHAVIORS = (".xabsl", ".yabsl")
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Opened:
@@ -62,6 +65,7 @@ def open_paths(paths: Sequence[str]) -> tuple[Opened, ...]:
     wanted: dict[Path, set[Path] | None] = {}
     for path in (Path(each) for each in paths):
         path.stat()
+        refuse_other_files(path)
         if path.is_dir():
             wanted.update(dict.fromkeys(find_projects(path)))
         elif path.name in ("project.yaml", "project.yml"):
@@ -74,6 +78,13 @@ def open_paths(paths: Sequence[str]) -> tuple[Opened, ...]:
     if not wanted:
         raise OSError(f"no designs in {', '.join(paths)}")
     return tuple(_open(folder, files) for folder, files in wanted.items())
+
+
+def refuse_other_files(path: Path) -> None:
+    """Raise OSError for a file that is no design."""
+    if path.is_file() and path.suffix not in DESIGNS:
+        way = "; 'vicode import' makes designs of a behavior in XABSL" if path.suffix in BEHAVIORS else ""
+        raise OSError(f"{path} is no design; name a design (.yaml), or a folder with designs{way}")
 
 
 def _open(folder: Path, files: set[Path] | None) -> Opened:

@@ -6,7 +6,7 @@ from functools import lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from vicode.cli.opening import Opened, open_paths
+from vicode.cli.opening import BEHAVIORS, DESIGNS, Opened, open_paths
 from vicode.findings import Finding, Severity
 
 if TYPE_CHECKING:
@@ -16,9 +16,6 @@ if TYPE_CHECKING:
     from vicode.xabsl.compiler import Compiled
     from vicode.xabsl.parser import Parsed
     from vicode.xabsl.sources import Source
-
-BEHAVIORS = (".xabsl", ".yabsl")
-DESIGNS = (".yaml", ".yml")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
