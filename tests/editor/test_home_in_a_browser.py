@@ -91,6 +91,18 @@ def test_a_new_design_begins_with_a_template(editor: str, page: Page, project: P
     assert "component: Knock" in (project / "forward" / "knock.yaml").read_text()
 
 
+def test_a_dialog_stays_while_somebody_else_changes_the_folder(editor: str, page: Page, project: Path) -> None:
+    open_home(page, editor)
+    page.get_by_role("button", name="New design").click()
+    dialog = page.get_by_role("dialog", name="New design in Forward")
+    dialog.get_by_label("Component").fill("Knock")
+    (project / "forward" / "wave.yaml").write_text("vicode: 1\ncomponent: Wave\nstates: {A: {}}\n")
+    expect(page.locator("article", has_text="Wave")).to_be_attached()
+    expect(dialog.get_by_label("Component")).to_have_value("Knock")
+    dialog.get_by_role("button", name="Create").click()
+    expect(page).to_have_url(re.compile(r"/Knock$"))
+
+
 def test_a_renaming_shows_what_changes_does_it_and_takes_it_back(
     editor: str, page: Page, second_window: Page, project: Path
 ) -> None:

@@ -52,6 +52,11 @@ def test_a_change_of_the_project_is_written_and_taken_back(workspace: Workspace,
     assert take_back(workspace, again) == "project.yaml was changed since"
     (folder / "project.yaml").write_text("vicode: [")
     assert change_project_file(workspace, change).refused == "project.yaml cannot be read"
+    latin_1 = 'vicode: 1\ndoc: "für"\n'.encode("latin-1")
+    (folder / "project.yaml").write_bytes(latin_1)
+    assert change_project_file(workspace, change).refused == "project.yaml cannot be read: it is not UTF-8"
+    assert take_back(workspace, again) == "project.yaml was changed since"
+    assert (folder / "project.yaml").read_bytes() == latin_1
     (folder / "project.yaml").unlink()
     # Without a file one is made; to take that back removes it.
     made = change_project_file(workspace, change)

@@ -15,3 +15,10 @@ def titled_dialog(title: str, look: str = "") -> Iterator[ui.dialog]:
         ui.label(title).classes("dialog-title").props("role=heading aria-level=2")
         yield dialog
     dialog.open()
+
+
+@contextmanager
+def lasting_dialog(title: str) -> Iterator[ui.dialog]:
+    """A dialog that stays when what was pressed for it is built anew, as a change by somebody else does."""
+    with ui.context.client.content, titled_dialog(title) as dialog:
+        yield dialog

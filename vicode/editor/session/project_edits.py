@@ -45,8 +45,11 @@ def change_project_file(
     file = project_file_in(workspace.folder)
     if file is not None and is_read_only(file):
         return Written(refused=f"{file.name} cannot be changed: read-only")
-    old = file.read_bytes().decode("utf-8") if file else None
     known = workspace.project
+    try:
+        old = file.read_bytes().decode("utf-8") if file else None
+    except UnicodeDecodeError:
+        return Written(refused="project.yaml cannot be read: it is not UTF-8")
     project = known if old is None else read_project_file(old, str(file)).project
     if project is None:
         return Written(refused="project.yaml cannot be read")
@@ -75,7 +78,7 @@ def take_back(workspace: Workspace, written: Written) -> str:
         OSError: The file cannot be read or written.
     """
     file = written.file
-    if file is None or not file.is_file() or file.read_bytes().decode("utf-8") != written.new:
+    if file is None or not file.is_file() or file.read_bytes() != written.new.encode():
         return "project.yaml was changed since"
     if written.old is None:
         file.unlink()
