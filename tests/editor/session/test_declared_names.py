@@ -219,3 +219,14 @@ def test_a_class_written_by_hand_is_pointed_out(workspace: Workspace) -> None:
     plan = plan_name(workspace, Declared(component="Head", section="outputs", name="pan"), "yaw")
     assert "that class is written by hand" in plan.note
     assert "project.yaml" in [change.file.name for change in plan.changes]
+
+
+def test_whoever_is_at_a_design_that_does_not_say_the_name_hears_of_a_new_one_too(workspace: Workspace) -> None:
+    turn = workspace.document("Turn")
+    assert turn is not None
+    heard: list[str] = []
+    turn.sheet.watchers.append(lambda by: heard.append(by.person))
+    thing = Declared(section="constants", name="net_x")
+    assert rename_in_files(workspace, plan_name(workspace, thing, "goal_x"), "someone") == ""
+    assert "someone" in heard
+    assert "goal_x" in [each.name for each in workspace.project.constants]

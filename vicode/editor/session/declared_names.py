@@ -156,10 +156,11 @@ def _write_all(workspace: Workspace, plan: NamePlan, act: Act) -> None:
         workspace.follow_disk(act)
     who = workspace.people.name_of(act.person) if act.person else "Somebody"
     for document in workspace.documents:
+        hand = Document(document.sheet, act.person)
         if document.file in act.files:
-            hand = Document(document.sheet, act.person)
             hand.announce(f"{who} renamed {words_of_declared(plan.thing)} to {plan.new} in {_count_files(act.files)}")
-            document.sheet.tell(hand)
+        # The form of every design shows what the project declares.
+        document.sheet.tell(hand)
 
 
 def _kind(thing: Declared) -> str:
