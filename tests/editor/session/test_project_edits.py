@@ -51,10 +51,13 @@ def test_a_change_of_the_project_is_written_and_taken_back(workspace: Workspace,
     (folder / "project.yaml").write_text(before["project.yaml"] + "# mine\n")
     assert take_back(workspace, again) == "project.yaml was changed since"
     (folder / "project.yaml").write_text("vicode: [")
-    assert change_project_file(workspace, change).refused == "project.yaml cannot be read"
+    assert change_project_file(workspace, change).refused.startswith("project.yaml cannot be read: a value is missing")
+    (folder / "project.yaml").write_text("# later\n")
+    empty = "project.yaml cannot be read: the file is empty; begin with 'vicode: 1'"
+    assert change_project_file(workspace, change).refused == empty
     latin_1 = 'vicode: 1\ndoc: "für"\n'.encode("latin-1")
     (folder / "project.yaml").write_bytes(latin_1)
-    assert change_project_file(workspace, change).refused == "project.yaml cannot be read: it is not UTF-8"
+    assert change_project_file(workspace, change).refused.endswith("is not UTF-8; save the file as UTF-8")
     assert take_back(workspace, again) == "project.yaml was changed since"
     assert (folder / "project.yaml").read_bytes() == latin_1
     (folder / "project.yaml").unlink()

@@ -35,8 +35,8 @@ def name_field(
 def take_declared(desk: Desk, thing: Declared, new: str) -> str:
     """Give a declared thing another name; returns why not.
 
-    What only the open design says is an edit of it. Else all that changes, and what a person must look at, is listed
-    first, and the name stays until that was agreed to.
+    What only the open design says is an edit of it; what nothing says but its own line is written at once. Else all
+    that changes, and what a person must look at, is listed first, and the name stays until that was agreed to.
     """
     plan = plan_name(desk.workspace, thing, new)
     if plan.refused:
@@ -44,8 +44,10 @@ def take_declared(desk: Desk, thing: Declared, new: str) -> str:
     design = plan.design
     if design is not None and not plan.by_hand:
         desk.edit(f"rename {thing.name} to {new}", lambda _design: design)
-        return ""
-    _ask(desk, plan)
+    elif plan.is_alone:
+        _rename_in_files(desk, plan)
+    else:
+        _ask(desk, plan)
     return ""
 
 
@@ -154,15 +156,21 @@ def _ask(desk: Desk, plan: NamePlan) -> None:
         def rename() -> None:
             if plan.design is not None:
                 _edit_as_planned(desk, plan)
-            elif carry_out(desk, plan):
-                whole = NewName(workspace=desk.workspace, thing=plan.thing, new=plan.new)
-                desk.offer_undo(f"{plan.thing.name} is {plan.new} now", lambda: _take_back(desk, whole))
+            else:
+                _rename_in_files(desk, plan)
             dialog.close()
 
         with ui.row().classes("dialog-buttons"):
             ui.button("Cancel", on_click=dialog.close).props("flat no-caps")
             primary_button("Rename everywhere" if plan.changes else "Rename", rename).props("autofocus")
     dialog.on("hide", dialog.delete)
+
+
+def _rename_in_files(desk: Desk, plan: NamePlan) -> None:
+    """Write it, and offer to take it back."""
+    if carry_out(desk, plan):
+        whole = NewName(workspace=desk.workspace, thing=plan.thing, new=plan.new)
+        desk.offer_undo(f"{plan.thing.name} is {plan.new} now", lambda: _take_back(desk, whole))
 
 
 def _edit_as_planned(desk: Desk, plan: NamePlan) -> None:

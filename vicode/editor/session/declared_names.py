@@ -42,6 +42,8 @@ class NamePlan:
     note: str = ""
     by_hand: tuple[str, ...] = ()
     """Where code says the name and it is not certain what it means there."""
+    is_alone: bool = False
+    """Whether nothing says the name but the line of project.yaml that declares it."""
 
 
 def words_of_declared(thing: Declared) -> str:
@@ -82,7 +84,10 @@ def plan_name(workspace: Workspace, thing: Declared, new: str) -> NamePlan:
     changes = [_design_change(workspace, design) for design in renamed.designs if design.component in touched]
     if file is not None:
         changes.append(_project_change(file, renamed))
-    return NamePlan(thing=thing, new=new, changes=tuple(changes), note=_note(project, thing), by_hand=by_hand)
+    plan = NamePlan(thing=thing, new=new, changes=tuple(changes), note=_note(project, thing), by_hand=by_hand)
+    only = changes[0] if len(changes) == 1 and file is not None else None
+    is_alone = only is not None and not plan.note and not by_hand and _changed_lines(only.old or "", only.new) == 1
+    return replace(plan, is_alone=is_alone)
 
 
 def rename_in_files(workspace: Workspace, plan: NamePlan, person: str = "") -> str:
@@ -250,9 +255,13 @@ def _project_change(file: Path, renamed: Project) -> Change:
     return Change(file=file, old=text, new=new, words=f"the project: {_count_lines(text, new)}")
 
 
-def _count_lines(old: str, new: str) -> str:
+def _changed_lines(old: str, new: str) -> int:
     blocks = SequenceMatcher(None, old.splitlines(), new.splitlines(), autojunk=False).get_opcodes()
-    count = sum(max(block[2] - block[1], block[4] - block[3]) for block in blocks if block[0] != "equal")
+    return sum(max(block[2] - block[1], block[4] - block[3]) for block in blocks if block[0] != "equal")
+
+
+def _count_lines(old: str, new: str) -> str:
+    count = _changed_lines(old, new)
     return "1 line" if count == 1 else f"{count} lines"
 
 

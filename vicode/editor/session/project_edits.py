@@ -14,7 +14,7 @@ from vicode.editor.session.workspace import Workspace
 from vicode.model.design import Declaration
 from vicode.model.edits import free_name
 from vicode.model.project import INTERNAL, WORLD, Agent, Enumeration, Interface, Project
-from vicode.store import is_read_only, project_file_in, read_project_file, save_project_file, write_text
+from vicode.store import ReadProject, is_read_only, project_file_in, read_project_file, save_project_file, write_text
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -46,13 +46,12 @@ def change_project_file(
     if file is not None and is_read_only(file):
         return Written(refused=f"{file.name} cannot be changed: read-only")
     known = workspace.project
-    try:
-        old = file.read_bytes().decode("utf-8") if file else None
-    except UnicodeDecodeError:
-        return Written(refused="project.yaml cannot be read: it is not UTF-8")
-    project = known if old is None else read_project_file(old, str(file)).project
+    content = file.read_bytes() if file else b""
+    read = read_project_file(content, file.name) if file else None
+    project = known if read is None else read.project
     if project is None:
-        return Written(refused="project.yaml cannot be read")
+        return Written(refused=f"project.yaml cannot be read{_first_reason(read)}")
+    old = content.decode("utf-8") if file else None
     project = replace(project, designs=known.designs)
     if spot is not None and spot.names(project) != spot.names(known):
         return Written(refused="project.yaml was just changed by another program: look again")
@@ -126,6 +125,11 @@ def add_declaration(component: Interface, section: str) -> Interface:
     made = Declaration(name=free_name(section.removesuffix("s"), {each.name for each in beside}), type="float")
     changes: dict[str, Any] = {section: (*known, made)}
     return replace(component, **changes)
+
+
+def _first_reason(read: ReadProject | None) -> str:
+    found = next(iter(read.findings), None) if read is not None else None
+    return f": {found.message}{found.mend and f'; {found.mend}'}" if found is not None else ""
 
 
 def _shared_names(project: Project) -> set[str]:
