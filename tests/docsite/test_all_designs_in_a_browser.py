@@ -23,7 +23,9 @@ def site_of(path: Path, folder: Path) -> Path:
     return folder
 
 
-@pytest.mark.parametrize("path", [*SHIPPED, BEHAVIOR, *WRITTEN], ids=lambda path: path.stem)
+@pytest.mark.parametrize(
+    "path", [*SHIPPED, pytest.param(BEHAVIOR, marks=pytest.mark.nightly), *WRITTEN], ids=lambda path: path.stem
+)
 def test_all_pages_from_home(page: Page, tmp_path: Path, path: Path) -> None:
     site = site_of(path, tmp_path / "site")
     browsed = browse(page, site)

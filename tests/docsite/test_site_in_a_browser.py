@@ -57,7 +57,7 @@ def test_from_home_to_a_state(page: Page, site: Path) -> None:
     expect(page.locator("tr:target")).to_contain_text("_in_watch_ball")
 
 
-@pytest.mark.parametrize("scheme", ["light", "dark"])
+@pytest.mark.parametrize("scheme", ["light", pytest.param("dark", marks=pytest.mark.nightly)])
 def test_everybody_can_read_it(page: Page, site: Path, scheme: Literal["light", "dark"]) -> None:
     page.emulate_media(color_scheme=scheme)
     for name in KINDS:

@@ -46,11 +46,16 @@ def save(page: Page, file: Path) -> str:
     """
     before = file.stat().st_ino
     page.keyboard.press("Control+s")
+    wait_for_another(page, file, before)
+    expect(page.get_by_text("Saved", exact=True).first).to_be_visible()
+    return file.read_text(encoding="utf-8")
+
+
+def wait_for_another(page: Page, file: Path, before: int) -> None:
+    """Wait until a file is another than the one that had a number before."""
     until_s = time.monotonic() + 20
     while file.stat().st_ino == before and time.monotonic() < until_s:
         page.wait_for_timeout(20)
-    expect(page.get_by_text("Saved", exact=True).first).to_be_visible()
-    return file.read_text(encoding="utf-8")
 
 
 def findings(page: Page) -> Locator:

@@ -29,8 +29,14 @@ def take_name(page: Page, name: str) -> None:
 
 def test_people_see_each_other(editor: str, page: Page, other: Page) -> None:
     open_player(page, editor)
+    # Who is asked for a name goes on writing it while somebody comes.
+    page.get_by_role("button", name="change your name").click()
+    page.get_by_role("dialog").get_by_label("Name").fill("Ada")
     open_player(other, editor)
     expect(page.get_by_role("img", name="Guest 2")).to_be_visible()
+    expect(page.get_by_role("dialog").get_by_label("Name")).to_have_value("Ada")
+    page.get_by_role("button", name="Cancel").click()
+    expect(page.get_by_role("dialog")).to_have_count(0)
     take_name(other, "Ben <b>")
     expect(page.get_by_role("img", name="Ben <b>")).to_be_visible()
 

@@ -5,6 +5,7 @@ import re
 import subprocess
 import sys
 from collections.abc import Iterator
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -253,6 +254,7 @@ def _blocks(statement: ast.stmt) -> Iterator[list[ast.stmt]]:
         yield part.body
 
 
+@cache
 def _imported_libraries(path: str) -> set[str]:
     nodes = list(ast.walk(_parse(path)))
     names = {alias.name for node in nodes if isinstance(node, ast.Import) for alias in node.names}

@@ -70,17 +70,29 @@
   // before it: whoever hears it knows whether the button was still there.
   const BUTTON = "button, [role=button], [role=checkbox], [role=switch]";
   const WAIT_MS = 1000;
+  const MOST_REMEMBERED = 20;
+  const presses = new Map();
   let pressed = null;
   const press = (target) => {
     const button = target.closest?.(BUTTON);
     const panel = button?.closest("[data-form]");
     return panel ? { button, at: alike(panel, button).indexOf(button) } : null;
   };
+  const tellPress = (was) => {
+    const number = numberOf(was.button);
+    presses.set(number, was);
+    if (presses.size > MOST_REMEMBERED) presses.delete(presses.keys().next().value);
+    emitEvent("pressed", number);
+  };
+  const repeat = (was) => {
+    tellPress(was);
+    was.button.click();
+  };
   document.addEventListener("pointerdown", ({ target }) => (pressed = press(target)), true);
   document.addEventListener("pointerup", ({ target }) => {
     // Replaced under the hand, which lets go above the new one: for browsers that is no click.
     const next = pressed && !pressed.button.isConnected && press(target);
-    if (next && nameOf(next.button) === nameOf(pressed.button)) next.button.click();
+    if (next && nameOf(next.button) === nameOf(pressed.button)) repeat(next);
   });
   document.addEventListener(
     "click",
@@ -88,18 +100,16 @@
       if (!isTrusted) return;
       // A key clicks as well.
       if (detail === 0) pressed = press(target);
-      if (pressed?.button.contains(target)) emitEvent("pressed", numberOf(pressed.button));
+      if (pressed?.button.contains(target)) tellPress(pressed);
     },
     true,
   );
   const again = (was, sinceMs) => {
-    // Whoever pressed something else meanwhile has gone on.
-    if (pressed !== was) return;
     const panel = document.querySelector("[data-form]");
     const next = panel && !was.button.isConnected && alike(panel, was.button)[was.at];
-    if (next) next.click();
+    if (next) repeat({ button: next, at: was.at });
     else if (performance.now() - sinceMs < WAIT_MS) requestAnimationFrame(() => again(was, sinceMs));
   };
   // The answer, when it was not there any more.
-  window.pressAgain = () => pressed && again(pressed, performance.now());
+  window.pressAgain = (number) => presses.has(number) && again(presses.get(number), performance.now());
 }

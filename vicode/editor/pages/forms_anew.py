@@ -24,7 +24,7 @@ def carry_on_in_new_forms() -> None:
 
     def hear_press(number: object) -> None:
         if isinstance(number, int) and number not in client.elements:
-            ui.run_javascript("pressAgain()")
+            ui.run_javascript(f"pressAgain({number})")
 
     ui.on("pressed", lambda event: hear_press(event.args))
     ui.add_body_html(f"<script>\n{_SCRIPT.read_text(encoding='utf-8')}</script>")
