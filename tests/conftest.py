@@ -79,16 +79,47 @@ def console_errors() -> list[str]:
     return []
 
 
-@pytest.fixture
-def page(chromium: Browser, console_errors: list[str]) -> Iterator[Page]:
-    """A fresh page with storage of its own; errors in its console fail the test at the end."""
+@pytest.fixture(scope="module")
+def stays_open(chromium: Browser) -> Iterator[Page]:
+    """A page of this machine that stays open while others come and go.
+
+    What it opens runs in the process that is there, which has read the scripts of the editor before: that takes half
+    of the time. To the browser all ports of 127.0.0.1 are one site.
+    """
     context = chromium.new_context(viewport={"width": 1440, "height": 900})
     context.set_default_timeout(15_000)
     page = context.new_page()
-    _collect_errors(page, console_errors)
+    address = "http://127.0.0.1/"
+    page.route(address, lambda route: route.fulfill(content_type="text/html", body="<title>Stays open</title>"))
+    page.goto(address)
+    page.unroute(address)
     yield page
     context.close()
+
+
+@pytest.fixture
+def page(stays_open: Page, console_errors: list[str]) -> Iterator[Page]:
+    """A fresh page without storage; errors in its console fail the test at the end.
+
+    Each editor has a port of its own, and so an origin and a storage; only cookies are common to all ports.
+    """
+    page = opened_beside(stays_open)
+    _collect_errors(page, console_errors)
+    yield page
+    context = stays_open.context
+    for other in context.pages:
+        if other is not stays_open:
+            other.close()
+    context.clear_cookies()
+    context.clear_permissions()
     assert not console_errors, "the browser reported errors:\n" + "\n".join(console_errors)
+
+
+def opened_beside(page: Page) -> Page:
+    """A window of the same person; a second tab would hide the first, and hidden pages hardly work."""
+    with page.expect_popup() as opening:
+        page.evaluate("void window.open('about:blank', '', 'popup')")
+    return opening.value
 
 
 def _find_chromium(playwright: Playwright) -> str:

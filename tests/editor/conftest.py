@@ -16,6 +16,7 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import Page
 
+from tests.conftest import opened_beside
 from tests.editor.slow_line import SlowLine
 
 ROOT = Path(__file__).parents[2]
@@ -44,10 +45,8 @@ def line(page: Page) -> SlowLine:
 
 @pytest.fixture
 def second_window(page: Page) -> Page:
-    """A second window of the same person; a second tab would hide the first, and hidden pages hardly work."""
-    with page.expect_popup() as opening:
-        page.evaluate("void window.open('about:blank', '', 'popup')")
-    return opening.value
+    """A second window of the same person."""
+    return opened_beside(page)
 
 
 @contextmanager
