@@ -5,6 +5,7 @@ import re
 from playwright.sync_api import Locator, Page, expect
 
 from tests.editor.player_page import open_player, select_state, state
+from tests.editor.slow_line import SlowLine
 
 
 def palette(page: Page) -> Locator:
@@ -55,6 +56,31 @@ def test_keys_choose_among_what_is_found(editor: str, page: Page) -> None:
     page.keyboard.press("Escape")
     expect(palette(page)).to_be_hidden()
     expect(page).to_have_url(re.compile(r"Player$"))
+
+
+def test_what_is_chosen_in_a_list_is_meant_though_a_newer_list_comes(editor: str, page: Page, line: SlowLine) -> None:
+    open_player(page, editor)
+    open_palette(page, "look")
+    options = palette(page).get_by_role("option")
+    expect(options).to_have_count(15)
+    line.hold()
+    page.keyboard.type("f")
+    for _ in range(4):
+        page.keyboard.press("ArrowDown")
+    expect(selected_option(page)).to_contain_text("GetUp → LookForBall")
+    line.let_go()
+    expect(options).to_have_count(6)
+    expect(options.nth(2)).to_have_attribute("aria-selected", "true")
+    expect(options.nth(2)).to_contain_text("GetUp → LookForBall")
+
+    line.hold()
+    page.keyboard.press("Backspace")
+    for _ in range(2):
+        page.keyboard.press("ArrowDown")
+    expect(selected_option(page)).to_contain_text("GetUp → LookForBall")
+    page.keyboard.press("Enter")
+    line.let_go()
+    expect(page.get_by_role("heading", name="Transition from GetUp")).to_be_visible()
 
 
 def test_what_is_found_in_another_design_is_opened_and_selected(editor: str, page: Page) -> None:

@@ -1,11 +1,13 @@
 """Two people on one design, each in a browser of their own: seen by the other, never undone by the other."""
 
+import re
 from collections.abc import Iterator
 
 import pytest
 from playwright.sync_api import Page, expect
 
-from tests.editor.test_editing_in_a_browser import create_state, open_player, select_state, state
+from tests.editor.player_page import open_player, select_state, select_transition, state
+from tests.editor.test_editing_in_a_browser import create_state
 
 expect.set_options(timeout=20_000)
 
@@ -175,3 +177,29 @@ def test_a_name_being_typed_on_the_drawing_outlives_what_others_call_it(editor: 
     page.keyboard.type("Hard")
     page.keyboard.press("Enter")
     expect(other.get_by_label("State", exact=True)).to_have_value("StrikeHard")
+
+
+def test_a_wide_editor_stays_while_its_form_changes_until_its_state_is_gone(
+    editor: str, page: Page, other: Page
+) -> None:
+    open_player(page, editor)
+    open_player(other, editor)
+    select_state(page, "CircleBall")
+    page.get_by_role("button", name=re.compile("^Enlarge: ")).first.click()
+    wide = page.get_by_role("dialog").locator(".cm-content")
+    wide.click()
+    page.keyboard.press("Control+End")
+    page.keyboard.type(" or first")
+    select_transition(other, "CircleBall/0")
+    other.get_by_role("checkbox", name="Disabled").click()
+    expect(page.locator('g[data-kind="transition"][data-id="CircleBall/0"]').first).to_have_class(
+        re.compile("disabled")
+    )
+    page.keyboard.type(" and second")
+    expect(wide).to_contain_text("or first and second")
+    select_state(other, "CircleBall")
+    other.get_by_label("State", exact=True).fill("GoRound")
+    other.get_by_label("State", exact=True).press("Enter")
+    expect(page.get_by_role("dialog")).to_have_count(0)
+    expect(page.get_by_text("Somebody else removed, renamed or moved what this code belongs to")).to_be_visible()
+    expect(page.get_by_label("Inspector").locator(".cm-content").first).to_contain_text("or first and second")

@@ -3,16 +3,11 @@
 import argparse
 import gc
 import sys
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING
 
-from vicode.cli.printing import count_findings, print_findings
-
-if TYPE_CHECKING:
-    from vicode.cli.sites import Built, Step
-    from vicode.cli.subjects import Reading
+from vicode.cli.printing import print_findings
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -42,7 +37,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Write the sites; 1 when a design or behavior cannot be read, or with --strict has findings."""
-    from vicode.cli.sites import Sites
+    from vicode.cli.progress import progress
+    from vicode.cli.sites import Sites, describe
     from vicode.cli.subjects import read_subjects
 
     is_markdown = args.format == "markdown"
@@ -69,14 +65,6 @@ def run(args: argparse.Namespace) -> int:
     return int(any(reading.is_broken for reading in readings) or (args.strict and has_findings))
 
 
-def describe(built: "Built", readings: "Sequence[Reading]", out: Path) -> str:
-    """What was written, in a line."""
-    findings = [each.finding for reading in readings if reading.subject for each in reading.subject.findings]
-    counts = f"{len(built.files)} files, {len(built.touched)} changed, {count_findings(findings)}"
-    home = "index.md" if "index.md" in built.files else "index.html"
-    return f"wrote {(out / home).as_posix()}: {counts}"
-
-
 @contextmanager
 def _uncollected() -> Iterator[None]:
     """Let nothing look for circles meanwhile: that takes a tenth of the time, and finds none."""
@@ -87,22 +75,3 @@ def _uncollected() -> Iterator[None]:
     finally:
         if was_on:
             gc.enable()
-
-
-@contextmanager
-def progress() -> Iterator["Step"]:
-    """What shows how far a building is; where nobody looks it shows nothing."""
-    if not sys.stderr.isatty():
-        yield lambda _name, _done, _all: None
-        return
-    from rich.console import Console
-    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn
-
-    columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn())
-    with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
-        task = bar.add_task("Reading", total=None)
-
-        def step(name: str, done: int, of: int) -> None:
-            bar.update(task, description=name.replace("[", "\\["), completed=done, total=of or None)
-
-        yield step

@@ -11,10 +11,10 @@ from pathlib import Path
 
 from watchfiles import Change, watch
 
-from vicode.cli.docs import describe, progress
 from vicode.cli.opening import BEHAVIORS, DESIGNS
 from vicode.cli.printing import describe_os_error, findings_text, print_findings
-from vicode.cli.sites import Built, Sites
+from vicode.cli.progress import progress
+from vicode.cli.sites import Built, Sites, describe
 from vicode.cli.subjects import Reading, read_subjects
 from vicode.docsite.serving import News, SiteServer
 

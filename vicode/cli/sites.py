@@ -6,6 +6,7 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from vicode.cli.printing import count_findings
 from vicode.cli.subjects import Reading
 
 if TYPE_CHECKING:
@@ -109,3 +110,11 @@ def _named(readings: Sequence[Reading]) -> Mapping[str, Reading]:
 
 def _together(one: Built, other: Built) -> Built:
     return Built(files=one.files + other.files, touched=one.touched + other.touched, foreign=other.foreign)
+
+
+def describe(built: Built, readings: Sequence[Reading], out: Path) -> str:
+    """What was written, in a line."""
+    findings = [each.finding for reading in readings if reading.subject for each in reading.subject.findings]
+    counts = f"{len(built.files)} files, {len(built.touched)} changed, {count_findings(findings)}"
+    home = "index.md" if "index.md" in built.files else "index.html"
+    return f"wrote {(out / home).as_posix()}: {counts}"

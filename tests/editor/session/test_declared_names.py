@@ -1,37 +1,21 @@
 """Another name for what is declared: an edit of one design, or files that change together."""
 
-import shutil
 from collections import Counter
 from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
+from tests.editor.session.conftest import texts_of
 from vicode.check import check_project
-from vicode.editor.session import Document, Library, Workspace, declared_names
+from vicode.editor.session import Document, Workspace, declared_names
 from vicode.editor.session.declared_names import plan_name, rename_in_files
 from vicode.model.design import Code, RunCode
 from vicode.model.edits import remove_states
 from vicode.model.renaming import Declared, has_declared, names_beside
 from vicode.store import open_project
 
-DESIGNS = Path(__file__).parents[3] / "designs"
 SPEED = Declared(component="Body", section="parameters", name="forward")
-
-
-@pytest.fixture
-def folder(tmp_path: Path) -> Path:
-    shutil.copytree(DESIGNS / "forward", tmp_path / "forward", ignore=shutil.ignore_patterns("__pycache__"))
-    return tmp_path / "forward"
-
-
-@pytest.fixture
-def workspace(folder: Path) -> Workspace:
-    return Library(folder.parent).workspaces[0]
-
-
-def texts_of(folder: Path) -> dict[str, str]:
-    return {file.name: file.read_text() for file in sorted(folder.glob("*.yaml"))}
 
 
 def things_of(workspace: Workspace) -> list[Declared]:

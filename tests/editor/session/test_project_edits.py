@@ -1,12 +1,12 @@
 """What project.yaml declares, changed from the editor: written at once, refused in words, taken back."""
 
-import shutil
 from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
-from vicode.editor.session import Library, Workspace, project_edits
+from tests.editor.session.conftest import texts_of
+from vicode.editor.session import Workspace, project_edits
 from vicode.editor.session.mentions import Mention, mentions_of
 from vicode.editor.session.project_edits import change_project_file, take_back
 from vicode.editor.session.project_spots import Spot, outline_of_project
@@ -14,24 +14,8 @@ from vicode.model.project import Project
 from vicode.model.renaming import Declared, names_beside
 from vicode.store import open_project
 
-DESIGNS = Path(__file__).parents[3] / "designs"
 KICK, NET_X = Spot.of("enumerations", 1), Spot.of("constants", 9)
 PERCEPTION, AGENT = Spot.of("components", 0), Spot.of("agents", 0)
-
-
-@pytest.fixture
-def folder(tmp_path: Path) -> Path:
-    shutil.copytree(DESIGNS / "forward", tmp_path / "forward", ignore=shutil.ignore_patterns("__pycache__"))
-    return tmp_path / "forward"
-
-
-@pytest.fixture
-def workspace(folder: Path) -> Workspace:
-    return Library(folder.parent).workspaces[0]
-
-
-def texts_of(folder: Path) -> dict[str, str]:
-    return {file.name: file.read_text() for file in sorted(folder.glob("*.yaml"))}
 
 
 def test_a_change_of_the_project_is_written_and_taken_back(workspace: Workspace, folder: Path) -> None:

@@ -1,32 +1,15 @@
 """Whole designs: renamed with all their uses, copied, thrown away, put back, made from templates."""
 
-import shutil
 from pathlib import Path
 
 import pytest
 
+from tests.editor.session.conftest import texts_of
 from vicode.check import check_project
 from vicode.editor.session import Library, Workspace, renaming, templates, trash
 from vicode.editor.session.overview import Overview
 from vicode.findings import Severity
 from vicode.store import open_project
-
-DESIGNS = Path(__file__).parents[3] / "designs"
-
-
-@pytest.fixture
-def folder(tmp_path: Path) -> Path:
-    shutil.copytree(DESIGNS / "forward", tmp_path / "forward", ignore=shutil.ignore_patterns("__pycache__"))
-    return tmp_path / "forward"
-
-
-@pytest.fixture
-def workspace(folder: Path) -> Workspace:
-    return Library(folder.parent).workspaces[0]
-
-
-def texts_of(folder: Path) -> dict[str, str]:
-    return {file.name: file.read_text() for file in sorted(folder.glob("*.yaml"))}
 
 
 def assert_sound(folder: Path) -> None:

@@ -96,17 +96,24 @@ def _build(desk: Desk, bound: Bound, writing: Writing, *, is_large: bool = False
 
 
 def _enlarge(desk: Desk, bound: Bound, writing: Writing) -> None:
-    """The same text in a wide editor; both follow each other."""
+    """The same text in a wide editor; both follow each other, as long as there is a place for it."""
     with titled_dialog(bound.label, "code-dialog") as dialog:
         large = _build(desk, bound, writing, is_large=True)
         with ui.row().classes("dialog-buttons"):
             ui.button("Close", on_click=dialog.close).props("flat no-caps")
-    stop = desk.listen(large.refresh)
+
+    def follow() -> None:
+        if large.leads_there():
+            large.refresh()
+        else:
+            desk.say("Somebody else removed, renamed or moved what this code belongs to", "warning")
+            close()
 
     def close() -> None:
         stop()
         dialog.delete()
 
+    stop = desk.listen(follow)
     dialog.on("hide", close)
 
 

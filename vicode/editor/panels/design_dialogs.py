@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 from nicegui import ui
 
-from vicode.editor.panels.dialogs import lasting_dialog
+from vicode.editor.panels.dialogs import titled_dialog
 from vicode.editor.panels.rows import primary_button
 from vicode.editor.session import Workspace, renaming, templates, trash
 from vicode.editor.session.workspace import ThrownAway
@@ -26,7 +26,7 @@ class DesignDialogs:
         """A new design, from a template."""
         choices = templates.list_templates()
         titles = {each.name: f"{each.title}: {each.doc}" for each in choices}
-        with lasting_dialog(f"New design in {workspace.project.name}") as dialog:
+        with titled_dialog(f"New design in {workspace.project.name}") as dialog:
             name = _name_field("Component", "", "FollowBall")
             ui.label("Begin with").classes("field-label")
             begin = ui.radio(titles, value=choices[0].name).classes("template-choice")
@@ -46,7 +46,7 @@ class DesignDialogs:
 
     def ask_copy(self, workspace: Workspace, component: str) -> None:
         """A copy under another name."""
-        with lasting_dialog(f"Duplicate {component}") as dialog:
+        with titled_dialog(f"Duplicate {component}") as dialog:
             name = _name_field("Name of the copy", trash.name_for_copy(workspace, component), "")
 
             def copy() -> None:
@@ -63,7 +63,7 @@ class DesignDialogs:
 
     def ask_name(self, workspace: Workspace, component: str) -> None:
         """Another name, with all that changes listed while it is typed."""
-        with lasting_dialog(f"Rename {component}") as dialog:
+        with titled_dialog(f"Rename {component}") as dialog:
             name = _name_field("New name", component, "")
             ui.label("What changes").classes("field-label")
             listed = ui.column().classes("change-list").props('aria-live="polite"')
@@ -103,7 +103,7 @@ class DesignDialogs:
             self.say(_sentence(refused), "warning")
             return
         users = trash.users_of(workspace, component)
-        with lasting_dialog(f"Move {component} to the trash?") as dialog:
+        with titled_dialog(f"Move {component} to the trash?") as dialog:
             ui.label(f"{workspace.files[component].name} goes to the trash of this computer; Undo puts it back.")
             if users:
                 ui.label(f"Still used by {', '.join(users)}: these get findings until they use something else.")

@@ -8,17 +8,13 @@ from nicegui import ui
 
 @contextmanager
 def titled_dialog(title: str, look: str = "") -> Iterator[ui.dialog]:
-    """A dialog to be filled, with a style class of its own if it has a look of its own; it opens when it is left."""
-    with ui.dialog() as dialog, ui.card().classes(f"dialog {look}"):
+    """A dialog to be filled, with a style class of its own if it has a look of its own; it opens when it is left.
+
+    It stays when what was pressed for it is built anew, as a change by somebody else does.
+    """
+    with ui.context.client.content, ui.dialog() as dialog, ui.card().classes(f"dialog {look}"):
         # Set, not written into a text of props: titles hold names.
         dialog.props["aria-label"] = title
         ui.label(title).classes("dialog-title").props("role=heading aria-level=2")
         yield dialog
     dialog.open()
-
-
-@contextmanager
-def lasting_dialog(title: str) -> Iterator[ui.dialog]:
-    """A dialog that stays when what was pressed for it is built anew, as a change by somebody else does."""
-    with ui.context.client.content, titled_dialog(title) as dialog:
-        yield dialog

@@ -7,7 +7,7 @@ from typing import Any
 from nicegui import ui
 
 from vicode.editor.panels.desk import Desk
-from vicode.editor.panels.dialogs import lasting_dialog
+from vicode.editor.panels.dialogs import titled_dialog
 from vicode.editor.panels.fields import Bound, Field
 from vicode.editor.panels.rows import primary_button
 from vicode.editor.session import apply_gesture
@@ -136,7 +136,7 @@ class NameField(Field):
 def _ask(desk: Desk, plan: NamePlan) -> None:
     """List what a name changes in the project's files, and change it."""
     what = words_of_declared(plan.thing)
-    with lasting_dialog(f"Rename {what} to {plan.new}") as dialog:
+    with titled_dialog(f"Rename {what} to {plan.new}") as dialog:
         if plan.changes:
             ui.label("What changes, and is written at once").classes("field-label")
             with ui.column().classes("change-list"):

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from nicegui import ui
 
 from vicode.editor.panels.desk import Desk
-from vicode.editor.panels.dialogs import lasting_dialog
+from vicode.editor.panels.dialogs import titled_dialog
 from vicode.editor.panels.rows import primary_button
 from vicode.editor.session import Person
 from vicode.editor.session.wording import words_of_presence
@@ -77,7 +77,7 @@ class PeopleChips:
 
     def _ask(self) -> None:
         people = self.desk.document.sheet.people
-        with lasting_dialog("Your name") as dialog:
+        with titled_dialog("Your name") as dialog:
             ui.label("The others see it beside what you select and in the history.").classes("small")
             field = ui.input("Name", value=people.name_of(self.desk.document.person))
             field.props("outlined dense stack-label autofocus maxlength=24")

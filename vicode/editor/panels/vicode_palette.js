@@ -13,7 +13,7 @@ export default {
         </div>
         <ul ref="list" class="palette-list" role="listbox" :id="$.uid + '-list'" aria-label="Found">
           <li v-for="(hit, index) in hits" :key="index" :id="idOf(index)" role="option" class="palette-hit"
-            :aria-selected="index === at" @mousemove="at = index" @click="choose(index)">
+            :aria-selected="index === at" @mousemove="at = index" @click="choose(index, shown)">
             <i class="q-icon material-icons" aria-hidden="true">{{ hit.icon }}</i>
             <span class="palette-title"><template v-for="part in hit.parts"><mark v-if="part.found">{{ part.text }}</mark><template v-else>{{ part.text }}</template></template></span>
             <span class="palette-detail">{{ hit.detail }}</span>
@@ -25,7 +25,7 @@ export default {
         <div class="palette-foot"><span role="status">{{ words }}</span><span aria-hidden="true">↑ ↓ to move, Enter to go there, Esc to leave</span></div>
       </div>
     </dialog>`,
-  data: () => ({ text: "", hits: [], at: 0, words: "", opening: 0 }),
+  data: () => ({ text: "", shown: "", hits: [], at: 0, words: "", opening: 0 }),
   mounted() {
     // Its keys open it here and now: what is typed next must not fall on the drawing below.
     this.hear = (event) => {
@@ -50,10 +50,14 @@ export default {
     /** What Python found for a text. Questions asked before the page could speak may be heard in any order. */
     answer({ text, hits, words }) {
       if (text !== this.text) return;
+      // Who went down the list before this answer came stays on what was chosen, if it is still there.
+      const chosen = this.at && nameOf(this.hits[this.at]);
+      this.shown = text;
       this.hits = hits;
       this.words = words;
-      this.at = 0;
-      if (this.$refs.list) this.$refs.list.scrollTop = 0;
+      this.at = chosen ? Math.max(0, hits.findIndex((hit) => nameOf(hit) === chosen)) : 0;
+      if (this.at) this.show();
+      else if (this.$refs.list) this.$refs.list.scrollTop = 0;
     },
     ask() {
       this.at = 0;
@@ -62,7 +66,7 @@ export default {
     press(event) {
       const steps = { ArrowDown: 1, ArrowUp: -1, PageDown: 8, PageUp: -8 };
       if (event.isComposing) return;
-      if (event.key === "Enter") this.choose(this.at);
+      if (event.key === "Enter") this.choose(this.at, this.at ? this.shown : this.text);
       else if (event.key in steps) this.move(steps[event.key]);
       else return;
       event.preventDefault();
@@ -73,12 +77,15 @@ export default {
       if (!count) return;
       const to = this.at + by;
       this.at = Math.abs(by) === 1 ? (to + count) % count : Math.min(count - 1, Math.max(0, to));
+      this.show();
+    },
+    show() {
       this.$nextTick(() => document.getElementById(this.idOf(this.at))?.scrollIntoView({ block: "nearest" }));
     },
-    choose(index) {
-      // Python finds again by the text: what is chosen may be newer than what is shown.
+    /** Python finds again by the text: of the one in the field the first is wanted, though it may not be shown yet. */
+    choose(index, text) {
       this.$refs.box.close();
-      this.$emit("choose", { text: this.text, opening: this.opening, index });
+      this.$emit("choose", { text, opening: this.opening, index });
     },
     leave(event) {
       if (event.target === this.$refs.box) this.$refs.box.close();
@@ -88,3 +95,9 @@ export default {
     },
   },
 };
+
+/** By what one thing found is told from the others. */
+function nameOf(hit) {
+  const title = hit.parts.map((part) => part.text).join("");
+  return [hit.kind, hit.where, hit.detail, title].join("\n");
+}

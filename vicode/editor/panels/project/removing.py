@@ -17,7 +17,7 @@ _MOST = 40
 def remove(desk: Desk, spot: Spot) -> None:
     """Remove a thing: at once where nothing says it, else after it was shown what does."""
     project = desk.workspace.project
-    name = spot.name(project)
+    name, names = spot.name(project), spot.names(project)
     if not name:
         return
     if spot.section == "elements" and len(Spot(steps=spot.steps[:-1]).read(project).elements) == 1:
@@ -35,7 +35,10 @@ def remove(desk: Desk, spot: Spot) -> None:
 
         def go_on() -> None:
             dialog.close()
-            _remove(desk, spot)
+            if spot.names(desk.workspace.project) == names:
+                _remove(desk, spot)
+            else:
+                desk.say(f"Somebody else removed, renamed or moved {name}: look again", "warning")
 
         with ui.row().classes("dialog-buttons"):
             ui.button("Cancel", on_click=dialog.close).props("flat no-caps autofocus")

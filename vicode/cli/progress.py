@@ -1,0 +1,26 @@
+"""Shows on a terminal how far a building is."""
+
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+from vicode.cli.sites import Step
+
+
+@contextmanager
+def progress() -> Iterator["Step"]:
+    """What shows how far a building is; where nobody looks it shows nothing."""
+    if not sys.stderr.isatty():
+        yield lambda _name, _done, _all: None
+        return
+    from rich.console import Console
+    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn
+
+    columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn())
+    with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
+        task = bar.add_task("Reading", total=None)
+
+        def step(name: str, done: int, of: int) -> None:
+            bar.update(task, description=name.replace("[", "\\["), completed=done, total=of or None)
+
+        yield step
