@@ -16,10 +16,14 @@ _WORDS = {Status.NEW: "new", Status.CHANGED: "changed", Status.STALE: "no longer
 _KEY = "vicode-generate-unasked"
 
 
+# A browser that is too busy to answer would not show the question either.
+_PATIENCE_S = 60.0
+
+
 async def is_unasked() -> bool:
     """Whether the person chose, in this browser, not to be asked before code is written."""
     try:
-        return bool(await ui.run_javascript(f'localStorage.getItem("{_KEY}") === "yes"', timeout=3.0))
+        return bool(await ui.run_javascript(f'localStorage.getItem("{_KEY}") === "yes"', timeout=_PATIENCE_S))
     except TimeoutError:
         return False
 
