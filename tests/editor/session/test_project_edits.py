@@ -7,8 +7,9 @@ import pytest
 
 from tests.editor.session.conftest import texts_of
 from vicode.editor.session import Workspace, project_edits
+from vicode.editor.session.declared_names import NewName, plan_name, rename_in_files
 from vicode.editor.session.mentions import Mention, mentions_of
-from vicode.editor.session.project_edits import change_project_file, take_back
+from vicode.editor.session.project_edits import Written, change_project_file
 from vicode.editor.session.project_spots import Spot, outline_of_project
 from vicode.model.project import Project
 from vicode.model.renaming import Declared, names_beside
@@ -16,6 +17,11 @@ from vicode.store import open_project
 
 KICK, NET_X = Spot.of("enumerations", 1), Spot.of("constants", 9)
 PERCEPTION, AGENT = Spot.of("components", 0), Spot.of("agents", 0)
+
+
+def taken_back(written: Written) -> str:
+    assert written.edit is not None
+    return written.edit.take_back("")
 
 
 def test_a_change_of_the_project_is_written_and_taken_back(workspace: Workspace, folder: Path) -> None:
@@ -28,12 +34,19 @@ def test_a_change_of_the_project_is_written_and_taken_back(workspace: Workspace,
     assert written.refused == ""
     assert [each.internal for each in workspace.project.enumerations] == [True, True]
     assert "# Lengths in mm" in (folder / "project.yaml").read_text()
-    assert take_back(workspace, written) == ""
+    assert taken_back(written) == ""
     assert texts_of(folder) == before
+    nothing = change_project_file(workspace, lambda project: project)
+    assert (nothing.edit, nothing.refused) == (None, "")
 
+    # What others wrote elsewhere stays; the same lines are theirs.
     again = change_project_file(workspace, change)
-    (folder / "project.yaml").write_text(before["project.yaml"] + "# mine\n")
-    assert take_back(workspace, again) == "project.yaml was changed since"
+    now = (folder / "project.yaml").read_text()
+    (folder / "project.yaml").write_text(now + "# mine\n")
+    assert taken_back(again) == ""
+    assert (folder / "project.yaml").read_text() == before["project.yaml"] + "# mine\n"
+    (folder / "project.yaml").write_text(now.replace("internal: true", "internal: false"))
+    assert taken_back(again) == "Not done: project.yaml was changed since, in the same lines"
     (folder / "project.yaml").write_text("vicode: [")
     assert change_project_file(workspace, change).refused.startswith("project.yaml cannot be read: a value is missing")
     (folder / "project.yaml").write_text("# later\n")
@@ -42,13 +55,13 @@ def test_a_change_of_the_project_is_written_and_taken_back(workspace: Workspace,
     latin_1 = 'vicode: 1\ndoc: "für"\n'.encode("latin-1")
     (folder / "project.yaml").write_bytes(latin_1)
     assert change_project_file(workspace, change).refused.endswith("is not UTF-8; save the file as UTF-8")
-    assert take_back(workspace, again) == "project.yaml was changed since"
+    assert taken_back(again).startswith("Not done: ")
     assert (folder / "project.yaml").read_bytes() == latin_1
     (folder / "project.yaml").unlink()
     # Without a file one is made; to take that back removes it.
     made = change_project_file(workspace, change)
     assert "internal: true" in (folder / "project.yaml").read_text()
-    assert take_back(workspace, made) == ""
+    assert taken_back(made) == ""
     assert not (folder / "project.yaml").exists()
 
 
@@ -122,7 +135,7 @@ def test_what_is_used_is_told_before_it_is_removed_and_who_has_errors_afterwards
     )
     written = change_project_file(workspace, NET_X.without, NET_X)
     assert written.broken == ("Player",)
-    assert take_back(workspace, written) == ""
+    assert taken_back(written) == ""
     assert texts_of(folder) == before
     kick = mentions_of(workspace.project, KICK.declared(workspace.project))
     assert Mention(words="type of parameter kick of Kicker") in kick
@@ -130,7 +143,7 @@ def test_what_is_used_is_told_before_it_is_removed_and_who_has_errors_afterwards
     removed = change_project_file(workspace, KICK.without, KICK, is_agreed=True)
     assert removed.broken == ("project.yaml", "Player")
     assert "there is no type 'Kick'" in [each.message for each in workspace.project_findings]
-    assert take_back(workspace, removed) == ""
+    assert taken_back(removed) == ""
     assert workspace.project_findings == ()
 
 
@@ -160,3 +173,69 @@ def test_a_file_that_another_program_changed_is_looked_at_first(workspace: Works
     written = change_project_file(workspace, NET_X.without, NET_X)
     assert written.refused == "project.yaml was just changed by another program: look again"
     assert "goal_x:" in file.read_text()
+
+
+def test_a_change_of_the_project_is_a_step_of_the_design_beside_which_it_was_made(
+    workspace: Workspace, folder: Path
+) -> None:
+    player = workspace.document("Player")
+    assert player is not None
+    before = texts_of(folder)["project.yaml"]
+
+    def text() -> str:
+        return texts_of(folder)["project.yaml"]
+
+    player.edit("say", lambda design: replace(design, doc="Plays."))
+    written = change_project_file(workspace, project_edits.add_constant, what="one more constant")
+    assert written.edit is not None
+    player.note(written.edit)
+    player.edit("say more", lambda design: replace(design, doc="Plays well."))
+    changed = text()
+    assert changed != before
+    assert [step.label for step in player.history.path] == [
+        "open",
+        "say",
+        "project.yaml: one more constant",
+        "say more",
+    ]
+    assert not player.is_saved
+
+    for doc, wanted in (("Plays.", changed), ("Plays.", before)):
+        assert player.undo() == ""
+        assert (player.design.doc, text()) == (doc, wanted)
+    assert player.undo() == ""
+    assert player.design.doc != "Plays."
+    for doc, wanted in (("Plays.", before), ("Plays.", changed), ("Plays well.", changed)):
+        assert player.redo() == ""
+        assert (player.design.doc, text()) == (doc, wanted)
+    assert player.redo_label == ""
+
+    # Going anywhere in the history brings the file along, or says why not, and goes there all the same.
+    last = player.history.at
+    assert player.jump(0) == ""
+    assert text() == before
+    assert player.jump(last) == ""
+    assert (player.design.doc, text()) == ("Plays well.", changed)
+    (folder / "project.yaml").write_text(changed.replace("constant: 0", "constant: 1"))
+    told = player.jump(0)
+    assert told.startswith("project.yaml: one more constant stays as it is. Not done: project.yaml was changed since")
+    assert player.design.doc not in ("Plays.", "Plays well.")
+    assert "constant: 1" in text()
+
+
+def test_a_name_that_only_the_project_says_is_a_step_too(workspace: Workspace, folder: Path) -> None:
+    player = workspace.document("Player")
+    assert player is not None
+    assert change_project_file(workspace, project_edits.add_constant).edit is not None
+    before = texts_of(folder)
+    thing = Declared(section="constants", name="constant")
+    plan = plan_name(workspace, thing, "half_length")
+    assert plan.is_alone
+    assert rename_in_files(workspace, plan) == ""
+    player.note(NewName(workspace=workspace, thing=thing, new="half_length"))
+    after = texts_of(folder)
+    assert player.undo_label == "rename constant to half_length"
+    assert player.undo() == ""
+    assert texts_of(folder) == before
+    assert player.redo() == ""
+    assert texts_of(folder) == after

@@ -170,6 +170,7 @@ def _rename_in_files(desk: Desk, plan: NamePlan) -> None:
     """Write it, and offer to take it back."""
     if carry_out(desk, plan):
         whole = NewName(workspace=desk.workspace, thing=plan.thing, new=plan.new)
+        desk.document.note(whole)
         desk.offer_undo(f"{plan.thing.name} is {plan.new} now", lambda: _take_back(desk, whole))
 
 
@@ -196,7 +197,7 @@ def carry_out(desk: Desk, plan: NamePlan) -> bool:
 
 
 def _take_back(desk: Desk, whole: NewName) -> None:
-    refused = whole.take_back(desk.document.person)
+    refused = desk.document.take_back(whole)
     if refused:
         desk.say(refused, "warning")
         return

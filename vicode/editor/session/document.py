@@ -205,15 +205,31 @@ class Document:
         """Take one's own last edit back; returns why not, if what it did was changed by another since."""
         step = self.history.undo_step(self.person)
         if step is not None and step.whole is not None:
-            return step.whole.take_back(self.person)
+            return self.take_back(step.whole)
         return self._take(self.history.undone(self.person, self.sheet.clock()), "taken back")
 
     def redo(self) -> str:
         """Do again what undo took back; returns why not."""
         step = self.history.redo_step(self.person)
         if step is not None and step.whole is not None:
-            return step.whole.do_again(self.person)
+            refused = step.whole.do_again(self.person)
+            if not refused:
+                self.note(step.whole, f"redo {step.whole.label}")
+            return refused
         return self._take(self.history.redone(self.person, self.sheet.clock()), "done again")
+
+    def take_back(self, whole: Whole) -> str:
+        """Take an edit of other files back, as a step if it was one here; returns why not."""
+        refused = whole.take_back(self.person)
+        step = next((each for each in reversed(self.history.wholes()) if each.whole == whole), None)
+        if not refused and step is not None:
+            self._do(replace(self._step(f"undo {whole.label}", self.design), undoes=step.id))
+        return refused
+
+    def note(self, whole: Whole, label: str = "") -> None:
+        """Have an edit of other files that was done from here as a step, if it is none yet."""
+        if all(each.whole != whole for each in self.history.wholes()):
+            self._do(replace(self._step(label or whole.label, self.design), whole=whole))
 
     @property
     def undo_label(self) -> str:
@@ -231,25 +247,34 @@ class Document:
         """Go to any point of the history; what is left stays in it, one jump away.
 
         What was one edit of several files on the way is taken back, or done again, in all of them; returns why not.
+        One that changed nothing of this design keeps nobody from going: that it stays as it is, is told.
         """
         start = self.history.at
         before, after = self.history.wholes(), self.history.jumped(step).wholes()
         left = [each for each in reversed(before) if each.whole not in {other.whole for other in after}]
         entered = [each for each in after if each.whole not in {other.whole for other in before}]
+        told: list[str] = []
         for number, each in enumerate((*left, *entered)):
             refused = self._pass(each, is_back=number < len(left))
-            if refused:
+            if refused and each.whole and self._is_beside(each):
+                told.append(f"{each.whole.label} stays as it is. {refused}")
+            elif refused:
                 if not number:
                     self.sheet.become(self.history.jumped(start), self)
                 return refused
         self.announce(f"{self.sheet.people.name_of(self.person)} went to “{self.history.jumped(step).present.label}”")
         self.sheet.become(self.history.jumped(step), self)
-        return ""
+        return "; ".join(told)
+
+    def _is_beside(self, step: Step) -> bool:
+        """Whether a step changed other files alone."""
+        parent = self.history.steps.get(step.parent)
+        return parent is not None and parent.design == step.design
 
     def _pass(self, step: Step, *, is_back: bool) -> str:
         """Take an edit of several files back, or do it again: from here, or where the design is as the file has it."""
         assert step.whole is not None
-        if not self.is_saved:
+        if not self.is_saved and not self._is_beside(step):
             self.sheet.become(self.history.jumped(step.id if is_back else step.parent), self)
         return step.whole.take_back(self.person) if is_back else step.whole.do_again(self.person)
 

@@ -16,7 +16,15 @@ _PAUSE_S = 60.0
 
 
 class Whole(Protocol):
-    """An edit of several files at once; a step that has one is its part in one design. Equal ones are the same."""
+    """An edit of other files, too, or of others alone; a step that has one is its part in one design.
+
+    Equal ones are the same. The design of the step may be that of the step before.
+    """
+
+    @property
+    def label(self) -> str:
+        """What the histories call it."""
+        ...
 
     def take_back(self, person: str) -> str:
         """Take it back in all files; returns why not."""
@@ -86,11 +94,10 @@ class History:
 
     def then(self, step: Step) -> "History":
         """The history after an edit; what is typed into one field goes on as one step."""
-        if step.design == self.present.design:
+        if step.design == self.present.design and not (step.whole or step.undoes):
             return self
         going_on = self._typed_on(step) if step.typing_in else None
-        known = self.taken_back.get(step.person, ())
-        taken_back = {**self.taken_back, step.person: (*known, step.undoes) if step.undoes else ()}
+        taken_back = {**self.taken_back, step.person: self._left_to_redo(step)}
         return replace(going_on or self._appended(step), taken_back=taken_back)
 
     def beside(self, step: Step) -> "History":
@@ -152,6 +159,14 @@ class History:
         """The steps on the way to now that edited several files, and were not taken back."""
         gone = {step.undoes for step in self.path}
         return tuple(step for step in self.path if step.whole and not step.undoes and step.id not in gone)
+
+    def _left_to_redo(self, step: Step) -> tuple[int, ...]:
+        """What the person may do again after a step; doing something new gives up the rest."""
+        stack = self.taken_back.get(step.person, ())
+        if step.undoes:
+            return (*stack, step.undoes)
+        wholes = [each in self.steps and self.steps[each].whole for each in stack]
+        return stack[: wholes.index(step.whole)] if step.whole in wholes else ()
 
     def _appended(self, step: Step) -> "History":
         id_ = max(self.steps) + 1

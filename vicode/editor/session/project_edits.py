@@ -1,4 +1,4 @@
-"""Changes of project.yaml itself: written at once, as no design is its home; what was written can be taken back."""
+"""Changes of project.yaml itself: written at once, and steps of the history of the design where they were made."""
 
 from collections import Counter
 from collections.abc import Callable
@@ -10,9 +10,11 @@ from vicode.editor.session.declared_names import errors_of, refuse_outcome
 from vicode.editor.session.document import Document
 from vicode.editor.session.people import DISK
 from vicode.editor.session.project_spots import Spot
+from vicode.editor.session.wording import reason_of
 from vicode.editor.session.workspace import Workspace
 from vicode.model.design import Declaration
 from vicode.model.edits import free_name
+from vicode.model.merging import merge_lines
 from vicode.model.project import INTERNAL, WORLD, Agent, Enumeration, Interface, Project
 from vicode.store import ReadProject, is_read_only, project_file_in, read_project_file, save_project_file, write_text
 
@@ -21,23 +23,64 @@ from vicode.store import ReadProject, is_read_only, project_file_in, read_projec
 class Written:
     """What became of project.yaml; `refused` says in words why nothing did.
 
-    `old` is None where there was no file. `broken` are the designs that have errors by it.
+    `edit` is None where it is the same as before. `broken` are the designs that have errors by it.
     """
 
-    file: Path | None = None
-    old: str | None = ""
-    new: str = ""
+    edit: "ProjectEdit | None" = None
     refused: str = ""
     broken: tuple[str, ...] = ()
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ProjectEdit:
+    """A change of project.yaml, which histories take back and do again; what others wrote into it meanwhile stays.
+
+    `what` says in a few words what was changed. `old` is None where there was no file.
+    """
+
+    workspace: Workspace
+    what: str
+    old: str | None
+    new: str
+
+    @property
+    def label(self) -> str:
+        """What the histories call it."""
+        return f"project.yaml: {self.what}"
+
+    def take_back(self, _person: str) -> str:
+        """Write what stood there before; returns why not, if the same lines were changed since."""
+        return self._bring(self.new, self.old or "")
+
+    def do_again(self, _person: str) -> str:
+        """Write the change once more; returns why not."""
+        return self._bring(self.old or "", self.new)
+
+    def _bring(self, base: str, wanted: str) -> str:
+        file = project_file_in(self.workspace.folder)
+        try:
+            now = file.read_bytes().decode("utf-8") if file else ""
+            text = merge_lines(base, now, wanted)
+            if text is None or (text and read_project_file(text, "project.yaml").project is None):
+                return "Not done: project.yaml was changed since, in the same lines"
+            _put(self.workspace, file, None if self.old is None and not text else text)
+        except (OSError, ValueError) as error:
+            return f"Not done: {reason_of(error)}"
+        return ""
+
+
 def change_project_file(
-    workspace: Workspace, change: Callable[[Project], Project], spot: Spot | None = None, *, is_agreed: bool = False
+    workspace: Workspace,
+    change: Callable[[Project], Project],
+    spot: Spot | None = None,
+    *,
+    what: str = "changed",
+    is_agreed: bool = False,
 ) -> Written:
     """Write another project.yaml, patching its text; comments and the order of keys stay. Without a file one is made.
 
-    With a `spot` what stands there must still be called as it is shown. What brings errors to the file itself is
-    refused unless somebody agreed to it.
+    `what` says in a few words what changes. With a `spot` what stands there must still be called as it is shown. What
+    brings errors to the file itself is refused unless somebody agreed to it.
 
     Raises:
         OSError: The file cannot be read or written.
@@ -63,28 +106,11 @@ def change_project_file(
         new = save_project_file(changed, old or "")
     except ValueError as error:
         return Written(refused=f"no file can hold that: {error}")
-    file = file or workspace.folder / "project.yaml"
-    if new != old:
-        write_text(file, new)
-        _follow(workspace)
-    return Written(file=file, old=old, new=new, broken=_broken_by(project, changed))
-
-
-def take_back(workspace: Workspace, written: Written) -> str:
-    """Write what stood in the file before; returns why not, if somebody else wrote it since.
-
-    Raises:
-        OSError: The file cannot be read or written.
-    """
-    file = written.file
-    if file is None or not file.is_file() or file.read_bytes() != written.new.encode():
-        return "project.yaml was changed since"
-    if written.old is None:
-        file.unlink()
-    else:
-        write_text(file, written.old)
-    _follow(workspace)
-    return ""
+    if new == old:
+        return Written()
+    _put(workspace, file, new)
+    edit = ProjectEdit(workspace=workspace, what=what, old=old, new=new)
+    return Written(edit=edit, broken=_broken_by(project, changed))
 
 
 def add_enumeration(project: Project) -> Project:
@@ -144,8 +170,12 @@ def _broken_by(before: Project, after: Project) -> tuple[str, ...]:
     return tuple(name or "project.yaml" for name in names if new[name] > old[name])
 
 
-def _follow(workspace: Workspace) -> None:
-    """Take over what was written; all windows of the project show it."""
+def _put(workspace: Workspace, file: Path | None, text: str | None) -> None:
+    """Write the file, or take it away; all windows of the project show it."""
+    if text is not None:
+        write_text(file or workspace.folder / "project.yaml", text)
+    elif file is not None:
+        file.unlink()
     workspace.follow_disk()
     for document in workspace.documents:
         document.sheet.tell(Document(document.sheet, DISK))

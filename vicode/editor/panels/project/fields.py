@@ -11,7 +11,7 @@ from vicode.editor.panels.fields import Bound, ChoiceField, Field, findings_at
 from vicode.editor.panels.name_field import NameField, take_declared
 from vicode.editor.session import numbers
 from vicode.editor.session.declared_names import refuse_shape
-from vicode.editor.session.project_edits import Written, change_project_file, take_back
+from vicode.editor.session.project_edits import ProjectEdit, change_project_file
 from vicode.editor.session.project_spots import Spot
 from vicode.editor.session.wording import reason_of
 from vicode.findings import Finding, Path
@@ -218,29 +218,28 @@ def write(desk: Desk, spot: Spot, change: Callable[[Any], Any]) -> str:
     """Write another thing into project.yaml; returns why not."""
     project = desk.workspace.project
     name = " of ".join(reversed(spot.names(project) or (project.name,)))
-    return write_project(desk, lambda project: spot.write(project, change), f"project.yaml is written: {name}", spot)
+    return write_project(desk, lambda project: spot.write(project, change), name, spot)
 
 
 def write_project(
-    desk: Desk, change: Callable[[Project], Project], words: str, spot: Spot | None = None, *, is_agreed: bool = False
+    desk: Desk, change: Callable[[Project], Project], what: str, spot: Spot | None = None, *, is_agreed: bool = False
 ) -> str:
     """Write another project.yaml, say so, and offer to take it back; returns why not. See `change_project_file`."""
     try:
-        written = change_project_file(desk.workspace, change, spot, is_agreed=is_agreed)
+        written = change_project_file(desk.workspace, change, spot, what=what, is_agreed=is_agreed)
     except OSError as error:
         return f"not written: {reason_of(error)}"
-    if not written.refused and written.new != written.old:
+    edit = written.edit
+    if edit is not None:
         broken = f"; now with errors: {', '.join(written.broken)}" if written.broken else ""
-        desk.offer_undo(words + broken, lambda: _undo(desk, written))
+        desk.document.note(edit)
+        desk.offer_undo(f"project.yaml is written: {what}{broken}", lambda: _undo(desk, edit))
         desk.tell()
     return written.refused
 
 
-def _undo(desk: Desk, written: Written) -> None:
-    try:
-        refused = take_back(desk.workspace, written)
-    except OSError as error:
-        refused = f"not written: {reason_of(error)}"
+def _undo(desk: Desk, edit: ProjectEdit) -> None:
+    refused = desk.document.take_back(edit)
     if refused:
         desk.say(refused, "warning")
     desk.tell()

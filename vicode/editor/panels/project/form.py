@@ -79,7 +79,7 @@ def project_form(desk: Desk, fields: list[Field]) -> None:
 
 
 def _adder(desk: Desk, kind: str, change: Callable[[Project], Project]) -> None:
-    words = f"project.yaml is written: one more {kind.lower()}"
+    words = f"one more {kind.lower()}"
     with ui.row().classes("adders"):
         add_button(kind, f"{kind}: one more in the project", lambda: tell(desk, write_project(desk, change, words)))
 

@@ -57,7 +57,6 @@ def _list(mentions: tuple[Mention, ...]) -> None:
 
 def _remove(desk: Desk, spot: Spot) -> None:
     name = spot.name(desk.workspace.project)
-    words = f"project.yaml is written: no {spot.kind} {name} any more"
-    refused = write_project(desk, spot.without, words, spot, is_agreed=True)
+    refused = write_project(desk, spot.without, f"no {spot.kind} {name} any more", spot, is_agreed=True)
     if refused:
         desk.say(refused[:1].upper() + refused[1:], "warning")
