@@ -61,6 +61,10 @@ def test_an_element_is_added_named_and_taken_back(editor: str, page: Page, proje
     page.keyboard.press("Control+Shift+Z")
     page.keyboard.press("Control+Shift+Z")
     expect(third).to_be_visible()
+    third.get_by_role("button", name="Earlier: element both").click()
+    expect(side.get_by_label("Element 2", exact=True)).to_have_value("both")
+    expect(side.get_by_label("Element 3", exact=True)).to_have_value("right")
+    assert re.search(r"left: .*\n +both: .*\n +right: ", file.read_text())
 
 
 def test_a_constant_that_is_used_is_removed_after_its_users_were_listed(editor: str, page: Page, project: Path) -> None:

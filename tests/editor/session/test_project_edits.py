@@ -239,3 +239,17 @@ def test_a_name_that_only_the_project_says_is_a_step_too(workspace: Workspace, f
     assert texts_of(folder) == before
     assert player.redo() == ""
     assert texts_of(folder) == after
+
+
+def test_an_element_goes_before_the_one_before_it(workspace: Workspace) -> None:
+    def elements() -> tuple[str, ...]:
+        found = workspace.project.enumeration("Kick")
+        return found.element_names if found else ()
+
+    kick = next(at for at, each in enumerate(workspace.project.enumerations) if each.name == "Kick")
+    spots = [Spot.of("enumerations", kick).inner("elements", at) for at in range(3)]
+    assert elements() == ("front", "diagonal", "lateral")
+    assert change_project_file(workspace, spots[2].earlier, spots[2]).refused == ""
+    assert elements() == ("front", "lateral", "diagonal")
+    # The first one stays.
+    assert change_project_file(workspace, spots[0].earlier, spots[0]).edit is None

@@ -6,6 +6,11 @@ from nicegui import ui
 
 from vicode.editor.panels.desk import Desk
 
+# Once it has unfolded: what was opened at the lower edge is not looked for below it.
+_BRING_UP = """setTimeout(() => getHtmlElement(%d)?.scrollIntoView({
+  block: "nearest", behavior: matchMedia("(prefers-reduced-motion: reduce)").matches ? "auto" : "smooth",
+}), 350)"""
+
 
 def fold(desk: Desk, key: str, title: str, caption: str, build: Callable[[], None]) -> ui.expansion:
     """A fold under a title; `caption` says what is in it, `key` tells it from the others of the design."""
@@ -21,6 +26,7 @@ def fold(desk: Desk, key: str, title: str, caption: str, build: Callable[[], Non
         if is_open:
             desk.open_folds.add(key)
             fill()
+            ui.run_javascript(_BRING_UP % whole.id)
         else:
             desk.open_folds.discard(key)
 

@@ -86,6 +86,20 @@ class Spot:
         changed: Project = _updated(project, tuple(outer), change)
         return changed
 
+    def earlier(self, project: Project) -> Project:
+        """The project with the thing before the one that stands before it; the first stays."""
+        *outer, (section, number) = self.steps
+
+        def change(holder: Any) -> Any:
+            things = list(getattr(holder, section) or ())
+            if 0 < number < len(things):
+                things[number - 1 : number + 1] = things[number], things[number - 1]
+            changes: dict[str, Any] = {section: tuple(things)}
+            return replace(holder, **changes)
+
+        changed: Project = _updated(project, tuple(outer), change)
+        return changed
+
     def declared(self, project: Project) -> Declared:
         """It as a thing that can be renamed, and is said elsewhere."""
         names = self.names(project)

@@ -8,12 +8,22 @@ from vicode.editor.panels.declarations import caption_of, with_argument, without
 from vicode.editor.panels.desk import Desk
 from vicode.editor.panels.fields import Field
 from vicode.editor.panels.folds import fold
-from vicode.editor.panels.project.fields import DOC, RANGE, XABSL_NAME, Line, line_in_file, name_in_file, write
+from vicode.editor.panels.project.fields import (
+    DOC,
+    RANGE,
+    XABSL_NAME,
+    Line,
+    line_in_file,
+    name_in_file,
+    write,
+    write_project,
+)
 from vicode.editor.panels.project.removing import remove
 from vicode.editor.panels.rows import add_button, icon_button
 from vicode.editor.session.project_spots import Spot
 
 _VALUES = {"constant": "Value", "parameter": "Default", "argument": "Default"}
+_ORDERED = ("elements", "arguments")
 _UNIT = Line(label="Unit", attribute="unit")
 
 
@@ -57,7 +67,8 @@ def group(desk: Desk, spot: Spot, look: str = "") -> tuple[ui.element, Callable[
         whole.update()
         for button in whole.default_slot.children:
             if isinstance(button, ui.button):
-                button.props["aria-label"] = f"Remove {spot.kind} {name}"
+                verb = str(button.props["aria-label"]).partition(" ")[0]
+                button.props["aria-label"] = f"{verb} {spot.kind} {name}"
                 button.update()
 
     call_it(spot.name(desk.workspace.project))
@@ -65,7 +76,14 @@ def group(desk: Desk, spot: Spot, look: str = "") -> tuple[ui.element, Callable[
 
 
 def remover(desk: Desk, spot: Spot, called: Callable[[str], None]) -> None:
-    """A button that removes a thing."""
+    """A button that removes a thing; where the order has a meaning, one that puts it before the one before."""
+    if spot.section in _ORDERED and spot.steps[-1][1]:
+
+        def put_earlier() -> None:
+            what = f"{spot.name(desk.workspace.project)} is earlier"
+            tell(desk, write_project(desk, spot.earlier, what, spot, is_agreed=True))
+
+        icon_button("arrow_upward", "Earlier:", put_earlier).classes("earlier")
     icon_button("close", "Remove", lambda: remove(desk, spot))
     called(spot.name(desk.workspace.project))
 
