@@ -25,6 +25,24 @@ def test_a_behavior_is_compiled_and_run(tmp_path: Path, capsys: pytest.CaptureFi
     assert "cycles a second" in capsys.readouterr().out
 
 
+def test_the_file_with_the_agents_is_found_or_named(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    shutil.copytree(CIRCLE, tmp_path / "circle")
+    monkeypatch.chdir(tmp_path)
+    option = "circle/Options/drive_circle.xabsl"
+    for command in (["xabsl", "compile", option], ["import", option, "--out", "made"], ["docs", option]):
+        assert main(command) == 2
+        assert f"{option} has no agents; name the file that has them: circle/agents.xabsl" in capsys.readouterr().err
+    assert main(["check", "circle"]) == 2
+    assert "'vicode import circle/agents.xabsl' makes designs" in capsys.readouterr().err
+    assert main(["docs", "circle", "--out", "site"]) == 0
+    assert (tmp_path / "site" / "component-drive_circle.html").is_file()
+    shutil.copytree(CIRCLE, tmp_path / "other")
+    assert main(["docs", ".", "--out", "site"]) == 2
+    assert "holds several behaviors; name one of circle/agents.xabsl, other/agents.xabsl" in capsys.readouterr().err
+
+
 def test_without_output_the_code_is_printed(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["xabsl", "compile", str(CIRCLE / "agents.xabsl")]) == 0
     assert words(capsys.readouterr().out) == words(read_case("drive_circle", "intermediate.dat"))

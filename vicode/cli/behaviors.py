@@ -1,6 +1,6 @@
 """What the commands about XABSL share: compiling a behavior, and showing what is wrong with it."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -10,14 +10,47 @@ from vicode.cli.printing import print_findings
 if TYPE_CHECKING:
     from vicode.findings import Finding
     from vicode.xabsl.compiler import Compiled
+    from vicode.xabsl.sources import ParseText, Source
+
+
+_FOLDERS_ABOVE = 4
+
+
+def load_behavior(agents: Path, parse_text: "ParseText | None" = None) -> "Source":
+    """Read the behavior whose agents are in this file.
+
+    Raises:
+        OSError: It is another file of a behavior, of which the words would mean nothing alone.
+    """
+    from vicode.xabsl.parser import parse
+    from vicode.xabsl.sources import load
+
+    source = load(agents, parse_text=parse_text or parse)
+    main = source.files.get(source.main)
+    if main is not None and main.file.body and not source.has_agents:
+        found = next(_agents_around(agents), None)
+        raise OSError(f"{agents} has no agents; name the file that has them{f': {found}' if found else ''}")
+    return source
+
+
+def _agents_around(file: Path) -> Iterator[Path]:
+    from vicode.xabsl.sources import files_with_agents
+
+    folder = file.parent
+    for _ in range(_FOLDERS_ABOVE):
+        yield from files_with_agents(folder, is_deep=False)
+        folder = folder / ".." if folder.name in ("", "..") else folder.parent
 
 
 def compiled_behavior(agents: Path) -> "Compiled":
-    """Compile the behavior whose agents are in this file."""
-    from vicode.xabsl.compiler import compile_source
-    from vicode.xabsl.sources import load
+    """Compile the behavior whose agents are in this file.
 
-    return compile_source(load(agents))
+    Raises:
+        OSError: It is another file of a behavior.
+    """
+    from vicode.xabsl.compiler import compile_source
+
+    return compile_source(load_behavior(agents))
 
 
 def shown(findings: "Sequence[Finding]", agents: Path) -> "tuple[Finding, ...]":

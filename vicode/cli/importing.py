@@ -6,7 +6,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from vicode.cli.behaviors import tell
+from vicode.cli.behaviors import load_behavior, tell
 from vicode.cli.printing import count_findings
 
 if TYPE_CHECKING:
@@ -30,9 +30,8 @@ def run(args: argparse.Namespace) -> int:
     from vicode.importers import import_behavior, robot_text
     from vicode.store.documents import default_name
     from vicode.xabsl.compiler import compile_source
-    from vicode.xabsl.sources import load
 
-    source = load(args.agents)
+    source = load_behavior(args.agents)
     compiled = compile_source(source)
     if compiled.program is None:
         tell([each for each in compiled.findings if each.severity is Severity.ERROR], args.agents)

@@ -76,8 +76,16 @@ def open_paths(paths: Sequence[str]) -> tuple[Opened, ...]:
             if files is not None:
                 files.add(path)
     if not wanted:
-        raise OSError(f"no designs in {', '.join(paths)}")
+        raise OSError(f"no designs in {', '.join(paths)}{_way_to_designs(paths)}")
     return tuple(_open(folder, files) for folder, files in wanted.items())
+
+
+def _way_to_designs(paths: Sequence[str]) -> str:
+    """What to do where there are behaviors instead."""
+    from vicode.xabsl.sources import files_with_agents
+
+    found = next((file for path in paths for file in files_with_agents(Path(path))), None)
+    return f"; 'vicode import {found}' makes designs of a behavior in XABSL" if found else ""
 
 
 def refuse_other_files(path: Path) -> None:

@@ -40,7 +40,7 @@ def read_subjects(paths: Sequence[Path]) -> tuple[Reading, ...]:
         OSError: A path does not exist or cannot be read.
     """
     readings: list[Reading] = []
-    for path in dict.fromkeys(paths):
+    for path in dict.fromkeys(_behavior_in(each) or each for each in paths):
         if path.suffix in BEHAVIORS:
             readings.append(_read_behavior(path))
         elif path.is_file() and path.suffix not in DESIGNS:
@@ -51,6 +51,20 @@ def read_subjects(paths: Sequence[Path]) -> tuple[Reading, ...]:
         else:
             readings += [_reading_of(opened) for opened in open_paths([str(path)])]
     return tuple(readings)
+
+
+def _behavior_in(folder: Path) -> Path | None:
+    """The file with the agents, of a folder without designs that holds one behavior."""
+    from vicode.store import find_projects
+    from vicode.xabsl.sources import files_with_agents
+
+    if not folder.is_dir() or find_projects(folder):
+        return None
+    found = tuple(files_with_agents(folder))
+    if len(found) > 1:
+        more = f" and {len(found) - 2} more" if len(found) > 2 else ""
+        raise OSError(f"{folder} holds several behaviors; name one of {found[0]}, {found[1]}{more}")
+    return found[0] if found else None
 
 
 def _reading_of(opened: Opened) -> Reading:
@@ -78,11 +92,10 @@ def _subject_of_project(opened: Opened) -> "Subject":
 
 def _read_behavior(agents: Path) -> Reading:
     """A behavior as a project, with its files of XABSL as sources."""
-    from vicode.cli.behaviors import shown
+    from vicode.cli.behaviors import load_behavior, shown
     from vicode.xabsl.compiler import compile_source
-    from vicode.xabsl.sources import load
 
-    source = load(agents, parse_text=_parsed)
+    source = load_behavior(agents, _parsed)
     compiled = compile_source(source)
     errors = [each for each in compiled.findings if each.severity is Severity.ERROR]
     is_broken = compiled.program is None

@@ -1,6 +1,7 @@
 """The files of a program: found by their includes, each read once, however it is spelt."""
 
-from collections.abc import Callable
+import re
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -12,6 +13,9 @@ from vicode.xabsl.tree import Agent
 ReadText = Callable[[Path], str]
 ParseText = Callable[[str, str], Parsed]
 _EXTENSIONS = (".xabsl", ".yabsl")
+
+
+_AGENT = re.compile(r"^[ \t]*agent\s+\w+\s*\(", re.MULTILINE)
 
 
 @dataclass(slots=True)
@@ -26,6 +30,11 @@ class Source:
     def title(self) -> str:
         """The title that the first comment of the main file tells."""
         return header_of(self.files[self.main].file.initial).get("Title", "") if self.main in self.files else ""
+
+    @property
+    def has_agents(self) -> bool:
+        """Whether any of its files has an agent."""
+        return any(isinstance(each, Agent) for parsed in self.files.values() for each in parsed.file.body)
 
 
 def header_of(initial: str) -> dict[str, str]:
@@ -45,6 +54,13 @@ def read_text(path: Path) -> str:
         return data.decode("utf-8")
     except UnicodeDecodeError:
         return data.decode("cp1252", errors="replace")
+
+
+def files_with_agents(folder: Path, *, is_deep: bool = True) -> Iterator[Path]:
+    """The files of a folder, and of those in it, that look as if they declared agents: a behavior begins there."""
+    for path in sorted(folder.rglob("*") if is_deep else folder.glob("*")):
+        if path.suffix in _EXTENSIONS and path.is_file() and _AGENT.search(read_text(path)):
+            yield path
 
 
 def load(main: Path, read: ReadText = read_text, parse_text: ParseText = parse) -> Source:
