@@ -221,6 +221,10 @@ def test_files_that_come_change_and_go_are_followed(workspace: Workspace) -> Non
     assert opened(workspace, "Wave").design.states
     assert workspace.document("SearchNet") is None
     assert {finding.rule.code for finding in player.findings} == {"P202"}
+    (workspace.folder / "search_net.yaml").write_text("component: SearchNet\nstates: [\n")
+    workspace.follow_disk()
+    told = [(finding.message, finding.mend) for finding in player.findings]
+    assert told == [("the design of 'SearchNet' cannot be read", "mend search_net.yaml first")]
     workspace.save(turn)
     assert turn.file.read_text().endswith("# theirs\n")
 

@@ -15,7 +15,10 @@ def find_unknown_components(context: Context) -> Iterator[Finding]:
     for use in context.design.uses:
         if use.component not in known:
             mend = did_you_mean(use.component, known, "add its design, or declare it in project.yaml")
-            yield context.find("P202", ("uses", use.alias), f"there is no component '{use.component}'", mend)
+            message = f"there is no component '{use.component}'"
+            if file := dict(context.project.unread).get(use.component):
+                message, mend = f"the design of '{use.component}' cannot be read", f"mend {file} first"
+            yield context.find("P202", ("uses", use.alias), message, mend)
 
 
 def find_unknown_aliases(context: Context) -> Iterator[Finding]:

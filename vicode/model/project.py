@@ -87,7 +87,8 @@ class Agent:
 class Project:
     """All that one folder of designs declares.
 
-    `world` is "module:Class", `generated` the output folder, relative to the project's folder.
+    `world` is "module:Class", `generated` the output folder, relative to the project's folder. `unread` are components
+    whose designs are there and cannot be read, each with its file.
     """
 
     name: str
@@ -100,6 +101,7 @@ class Project:
     components: tuple[Interface, ...] = ()
     agents: tuple[Agent, ...] = ()
     designs: tuple[Design, ...] = ()
+    unread: tuple[tuple[str, str], ...] = ()
     _index: dict[str, "Interface"] = field(default_factory=dict, init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:

@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from vicode.findings import Finding, Note, rule, sort_findings
+from vicode.model.names import name_like
 from vicode.model.project import Project
 from vicode.store.documents import (
     PROJECT_FILES,
@@ -23,6 +24,7 @@ from vicode.store.sources import SourceMap
 
 SUFFIXES = (".yaml", ".yml")
 _LOOKS_LIKE_DESIGN = re.compile(rb"^(vicode|component|states)[ \t]*:", re.MULTILINE)
+_COMPONENT = re.compile(rb"^component[ \t]*:[ \t]*[\"']?([A-Za-z]\w*)", re.MULTILINE)
 _SKIPPED_FOLDERS = {"node_modules", "__pycache__", "site-packages"}
 _LEVELS_ABOVE = 8
 # What each file said when it was read last, by its content and the name that messages give it.
@@ -125,6 +127,7 @@ class _Opening:
         self.sources: dict[str, SourceMap] = {}
         self.texts: dict[str, str] = {}
         self.broken: list[Path] = []
+        self.unread: list[tuple[str, str]] = []
         self.findings: list[Finding] = []
 
     def read_project_file(self) -> None:
@@ -149,7 +152,7 @@ class _Opening:
         read = _read_again(file, content)
         self.findings += read.findings
         if read.design is None:
-            self.broken.append(file)
+            self._add_broken(file, content)
         elif read.design.component in self.reads:
             self._add_duplicate(file, read)
         else:
@@ -157,11 +160,17 @@ class _Opening:
             self.reads[name], self.files[name] = read, file
             self.sources[name], self.texts[name] = read.source, read.source.lines.text
 
+    def _add_broken(self, file: Path, content: bytes) -> None:
+        said = _COMPONENT.search(content)
+        name = said[1].decode() if said else name_like(file.stem.replace("_", " "))
+        self.broken.append(file)
+        self.unread.append((name, file.name))
+
     def result(self) -> OpenProject:
         """All of it."""
         designs = tuple(read.design for read in self.reads.values() if read.design is not None)
         return OpenProject(
-            project=replace(self.project, designs=designs),
+            project=replace(self.project, designs=designs, unread=tuple(self.unread)),
             folder=self.folder,
             files=self.files,
             sources=self.sources,
@@ -188,7 +197,7 @@ class _Opening:
         report = Report(lines=Lines("", shown_path(file)))
         report.add("Y110", f"the file cannot be read: {error.strerror}", (0, 1))
         self.findings += report.findings
-        self.broken.append(file)
+        self._add_broken(file, b"")
 
 
 def _read_again(file: Path, content: bytes) -> ReadDesign:
