@@ -1,5 +1,9 @@
 """The list of designs: every project of the folder with its components."""
 
+import re
+from dataclasses import dataclass
+from html import escape
+
 from nicegui import ui
 
 from vicode.editor.panels.design_dialogs import DesignDialogs
@@ -7,6 +11,19 @@ from vicode.editor.panels.design_menu import add_design_menu
 from vicode.editor.panels.rows import icon_button
 from vicode.editor.session import Library, Workspace
 from vicode.editor.view.address import broken_address, design_address
+
+_LONG = 18
+_MANY = 25
+"""Of more designs, one is found by typing a part of its name."""
+
+
+@dataclass(frozen=True, slots=True)
+class _Row:
+    """A line of the list, what is sought in it, and where it leads."""
+
+    name: str
+    address: str
+    element: ui.element
 
 
 class DesignsList:
@@ -16,7 +33,15 @@ class DesignsList:
         """Build it; `here` is the project's key and the component that is open."""
         self.library, self.here, self.dialogs = library, here, dialogs
         self.shape: object = None
-        self.body = ui.element("nav").classes("designs").props('aria-label="Designs"')
+        self._rows: list[_Row] = []
+        with ui.element("nav").classes("designs").props('aria-label="Designs"'):
+            self._filter = ui.input(placeholder="Filter", on_change=self._narrow).classes("designs-filter")
+            self._filter.props('dense borderless clearable debounce=150 aria-label="Filter designs"')
+            # What stands in the field is told at once, its value only when nobody types any more.
+            told = "(event) => emit(event.target.value)"
+            self._filter.on("keydown.enter", lambda event: self._open_first(str(event.args)), js_handler=told)
+            self.body = ui.element("div")
+            self._none = ui.label("No design has this in its name.").classes("empty")
         self.refresh()
 
     def refresh(self) -> None:
@@ -27,10 +52,29 @@ class DesignsList:
         if shape == self.shape:
             return
         self.shape = shape
+        self._rows = []
         self.body.clear()
         with self.body:
             for workspace in self.library.workspaces:
                 self._project(workspace)
+        self._filter.set_visibility(len(self._rows) > _MANY)
+        self._narrow()
+
+    def _narrow(self) -> None:
+        """Show the designs with all typed parts in their names."""
+        found = self._found(str(self._filter.value or ""))
+        for row in self._rows:
+            row.element.set_visibility(row in found)
+        self._none.set_visibility(bool(self._rows) and not found)
+
+    def _found(self, text: str) -> list[_Row]:
+        parts = text.casefold().split() if self._filter.visible else []
+        return [row for row in self._rows if all(part in row.name.casefold() for part in parts)]
+
+    def _open_first(self, text: str) -> None:
+        found = self._found(text)
+        if found:
+            ui.navigate.to(found[0].address)
 
     def _project(self, workspace: Workspace) -> None:
         with ui.row().classes("project-head"):
@@ -41,25 +85,40 @@ class DesignsList:
             for design in sorted(workspace.project.designs, key=lambda each: each.component.casefold()):
                 self._design(workspace, design.component)
             for file in workspace.broken:
-                _broken(workspace, file)
+                self._rows.append(_Row(file, broken_address(workspace.key, file), _broken(workspace, file)))
 
     def _design(self, workspace: Workspace, component: str) -> None:
+        address = design_address(workspace.key, component)
         is_here = self.here == (workspace.key, component)
         with ui.element("div").classes("design-row").props("role=listitem") as row:
-            link = ui.link(target=design_address(workspace.key, component))
+            link = ui.link(target=address)
             link.classes("design-link" + (" is-open" if is_here else ""))
             if is_here:
                 link.props('aria-current="page"')
             with link:
-                ui.label(component)
-                if component in workspace.unsaved:
+                is_unsaved = component in workspace.unsaved
+                _name(component)
+                if len(component) > _LONG:
+                    link.props["aria-label"] = component + (", unsaved" if is_unsaved else "")
+                if is_unsaved:
                     ui.label("●").classes("unsaved-mark").props('aria-label="unsaved" role="img"')
             add_design_menu(workspace, component, self.dialogs, row)
+        self._rows.append(_Row(component, address, row))
 
 
-def _broken(workspace: Workspace, file: str) -> None:
+def _name(component: str) -> None:
+    """A name, which breaks between its words where it is long."""
+    if len(component) <= _LONG:
+        ui.label(component).classes("design-name")
+    else:
+        parts = re.split(r"(?<=_)(?=[^_])|(?<=[a-z0-9])(?=[A-Z])", component)
+        ui.html("<wbr>".join(escape(part) for part in parts), sanitize=False).classes("design-name")
+
+
+def _broken(workspace: Workspace, file: str) -> ui.element:
     address = broken_address(workspace.key, file)
-    with ui.element("div").props("role=listitem"), ui.link(target=address).classes("design-link is-broken"):
+    with ui.element("div").props("role=listitem") as row, ui.link(target=address).classes("design-link is-broken"):
         ui.icon("error").props('aria-hidden="true"')
-        ui.label(file)
+        ui.label(file).classes("design-name")
         ui.tooltip(f"{file} cannot be read: open its text to mend it")
+    return row
