@@ -6,10 +6,18 @@ from nicegui import ui
 
 from vicode.editor.panels.desk import Desk
 
-# Once it has unfolded: what was opened at the lower edge is not looked for below it.
-_BRING_UP = """setTimeout(() => getHtmlElement(%d)?.scrollIntoView({
-  block: "nearest", behavior: matchMedia("(prefers-reduced-motion: reduce)").matches ? "auto" : "smooth",
-}), 350)"""
+# What was opened at the lower edge is not looked for below it. Folds open at once, as what is in them comes a moment
+# later anyway: what is about to be pressed would move away under the hand.
+_BRING_UP = """
+  const fold = getHtmlElement(%d), height = fold?.offsetHeight;
+  const watch = new ResizeObserver(() => {
+    if (fold.offsetHeight <= height) return;
+    watch.disconnect();
+    fold.scrollIntoView({ block: "nearest" });
+  });
+  if (fold) watch.observe(fold);
+  setTimeout(() => watch.disconnect(), 2000);
+"""
 
 
 def fold(desk: Desk, key: str, title: str, caption: str, build: Callable[[], None]) -> ui.expansion:
@@ -33,7 +41,7 @@ def fold(desk: Desk, key: str, title: str, caption: str, build: Callable[[], Non
     whole = ui.expansion(
         title, caption=caption, value=key in desk.open_folds, on_value_change=lambda event: turn(is_open=event.value)
     )
-    whole.classes("section").props("dense")
+    whole.classes("section").props("dense duration=0")
     if key in desk.open_folds:
         fill()
     return whole
