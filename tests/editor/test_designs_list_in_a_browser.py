@@ -1,8 +1,10 @@
 """The list of a large project's designs: long names are whole, and a part of a name finds one."""
 
 import re
+from collections.abc import Iterator
 from pathlib import Path
 
+import pytest
 from playwright.sync_api import Page, expect
 
 from tests.editor.conftest import started_editor
@@ -12,7 +14,9 @@ expect.set_options(timeout=20_000)
 WORDS = ("stand", "defend_corner_of_our_half", "kick_off")
 
 
-def test_one_of_many_designs_is_found_by_parts_of_its_name(page: Page, tmp_path: Path) -> None:
+@pytest.fixture
+def team(tmp_path: Path) -> Iterator[str]:
+    """The URL of an editor on thirty designs and one that cannot be read."""
     folder = tmp_path / "designs" / "team"
     folder.mkdir(parents=True)
     for number in range(30):
@@ -21,20 +25,24 @@ def test_one_of_many_designs_is_found_by_parts_of_its_name(page: Page, tmp_path:
         (folder / f"{name}.yaml").write_text(text, encoding="utf-8")
     (folder / "bad.yaml").write_text("component: Bad\nstates: [\n", encoding="utf-8")
     with started_editor(tmp_path / "designs", tmp_path / "storage") as url:
-        page.goto(url + "design/team/stand_0")
-        page.wait_for_function("window.did_handshake")
-        designs = page.get_by_role("navigation", name="Designs")
-        shown = designs.get_by_role("listitem")
-        expect(shown).to_have_count(31)
-        page.get_by_label("Filter designs").fill("half 1")
-        expect(shown).to_have_count(5)
-        expect(shown.first.get_by_role("link")).to_have_accessible_name("defend_corner_of_our_half_1")
-        page.get_by_label("Filter designs").fill("no such")
-        expect(designs.get_by_text("No design has this in its name.")).to_be_visible()
-        page.get_by_label("Filter designs").fill("bad")
-        expect(shown.get_by_role("link")).to_have_accessible_name(re.compile("bad.yaml"))
-        # Enter means what stands there, though the list may be that of before.
-        page.get_by_label("Filter designs").fill("off 5")
-        page.keyboard.press("Enter")
-        expect(page).to_have_url(re.compile("/design/team/kick_off_5$"))
-        expect(page.get_by_label("Filter designs")).to_have_value("")
+        yield url
+
+
+def test_one_of_many_designs_is_found_by_parts_of_its_name(team: str, page: Page) -> None:
+    page.goto(team + "design/team/stand_0")
+    page.wait_for_function("window.did_handshake")
+    designs = page.get_by_role("navigation", name="Designs")
+    shown = designs.get_by_role("listitem")
+    expect(shown).to_have_count(31)
+    page.get_by_label("Filter designs").fill("half 1")
+    expect(shown).to_have_count(5)
+    expect(shown.first.get_by_role("link")).to_have_accessible_name("defend_corner_of_our_half_1")
+    page.get_by_label("Filter designs").fill("no such")
+    expect(designs.get_by_text("No design has this in its name.")).to_be_visible()
+    page.get_by_label("Filter designs").fill("bad")
+    expect(shown.get_by_role("link")).to_have_accessible_name(re.compile("bad.yaml"))
+    # Enter means what stands there, though the list may be that of before.
+    page.get_by_label("Filter designs").fill("off 5")
+    page.keyboard.press("Enter")
+    expect(page).to_have_url(re.compile("/design/team/kick_off_5$"))
+    expect(page.get_by_label("Filter designs")).to_have_value("")
