@@ -40,6 +40,7 @@ def test_unsaved_work_survives_a_killed_server(
         page.reload()
         expect(page.get_by_text("Unsaved changes")).to_be_visible()
         expect(page.get_by_text("Recover the unsaved changes")).to_have_count(0)
+        page.goto("about:blank")
 
 
 def _wait_for_journal(page: Page, state: Path, text: str) -> None:
