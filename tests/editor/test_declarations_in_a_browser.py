@@ -141,9 +141,7 @@ def test_what_few_need_stands_in_folds(editor: str, page: Page, project: Path) -
     # A form that is built anew keeps its folds open.
     page.get_by_label("State", exact=True).fill("Strike")
     page.keyboard.press("Enter")
-    page.keyboard.press("Control+s")
-    expect(page.get_by_text("Saved", exact=True).first).to_be_visible()
-    text = (project / "forward" / "player.yaml").read_text()
+    text = save(page, project / "forward" / "player.yaml")
     state = text[text.index("  Strike:") :]
     assert "    capacity: 1\n" in state
     assert "    synchronized: 2\n" in state
