@@ -105,8 +105,7 @@ def test_what_a_person_does(editor: str, page: Page, project: Path) -> None:
     page.get_by_role("button", name="Generate").click()
     expect(page.get_by_text("Saved", exact=True).first).to_be_visible()
     page.get_by_role("dialog").get_by_role("button", name="Write").click()
-    written = page.get_by_text("player.py", exact=False).last
-    expect(written).to_be_visible()
+    expect(page.locator(".q-notification__message", has_text="Generated")).to_be_visible()
     page.reload()
     expect(state(page, "Celebrate")).to_be_visible()
     after = file.read_text()
