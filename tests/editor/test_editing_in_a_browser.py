@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from playwright.sync_api import Locator, Page, expect
+from playwright.sync_api import Locator, Page, WebSocketRoute, expect
 
 from tests.editor.player_page import save
 
@@ -184,6 +184,35 @@ def test_what_is_asked_before_the_page_can_speak_is_done_when_it_can(editor: str
     page.keyboard.press("Escape")
     expect(page.get_by_role("treegrid")).to_be_visible()
     expect(page.get_by_text("Dark colours")).to_be_visible()
+
+
+def test_a_state_made_before_the_drawing_is_known_to_be_there_is_named(editor: str, page: Page) -> None:
+    held: list[str | bytes] = []
+
+    def connect(route: WebSocketRoute) -> None:
+        server = route.connect_to_server()
+
+        def pass_on(message: str | bytes) -> None:
+            # What a page says while it opens comes in any order: "ready" after the first gesture.
+            if "rev" in str(message) and "kind" not in str(message):
+                held.append(message)
+                return
+            server.send(message)
+            if "create" in str(message):
+                server.send(held.pop())
+
+        route.on_message(pass_on)
+
+    page.route_web_socket("**/*", connect)
+    open_player(page, editor)
+    stage = page.locator("main.stage").bounding_box()
+    assert stage is not None
+    page.mouse.dblclick(stage["x"] + 30, stage["y"] + stage["height"] - 40)
+    expect(page.locator("input.rename")).to_be_focused()
+    assert not held
+    page.keyboard.type("Pause")
+    page.keyboard.press("Enter")
+    expect(state(page, "Pause")).to_be_visible()
 
 
 def test_two_windows_stay_in_step(editor: str, page: Page, second_window: Page) -> None:

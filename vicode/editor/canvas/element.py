@@ -35,6 +35,7 @@ class Canvas(ui.element, component=CANVAS / "vicode_canvas.js"):
         self._heard = 0
         self._links_shown = True
         self._arrival: tuple[Kind, str] | None = None
+        self._renaming = ""
         self._is_mounted = False
         self._rev_in_page: int | None = None
         self._text_in_page = ""
@@ -95,7 +96,9 @@ class Canvas(ui.element, component=CANVAS / "vicode_canvas.js"):
 
     def rename_in_place(self, state: str) -> None:
         """Open the name of a state for typing, as after creating it."""
-        self._call("renameInPlace", state)
+        self._renaming = state
+        if self._is_mounted:
+            self._send_renaming()
 
     def state_renamed(self, old: str, new: str) -> None:
         """Tell that a drawn state is the same under another name, so that a name being typed there goes on."""
@@ -192,6 +195,11 @@ class Canvas(ui.element, component=CANVAS / "vicode_canvas.js"):
         ids, self._sent, taken = self._active
         self._call("setActive", ids, self._sent, taken)
 
+    def _send_renaming(self) -> None:
+        if self._renaming:
+            self._call("renameInPlace", self._renaming)
+        self._renaming = ""
+
     def _send_people(self) -> None:
         if self._is_mounted:
             self._people_seen = self._people_due = False
@@ -231,6 +239,8 @@ class Canvas(ui.element, component=CANVAS / "vicode_canvas.js"):
         if self._arrival:
             self._call("arriveAt", *self._arrival)
             self._arrival = None
+        # A state made before this was heard, as what a page says while it opens comes in any order.
+        self._send_renaming()
         self._call("setStops", self._stops)
         self._send_people()
         if self._active[1] >= 0:
