@@ -8,7 +8,7 @@ from vicode.cli.sites import Step
 
 
 @contextmanager
-def progress() -> Iterator["Step"]:
+def progress() -> Iterator[Step]:
     """What shows how far a building is; where nobody looks it shows nothing."""
     if not sys.stderr.isatty():
         yield lambda _name, _done, _all: None

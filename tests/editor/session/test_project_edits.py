@@ -223,6 +223,22 @@ def test_a_change_of_the_project_is_a_step_of_the_design_beside_which_it_was_mad
     assert "constant: 1" in text()
 
 
+def test_who_does_something_new_has_nothing_to_do_again(workspace: Workspace, folder: Path) -> None:
+    player = workspace.document("Player")
+    assert player is not None
+    before = texts_of(folder)
+    player.edit("say", lambda design: replace(design, doc="Plays."))
+    written = change_project_file(workspace, project_edits.add_constant, what="one more constant")
+    assert written.edit is not None
+    player.note(written.edit)
+    assert player.undo() == ""
+    assert player.redo_label == "project.yaml: one more constant"
+    assert player.undo() == ""
+    player.edit("say otherwise", lambda design: replace(design, doc="Otherwise."))
+    assert player.redo_label == ""
+    assert texts_of(folder) == before
+
+
 def test_a_name_that_only_the_project_says_is_a_step_too(workspace: Workspace, folder: Path) -> None:
     player = workspace.document("Player")
     assert player is not None

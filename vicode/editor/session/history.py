@@ -165,8 +165,9 @@ class History:
         stack = self.taken_back.get(step.person, ())
         if step.undoes:
             return (*stack, step.undoes)
-        wholes = [each in self.steps and self.steps[each].whole for each in stack]
-        return stack[: wholes.index(step.whole)] if step.whole in wholes else ()
+        known = (at for at, each in enumerate(stack) if each in self.steps and self.steps[each].whole == step.whole)
+        again = max(known, default=0) if step.whole else 0
+        return stack[:again]
 
     def _appended(self, step: Step) -> "History":
         id_ = max(self.steps) + 1
