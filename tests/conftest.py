@@ -2,8 +2,9 @@
 
 import os
 import shutil
-from collections.abc import Iterator
+from collections.abc import Generator, Iterator
 from pathlib import Path
+from typing import Any
 
 import pytest
 from hypothesis import HealthCheck, settings
@@ -53,6 +54,17 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
             item.add_marker(pytest.mark.browser)
             if "VICODE_ONE_TRY" not in os.environ:
                 item.add_marker(pytest.mark.flaky(reruns=1))
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_runtest_makereport(item: pytest.Item, call: pytest.CallInfo[None]) -> Generator[None, Any, Any]:
+    """Where `VICODE_PICTURES` names a folder, the pages of a failed test are kept there as they were when it failed."""
+    report = yield
+    folder, browser = os.environ.get("VICODE_PICTURES"), getattr(item, "funcargs", {}).get("chromium")
+    if folder and browser and report.when == "call" and report.failed:
+        for number, page in enumerate(page for context in browser.contexts for page in context.pages):
+            page.screenshot(path=Path(folder) / f"{item.name}-{number}.png")
+    return report
 
 
 @pytest.fixture(scope="session")

@@ -6,6 +6,7 @@ from pathlib import Path
 from playwright.sync_api import Locator, Page, expect
 
 PLAYER = "design/forward/Player"
+Point = tuple[float, float]
 
 # A busy machine takes its time; what never comes still fails.
 expect.set_options(timeout=20_000)
@@ -27,16 +28,53 @@ def state(page: Page, name: str) -> Locator:
     return page.locator(f'g[data-kind="state"][data-id="{name}"]')
 
 
+def component(page: Page, alias: str) -> Locator:
+    """A used component in the drawing."""
+    return page.locator(f'g[data-kind="component"][data-id="{alias}"]')
+
+
+def label(page: Page, key: str) -> Locator:
+    """The label of a transition in the drawing, where it has one."""
+    return page.locator(f'g.chip[data-kind="transition"][data-id="{key}"]')
+
+
 def select_state(page: Page, name: str) -> None:
     """Click a state; the inspector shows it."""
-    state(page, name).locator("rect.box").click(force=True)
+    state(page, name).click()
     expect(page.get_by_label("State", exact=True)).to_have_value(name)
 
 
 def select_transition(page: Page, key: str) -> None:
     """Click the label of a transition; the inspector shows it."""
-    page.locator(f'g[data-kind="transition"][data-id="{key}"] .plate').first.click(force=True)
+    label(page, key).click()
     expect(page.get_by_label("Inspector").get_by_text("Transition from")).to_be_visible()
+
+
+def centre_of(page: Page, name: str) -> Point:
+    """The middle of a state's box on the screen."""
+    shape = state(page, name).locator("rect.box")
+    shape.wait_for()
+    box = shape.bounding_box()
+    if box is None:
+        # It was drawn anew between the two questions.
+        return centre_of(page, name)
+    return (box["x"] + box["width"] / 2, box["y"] + box["height"] / 2)
+
+
+def empty_corner(page: Page) -> Point:
+    """A point of the drawing where nothing is."""
+    stage = page.locator("main.stage").bounding_box()
+    assert stage is not None
+    return (stage["x"] + 30, stage["y"] + stage["height"] - 40)
+
+
+def create_state(page: Page, name: str) -> None:
+    """Double click on nothing, and type the name into the box that opens."""
+    page.mouse.dblclick(*empty_corner(page))
+    box = page.locator("input.rename")
+    expect(box).to_be_focused()
+    box.fill(name)
+    box.press("Enter")
 
 
 def save(page: Page, file: Path) -> str:

@@ -7,7 +7,7 @@ import pytest
 from axe_playwright_python.sync_playwright import Axe
 from playwright.sync_api import Page, expect
 
-from tests.editor.player_page import select_state
+from tests.editor.player_page import select_state, state
 
 PLAYER = "design/forward/Player"
 AXE = Axe()
@@ -48,10 +48,7 @@ def test_axe_finds_nothing(editor: str, page: Page, colours: str) -> None:
     page.get_by_label("Inspector").get_by_text("Project Forward").click()
     expect(page.get_by_label("Name of the project")).to_be_visible()
     found["project"] = complaints(page, ".inspector")
-    box = page.locator('g[data-id="WatchBall"] rect.box').bounding_box()
-    assert box is not None
-    page.mouse.click(box["x"] + box["width"] / 2, box["y"] + 8)
-    expect(page.get_by_label("State", exact=True)).to_be_visible()
+    select_state(page, "WatchBall")
     found["state"] = complaints(page)
     page.get_by_role("button", name="New design").first.click()
     expect(page.get_by_role("dialog")).to_be_visible()
@@ -141,8 +138,8 @@ def test_marks_are_told_apart_in_forced_colours_and_by_ear(editor: str, page: Pa
     box = page.locator('g[data-id="Kick"] rect.box')
     look = "(each) => [getComputedStyle(each).stroke, getComputedStyle(each).strokeWidth].join()"
     before = box.evaluate(look)
-    page.locator('g[data-id="Kick"] text.name').click(force=True)
-    expect(page.locator('g[data-id="Kick"]').first).to_have_attribute("aria-description", "selected")
+    state(page, "Kick").click()
+    expect(state(page, "Kick")).to_have_attribute("aria-description", "selected")
     assert box.evaluate(look) != before
     # The focus of a button is a frame, and what is pressed has one.
     page.get_by_role("button", name="Find anything").focus()

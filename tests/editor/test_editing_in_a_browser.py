@@ -2,11 +2,21 @@
 
 from pathlib import Path
 
-from playwright.sync_api import Locator, Page, WebSocketRoute, expect
+from playwright.sync_api import Page, WebSocketRoute, expect
 
-from tests.editor.player_page import save
+from tests.editor.player_page import (
+    PLAYER,
+    Point,
+    centre_of,
+    create_state,
+    empty_corner,
+    label,
+    open_player,
+    save,
+    select_state,
+    state,
+)
 
-PLAYER = "design/forward/Player"
 # The page's socket seems to be open only when the test says so.
 SPEAKS_LATE = """
 let isOpen = false;
@@ -16,51 +26,13 @@ Object.defineProperty(window, "did_handshake", {
 });
 """
 
-# A busy machine takes its time; what never comes still fails.
-expect.set_options(timeout=20_000)
 
-
-def state(page: Page, name: str) -> Locator:
-    return page.locator(f'g[data-kind="state"][data-id="{name}"]')
-
-
-def centre_of(page: Page, name: str) -> tuple[float, float]:
-    shape = state(page, name).locator("rect.box")
-    shape.wait_for()
-    box = shape.bounding_box()
-    if box is None:
-        # It was drawn anew between the two questions.
-        return centre_of(page, name)
-    return (box["x"] + box["width"] / 2, box["y"] + box["height"] / 2)
-
-
-def drag(page: Page, start: tuple[float, float], end: tuple[float, float]) -> None:
+def drag(page: Page, start: Point, end: Point) -> None:
     page.mouse.move(*start)
     page.mouse.down()
     page.mouse.move((start[0] + end[0]) / 2, (start[1] + end[1]) / 2)
     page.mouse.move(*end)
     page.mouse.up()
-
-
-def select_state(page: Page, name: str) -> None:
-    """Click a state; the inspector shows it."""
-    page.mouse.click(*centre_of(page, name))
-    expect(page.get_by_label("State", exact=True)).to_have_value(name)
-
-
-def create_state(page: Page, x: float, y: float, name: str) -> None:
-    """Double click on nothing, and type the name into the box that opens."""
-    page.mouse.dblclick(x, y)
-    box = page.locator("input.rename")
-    expect(box).to_be_focused()
-    box.fill(name)
-    box.press("Enter")
-
-
-def open_player(page: Page, url: str) -> None:
-    page.set_viewport_size({"width": 1366, "height": 768})
-    page.goto(url + PLAYER)
-    expect(state(page, "LookForBall")).to_be_visible()
 
 
 def test_what_a_person_does(editor: str, page: Page, project: Path) -> None:
@@ -75,9 +47,7 @@ def test_what_a_person_does(editor: str, page: Page, project: Path) -> None:
     assert centre_of(page, "LookForBall") != (x, y)
 
     # Add a state where nothing is, and name it at once.
-    stage = page.locator("main.stage").bounding_box()
-    assert stage is not None
-    create_state(page, stage["x"] + 30, stage["y"] + stage["height"] - 40, "Celebrate")
+    create_state(page, "Celebrate")
     expect(state(page, "Celebrate")).to_be_visible()
     expect(page.get_by_label("Findings").get_by_text("Celebrate").first).to_be_visible()
 
@@ -148,7 +118,7 @@ def test_escape_calls_off_a_dialog_that_is_still_on_its_way(editor: str, page: P
 
 def test_a_double_click_on_an_arrow_leads_to_its_guard(editor: str, page: Page, project: Path) -> None:
     open_player(page, editor)
-    page.locator('g[data-kind="transition"][data-id="Kick/0"] .plate').first.dblclick(force=True)
+    label(page, "Kick/0").dblclick()
     expect(page.get_by_label("When", exact=True)).to_be_focused()
     expect(page.get_by_label("When", exact=True)).to_have_text("not kicker.busy")
 
@@ -174,7 +144,8 @@ def test_a_double_click_on_an_arrow_leads_to_its_guard(editor: str, page: Page, 
 
 def test_what_is_asked_before_the_page_can_speak_is_done_when_it_can(editor: str, page: Page) -> None:
     page.add_init_script(SPEAKS_LATE)
-    open_player(page, editor)
+    page.goto(editor + PLAYER)
+    expect(state(page, "LookForBall")).to_be_visible()
     page.keyboard.press("F4")
     page.get_by_role("button", name="Light, dark, or as the system").click()
     page.keyboard.press("Control+k")
@@ -188,28 +159,30 @@ def test_what_is_asked_before_the_page_can_speak_is_done_when_it_can(editor: str
 
 def test_a_state_made_before_the_drawing_is_known_to_be_there_is_named(editor: str, page: Page) -> None:
     held: list[str | bytes] = []
+    is_made = False
 
     def connect(route: WebSocketRoute) -> None:
         server = route.connect_to_server()
 
         def pass_on(message: str | bytes) -> None:
             # What a page says while it opens comes in any order: "ready" after the first gesture.
-            if "rev" in str(message) and "kind" not in str(message):
+            nonlocal is_made
+            if not is_made and "rev" in str(message) and "kind" not in str(message):
                 held.append(message)
                 return
             server.send(message)
             if "create" in str(message):
-                server.send(held.pop())
+                is_made = True
+                while held:
+                    server.send(held.pop())
 
         route.on_message(pass_on)
 
     page.route_web_socket("**/*", connect)
     open_player(page, editor)
-    stage = page.locator("main.stage").bounding_box()
-    assert stage is not None
-    page.mouse.dblclick(stage["x"] + 30, stage["y"] + stage["height"] - 40)
+    page.mouse.dblclick(*empty_corner(page))
     expect(page.locator("input.rename")).to_be_focused()
-    assert not held
+    assert is_made
     page.keyboard.type("Pause")
     page.keyboard.press("Enter")
     expect(state(page, "Pause")).to_be_visible()
@@ -218,9 +191,7 @@ def test_a_state_made_before_the_drawing_is_known_to_be_there_is_named(editor: s
 def test_two_windows_stay_in_step(editor: str, page: Page, second_window: Page) -> None:
     open_player(page, editor)
     open_player(second_window, editor)
-    stage = page.locator("main.stage").bounding_box()
-    assert stage is not None
-    create_state(page, stage["x"] + 30, stage["y"] + stage["height"] - 40, "Pause")
+    create_state(page, "Pause")
     expect(state(second_window, "Pause")).to_be_visible()
     second_window.get_by_role("button", name="Undo").click()
     second_window.get_by_role("button", name="Undo").click()

@@ -27,7 +27,7 @@ def test_drawing_and_code_lead_to_each_other(editor: str, page: Page) -> None:
     open_player(page, editor)
     open_code(page)
     forward = page.locator(".preview .is-forward")
-    state(page, "Kick").locator("rect.box").click(force=True)
+    state(page, "Kick").click()
     expect(forward.first).to_contain_text("def _in_kick(")
     expect(forward.first).to_be_in_viewport()
 

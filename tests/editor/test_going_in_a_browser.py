@@ -4,7 +4,7 @@ import re
 
 from playwright.sync_api import Locator, Page, expect
 
-from tests.editor.player_page import open_player, select_state, state
+from tests.editor.player_page import component, open_player, select_state, state
 from tests.editor.slow_line import SlowLine
 
 
@@ -120,14 +120,14 @@ def test_a_link_selects_and_shows_a_thing(editor: str, page: Page) -> None:
 def test_double_clicks_lead_down_and_crumbs_and_back_lead_up(editor: str, page: Page) -> None:
     open_player(page, editor)
     select_state(page, "Kick")
-    page.locator('g[data-kind="component"][data-id="face_ball"]').dblclick(force=True)
+    component(page, "face_ball").dblclick()
     expect(page).to_have_url(re.compile(r"/FaceBall\?from=Player$"))
     way = page.get_by_role("navigation", name="Way here")
     expect(way).to_contain_text("Forward/Player/FaceBall")
     page.go_back()
     # The double click selected what was opened: that is what one comes back to.
     expect(page).to_have_url(re.compile(r"/Player\?select=components:face_ball$"))
-    expect(page.locator('g[data-kind="component"][data-id="face_ball"]')).to_have_class(re.compile("selected"))
+    expect(component(page, "face_ball")).to_have_class(re.compile("selected"))
     page.go_forward()
     way.get_by_role("link", name="Player").click()
     expect(page).to_have_url(re.compile(r"/Player$"))
@@ -151,5 +151,5 @@ def test_back_shows_the_drawing_as_it_was_left(editor: str, page: Page) -> None:
     page.go_back()
     expect(page).to_have_url(re.compile(r"/Player$"))
     expect(state(page, "LookForBall")).to_be_visible()
-    back = page.evaluate(view)
-    assert {key: back[key] for key in "xyk"} == {key: left[key] for key in "xyk"}
+    same = "left => { const now = %s; return [...'xyk'].every(key => now[key] === left[key]); }"
+    page.wait_for_function(same % view, arg=left)

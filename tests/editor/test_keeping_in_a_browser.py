@@ -5,7 +5,7 @@ from pathlib import Path
 from playwright.sync_api import Page, expect
 
 from tests.editor.conftest import started_editor
-from tests.editor.test_editing_in_a_browser import open_player, select_state
+from tests.editor.player_page import open_player, select_state
 
 expect.set_options(timeout=20_000)
 

@@ -6,7 +6,7 @@ import pytest
 from playwright.sync_api import Page, expect
 
 from tests.diagram.drawn_designs import ring_design
-from tests.editor.test_editing_in_a_browser import centre_of, open_player, select_state, state
+from tests.editor.player_page import centre_of, open_player, select_state, state
 from vicode.store import save_design, write_text
 
 PLACES = "document.querySelector('.vicode-canvas').vicode.positions()"

@@ -4,7 +4,8 @@ from pathlib import Path
 
 from playwright.sync_api import Page, expect
 
-from tests.editor.test_editing_in_a_browser import centre_of, drag, open_player
+from tests.editor.player_page import centre_of, open_player
+from tests.editor.test_editing_in_a_browser import drag
 
 
 def test_a_rest_of_the_pointer_shows_doc_and_code_and_a_press_hides_it(editor: str, page: Page, project: Path) -> None:

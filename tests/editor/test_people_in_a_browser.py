@@ -6,8 +6,7 @@ from collections.abc import Iterator
 import pytest
 from playwright.sync_api import Page, expect
 
-from tests.editor.player_page import open_player, select_state, select_transition, state
-from tests.editor.test_editing_in_a_browser import create_state
+from tests.editor.player_page import create_state, open_player, select_state, select_transition, state
 
 expect.set_options(timeout=20_000)
 
@@ -70,9 +69,7 @@ def test_undo_takes_back_ones_own_work_only(editor: str, page: Page, other: Page
     open_player(page, editor)
     open_player(other, editor)
     take_name(other, "Ben")
-    stage = page.locator("main.stage").bounding_box()
-    assert stage is not None
-    create_state(page, stage["x"] + 30, stage["y"] + stage["height"] - 40, "Pause")
+    create_state(page, "Pause")
     expect(state(other, "Pause")).to_be_visible()
     expect(other.get_by_role("button", name="Undo")).to_be_disabled()
     select_state(other, "LookForBall")
@@ -136,9 +133,7 @@ def test_typing_goes_on_while_the_form_around_it_changes(editor: str, page: Page
     select_state(page, "Kick")
     field = page.get_by_role("textbox", name="Doc")
     field.fill("first")
-    stage = other.locator("main.stage").bounding_box()
-    assert stage is not None
-    create_state(other, stage["x"] + 30, stage["y"] + stage["height"] - 40, "Pause")
+    create_state(other, "Pause")
     expect(state(page, "Pause")).to_be_visible()
     expect(field).to_be_focused()
     field.press_sequentially(" and second")

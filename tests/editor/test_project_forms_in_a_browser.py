@@ -5,6 +5,7 @@ from pathlib import Path
 
 from playwright.sync_api import Locator, Page, expect
 
+from tests.editor.player_page import component as used
 from tests.editor.player_page import open_player
 
 expect.set_options(timeout=20_000)
@@ -100,7 +101,7 @@ def test_a_component_written_by_hand_is_edited_where_it_is_used(editor: str, pag
     file = project / "forward" / "project.yaml"
     before = file.read_text()
     open_player(page, editor)
-    page.locator('g[data-kind="component"][data-id="perception"]').click(force=True)
+    used(page, "perception").click()
     inspector = page.get_by_label("Inspector")
     component = inspector.get_by_role("group", name="component Perception", exact=True)
     component.get_by_label("Frequency, Hz").fill("often")

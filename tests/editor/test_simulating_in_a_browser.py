@@ -7,14 +7,10 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import Locator, Page, expect
 
+from tests.editor.player_page import PLAYER, select_state, state
 from tests.editor.test_accessibility import complaints
 
-PLAYER = "design/forward/Player"
 expect.set_options(timeout=30_000)
-
-
-def state(page: Page, name: str) -> Locator:
-    return page.locator(f'g[data-kind="state"][data-id="{name}"]')
 
 
 def active(page: Page) -> Locator:
@@ -40,13 +36,6 @@ def where(page: Page, words: str) -> None:
 def choose(page: Page, label: str, option: str) -> None:
     page.get_by_role("combobox", name=label).click()
     page.get_by_role("option", name=option).click()
-
-
-def click_state(page: Page, name: str) -> None:
-    box = state(page, name).locator("rect.box").bounding_box()
-    assert box is not None
-    page.mouse.click(box["x"] + box["width"] / 2, box["y"] + box["height"] / 2)
-    expect(page.get_by_label("State", exact=True)).to_have_value(name)
 
 
 def test_an_input_is_set_and_the_state_follows(editor: str, page: Page) -> None:
@@ -89,7 +78,7 @@ def test_an_input_is_set_and_the_state_follows(editor: str, page: Page) -> None:
 
 def test_breakpoints_stop_a_run(editor: str, page: Page) -> None:
     open_simulation(page, editor)
-    click_state(page, "FollowBall")
+    select_state(page, "FollowBall")
     page.keyboard.press("F9")
     expect(state(page, "FollowBall").locator(".stop-sign")).to_have_count(1)
     page.get_by_role("button", name="Play or pause (F6)").click()
@@ -111,13 +100,11 @@ def test_an_edit_ends_the_run_and_offers_to_start_again(editor: str, page: Page)
     open_simulation(page, editor)
     page.keyboard.press("F10")
     expect(active(page)).to_have_attribute("data-id", "LookForBall")
-    click_state(page, "LookForBall")
-    box = state(page, "LookForBall").locator("rect.box").bounding_box()
-    assert box is not None
+    select_state(page, "LookForBall")
 
     # A move changes nothing that runs; another initial state does.
     page.keyboard.press("ArrowRight")
-    click_state(page, "FollowBall")
+    select_state(page, "FollowBall")
     page.keyboard.press("F10")
     where(page, "iteration 2")
     page.get_by_role("checkbox", name="Initial").click()
@@ -154,7 +141,7 @@ def test_code_that_never_ends_is_told_with_its_line(editor: str, page: Page, pro
     expect(page.get_by_text("<b>loaded</b>")).to_be_visible()
     file.write_text(text.replace("self._distances: list[float] = []", "while True: pass"))
     expect(page.get_by_text("The design has changed")).to_be_visible()
-    click_state(page, "WatchBall")
+    select_state(page, "WatchBall")
     page.get_by_role("checkbox", name="Initial").click()
     expect(state(page, "WatchBall")).to_have_attribute("aria-label", re.compile("initial"))
     page.keyboard.press("F10")
@@ -190,15 +177,15 @@ def test_the_menu_runs_to_a_state_and_sets_breakpoints(editor: str, page: Page) 
     open_simulation(page, editor)
     expect(state(page, "FollowBall")).to_be_in_viewport()
     page.wait_for_function("document.querySelector('.vicode-canvas').vicode.view().resting")
-    click_state(page, "LookForBall")
+    select_state(page, "LookForBall")
     page.keyboard.press("Shift+F10")
     page.get_by_role("menuitem", name="Breakpoint, or none").click()
     expect(state(page, "LookForBall").locator(".stop-sign")).to_have_count(1)
-    click_state(page, "FollowBall")
+    select_state(page, "FollowBall")
     page.keyboard.press("Control+F10")
     expect(page.get_by_text("Stopped on entering LookForBall")).to_be_visible()
     page.get_by_role("switch", name="Perception ball_seen").click()
-    click_state(page, "FollowBall")
+    select_state(page, "FollowBall")
     page.keyboard.press("Control+F10")
     expect(page.get_by_text("Stopped on entering FollowBall")).to_be_visible()
 

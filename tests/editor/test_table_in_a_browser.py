@@ -4,7 +4,7 @@ from pathlib import Path
 
 from playwright.sync_api import Locator, Page, expect
 
-from tests.editor.player_page import save
+from tests.editor.player_page import save, select_state
 
 PLAYER = "design/forward/Player"
 
@@ -130,10 +130,7 @@ def test_table_drawing_and_another_window_keep_in_step(editor: str, page: Page, 
     second_window.get_by_role("button", name="Undo").click()
     expect(cell(page, "states/FollowBall", "name")).to_be_visible()
     press(page, "F4")
-    box = page.locator('g[data-kind="state"][data-id="GetUp"] rect.box').bounding_box()
-    assert box is not None
-    page.mouse.click(box["x"] + box["width"] / 2, box["y"] + 8)
-    expect(page.get_by_label("State", exact=True)).to_have_value("GetUp")
+    select_state(page, "GetUp")
     press(page, "F4")
     expect(cell(page, "states/GetUp", "name")).to_be_focused()
     expect(page.locator('.row[data-id="states/GetUp"]')).to_have_attribute("aria-selected", "true")

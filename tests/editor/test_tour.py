@@ -8,6 +8,7 @@ from axe_playwright_python.sync_playwright import Axe
 from playwright.sync_api import Page, expect
 
 from tests.editor.conftest import started_editor
+from tests.editor.player_page import state
 
 expect.set_options(timeout=20_000)
 PLAYER = "design/forward/Player"
@@ -38,9 +39,7 @@ def test_the_tour_follows_what_is_done(editor: str, page: Page, project: Path) -
     page.keyboard.press("Enter")
     expect(page.get_by_label("State", exact=True)).to_have_value("Early")
     expect_step(page, 2, "Select a state")
-    box = page.locator('g[data-id="Kick"] rect.box').bounding_box()
-    assert box is not None
-    page.mouse.click(box["x"] + box["width"] / 2, box["y"] + 8)
+    state(page, "Kick").click()
     expect_step(page, 3, "Add a state")
     page.keyboard.press("s")
     page.locator("input.rename").fill("Cheer")

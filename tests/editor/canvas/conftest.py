@@ -70,14 +70,16 @@ class Hand:
         for key in keys:
             self.page.keyboard.press(key)
 
-    def heard(self, kind: str) -> dict[str, Any]:
-        """The newest gesture of a kind, waited for; it comes without its revision."""
+    def heard(self, kind: str, **words: Any) -> dict[str, Any]:
+        """The newest gesture of a kind, waited for until it says these words; it comes without its revision."""
         end = time.monotonic() + 10
         while time.monotonic() < end:
             if found := self.heard_all(kind):
-                return {name: value for name, value in found[-1].items() if name not in {"kind", "rev"}}
+                newest = {name: value for name, value in found[-1].items() if name not in {"kind", "rev"}}
+                if newest.items() >= words.items():
+                    return newest
             time.sleep(0.02)
-        raise AssertionError(f"no gesture {kind!r} was heard, only {[each['kind'] for each in self.heard_all()]}")
+        raise AssertionError(f"no gesture {kind!r} with {words} was heard, only {self.heard_all()}")
 
     def heard_all(self, kind: str = "") -> list[dict[str, Any]]:
         gestures: list[dict[str, Any]] = json.loads(self._ask("/heard"))

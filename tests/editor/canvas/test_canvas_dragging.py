@@ -97,9 +97,12 @@ def test_after_a_drag_boxes_and_arrows_are_drawn_as_if_they_had_always_stood_the
         hand.heard("move")
         hand.wait_until_rest()
         drawn = hand.page.evaluate(DRAWN)
+        # Drawn anew, at the latest when the page tells of the revision that came after it.
         hand.call("show_links", False)
         hand.call("show_links", True)
-        hand.page.wait_for_timeout(300)
+        hand.call("apply", {"rev": 99})
+        expect(hand.page.locator(".vicode-canvas")).to_have_attribute("data-rev", "99")
+        hand.wait_until_rest()
         again = hand.page.evaluate(DRAWN)
         assert drawn.keys() == again.keys()
         assert [key for key in drawn if drawn[key] != again[key]] == []

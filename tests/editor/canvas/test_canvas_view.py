@@ -139,7 +139,7 @@ def test_two_fingers_on_a_touchpad_pan(hand: Hand) -> None:
     spot = hand.at("states", "KickLeft")
     hand.page.mouse.move(*spot)
     hand.page.mouse.wheel(7, 13)
-    hand.wait_until_rest()
+    hand.wait_for(f"Math.abs(vicode.screen('states', 'KickLeft').x - {spot[0] - 7}) < 1")
     assert hand.at("states", "KickLeft") == pytest.approx((spot[0] - 7, spot[1] - 13), abs=1)
 
 

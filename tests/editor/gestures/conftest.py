@@ -31,6 +31,17 @@ states:
   Rest: {at: [120, 320]}
 """
 
+# What things are called in the drawing, where they stand, and where the labels of arrows lie.
+DRAWN = """() => {
+  const canvas = document.querySelector('.vicode-canvas');
+  const places = canvas.vicode.positions();
+  const items = [...canvas.shadowRoot.querySelectorAll('g.item')];
+  return JSON.stringify([
+    Object.keys(places).sort().map(name => [name, places[name].x, places[name].y]),
+    items.map(item => [item.dataset.key, item.getAttribute('aria-label'), item.dataset.at].join()).sort(),
+  ]);
+}"""
+
 # A busy machine takes its time; what never comes still fails.
 expect.set_options(timeout=WAIT_MS)
 
@@ -47,7 +58,7 @@ class Sketch:
         self.wait_for("vicode.view().resting && Object.keys(vicode.positions()).length === 5")
         # The panel below is filled: nothing moves the drawing any more.
         expect(page.get_by_text("4 warnings")).to_be_visible()
-        self.start = json.dumps(sorted(map(list, self.vicode("positions()").items())), separators=(",", ":"))
+        self.start = page.evaluate(DRAWN)
         page.mouse.move(1000, 20)
 
     def at(self, of: str, identity: str, right: float = 0, down: float = 0) -> Point:
@@ -151,7 +162,7 @@ class Sketch:
                 expect(self.page.get_by_text("Unsaved changes")).to_be_visible()
         expect(self.page.get_by_text("Saved", exact=True)).to_be_visible()
         # The drawing may follow a moment later than the words.
-        self.wait_for(f"JSON.stringify(Object.entries(vicode.positions()).sort()) === {json.dumps(self.start)}")
+        self.page.wait_for_function(f"start => ({DRAWN})() === start", arg=self.start, timeout=WAIT_MS)
 
     def undo_all(self) -> None:
         """Take back what an earlier test left."""

@@ -3,6 +3,7 @@
 from playwright.sync_api import expect
 
 from tests.editor.gestures.conftest import Sketch
+from tests.editor.player_page import open_player, state
 
 
 def clipboard(sketch: Sketch) -> str:
@@ -67,10 +68,8 @@ def test_duplicate_keeps_what_leads_between_and_out(sketch: Sketch) -> None:
 
 def test_parts_travel_between_designs_and_windows_with_what_they_use(sketch: Sketch) -> None:
     page = sketch.page.context.new_page()
-    page.goto(f"{sketch.address}design/forward/Player")
-    page.wait_for_function("window.did_handshake")
-    player = page.locator('g[data-kind="state"][data-id="LookForBall"] rect.box')
-    player.click(force=True)
+    open_player(page, sketch.address)
+    state(page, "LookForBall").click()
     page.keyboard.press("Control+c")
     expect(page.locator(".message")).to_have_text("Copied")
     sketch.page.bring_to_front()
