@@ -249,6 +249,26 @@ def test_keys_work_wherever_the_focus_is(editor: str, page: Page, project: Path)
     expect(page.get_by_text("Unsaved changes")).to_have_count(0)
 
 
+def test_messages_hide_no_list_and_take_no_press(editor: str, page: Page) -> None:
+    open_player(page, editor)
+    page.get_by_role("tab", name="History").click()
+    page.keyboard.press("Control+s")
+    message = page.locator(".q-notification", has_text="Saved")
+    # It comes from below.
+    page.wait_for_function(
+        """() => {
+          const message = document.querySelector(".q-notification")?.getBoundingClientRect();
+          return message && message.bottom <= document.querySelector(".dock").getBoundingClientRect().top;
+        }"""
+    )
+    assert message.evaluate(
+        """(message) => {
+          const {x, y, width, height} = message.getBoundingClientRect();
+          return document.elementFromPoint(x + width / 2, y + height / 2).closest("main") !== null;
+        }"""
+    )
+
+
 def test_what_is_no_frequency_is_told_and_stays_to_be_mended(editor: str, page: Page) -> None:
     open_player(page, editor)
     field = page.get_by_label("Frequency, Hz")

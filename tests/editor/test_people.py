@@ -1,5 +1,8 @@
 """People have names and colours; a company knows what each window is at; keystrokes of two people come together."""
 
+from hypothesis import given
+from hypothesis import strategies as st
+
 from vicode.editor.session import DISK, Company, People, Presence
 from vicode.editor.session.keystrokes import Keystrokes
 from vicode.editor.session.wording import words_of_path, words_of_presence, words_of_value
@@ -62,9 +65,28 @@ def test_what_is_typed_meets_what_others_typed() -> None:
     assert keys.bring_in("the ball", "ball") == "the ball"
     keys.sent("the ball", "the ball")
     assert keys.bring_in("the red ball", "the ball rolls") == "the red ball rolls"
-    keys.sent("the red ball", "the red ball rolls")
-    assert keys.bring_in("the red ball!", "the red ball rolls") == "the red ball!"
-    keys.sent("the red ball!", "the red ball! rolls")
+    keys.sent("the red ball", "the red ball")
+    # What they typed stays in the design, though it is not shown to who types on.
+    assert keys.bring_in("the red ball!", "the red ball rolls") == "the red ball! rolls"
+    keys.sent("the red ball!", "the red ball!")
+    assert keys.bring_in("the red ball!!", "the red ball!") == "the red ball!!"
+
+
+@given(st.lists(st.tuples(st.booleans(), st.integers(0, 12), st.integers(0, 3)), max_size=20))
+def test_whoever_types_and_rests_no_keystroke_is_lost(presses: list[tuple[bool, int, int]]) -> None:
+    """Each press: who, where, and how many letters come before the next is sent."""
+    design, shown, keys, left = "ball", ["ball", "ball"], [Keystrokes(), Keystrokes()], ["ABCDEFGH" * 8, "01234567" * 8]
+    typed = ["", ""]
+    for each in keys:
+        each.show(design)
+    for who, where, count in [*presses, (False, 0, 1), (True, 0, 1)]:
+        letters, left[who] = left[who][:count], left[who][count:]
+        typed[who] += letters
+        at = min(where, len(shown[who]))
+        shown[who] = shown[who][:at] + letters + shown[who][at:]
+        design = keys[who].bring_in(shown[who], design)
+        keys[who].sent(shown[who], shown[who])
+    assert sorted(design) == sorted("ball" + "".join(typed))
 
 
 def test_a_spelling_of_the_design_is_nobodys_change() -> None:
@@ -79,4 +101,6 @@ def test_choices_of_two_people_come_together() -> None:
     keys = Keystrokes()
     keys.show(["a", "b"])
     assert keys.bring_in(["a", "c"], ["a", "b", "d"]) == ["a", "d", "c"]
+    keys.sent(["a", "c"], ["a", "c"])
+    assert keys.bring_in(["a", "c", "e"], ["a", "d", "c"]) == ["a", "d", "c", "e"]
     assert keys.bring_in(True, False) is True

@@ -123,7 +123,7 @@ class Field:
         wanted = self._keystrokes.bring_in(value, now)
         write, key = self.bound.write, "/".join(map(str, self.path)) + self.bound.label
         # Noted before the edit is told to all fields, this one among them.
-        self._keystrokes.sent(value, self.bound.read(write(self.desk.design, wanted)))
+        self._keystrokes.sent(value, self.bound.read(write(self.desk.design, value)))
         self.desk.edit(f"edit {words_of_path(self.path)}", lambda design: write(design, wanted), typing_in=key)
         self._shown_in = self.desk.design
 

@@ -8,9 +8,9 @@ _SHORT_MS, _LONG_MS = 3500, 8000
 
 
 def say(text: str, kind: str) -> None:
-    """Show a message for a while; `kind` is positive, negative, info or warning."""
+    """Show a message for a while; `kind` is positive, negative, info or warning. Presses go to what lies under it."""
     timeout = _LONG_MS if kind == "negative" else _SHORT_MS
-    ui.notify(text, type=cast("Any", kind), position="bottom", timeout=timeout)
+    ui.notify(text, type=cast("Any", kind), position="bottom", timeout=timeout, classes="is-told")
 
 
 def tell_failure() -> None:
