@@ -49,6 +49,16 @@ def second_window(page: Page) -> Page:
     return opened_beside(page)
 
 
+@pytest.fixture
+def other(page: Page) -> Iterator[Page]:
+    """The page of another person."""
+    browser = page.context.browser
+    assert browser is not None
+    context = browser.new_context(viewport={"width": 1366, "height": 768})
+    yield context.new_page()
+    context.close()
+
+
 @contextmanager
 def started_editor(folder: Path, storage: Path, options: tuple[str, ...] = ("--no-tour",)) -> Iterator[str]:
     """An editor on a folder of projects; its URL. The tour is left out, as it would stand in the way of other tests."""

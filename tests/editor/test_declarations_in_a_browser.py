@@ -1,23 +1,12 @@
 """What a design declares, in a browser: new names reach all that says them, in this design and in others."""
 
-from collections.abc import Iterator
 from pathlib import Path
 
-import pytest
 from playwright.sync_api import Locator, Page, expect
 
 from tests.editor.player_page import save
 
 expect.set_options(timeout=20_000)
-
-
-@pytest.fixture
-def other(page: Page) -> Iterator[Page]:
-    """Another person, in another browser."""
-    assert page.context.browser is not None
-    context = page.context.browser.new_context()
-    yield context.new_page()
-    context.close()
 
 
 def open_design(page: Page, url: str, component: str) -> None:

@@ -68,6 +68,23 @@ def test_who_stays_in_the_field_types_on_in_the_new_one(editor: str, page: Page,
     assert doc_in(file).endswith("And then.")
 
 
+def test_what_others_make_of_the_text_meanwhile_stays(editor: str, page: Page, other: Page, line: SlowLine) -> None:
+    rename_kick(page, editor, line)
+    other.goto(editor + "design/forward/Player?select=Shoot")
+    doc = other.get_by_role("textbox", name="Doc")
+    expect(doc).to_have_value("Kick, with the eyes on the ball.")
+    doc.fill("Kick hard, with the eyes on the ball.")
+    doc.blur()
+    other.get_by_role("tab", name="History").click()
+    expect(other.get_by_role("group", name="History").get_by_text("edit doc of state Shoot")).to_be_visible()
+    line.let_go()
+    page.keyboard.type(" And then.")
+    expect(page.get_by_role("textbox", name="Doc")).to_have_value(
+        "Kick, with the eyes on the ball. Defend now. And then."
+    )
+    expect(doc).to_have_value("Kick hard, with the eyes on the ball. Defend now. And then.")
+
+
 def final(page: Page) -> Locator:
     return page.get_by_role("checkbox", name="Final")
 

@@ -1,7 +1,6 @@
 """Two people on one design, each in a browser of their own: seen by the other, never undone by the other."""
 
 import re
-from collections.abc import Iterator
 
 import pytest
 from playwright.sync_api import Page, expect
@@ -9,16 +8,6 @@ from playwright.sync_api import Page, expect
 from tests.editor.player_page import create_state, open_player, select_state, select_transition, state
 
 expect.set_options(timeout=20_000)
-
-
-@pytest.fixture
-def other(page: Page) -> Iterator[Page]:
-    """The page of another person."""
-    browser = page.context.browser
-    assert browser is not None
-    context = browser.new_context(viewport={"width": 1366, "height": 768})
-    yield context.new_page()
-    context.close()
 
 
 def take_name(page: Page, name: str) -> None:

@@ -46,6 +46,7 @@
     if (!isText(field) || !isText(next)) return true;
     was.isCarriedOn = true;
     if (isTyped && next.value !== field.value) {
+      emitEvent("carried-on", { from: was.number, to: numberOf(next) });
       next.value = field.value;
       next.dispatchEvent(new Event("input", { bubbles: true }));
     }

@@ -4,7 +4,8 @@ A form is built anew when another thing is selected, or this one is renamed, or 
 has heard of it, people type into fields, and press buttons, that the server no longer has: what these say by
 themselves reaches nobody.
 
-- Who is still in such a field when the new form comes goes on in the new one, with what was typed since.
+- Who is still in such a field when the new form comes goes on in the new one, with what was typed since. The inspector
+  is told of it, as others may have changed the same text meanwhile (`Inspector.carry_on`).
 - Who has left it by then tells what was typed, with the number of the field. The inspector knows the fields of forms
   before, and brings it to the field that took the place (`Inspector.hear_late`).
 - A press is told with the number of the button, just before the click itself. Where there is no such button any more,

@@ -90,14 +90,20 @@ class Field:
         """Where the value stands in the design as it is now."""
         return self.bound.place_in(self.desk.design)
 
+    def go_on_from(self, old: "Field") -> None:
+        """Hear what is typed as a change of what the field before showed, to which others may have added since."""
+        self._keystrokes = old._keystrokes
+
     def hear_late(self, text: str) -> None:
         """Take over what was typed into the field that stood here before."""
         self.element.set_value(text)
 
     def write_late(self, text: str) -> None:
         """Take over what was typed here, though the form shows another thing by now."""
-        if self.leads_there() and not self.bound.refuse(text) and text != self.bound.read(self.desk.design):
-            self.desk.edit(f"edit {words_of_path(self.path)}", lambda design: self.bound.write(design, text))
+        now = self.bound.read(self.desk.design)
+        if self.leads_there() and not self.bound.refuse(text) and text != now:
+            wanted = self._keystrokes.bring_in(text, now)
+            self.desk.edit(f"edit {words_of_path(self.path)}", lambda design: self.bound.write(design, wanted))
 
     def leads_there(self) -> bool:
         """Whether the path still leads to what the field was made for: nothing was put before it, or taken away."""

@@ -45,6 +45,7 @@ class Inspector:
         self.before: deque[tuple[int, list[Field]]] = deque(maxlen=_FORMS_KEPT)
         """The forms before this one, with their numbers: a browser may still show one of them."""
         ui.on("typed-and-left", lambda event: self.hear_late(event.args))
+        ui.on("carried-on", lambda event: self.carry_on(event.args))
 
     def refresh(self) -> None:
         """Show the selected thing as it is now."""
@@ -78,10 +79,26 @@ class Inspector:
         if not isinstance(number, int) or not isinstance(text, str) or len(text) > _LONGEST:
             return
         for form, fields in self.before:
-            old = next((field for field in fields if field.element.id == number), None)
+            old = _with_number(number, fields)
             if old is not None and (old.element.is_deleted or old not in self.fields):
                 new = _counterpart(old, fields, self.fields) if form == self.shown_number else None
-                new.hear_late(text) if new else old.write_late(text)
+                if new is None:
+                    old.write_late(text)
+                else:
+                    new.go_on_from(old)
+                    new.hear_late(text)
+
+    def carry_on(self, payload: object) -> None:
+        """Note that what is typed into a field goes on from what stood in one of a form before.
+
+        The payload comes from a browser.
+        """
+        if not isinstance(payload, dict):
+            return
+        before = [field for _form, fields in self.before for field in fields]
+        old, new = _with_number(payload.get("from"), before), _with_number(payload.get("to"), self.fields)
+        if old is not None and new is not None and type(old) is type(new):
+            new.go_on_from(old)
 
     def _count_things(self) -> None:
         """Tell another thing that is selected from the same one under another name or number."""
@@ -117,6 +134,10 @@ class Inspector:
                 return common_panel(desk)
             case _:
                 return design_panel(desk)
+
+
+def _with_number(number: object, fields: list[Field]) -> Field | None:
+    return next((field for field in fields if field.element.id == number), None)
 
 
 def _counterpart(old: Field, before: list[Field], now: list[Field]) -> Field | None:
