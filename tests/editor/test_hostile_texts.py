@@ -131,7 +131,7 @@ def test_addresses_lead_nowhere_outside(editor: str, page: Page, project: Path, 
                 text = answer.read().decode()
         except HTTPError as error:
             text = error.read().decode()
-        assert "root:" not in text
+        assert "root:x:" not in text
         assert "Hidden" not in text
         page.goto(editor + address)
         assert page.evaluate("window.ran") is None
