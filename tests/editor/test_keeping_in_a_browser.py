@@ -59,18 +59,21 @@ def test_a_clash_with_the_file_is_settled_place_by_place(
     second_window.goto(page.url)
     select_state(page, "LookForBall")
     type_doc(page, "mine of LookForBall")
-    select_state(page, "Kick")
-    type_doc(page, "mine of Kick")
+    expect(page.get_by_text("Unsaved changes")).to_be_visible()
     text = file.read_text().replace("Look around until the ball is seen.", "theirs of LookForBall")
     text = text.replace("frequency: 10", "frequency: 20  # faster")
     file.write_text(text.replace("Kick, with the eyes on the ball.", "theirs of Kick"))
 
     # It is said at once, and nothing is taken before somebody chooses.
     expect(page.get_by_text("Changed on disk, too")).to_be_visible()
+    # Whoever works on may touch more of it.
+    select_state(page, "Kick")
+    type_doc(page, "mine of Kick")
     page.get_by_role("button", name="Choose …").click()
     second_window.get_by_role("button", name="Choose …").click()
     dialog = page.get_by_role("dialog")
     expect(dialog.get_by_text("doc of state LookForBall")).to_be_visible()
+    expect(dialog.get_by_text("doc of state Kick")).to_be_visible()
     dialog.get_by_role("button", name="On disk").nth(1).click()
     dialog.get_by_role("button", name="Save as chosen").click()
     expect(page.get_by_text("Saved", exact=True).first).to_be_visible()

@@ -114,9 +114,8 @@ class PeopleAtWork(RuleBasedStateMachine):
             try:
                 self.workspace.save(hand)
             except ChangedOnDiskError:
-                clash = hand.sheet.clash
-                assert clash is not None
-                self.workspace.settle(hand, [each.path for each in clash.conflicts] if takes_theirs else [])
+                assert hand.sheet.conflicts
+                self.workspace.settle(hand, [each.path for each in hand.sheet.conflicts] if takes_theirs else [])
                 self.workspace.save(hand)
 
         self.noting(who, act)

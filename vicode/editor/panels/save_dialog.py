@@ -9,7 +9,7 @@ from vicode.editor.panels.desk import Desk
 from vicode.editor.panels.dialogs import titled_dialog
 from vicode.editor.panels.rows import primary_button
 from vicode.editor.session import ChangedOnDiskError
-from vicode.editor.session.document import Clash
+from vicode.editor.session.document import OnDisk
 from vicode.editor.session.wording import reason_of, words_of_path, words_of_value
 from vicode.findings import Path
 from vicode.model.merging import Conflict
@@ -19,30 +19,45 @@ _SIDES = (("mine", "Yours"), ("theirs", "On disk"))
 
 def ask_about_disk(desk: Desk) -> None:
     """Ask; nothing is lost either way: what is not taken stays in the history, on both sides."""
-    clash = desk.document.sheet.clash
-    if clash is None:
+    sheet = desk.document.sheet
+    if sheet.clash is None:
         return
     name, is_gone = desk.document.file.name, desk.document.file_is_gone
-    if clash.disk.design is not None:
+    if sheet.conflicts:
         with titled_dialog(f"{name} was changed by another program", "clash") as dialog:
-            _ask_for_choices(desk, dialog, clash)
+            _ask_for_choices(_Asked(desk, dialog, sheet.clash, sheet.conflicts))
+        return
+    if sheet.clash.design is not None:
+        # What touched was taken back here.
+        desk.workspace.settle(desk.document)
+        desk.say("Merged with what another program wrote", "info")
         return
     what = "was deleted by another program" if is_gone else "holds no design any more"
     with titled_dialog(f"{name} {what}", "clash") as dialog:
-        _ask_to_write(desk, dialog, clash, is_gone=is_gone)
+        _ask_to_write(_Asked(desk, dialog, sheet.clash), is_gone=is_gone)
 
 
-def _ask_to_write(desk: Desk, dialog: ui.dialog, clash: Clash, *, is_gone: bool) -> None:
-    name = desk.document.file.name
+@dataclass(frozen=True, slots=True)
+class _Asked:
+    """Which question a dialog asked."""
+
+    desk: Desk
+    dialog: ui.dialog
+    clash: OnDisk
+    conflicts: tuple[Conflict, ...] = ()
+
+
+def _ask_to_write(asked: _Asked, *, is_gone: bool) -> None:
+    name = asked.desk.document.file.name
     aside = "" if is_gone else f" What it holds now is put aside as {name}.edited."
     ui.label(f"Your design is here. Saving writes the file anew.{aside}")
     with ui.row().classes("dialog-buttons"):
-        ui.button("Cancel", on_click=dialog.close).props("flat no-caps")
-        primary_button("Write the file", lambda: _settle(_Asked(desk, dialog, clash), (), "Saved"))
+        ui.button("Cancel", on_click=asked.dialog.close).props("flat no-caps")
+        primary_button("Write the file", lambda: _settle(asked, (), "Saved"))
 
 
-def _ask_for_choices(desk: Desk, dialog: ui.dialog, clash: Clash) -> None:
-    conflicts = clash.conflicts
+def _ask_for_choices(asked: _Asked) -> None:
+    conflicts = asked.conflicts
     chosen: dict[Path, str] = {conflict.path: "mine" for conflict in conflicts}
     count = "one place" if len(conflicts) == 1 else f"{len(conflicts)} places"
     ui.label(f"It touches your unsaved work in {count}; all other changes of both come together.").classes("small")
@@ -53,12 +68,12 @@ def _ask_for_choices(desk: Desk, dialog: ui.dialog, clash: Clash) -> None:
     def settle(side: str, said: str) -> Callable[[], None]:
         def act() -> None:
             taken = [path for path, choice in chosen.items() if (side or choice) == "theirs"]
-            _settle(_Asked(desk, dialog, clash), taken, said)
+            _settle(asked, taken, said)
 
         return act
 
     with ui.row().classes("dialog-buttons"):
-        ui.button("Cancel", on_click=dialog.close).props("flat no-caps")
+        ui.button("Cancel", on_click=asked.dialog.close).props("flat no-caps")
         ui.button("Take theirs", on_click=settle("theirs", "Opened as it is on disk")).props("flat no-caps")
         keep = settle("mine", "Saved over the change on disk")
         if len(conflicts) == 1:
@@ -93,22 +108,15 @@ def _conflict(conflict: Conflict, chosen: dict[Path, str]) -> None:
     choose("mine")()
 
 
-@dataclass(frozen=True, slots=True)
-class _Asked:
-    """Which question a dialog asked."""
-
-    desk: Desk
-    dialog: ui.dialog
-    clash: Clash
-
-
 def _settle(asked: _Asked, theirs_at: list[Path] | tuple[()], said: str) -> None:
     desk, dialog = asked.desk, asked.dialog
-    if desk.document.sheet.clash != asked.clash:
-        # Somebody else has answered, or the file was changed once more: this answer is for what was asked.
+    if (desk.document.sheet.clash, desk.document.sheet.conflicts) != (asked.clash, asked.conflicts):
+        # Somebody else has answered, or changed something, here or in the file: this answer is for what was asked.
         dialog.close()
         if desk.document.sheet.clash is None:
             desk.say("It was settled meanwhile: History has what was not taken", "info")
+        else:
+            desk.say("Something was changed meanwhile: choose once more", "info")
         ask_about_disk(desk)
         return
     try:

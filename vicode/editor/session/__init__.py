@@ -1,6 +1,6 @@
 """Open designs: history, edits by gesture, saving and generating. Knows no NiceGUI."""
 
-from vicode.editor.session.document import Clash, Document, Sheet
+from vicode.editor.session.document import Document, Sheet
 from vicode.editor.session.following import follow, follow_gesture
 from vicode.editor.session.gestures import Outcome, apply_gesture, take_places
 from vicode.editor.session.history import History, Step
@@ -11,7 +11,6 @@ from vicode.editor.session.workspace import ChangedOnDiskError, Workspace
 __all__ = [
     "DISK",
     "ChangedOnDiskError",
-    "Clash",
     "Company",
     "Document",
     "History",

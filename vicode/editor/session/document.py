@@ -13,7 +13,7 @@ from vicode.editor.session.wording import words_of_path
 from vicode.editor.view import Scene, difference, path_of_key, scene_of
 from vicode.findings import Finding
 from vicode.model.design import Design
-from vicode.model.merging import Conflict
+from vicode.model.merging import Conflict, merge
 from vicode.model.project import Project
 from vicode.model.walks import decision_at
 
@@ -29,14 +29,6 @@ class OnDisk:
     text: str
     design: Design | None
     reading: tuple[Finding, ...] = ()
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Clash:
-    """The file was changed by another program where unsaved work was done here; `conflicts` are what both touched."""
-
-    disk: OnDisk
-    conflicts: tuple[Conflict, ...]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -67,7 +59,8 @@ class Sheet:
     """What all windows on a design share: its history, what is wrong with it, who watches it, who is here.
 
     `rev` counts the changes. `disk_text` is the text last read from or written to `file`, `saved` the design in it,
-    `reading` what is wrong with it: keys that mean nothing are not in the design, but they are in the file.
+    `reading` what is wrong with it: keys that mean nothing are not in the design, but they are in the file. `clash` is
+    what another program wrote into the file where unsaved work is, until somebody chooses.
     """
 
     file: Path
@@ -81,7 +74,7 @@ class Sheet:
     history: History = field(init=False)
     findings: tuple[Finding, ...] = field(init=False, default=())
     rev: int = field(init=False, default=0)
-    clash: Clash | None = field(init=False, default=None)
+    clash: OnDisk | None = field(init=False, default=None)
     news: News = field(init=False, default=News())
     watchers: list[Watcher] = field(init=False, default_factory=list)
     _drawn: tuple[Project, tuple[Finding, ...], Scene] | None = field(init=False, default=None)
@@ -132,6 +125,13 @@ class Sheet:
         assert disk.design is not None
         self.saved, self.disk_text, self.reading, self.clash = disk.design, disk.text, disk.reading, None
         self.findings = self._find()
+
+    @property
+    def conflicts(self) -> tuple[Conflict, ...]:
+        """What both sides of a clash touched by now: whoever works on may touch more, or take something back."""
+        if self.clash is None or self.clash.design is None:
+            return ()
+        return merge(self.saved, self.history.present.design, self.clash.design).conflicts
 
     def check_again(self) -> None:
         """Check once more, because another design of the project has changed."""

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from vicode.check import check_design, check_project
 from vicode.editor.session import generating
-from vicode.editor.session.document import Act, Clash, Document, OnDisk, Sheet
+from vicode.editor.session.document import Act, Document, OnDisk, Sheet
 from vicode.editor.session.generating import Generated, Job, Prepared
 from vicode.editor.session.people import DISK, People
 from vicode.findings import Finding
@@ -161,7 +161,7 @@ class Workspace:
         if (text or "") != document.sheet.disk_text:
             self._meet(document.sheet, _on_disk(document, text))
         if document.sheet.clash is not None:
-            if not over:
+            if not over and (document.sheet.conflicts or document.sheet.clash.design is None):
                 raise ChangedOnDiskError
             self.settle(document)
             text = _read(document.file)
@@ -176,10 +176,9 @@ class Workspace:
             OSError: The file cannot be put aside or written.
             ValueError: No file can hold the design as it is now.
         """
-        clash = document.sheet.clash
-        if clash is None:
+        disk = document.sheet.clash
+        if disk is None:
             return
-        disk = clash.disk
         if disk.design is None:
             if not document.file_is_gone:
                 set_aside(document.file)
@@ -303,7 +302,7 @@ class Workspace:
         hand = Document(sheet, DISK)
         if disk.design is None:
             # The file is gone, or half written: what is here stays until somebody saves.
-            sheet.clash = Clash(disk=disk, conflicts=())
+            sheet.clash = disk
             sheet.tell(hand)
         elif hand.is_saved and act is not None:
             sheet.stands_on_disk(disk)
@@ -313,7 +312,7 @@ class Workspace:
         else:
             merged = merge(sheet.saved, hand.design, disk.design)
             if merged.conflicts:
-                sheet.clash = Clash(disk=disk, conflicts=merged.conflicts)
+                sheet.clash = disk
                 sheet.tell(hand)
             else:
                 hand.take_disk(disk, "merge from disk", merged.design)
