@@ -40,6 +40,14 @@ class Hand:
         self.call("fit")
         self.page.wait_for_timeout(30)
         self.wait_until_rest()
+        self.forget()
+
+    def forget(self) -> None:
+        """Let go of all gestures so far; those on their way are waited for, as one comes after the other."""
+        self._ask("/forget", b"")
+        canvas = "getElement(document.querySelector('.vicode-canvas').id.slice(1))"
+        self.page.evaluate(f"{canvas}.$emit('gesture', {{kind: 'redo', rev: 0}})")
+        self.heard("redo")
         self._ask("/forget", b"")
 
     def at(self, of: str, identity: str, right: float = 0, down: float = 0) -> Point:

@@ -86,8 +86,14 @@ def test_a_page_that_comes_later_sees_all_changes(hand: Hand) -> None:
     hand.call("apply", {"rev": 9, "remove": {"states": ["KickLeft"]}, "common": None})
     expect(hand.page.locator(".vicode-canvas")).to_have_attribute("data-rev", "9")
     # What NiceGUI does when the element is mounted anew.
-    hand.page.evaluate("getElement(document.querySelector('.vicode-canvas').id.slice(1)).$emit('ready', {})")
-    hand.page.wait_for_timeout(300)
+    hand.page.evaluate(
+        """() => {
+          const canvas = document.querySelector('.vicode-canvas');
+          canvas.removeAttribute('data-ready');
+          getElement(canvas.id.slice(1)).$emit('ready', {});
+        }"""
+    )
+    hand.page.wait_for_selector(".vicode-canvas[data-ready]")
     assert hand.place("states/GiveUp") == (90, 330)
     assert "common/@common" not in hand.vicode("positions()")
     assert "states/KickLeft" not in hand.vicode("positions()")
