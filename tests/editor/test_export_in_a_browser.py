@@ -65,3 +65,12 @@ def test_a_text_is_copied_from_the_palette(editor: str, page: Page) -> None:
     text = page.evaluate("navigator.clipboard.readText()")
     assert text.startswith("@startuml")
     assert "[*] --> LookForBall" in text
+
+
+def test_what_the_browser_does_not_allow_is_told(editor: str, page: Page) -> None:
+    page.add_init_script("navigator.clipboard.writeText = () => Promise.reject(new Error('not allowed'))")
+    open_player(page, editor)
+    page.keyboard.press("Control+k")
+    page.keyboard.type("copy as plantuml")
+    page.keyboard.press("Enter")
+    expect(page.get_by_text("The browser let nothing be put on the clipboard")).to_be_visible()

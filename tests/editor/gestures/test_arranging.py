@@ -62,6 +62,7 @@ def test_lining_up_by_keys_and_by_buttons(
     sketch.page.get_by_role("button", name=button).click()
     for name, (x, y) in places.items():
         sketch.stands(f"states/{name}", x, y)
+    sketch.undone()
 
 
 def test_three_are_needed_to_be_spread_out(sketch: Sketch) -> None:

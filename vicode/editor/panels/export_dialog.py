@@ -1,6 +1,7 @@
 """Takes the drawing out: as a file to download, or as text on the clipboard, with a look at it first."""
 
 import base64
+import json
 from collections.abc import Callable
 
 from nicegui import run, ui
@@ -22,6 +23,10 @@ _TITLES = {
 }
 _TEXTS = (Format.MERMAID, Format.PLANTUML, Format.DOT)
 _ALL, _SELECTED = "Everything", "What is selected"
+# Also where a page is not served securely, and has only the old way.
+_WRITE = "return Quasar.copyToClipboard(%s).then(() => true, () => false)"
+# A browser may ask first whether it is allowed.
+_PATIENCE_S = 60
 # A look at more would be slower than the download.
 _MOST_LOOKED_AT = 400
 
@@ -119,8 +124,19 @@ def _copier(desk: Desk, form: Format) -> Callable[[], None]:
 
 
 def _copy(desk: Desk, form: Format, wish: Wish) -> None:
-    ui.clipboard.write(_exported(desk, form, wish).decode())
-    desk.say(f"{form.label} of {desk.design.component} is on the clipboard", "positive")
+    text = json.dumps(_exported(desk, form, wish).decode())
+
+    async def write() -> None:
+        try:
+            is_done = await desk.client.run_javascript(_WRITE % text, timeout=_PATIENCE_S)
+        except TimeoutError:
+            is_done = False
+        if is_done:
+            desk.say(f"{form.label} of {desk.design.component} is on the clipboard", "positive")
+        else:
+            desk.say("The browser let nothing be put on the clipboard: export it as a file", "warning")
+
+    desk.begin(write(), "copy")
 
 
 def _download(desk: Desk, form: Format, wish: Wish) -> None:
