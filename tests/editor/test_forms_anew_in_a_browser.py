@@ -1,5 +1,6 @@
 """What is typed or pressed in a form that the server has built anew, before the browser has heard of it."""
 
+import re
 from pathlib import Path
 
 import pytest
@@ -68,21 +69,60 @@ def test_who_stays_in_the_field_types_on_in_the_new_one(editor: str, page: Page,
     assert doc_in(file).endswith("And then.")
 
 
-def test_what_others_make_of_the_text_meanwhile_stays(editor: str, page: Page, other: Page, line: SlowLine) -> None:
-    rename_kick(page, editor, line)
-    other.goto(editor + "design/forward/Player?select=Shoot")
+def kick_hard(other: Page, url: str, name: str = "Shoot") -> Locator:
+    """Another one's change of the same text, once the server has it; the field it stands in."""
+    other.goto(f"{url}design/forward/Player?select={name}")
     doc = other.get_by_role("textbox", name="Doc")
     expect(doc).to_have_value("Kick, with the eyes on the ball.")
     doc.fill("Kick hard, with the eyes on the ball.")
     doc.blur()
     other.get_by_role("tab", name="History").click()
-    expect(other.get_by_role("group", name="History").get_by_text("edit doc of state Shoot")).to_be_visible()
+    expect(other.get_by_role("group", name="History").get_by_text(f"edit doc of state {name}")).to_be_visible()
+    return doc
+
+
+def test_what_others_make_of_the_text_meanwhile_stays(editor: str, page: Page, other: Page, line: SlowLine) -> None:
+    rename_kick(page, editor, line)
+    doc = kick_hard(other, editor)
     line.let_go()
     page.keyboard.type(" And then.")
     expect(page.get_by_role("textbox", name="Doc")).to_have_value(
         "Kick, with the eyes on the ball. Defend now. And then."
     )
     expect(doc).to_have_value("Kick hard, with the eyes on the ball. Defend now. And then.")
+
+
+def test_what_is_told_twice_is_in_the_text_once(editor: str, page: Page, other: Page, line: SlowLine) -> None:
+    rename_kick(page, editor, line)
+    doc = kick_hard(other, editor)
+    page.keyboard.press("Control+s")
+    page.keyboard.type(" And then.")
+    page.keyboard.press("Tab")
+    line.let_go()
+    both = "Kick hard, with the eyes on the ball. Defend now. And then."
+    expect(doc).to_have_value(both)
+    expect(page.get_by_role("textbox", name="Doc")).to_have_value(both)
+
+
+def test_what_is_told_twice_of_a_form_that_went_is_in_the_text_once(
+    editor: str, page: Page, other: Page, line: SlowLine
+) -> None:
+    open_player(page, editor)
+    select_state(page, "Kick")
+    mine = page.get_by_role("textbox", name="Doc")
+    expect(mine).to_have_value("Kick, with the eyes on the ball.")
+    line.hold()
+    state(page, "GetUp").click()
+    mine.focus()
+    page.keyboard.press("End")
+    page.keyboard.type(" Defend now.")
+    doc = kick_hard(other, editor, "Kick")
+    page.keyboard.press("Control+s")
+    page.keyboard.type(" And then.")
+    page.keyboard.press("Tab")
+    line.let_go()
+    expect(doc).to_have_value("Kick hard, with the eyes on the ball. Defend now. And then.")
+    expect(mine).not_to_have_value(re.compile("Kick"))
 
 
 def final(page: Page) -> Locator:

@@ -90,9 +90,14 @@ class Field:
         """Where the value stands in the design as it is now."""
         return self.bound.place_in(self.desk.design)
 
-    def go_on_from(self, old: "Field") -> None:
-        """Hear what is typed as a change of what the field before showed, to which others may have added since."""
-        self._keystrokes = old._keystrokes
+    def go_on_from(self, old: "Field", told: str = "") -> None:
+        """Hear what is typed as a change of what the field before showed, to which others may have added since.
+
+        What the field before has `told` is noted there: it may tell more, or the same once more.
+        """
+        self._keystrokes = replace(old._keystrokes)
+        if told and not self.bound.refuse(told):
+            old._keystrokes.sent(told, self._spelled(told))
 
     def hear_late(self, text: str) -> None:
         """Take over what was typed into the field that stood here before."""
@@ -103,7 +108,12 @@ class Field:
         now = self.bound.read(self.desk.design)
         if self.leads_there() and not self.bound.refuse(text) and text != now:
             wanted = self._keystrokes.bring_in(text, now)
+            self._keystrokes.sent(text, self._spelled(text))
             self.desk.edit(f"edit {words_of_path(self.path)}", lambda design: self.bound.write(design, wanted))
+
+    def _spelled(self, value: Any) -> Any:
+        """What the design would hold if the value alone was written."""
+        return self.bound.read(self.bound.write(self.desk.design, value))
 
     def leads_there(self) -> bool:
         """Whether the path still leads to what the field was made for: nothing was put before it, or taken away."""
@@ -129,7 +139,7 @@ class Field:
         wanted = self._keystrokes.bring_in(value, now)
         write, key = self.bound.write, "/".join(map(str, self.path)) + self.bound.label
         # Noted before the edit is told to all fields, this one among them.
-        self._keystrokes.sent(value, self.bound.read(write(self.desk.design, value)))
+        self._keystrokes.sent(value, self._spelled(value))
         self.desk.edit(f"edit {words_of_path(self.path)}", lambda design: write(design, wanted), typing_in=key)
         self._shown_in = self.desk.design
 

@@ -85,7 +85,7 @@ class Inspector:
                 if new is None:
                     old.write_late(text)
                 else:
-                    new.go_on_from(old)
+                    new.go_on_from(old, text)
                     new.hear_late(text)
 
     def carry_on(self, payload: object) -> None:
