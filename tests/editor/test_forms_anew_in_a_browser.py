@@ -125,6 +125,68 @@ def test_what_is_told_twice_of_a_form_that_went_is_in_the_text_once(
     expect(mine).not_to_have_value(re.compile("Kick"))
 
 
+def test_what_is_typed_into_a_wide_editor_until_it_closes_is_kept(
+    editor: str, page: Page, other: Page, line: SlowLine
+) -> None:
+    open_player(page, editor)
+    select_state(page, "CircleBall")
+    page.get_by_role("button", name=re.compile("^Enlarge: ")).first.click()
+    page.get_by_role("dialog").locator(".cm-content").click()
+    page.keyboard.type("first")
+    open_player(other, editor)
+    select_state(other, "CircleBall")
+    code = other.get_by_label("Inspector").locator(".cm-content").first
+    expect(code).to_contain_text("first")
+    line.hold()
+    name = other.get_by_label("State", exact=True)
+    name.fill("GoRound")
+    name.press("Enter")
+    expect(state(other, "GoRound")).to_be_visible()
+    page.keyboard.type(" and second")
+    line.let_go()
+    expect(page.get_by_role("dialog")).to_have_count(0)
+    expect(code).to_contain_text("first and second")
+    expect(page.get_by_label("Inspector").locator(".cm-content").first).to_contain_text("first and second")
+
+
+def test_what_is_typed_before_the_field_was_heard_of_is_not_written_over(
+    editor: str, page: Page, other: Page, line: SlowLine
+) -> None:
+    open_player(page, editor)
+    select_state(page, "Kick")
+    mine = page.get_by_role("textbox", name="Doc")
+    line.hold()
+    doc = kick_hard(other, editor, "Kick")
+    mine.focus()
+    page.keyboard.press("End")
+    page.keyboard.type(" Defend now.")
+    line.let_go()
+    expect(doc).to_have_value("Kick hard, with the eyes on the ball. Defend now.")
+    expect(mine).to_have_value("Kick, with the eyes on the ball. Defend now.")
+    page.keyboard.type(" And then.")
+    mine.blur()
+    both = "Kick hard, with the eyes on the ball. Defend now. And then."
+    expect(doc).to_have_value(both)
+    expect(mine).to_have_value(both)
+
+
+def test_what_was_typed_and_taken_back_gives_way_to_what_came_meanwhile(
+    editor: str, page: Page, other: Page, line: SlowLine
+) -> None:
+    open_player(page, editor)
+    select_state(page, "Kick")
+    mine = page.get_by_role("textbox", name="Doc")
+    line.hold()
+    mine.focus()
+    page.keyboard.press("End")
+    kick_hard(other, editor, "Kick")
+    page.keyboard.type("x")
+    line.let_go()
+    page.keyboard.press("Backspace")
+    mine.blur()
+    expect(mine).to_have_value("Kick hard, with the eyes on the ball.")
+
+
 def final(page: Page) -> Locator:
     return page.get_by_role("checkbox", name="Final")
 

@@ -1,10 +1,12 @@
 """People have names and colours; a company knows what each window is at; keystrokes of two people come together."""
 
+from dataclasses import dataclass, field
+
 from hypothesis import given
 from hypothesis import strategies as st
 
 from vicode.editor.session import DISK, Company, People, Presence
-from vicode.editor.session.keystrokes import Keystrokes
+from vicode.editor.session.keystrokes import Keystrokes, Shown
 from vicode.editor.session.wording import words_of_path, words_of_presence, words_of_value
 from vicode.editor.view import Selected
 from vicode.model.design import Transition
@@ -87,6 +89,109 @@ def test_whoever_types_and_rests_no_keystroke_is_lost(presses: list[tuple[bool, 
         design = keys[who].bring_in(shown[who], design)
         keys[who].sent(shown[who], shown[who])
     assert sorted(design) == sorted("ball" + "".join(typed))
+
+
+@dataclass
+class Window:
+    """A field in a browser, what the server knows of it, and what is on the way between them."""
+
+    letters: str
+    text: str = "ball"
+    plain: str = "ball"
+    on: int = 0
+    told: int = 0
+    typed: str = ""
+    up: list[tuple[str, str, int, int]] = field(default_factory=list)
+    down: list[tuple[str, int, int]] = field(default_factory=list)
+    value: str = "ball"
+    number: int = 0
+    heard: int = 0
+    has_focus: bool = False
+    shown: Shown = field(default_factory=Shown)
+
+    def type(self, where: int, count: int) -> None:
+        now, self.letters = self.letters[:count], self.letters[count:]
+        at = min(where, len(self.text))
+        self.text, self.typed = self.text[:at] + now + self.text[at:], self.typed + now
+        self.up.append(("focus", "", 0, 0))
+
+    def tell(self) -> None:
+        if self.text != self.plain:
+            self.told, self.plain = self.told + 1, self.text
+            self.up.append(("text", self.text, self.on, self.told))
+
+    def leave(self) -> None:
+        self.tell()
+        self.up.append(("blur", "", 0, 0))
+
+    def show(self) -> None:
+        text, number, heard = self.down.pop(0)
+        if heard >= self.told and self.text == self.plain:
+            self.text, self.plain, self.on = text, text, number
+
+    def refresh(self, design: str) -> None:
+        if self.has_focus:
+            return
+        if self.value != design:
+            self.value, self.number = design, self.number + 1
+            self.down.append((design, self.number, self.heard))
+        self.shown.show(design, self.number)
+
+    def hear(self, design: str) -> str:
+        """The design after the next message."""
+        what, text, on, told = self.up.pop(0)
+        self.has_focus = what != "blur"
+        if what == "text":
+            self.heard = told
+            self.shown.typed_on(on)
+            if text != design:
+                design = self.shown.keystrokes.bring_in(text, design)
+            self.value = text
+            self.shown.keystrokes.sent(text, text)
+        return design
+
+
+class Server:
+    """A text of a design that two windows show."""
+
+    def __init__(self) -> None:
+        self.design, self.windows = "ball", (Window("ABCDEFGH" * 20), Window("01234567" * 20))
+        self.tell_all()
+
+    def tell_all(self) -> None:
+        for each in self.windows:
+            each.refresh(self.design)
+
+    def happen(self, window: Window, what: str, where: int) -> None:
+        """Somebody does something, or a message arrives."""
+        match what:
+            case "type":
+                window.type(where, 1 + where % 2)
+            case "tell":
+                window.tell()
+            case "leave":
+                window.leave()
+            case "hear" if window.up:
+                self.design = window.hear(self.design)
+                self.tell_all()
+            case "show" if window.down:
+                window.show()
+
+
+WHAT_HAPPENS = st.tuples(st.booleans(), st.sampled_from(["type", "tell", "leave", "hear", "show"]), st.integers(0, 12))
+
+
+@given(st.lists(WHAT_HAPPENS))
+def test_however_slow_the_line_no_keystroke_is_lost(happenings: list[tuple[bool, str, int]]) -> None:
+    server = Server()
+    for is_first, what, where in happenings:
+        server.happen(server.windows[is_first], what, where)
+    at_last = [(window, what) for what in ("leave", "hear", "show") for window in server.windows]
+    for window, what in at_last:
+        for _ in range(3 * len(happenings) + 3):
+            server.happen(window, what, 0)
+    assert sorted(server.design) == sorted("ball" + "".join(each.typed for each in server.windows))
+    assert [each.text for each in server.windows] == [server.design, server.design]
 
 
 def test_a_spelling_of_the_design_is_nobodys_change() -> None:

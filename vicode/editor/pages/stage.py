@@ -76,7 +76,9 @@ class Stage:
         self.drawing.follow()
 
     def refresh(self) -> None:
-        """Show the desk as it is now."""
+        """Show the desk as it is now; before others hear of a new name, what is selected has it."""
+        if self.drawing.design is not self.desk.design:
+            self.follow()
         self.drawing.show_selection()
         if self.table is not None and self.shows_table:
             self.table.refresh()

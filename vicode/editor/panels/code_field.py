@@ -1,6 +1,7 @@
 """Fields for what is written in Python or as expressions: coloured, completed, with every mistake at its characters."""
 
 from collections.abc import Callable, Iterable, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field
 
 from nicegui import ui
@@ -22,6 +23,12 @@ from vicode.findings import Path
 from vicode.model.design import Declaration
 
 _SHOWN_MESSAGES = 6
+_TELL_LAST = """
+const text = getElement({large})?.editor?.state.doc.toString();
+if (text !== undefined) emitEvent("typed-and-left", {{ number: {small}, text }});
+return true;
+"""
+_LONGEST_S = 5
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -80,7 +87,7 @@ def _build(desk: Desk, bound: Bound, writing: Writing, *, is_large: bool = False
         with ui.row().classes("field-head"):
             if not is_large:
                 ui.label(bound.label).classes("field-label")
-                icon_button("open_in_full", f"Enlarge: {bound.label}", lambda: _enlarge(desk, bound, writing))
+                icon_button("open_in_full", f"Enlarge: {bound.label}", lambda: _enlarge(made[0], writing))
         editor = desk.code_editors.make(on_focus=focus, language=None if writing.is_expression else "Python")
         editor.classes(writing.style + (" is-large" if is_large else ""))
         aid = CodeAid(
@@ -95,8 +102,9 @@ def _build(desk: Desk, bound: Bound, writing: Writing, *, is_large: bool = False
     return made[0]
 
 
-def _enlarge(desk: Desk, bound: Bound, writing: Writing) -> None:
+def _enlarge(small: Field, writing: Writing) -> None:
     """The same text in a wide editor; both follow each other, as long as there is a place for it."""
+    desk, bound = small.desk, small.bound
     with titled_dialog(bound.label, "code-dialog") as dialog:
         large = _build(desk, bound, writing, is_large=True)
         with ui.row().classes("dialog-buttons"):
@@ -105,9 +113,18 @@ def _enlarge(desk: Desk, bound: Bound, writing: Writing) -> None:
     def follow() -> None:
         if large.leads_there():
             large.refresh()
-        else:
-            desk.say("Somebody else removed, renamed or moved what this code belongs to", "warning")
-            close()
+            return
+        stop()
+        desk.say("Somebody else removed, renamed or moved what this code belongs to", "warning")
+        # What was typed till now belongs to where the code is by now, if it is anywhere.
+        small.go_on_from(large)
+        desk.begin(tell_last(), "last words")
+
+    async def tell_last() -> None:
+        with suppress(TimeoutError):
+            script = _TELL_LAST.format(small=small.element.id, large=large.element.id)
+            await dialog.client.run_javascript(script, timeout=_LONGEST_S)
+        dialog.close()
 
     def close() -> None:
         stop()

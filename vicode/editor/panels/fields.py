@@ -9,7 +9,8 @@ from nicegui.elements.mixins.disableable_element import DisableableElement
 from nicegui.elements.mixins.value_element import ValueElement
 
 from vicode.editor.panels.desk import Desk
-from vicode.editor.session.keystrokes import Keystrokes
+from vicode.editor.panels.text_input import TextInput
+from vicode.editor.session.keystrokes import Shown
 from vicode.editor.session.outline import is_same_place
 from vicode.editor.session.wording import words_of_path
 from vicode.findings import Finding, Path
@@ -54,7 +55,7 @@ class Field:
     refused: str = ""
     """Why what stands in the field is not in the design."""
     _refused_beside: Any = None
-    _keystrokes: Keystrokes = field(default_factory=Keystrokes)
+    _browser: Shown = field(default_factory=Shown)
     _shown_in: Design | None = None
 
     def __post_init__(self) -> None:
@@ -62,6 +63,8 @@ class Field:
         self.element.on("focus", lambda: self.focus(has_focus=True))
         self.element.on("blur", lambda: self.focus(has_focus=False))
         self.element.on_value_change(lambda event: self._typed(event.value))
+        if isinstance(self.element, TextInput):
+            self.element.on_heard = self._hear
         self.refresh()
 
     def refresh(self) -> None:
@@ -71,10 +74,10 @@ class Field:
         if self.refused and value != self._refused_beside:
             self.refused = ""
         if not self.has_focus and not self.refused:
-            self._keystrokes.show(value)
             self._shown_in = self.desk.design
             if self.element.value != value:
                 self.element.set_value(value)
+            self._note_shown(value)
         if self.message is not None:
             self._show_findings(self.message)
 
@@ -95,9 +98,9 @@ class Field:
 
         What the field before has `told` is noted there: it may tell more, or the same once more.
         """
-        self._keystrokes = replace(old._keystrokes)
+        self._browser.go_on_from(old._browser)
         if told and not self.bound.refuse(told):
-            old._keystrokes.sent(told, self._spelled(told))
+            old._browser.keystrokes.sent(told, self._spelled(told))
 
     def hear_late(self, text: str) -> None:
         """Take over what was typed into the field that stood here before."""
@@ -107,9 +110,20 @@ class Field:
         """Take over what was typed here, though the form shows another thing by now."""
         now = self.bound.read(self.desk.design)
         if self.leads_there() and not self.bound.refuse(text) and text != now:
-            wanted = self._keystrokes.bring_in(text, now)
-            self._keystrokes.sent(text, self._spelled(text))
+            wanted = self._browser.keystrokes.bring_in(text, now)
+            self._browser.keystrokes.sent(text, self._spelled(text))
             self.desk.edit(f"edit {words_of_path(self.path)}", lambda design: self.bound.write(design, wanted))
+
+    def _note_shown(self, value: Any) -> None:
+        number = self.element.number if isinstance(self.element, TextInput) else 0
+        self._browser.show(value, number)
+
+    def _hear(self, number: int, text: str) -> None:
+        """Note what the browser showed when a text was typed, of all that it was sent."""
+        self._browser.typed_on(number)
+        if text == self.element.value and not self.bound.refuse(text):
+            # Nothing else will: another one has made the same of it.
+            self._browser.keystrokes.sent(text, self._spelled(text))
 
     def _spelled(self, value: Any) -> Any:
         """What the design would hold if the value alone was written."""
@@ -129,17 +143,17 @@ class Field:
         self.refused, self._refused_beside = self.bound.refuse(value), now
         if self.refused or value == now:
             if value == now:
-                self._keystrokes.show(now)
+                self._note_shown(now)
             self.refresh()
             return
         if not self.leads_there():
             # It would go into what stands there now.
             self.desk.say("Somebody else changed the order here just now: look again", "warning")
             return
-        wanted = self._keystrokes.bring_in(value, now)
+        wanted = self._browser.keystrokes.bring_in(value, now)
         write, key = self.bound.write, "/".join(map(str, self.path)) + self.bound.label
         # Noted before the edit is told to all fields, this one among them.
-        self._keystrokes.sent(value, self._spelled(value))
+        self._browser.keystrokes.sent(value, self._spelled(value))
         self.desk.edit(f"edit {words_of_path(self.path)}", lambda design: write(design, wanted), typing_in=key)
         self._shown_in = self.desk.design
 
@@ -168,9 +182,9 @@ def findings_at(path: Path, findings: Iterable[Finding]) -> list[Finding]:
 
 def text_field(desk: Desk, bound: Bound, *, monospace: bool = False, lines: bool = False) -> Field:
     """A text in a line, or in as many as it needs; its findings stand below."""
-    make = ui.textarea if lines else ui.input
     with ui.column().classes("field"):
-        element = make(bound.label, placeholder=bound.hint).props("outlined dense stack-label debounce=250")
+        element = TextInput(bound.label, placeholder=bound.hint, lines=lines)
+        element.props("outlined dense stack-label debounce=250")
         if lines:
             element.props("autogrow")
         if monospace:

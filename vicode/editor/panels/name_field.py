@@ -10,6 +10,7 @@ from vicode.editor.panels.desk import Desk
 from vicode.editor.panels.dialogs import titled_dialog
 from vicode.editor.panels.fields import Bound, Field
 from vicode.editor.panels.rows import primary_button
+from vicode.editor.panels.text_input import TextInput
 from vicode.editor.session import apply_gesture
 from vicode.editor.session.declared_names import NamePlan, NewName, plan_name, rename_in_files, words_of_declared
 from vicode.editor.session.wording import reason_of
@@ -25,7 +26,7 @@ def name_field(
 ) -> "NameField":
     """A name in a line; `take` takes another one over, `on_shown` hears the design's name when it is another."""
     with ui.column().classes("field"):
-        element = ui.input(bound.label).props("outlined dense stack-label maxlength=80").classes("mono")
+        element = TextInput(bound.label).props("outlined dense stack-label maxlength=80").classes("mono")
         element.props("autocapitalize=off spellcheck=false autocomplete=off")
         message = ui.label().classes("field-finding").props('role="status"')
         message.set_visibility(False)

@@ -1,9 +1,11 @@
 """What one person types meets what others changed in the same value meanwhile."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 from vicode.model.merging import merge_typing
+
+_MOST_SENT = 64
 
 
 @dataclass(slots=True)
@@ -37,3 +39,35 @@ class Keystrokes:
     def sent(self, typed: Any, alone: Any) -> None:
         """The browser shows what was typed; `alone` is how the design spells that, without what others made of it."""
         self.shown, self.alone = typed, alone
+
+
+@dataclass(slots=True)
+class Shown:
+    """What a browser shows in a field, as far as is known: one of the values that were sent to it lately.
+
+    What somebody types tells which one it was. Those sent since are not shown.
+    """
+
+    keystrokes: Keystrokes = field(default_factory=Keystrokes)
+    _sent: dict[int, Keystrokes] = field(default_factory=dict)
+    _latest: int = -1
+
+    def show(self, value: Any, number: int = 0) -> None:
+        """A value of the design is sent with a number, a greater one than any before, or is what was sent last."""
+        if number > self._latest:
+            self._latest = number
+            self.keystrokes = self._sent[number] = Keystrokes()
+            if len(self._sent) > _MOST_SENT:
+                del self._sent[next(iter(self._sent))]
+        self.keystrokes.show(value)
+
+    def typed_on(self, number: int) -> None:
+        """Something is typed on what was sent with a number."""
+        known = self._sent.get(number)
+        if known is not None:
+            self.keystrokes, self._sent = known, {number: known}
+
+    def go_on_from(self, other: "Shown") -> None:
+        """Whatever of it is shown, what is typed goes on from what the other one showed."""
+        self.keystrokes = replace(other.keystrokes)
+        self._sent = dict.fromkeys(self._sent, self.keystrokes)

@@ -9,6 +9,7 @@ from nicegui import ui
 from vicode.editor.panels.desk import Desk
 from vicode.editor.panels.fields import Bound, ChoiceField, Field, findings_at
 from vicode.editor.panels.name_field import NameField, take_declared
+from vicode.editor.panels.text_input import TextInput
 from vicode.editor.session import numbers
 from vicode.editor.session.declared_names import refuse_shape
 from vicode.editor.session.project_edits import ProjectEdit, change_project_file
@@ -142,10 +143,9 @@ def _key_of(spot: Spot, line: Line) -> Path:
             return (attribute,)
 
 
-def _input(bound: Bound, *, is_code: bool, is_long: bool = False) -> tuple[ui.input | ui.textarea, ui.label]:
-    make = ui.textarea if is_long else ui.input
+def _input(bound: Bound, *, is_code: bool, is_long: bool = False) -> tuple[TextInput, ui.label]:
     with ui.column().classes("field"):
-        element = make(bound.label, placeholder=bound.hint).props("outlined dense stack-label")
+        element = TextInput(bound.label, placeholder=bound.hint, lines=is_long).props("outlined dense stack-label")
         if is_long:
             element.props("autogrow")
         if is_code:

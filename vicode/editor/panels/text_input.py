@@ -1,0 +1,62 @@
+"""A field for text in which nobody's typing is written over, however slow the line is."""
+
+from collections.abc import Callable
+from typing import Any
+
+from nicegui import ui
+from nicegui.events import GenericEventArguments
+
+
+class TextInput(ui.input, component="text_input.js"):
+    """A text in a line, or in as many as it needs, that server and browser both change.
+
+    Every text that the server sends has a number. What is typed is told with the number of the text it was typed on:
+    those sent since, until the server has heard it, were not and will not be shown. A browser that shows no such number
+    yet shows the one it was built with.
+
+    Args:
+        label: its name.
+        placeholder: shown where the text is empty.
+        lines: whether it may have several lines.
+    """
+
+    def __init__(self, label: str, *, placeholder: str = "", lines: bool = False) -> None:
+        self.number = 0
+        """Of the text that was sent last."""
+        self.on_heard: Callable[[int, str], None] = lambda _number, _text: None
+        """Called with the number of the text that was typed on and what was typed, before the value changes."""
+        self._heard = 0
+        self._is_changing = False
+        super().__init__(label, placeholder=placeholder)
+        if lines:
+            self._props["type"] = "textarea"
+        self._props.update({"number": 0, "heard": 0})
+
+    def _event_args_to_value(self, e: GenericEventArguments) -> str | None:
+        """The text that was typed; what is no such message is ignored."""
+        match e.args:
+            case {"text": str() | None as text, "on": int(number), "told": int(told)}:
+                self._heard = told
+                self.on_heard(number, text or "")
+                return text
+            case _:
+                shown: str | None = self.value
+                return shown
+
+    def _handle_value_change(self, value: Any) -> None:
+        """Send a text of the server's own; of several at once the last one."""
+        is_from_here, is_outer = self._send_update_on_value_change, not self._is_changing
+        before = self.number
+        if is_from_here or not is_outer:
+            self.number += 1
+        # All is sent below: what NiceGUI sends would be shown whatever was typed.
+        self._send_update_on_value_change, self._is_changing = False, True
+        try:
+            super()._handle_value_change(value)
+        finally:
+            if is_outer:
+                self._send_update_on_value_change, self._is_changing = is_from_here, False
+        with self._props.suspend_updates():
+            self._props.update({"number": self.number, "heard": self._heard})
+        if is_outer and self.number != before:
+            self.run_method("show", self.value, self.number, self._heard)
