@@ -32,10 +32,12 @@ check: $(VENV)/.ready-dev  ## format, lint, types, architecture, fast tests (und
 	$(BIN)/lint-imports
 	@$(PYTEST) $(PARALLEL) -m "not browser and not nightly"
 
-nightly: $(VENV)/.ready-test chromium  ## the long runs: kills, fuzzing, many more examples, the browser tests 20 times
+nightly: $(VENV)/.ready-test chromium  ## the long runs: kills, fuzzing, many more examples, the browser tests 20 times, and over a slow line
 	@VICODE_HYPOTHESIS=nightly $(PYTEST) $(PARALLEL) --timeout 3600 -m "nightly or hypothesis"
 	@failed=0; for run in $$(seq 20); do echo "Browser tests, run $$run of 20:"; \
-		VICODE_ONE_TRY=1 $(PYTEST) $(PARALLEL) -m "browser and not nightly" || failed=1; done; exit $$failed
+		VICODE_ONE_TRY=1 $(PYTEST) $(PARALLEL) -m "browser and not nightly" || failed=1; done; \
+		echo "Browser tests, up to 120 ms for each message:"; \
+		VICODE_LINE_MS=120 VICODE_ONE_TRY=1 $(PYTEST) $(PARALLEL) -m "browser and not nightly" || failed=1; exit $$failed
 
 bench: $(VENV)/.ready-bench  ## measure against a hand-written machine and other libraries
 	@$(BIN)/python -m benchmarks

@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 from hypothesis import HealthCheck, settings
-from playwright.sync_api import Browser, ConsoleMessage, Error, Page, Playwright, sync_playwright
+from playwright.sync_api import Browser, BrowserContext, ConsoleMessage, Error, Page, Playwright, sync_playwright
 
 CHROMIUM_NAMES = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable")
 CHROMIUM_ARGUMENTS = (
@@ -81,8 +81,20 @@ def chromium() -> Iterator[Browser]:
         browser = playwright.chromium.launch(
             executable_path=_find_chromium(playwright), args=list(CHROMIUM_ARGUMENTS), timeout=60_000
         )
+        if most_ms := os.environ.get("VICODE_LINE_MS"):
+            _slow_down(browser, int(most_ms))
         yield browser
         browser.close()
+
+
+def _slow_down(browser: Browser, most_ms: int) -> None:
+    """Let every message between a page and its server take a while."""
+    script = Path(__file__).with_name("slow_lines.js").read_text(encoding="utf-8").replace("MOST_MS", str(most_ms))
+
+    def slow_down(context: BrowserContext) -> None:
+        context.add_init_script(script)
+
+    browser.on("context", slow_down)
 
 
 @pytest.fixture

@@ -46,3 +46,22 @@ def test_one_of_many_designs_is_found_by_parts_of_its_name(team: str, page: Page
     page.keyboard.press("Enter")
     expect(page).to_have_url(re.compile("/design/team/kick_off_5$"))
     expect(page.get_by_label("Filter designs")).to_have_value("")
+
+
+def test_who_walks_through_the_list_stays_there_when_a_design_becomes_unsaved(
+    team: str, page: Page, other: Page
+) -> None:
+    page.goto(team + "design/team/stand_0")
+    page.wait_for_function("window.did_handshake")
+    other.goto(team + "design/team/defend_corner_of_our_half_1")
+    designs = page.get_by_role("navigation", name="Designs")
+    edited = designs.get_by_role("link", name="defend_corner_of_our_half_1").first
+    expect(edited).to_have_accessible_name("defend_corner_of_our_half_1")
+    mine = designs.get_by_role("link", name="stand_3", exact=True)
+    mine.focus()
+    other.get_by_role("textbox", name="Doc", exact=True).fill("Stay near the own goal.")
+    expect(edited).to_have_accessible_name("defend_corner_of_our_half_1, unsaved")
+    expect(mine).to_be_focused()
+    other.keyboard.press("Control+s")
+    expect(edited).to_have_accessible_name("defend_corner_of_our_half_1")
+    expect(mine).to_be_focused()

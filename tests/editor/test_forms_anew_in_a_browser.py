@@ -81,6 +81,16 @@ def kick_hard(other: Page, url: str, name: str = "Shoot") -> Locator:
     return doc
 
 
+def doc_of_kick(page: Page, url: str, line: SlowLine) -> Locator:
+    """The field of a doc that the window shows, from now on behind a slow line."""
+    open_player(page, url)
+    select_state(page, "Kick")
+    doc = page.get_by_role("textbox", name="Doc")
+    expect(doc).to_have_value("Kick, with the eyes on the ball.")
+    line.hold()
+    return doc
+
+
 def test_what_others_make_of_the_text_meanwhile_stays(editor: str, page: Page, other: Page, line: SlowLine) -> None:
     rename_kick(page, editor, line)
     doc = kick_hard(other, editor)
@@ -107,11 +117,7 @@ def test_what_is_told_twice_is_in_the_text_once(editor: str, page: Page, other: 
 def test_what_is_told_twice_of_a_form_that_went_is_in_the_text_once(
     editor: str, page: Page, other: Page, line: SlowLine
 ) -> None:
-    open_player(page, editor)
-    select_state(page, "Kick")
-    mine = page.get_by_role("textbox", name="Doc")
-    expect(mine).to_have_value("Kick, with the eyes on the ball.")
-    line.hold()
+    mine = doc_of_kick(page, editor, line)
     state(page, "GetUp").click()
     mine.focus()
     page.keyboard.press("End")
@@ -145,6 +151,8 @@ def test_what_is_typed_into_a_wide_editor_until_it_closes_is_kept(
     page.keyboard.type(" and second")
     line.let_go()
     expect(page.get_by_role("dialog")).to_have_count(0)
+    expect(page.get_by_text("Somebody else removed, renamed or moved")).to_be_visible()
+    expect(page.get_by_text("Somebody else changed the order")).to_have_count(0)
     expect(code).to_contain_text("first and second")
     expect(page.get_by_label("Inspector").locator(".cm-content").first).to_contain_text("first and second")
 
@@ -152,10 +160,7 @@ def test_what_is_typed_into_a_wide_editor_until_it_closes_is_kept(
 def test_what_is_typed_before_the_field_was_heard_of_is_not_written_over(
     editor: str, page: Page, other: Page, line: SlowLine
 ) -> None:
-    open_player(page, editor)
-    select_state(page, "Kick")
-    mine = page.get_by_role("textbox", name="Doc")
-    line.hold()
+    mine = doc_of_kick(page, editor, line)
     doc = kick_hard(other, editor, "Kick")
     mine.focus()
     page.keyboard.press("End")
@@ -173,10 +178,7 @@ def test_what_is_typed_before_the_field_was_heard_of_is_not_written_over(
 def test_what_was_typed_and_taken_back_gives_way_to_what_came_meanwhile(
     editor: str, page: Page, other: Page, line: SlowLine
 ) -> None:
-    open_player(page, editor)
-    select_state(page, "Kick")
-    mine = page.get_by_role("textbox", name="Doc")
-    line.hold()
+    mine = doc_of_kick(page, editor, line)
     mine.focus()
     page.keyboard.press("End")
     kick_hard(other, editor, "Kick")
@@ -226,6 +228,21 @@ def test_a_press_on_what_is_built_anew_before_the_hand_lets_go(editor: str, page
     expect(page.get_by_label("State", exact=True)).to_have_value("GetUp")
     page.mouse.up()
     expect(final(page)).to_be_checked()
+
+
+def test_a_press_on_what_moves_away_before_the_hand_lets_go(editor: str, page: Page, line: SlowLine) -> None:
+    open_player(page, editor)
+    select_state(page, "GetUp")
+    add = page.get_by_role("button", name="Add: Stay")
+    rows = page.get_by_label("Inspector").get_by_text("stay", exact=True)
+    line.hold()
+    add.click()
+    add.hover()
+    page.mouse.down()
+    line.let_go()
+    expect(rows).to_have_count(1)
+    page.mouse.up()
+    expect(rows).to_have_count(2)
 
 
 def test_each_press_on_what_is_there_is_done_once(editor: str, page: Page, project: Path) -> None:

@@ -121,8 +121,6 @@ def test_the_player_plays_in_its_own_world(editor: str, page: Page) -> None:
     page.get_by_role("button", name="Run until the state changes (Shift+F6)").click()
     expect(page.get_by_text("Entered FollowBall")).to_be_visible()
     expect(page.get_by_text("Nothing to set: every component runs itself.")).to_be_visible()
-    page.get_by_role("button", name="Run until the state changes (Shift+F6)").click()
-    expect(page.get_by_text("Entered SearchNet")).to_be_visible()
     time = page.get_by_role("spinbutton", name="Go to this time")
     time.fill("1.00")
     time.press("Enter")

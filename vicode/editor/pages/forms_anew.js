@@ -72,12 +72,13 @@
   const BUTTON = "button, [role=button], [role=checkbox], [role=switch]";
   const WAIT_MS = 1000;
   const MOST_REMEMBERED = 20;
+  const STILL_PX = 4;
   const presses = new Map();
   let pressed = null;
   const press = (target) => {
     const button = target.closest?.(BUTTON);
     const panel = button?.closest("[data-form]");
-    return panel ? { button, at: alike(panel, button).indexOf(button) } : null;
+    return panel ? { button, at: alike(panel, button).indexOf(button), where: null } : null;
   };
   const tellPress = (was) => {
     const number = numberOf(was.button);
@@ -89,11 +90,22 @@
     tellPress(was);
     was.button.click();
   };
-  document.addEventListener("pointerdown", ({ target }) => (pressed = press(target)), true);
-  document.addEventListener("pointerup", ({ target }) => {
-    // Replaced under the hand, which lets go above the new one: for browsers that is no click.
-    const next = pressed && !pressed.button.isConnected && press(target);
-    if (next && nameOf(next.button) === nameOf(pressed.button)) repeat(next);
+  document.addEventListener(
+    "pointerdown",
+    ({ target, clientX, clientY }) => {
+      pressed = press(target);
+      if (pressed) pressed.where = { x: clientX, y: clientY };
+    },
+    true,
+  );
+  document.addEventListener("pointerup", ({ target, clientX, clientY }) => {
+    // Replaced under the hand, which lets go above the new one, or where the old one was: for browsers that is no click.
+    const was = pressed;
+    if (!was?.where || was.button.isConnected) return;
+    pressed = null;
+    const next = press(target);
+    if (next && nameOf(next.button) === nameOf(was.button)) repeat(next);
+    else if (Math.hypot(clientX - was.where.x, clientY - was.where.y) < STILL_PX) again(was, performance.now());
   });
   document.addEventListener(
     "click",

@@ -3,6 +3,7 @@
 from collections.abc import Callable, Iterable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field
+from typing import Any
 
 from nicegui import ui
 from nicegui.events import CodeMirrorFocusChangeEventArguments
@@ -76,7 +77,7 @@ def pairs_field(desk: Desk, bound: Bound, settable: Callable[[], Iterable[Declar
     return _build(desk, bound, writing)
 
 
-def _build(desk: Desk, bound: Bound, writing: Writing, *, is_large: bool = False) -> Field:
+def _build(desk: Desk, bound: Bound, writing: Writing, *, is_large: bool = False) -> "CodeField":
     made: list[CodeField] = []
 
     def focus(event: CodeMirrorFocusChangeEventArguments) -> None:
@@ -116,6 +117,7 @@ def _enlarge(small: Field, writing: Writing) -> None:
             return
         stop()
         desk.say("Somebody else removed, renamed or moved what this code belongs to", "warning")
+        large.is_closing = True
         # What was typed till now belongs to where the code is by now, if it is anywhere.
         small.go_on_from(large)
         desk.begin(tell_last(), "last words")
@@ -145,6 +147,8 @@ class CodeField(Field):
     writing: Writing = field(kw_only=True)
     aid: CodeAid = field(kw_only=True)
     messages: ui.column = field(kw_only=True)
+    is_closing: bool = False
+    """Whether its dialog is about to close: what is typed here is taken over another way."""
     _shown: object = None
 
     def __post_init__(self) -> None:
@@ -170,6 +174,10 @@ class CodeField(Field):
         if (marks, self.refused) != self._shown:
             self._shown = (marks, self.refused)
             self._tell(marks, is_long="\n" in text.rstrip("\n"))
+
+    def _typed(self, value: Any) -> None:
+        if not self.is_closing:
+            super()._typed(value)
 
     def _tell(self, marks: tuple[Mark, ...], *, is_long: bool) -> None:
         self.messages.clear()

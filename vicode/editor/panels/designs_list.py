@@ -26,14 +26,37 @@ class _Row:
     element: ui.element
 
 
+@dataclass(frozen=True, slots=True)
+class _Mark:
+    """What tells in the line of a design that it is unsaved: it comes and goes, and the line stays."""
+
+    workspace: Workspace
+    component: str
+    link: ui.link
+    dot: ui.label
+
+    def refresh(self) -> None:
+        is_unsaved = self.component in self.workspace.unsaved
+        if is_unsaved == self.dot.visible:
+            return
+        self.dot.set_visibility(is_unsaved)
+        self.tell()
+
+    def tell(self) -> None:
+        """A name in parts is read out as one."""
+        if len(self.component) > _LONG:
+            self.link.props["aria-label"] = self.component + (", unsaved" if self.dot.visible else "")
+
+
 class DesignsList:
-    """The designs; built anew when files come or go, or a design becomes saved or unsaved."""
+    """The designs; built anew when files come or go."""
 
     def __init__(self, library: Library, here: tuple[str, str], dialogs: DesignDialogs) -> None:
         """Build it; `here` is the project's key and the component that is open."""
         self.library, self.here, self.dialogs = library, here, dialogs
         self.shape: object = None
         self._rows: list[_Row] = []
+        self._marks: list[_Mark] = []
         with ui.element("nav").classes("designs").props('aria-label="Designs"'):
             self._filter = ui.input(placeholder="Filter", on_change=self._narrow).classes("designs-filter")
             self._filter.props('dense borderless clearable debounce=150 aria-label="Filter designs"')
@@ -46,13 +69,13 @@ class DesignsList:
 
     def refresh(self) -> None:
         """Show what there is now."""
-        shape = [
-            (each.key, sorted(each.project.interfaces()), each.broken, each.unsaved) for each in self.library.workspaces
-        ]
+        shape = [(each.key, sorted(each.project.interfaces()), each.broken) for each in self.library.workspaces]
         if shape == self.shape:
+            for mark in self._marks:
+                mark.refresh()
             return
         self.shape = shape
-        self._rows = []
+        self._rows, self._marks = [], []
         self.body.clear()
         with self.body:
             for workspace in self.library.workspaces:
@@ -96,12 +119,12 @@ class DesignsList:
             if is_here:
                 link.props('aria-current="page"')
             with link:
-                is_unsaved = component in workspace.unsaved
                 _name(component)
-                if len(component) > _LONG:
-                    link.props["aria-label"] = component + (", unsaved" if is_unsaved else "")
-                if is_unsaved:
-                    ui.label("●").classes("unsaved-mark").props('aria-label="unsaved" role="img"')
+                dot = ui.label("●").classes("unsaved-mark").props('aria-label="unsaved" role="img"')
+            mark = _Mark(workspace, component, link, dot)
+            mark.tell()
+            mark.refresh()
+            self._marks.append(mark)
             add_design_menu(workspace, component, self.dialogs, row)
         self._rows.append(_Row(component, address, row))
 

@@ -121,7 +121,7 @@ class Field:
     def _hear(self, number: int, text: str) -> None:
         """Note what the browser showed when a text was typed, of all that it was sent."""
         self._browser.typed_on(number)
-        if text == self.element.value and not self.bound.refuse(text):
+        if text == self.element.value and self.leads_there() and not self.bound.refuse(text):
             # Nothing else will: another one has made the same of it.
             self._browser.keystrokes.sent(text, self._spelled(text))
 
@@ -183,12 +183,8 @@ def findings_at(path: Path, findings: Iterable[Finding]) -> list[Finding]:
 def text_field(desk: Desk, bound: Bound, *, monospace: bool = False, lines: bool = False) -> Field:
     """A text in a line, or in as many as it needs; its findings stand below."""
     with ui.column().classes("field"):
-        element = TextInput(bound.label, placeholder=bound.hint, lines=lines)
-        element.props("outlined dense stack-label debounce=250")
-        if lines:
-            element.props("autogrow")
-        if monospace:
-            element.classes("mono").props("autocapitalize=off spellcheck=false autocomplete=off")
+        element = TextInput(bound.label, placeholder=bound.hint, lines=lines, monospace=monospace)
+        element.props("debounce=250")
         message = ui.label().classes("field-finding")
         message.set_visibility(False)
     return Field(desk, bound, element, message)

@@ -26,8 +26,7 @@ def name_field(
 ) -> "NameField":
     """A name in a line; `take` takes another one over, `on_shown` hears the design's name when it is another."""
     with ui.column().classes("field"):
-        element = TextInput(bound.label).props("outlined dense stack-label maxlength=80").classes("mono")
-        element.props("autocapitalize=off spellcheck=false autocomplete=off")
+        element = TextInput(bound.label, monospace=True).props("maxlength=80")
         message = ui.label().classes("field-finding").props('role="status"')
         message.set_visibility(False)
     return NameField(desk, bound, element, message, take=take, on_shown=on_shown)

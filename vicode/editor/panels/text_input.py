@@ -17,10 +17,11 @@ class TextInput(ui.input, component="text_input.js"):
     Args:
         label: its name.
         placeholder: shown where the text is empty.
-        lines: whether it may have several lines.
+        lines: whether it may have several lines; it is as high as they are.
+        monospace: whether it is code or a name, which no browser should mend.
     """
 
-    def __init__(self, label: str, *, placeholder: str = "", lines: bool = False) -> None:
+    def __init__(self, label: str, *, placeholder: str = "", lines: bool = False, monospace: bool = False) -> None:
         self.number = 0
         """Of the text that was sent last."""
         self.on_heard: Callable[[int, str], None] = lambda _number, _text: None
@@ -28,8 +29,11 @@ class TextInput(ui.input, component="text_input.js"):
         self._heard = 0
         self._is_changing = False
         super().__init__(label, placeholder=placeholder)
+        self.props("outlined dense stack-label")
         if lines:
-            self._props["type"] = "textarea"
+            self.props("type=textarea autogrow")
+        if monospace:
+            self.classes("mono").props("autocapitalize=off spellcheck=false autocomplete=off")
         self._props.update({"number": 0, "heard": 0})
 
     def _event_args_to_value(self, e: GenericEventArguments) -> str | None:

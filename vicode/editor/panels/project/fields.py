@@ -145,11 +145,7 @@ def _key_of(spot: Spot, line: Line) -> Path:
 
 def _input(bound: Bound, *, is_code: bool, is_long: bool = False) -> tuple[TextInput, ui.label]:
     with ui.column().classes("field"):
-        element = TextInput(bound.label, placeholder=bound.hint, lines=is_long).props("outlined dense stack-label")
-        if is_long:
-            element.props("autogrow")
-        if is_code:
-            element.classes("mono").props("autocapitalize=off spellcheck=false autocomplete=off")
+        element = TextInput(bound.label, placeholder=bound.hint, lines=is_long, monospace=is_code)
         message = ui.label().classes("field-finding").props('role="status"')
         message.set_visibility(False)
     return element, message
