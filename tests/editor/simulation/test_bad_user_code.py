@@ -50,13 +50,13 @@ def test_an_endless_loop_is_told_with_its_line(tmp_path: Path) -> None:
         assert simulation.phase is Phase.FAILED
         assert simulation.cursor == 1
         words = failure_words(simulation)
-        assert words.startswith("Lamp, state Lit, Lit.actions, line 2: did not come to an end within 0.3 s")
+        assert words.startswith("Lamp, state Lit, Lit.actions, line 2: did not come to an end within 1.5 s")
         # The past is still there, and a step from it meets the same end.
         simulation.back()
         assert await simulation.step(5) == ""
         assert simulation.cursor == 1
 
-    simulate(stage_of(folder, limit_s=0.3), folder, act)
+    simulate(stage_of(folder, limit_s=1.5), folder, act)
 
 
 def test_a_loop_that_catches_everything_is_killed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -69,7 +69,7 @@ def test_a_loop_that_catches_everything_is_killed(tmp_path: Path, monkeypatch: p
         assert "lamp, Lit.actions, line" in failure_words(simulation)
         assert "did not come to an end within" in failure_words(simulation)
 
-    simulate(stage_of(folder, limit_s=0.3), folder, act)
+    simulate(stage_of(folder, limit_s=1.5), folder, act)
 
 
 @pytest.mark.parametrize(
@@ -184,7 +184,7 @@ def test_inputs_before_a_failure_are_not_lost(tmp_path: Path) -> None:
         assert simulation.failure is None
         assert await simulation.step() == "count"
 
-    simulate(stage_of(folder, limit_s=0.3), folder, act)
+    simulate(stage_of(folder, limit_s=1.5), folder, act)
 
 
 def test_the_process_ends_when_the_editor_is_killed(tmp_path: Path) -> None:
