@@ -25,7 +25,7 @@ test: $(VENV)/.ready-test chromium  ## pass every test, a real browser included 
 fast: $(VENV)/.ready-test  ## pass the tests that need no browser
 	@$(PYTEST) $(PARALLEL) -m "not browser and not nightly"
 
-check: $(VENV)/.ready-dev  ## format, lint, types, architecture, fast tests (under a minute)
+check: $(VENV)/.ready-dev  ## format, lint, types, architecture, fast tests (two minutes)
 	$(BIN)/ruff format --check
 	$(BIN)/ruff check
 	$(BIN)/mypy

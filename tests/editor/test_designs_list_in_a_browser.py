@@ -65,3 +65,11 @@ def test_who_walks_through_the_list_stays_there_when_a_design_becomes_unsaved(
     other.keyboard.press("Control+s")
     expect(edited).to_have_accessible_name("defend_corner_of_our_half_1")
     expect(mine).to_be_focused()
+    # So does a menu that is open there.
+    mine.click(button="right")
+    rename = page.get_by_role("menuitem", name="Rename everywhere")
+    expect(rename).to_be_visible()
+    other.get_by_role("textbox", name="Doc", exact=True).fill("Stay near the other goal.")
+    expect(edited).to_have_accessible_name("defend_corner_of_our_half_1, unsaved")
+    rename.click()
+    expect(page.get_by_role("dialog")).to_contain_text("stand_3")
