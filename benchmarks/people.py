@@ -211,6 +211,8 @@ def started_server(said: Path) -> Iterator[tuple[str, int]]:
     with tempfile.TemporaryDirectory() as folder:
         shutil.copytree(ROOT / "designs" / "forward", Path(folder) / "designs" / "forward")
         state = {"VICODE_STATE": f"{folder}/state", "NICEGUI_STORAGE_PATH": f"{folder}/storage"}
+        # What `vicode edit --host` chooses for many people, and this server for one machine does not.
+        state["PYTHONMALLOC"] = os.environ.get("PYTHONMALLOC", "malloc")
         kept = {key: value for key, value in os.environ.items() if not key.startswith(("PYTEST", "NICEGUI"))}
         command = [sys.executable, "-m", "vicode", "edit", f"{folder}/designs", "--no-open", "--port", "0"]
         with said.open("w") as log:
