@@ -26,7 +26,7 @@ ROOT = Path(__file__).parents[1]
 SERVER = ROOT / "tests/editor/canvas/canvas_page.py"
 SIZES = (20, 300, 1000, 3000)
 RUNS = 5
-STROKE_S = 0.7
+GESTURE_S = 0.7
 DISTANCES = ("fit", "half", "near")
 ARGUMENTS = ("--no-sandbox", "--disable-dev-shm-usage")
 
@@ -100,7 +100,7 @@ def measure_gestures(page: Page, size: int, distance: str, open_s: float) -> Row
     counts: dict[str, list[float]] = {name: [] for name in ("rest", *strokes)}
     for _ in range(RUNS):
         set_view(page, distance)
-        rest = page.evaluate(COUNT_FRAMES, STROKE_S)
+        rest = page.evaluate(COUNT_FRAMES, GESTURE_S)
         counts["rest"].append(rest)
         for name, (stroke, selected) in strokes.items():
             set_view(page, distance, selected)
@@ -123,22 +123,22 @@ def count_during(page: Page, stroke: Callable[[Page, Point, float], None]) -> fl
     """The frames per second while a stroke of the hand is made."""
     [spot] = page.evaluate(FIND_MIDDLE, 1)
     page.mouse.move(*spot)
-    page.evaluate(START_COUNTING, STROKE_S)
-    stroke(page, spot, time.monotonic() + STROKE_S)
+    page.evaluate(START_COUNTING, GESTURE_S)
+    stroke(page, spot, time.monotonic() + GESTURE_S)
     return float(page.evaluate("window.counted"))
 
 
 def drag(page: Page, spot: Point, until: float) -> None:
     """Drag the state in the middle to and fro."""
     page.mouse.down()
-    swing(page, spot, until)
+    move_back_and_forth(page, spot, until)
     page.mouse.up()
 
 
 def pan(page: Page, spot: Point, until: float) -> None:
     """Pan with the middle button."""
     page.mouse.down(button="middle")
-    swing(page, spot, until)
+    move_back_and_forth(page, spot, until)
     page.mouse.up(button="middle")
 
 
@@ -152,7 +152,7 @@ def zoom(page: Page, spot: Point, until: float) -> None:
         turn += 1
 
 
-def swing(page: Page, spot: Point, until: float) -> None:
+def move_back_and_forth(page: Page, spot: Point, until: float) -> None:
     """Move the mouse to and fro, about once a frame."""
     step = 0
     while time.monotonic() < until:
@@ -165,7 +165,7 @@ def set_view(page: Page, distance: str, selected: int = 0) -> None:
     """Select states in the middle; show everything, or the middle of the scene at half or at life size."""
     page.keyboard.press("Escape")
     page.locator(".stage").press("1")
-    wait_until_resting(page)
+    wait_until_idle(page)
     for spot in page.evaluate(FIND_MIDDLE, selected) if selected else ():
         page.keyboard.down("Shift")
         page.mouse.click(*spot)
@@ -177,10 +177,10 @@ def set_view(page: Page, distance: str, selected: int = 0) -> None:
         while page.evaluate("document.querySelector('.vicode-canvas').vicode.view().k") > 0.5:
             page.mouse.wheel(0, 100)
             time.sleep(0.03)
-    wait_until_resting(page)
+    wait_until_idle(page)
 
 
-def wait_until_resting(page: Page) -> None:
+def wait_until_idle(page: Page) -> None:
     """Wait until the view does not move any more."""
     page.wait_for_function("document.querySelector('.vicode-canvas').vicode.view().resting")
     time.sleep(0.3)

@@ -24,14 +24,14 @@ from collections.abc import Callable
 from functools import partial
 from pathlib import Path
 
-from vicode.cli.sites import Sites
-from vicode.cli.subjects import read_subjects
-from vicode.diagram.export import export
-from vicode.diagram.formats import Format
+from vicode.cli.sites import DocsBuilder
+from vicode.cli.subjects import load_site_inputs
+from vicode.diagram.export import export_design
+from vicode.diagram.formats import ExportFormat
 from vicode.model.design import Design, Guard, State, Transition
 
 # Draws each text of a list that it reads, in one process, as most people would let it be drawn.
-BARE = """
+BARE_GRAPHVIZ = """
 import json, sys
 import pygraphviz
 for text in json.load(sys.stdin):
@@ -40,7 +40,7 @@ for text in json.load(sys.stdin):
     graph.close()
 """
 STATES = 300
-WAITING = re.compile(r"(state_time\s*[<>]=?\s*)\d+")
+STATE_TIME = re.compile(r"(state_time\s*[<>]=?\s*)\d+")
 
 
 def main() -> None:
@@ -62,16 +62,16 @@ def measure(agents: Path, folder: Path, rounds: int) -> None:
     print("| | processor time |\n|---|---|")
     run(command)
     fresh = [[*command[:-1], str(folder / f"site{number}")] for number in range(rounds)]
-    whole = [spent(partial(run, each)) for each in fresh]
+    whole = [child_cpu_time(partial(run, each)) for each in fresh]
     show("site from nothing, a fresh process", whole)
-    show("nothing changed, a fresh process", [spent(lambda: run(command)) for _round in range(rounds)])
-    edited = [spent(lambda: run(command), before=lambda: edit(agents)) for _round in range(rounds)]
+    show("nothing changed, a fresh process", [child_cpu_time(lambda: run(command)) for _round in range(rounds)])
+    edited = [child_cpu_time(lambda: run(command), before=lambda: edit(agents)) for _round in range(rounds)]
     show("one state edited, a fresh process", edited)
-    show("one state edited, while watching", watched(agents, folder / "watched", rounds))
-    texts = json.dumps(graphs(agents))
-    bare = [spent(lambda: run([sys.executable, "-c", BARE], texts)) for _round in range(rounds)]
+    show("one state edited, while watching", measure_watching(agents, folder / "watched", rounds))
+    texts = json.dumps(export_dot_texts(agents))
+    bare = [child_cpu_time(lambda: run([sys.executable, "-c", BARE_GRAPHVIZ], texts)) for _round in range(rounds)]
     show("bare Graphviz on the state machines, one process", bare)
-    show(f"a drawing of {STATES} states as SVG", [exported() for _round in range(rounds)])
+    show(f"a drawing of {STATES} states as SVG", [measure_export() for _round in range(rounds)])
     print(
         f"\nThe site from nothing takes {statistics.median(whole) / statistics.median(bare):.1f} times bare Graphviz."
     )
@@ -85,7 +85,7 @@ def run(command: list[str], text: str = "") -> None:
     subprocess.run(command, input=text, text=True, check=True, stdout=subprocess.DEVNULL)
 
 
-def spent(work: Callable[[], None], before: Callable[[], None] = lambda: None) -> float:
+def child_cpu_time(work: Callable[[], None], before: Callable[[], None] = lambda: None) -> float:
     """Seconds of processor time of the processes that some work starts, and of theirs."""
     before()
     begun = resource.getrusage(resource.RUSAGE_CHILDREN)
@@ -94,40 +94,40 @@ def spent(work: Callable[[], None], before: Callable[[], None] = lambda: None) -
     return done.ru_utime + done.ru_stime - begun.ru_utime - begun.ru_stime
 
 
-def watched(agents: Path, out: Path, rounds: int) -> list[float]:
+def measure_watching(agents: Path, out: Path, rounds: int) -> list[float]:
     """Times from an edit to its pages, in a process that has built the site before."""
     times = []
-    with Sites(out=out) as sites:
-        sites.build(read_subjects([agents]))
+    with DocsBuilder(out=out) as sites:
+        sites.build(load_site_inputs([agents]))
         gc.freeze()
         for _round in range(rounds):
             edit(agents)
             begun = time.process_time()
-            built = sites.build(read_subjects([agents]))
+            built = sites.build(load_site_inputs([agents]))
             times.append(time.process_time() - begun)
-            assert built.touched
+            assert built.changed
     return times
 
 
 def edit(agents: Path, chance: random.Random = random.Random(1)) -> None:  # noqa: B008 - the same edits every time
     """Let some state wait for another time."""
-    files = [path for path in sorted(agents.parent.rglob("*.xabsl")) if WAITING.search(path.read_text("latin-1"))]
+    files = [path for path in sorted(agents.parent.rglob("*.xabsl")) if STATE_TIME.search(path.read_text("latin-1"))]
     file = chance.choice(files)
     text = file.read_text("latin-1")
-    file.write_text(WAITING.sub(rf"\g<1>{chance.randrange(1000, 10000)}", text, count=1), "latin-1")
+    file.write_text(STATE_TIME.sub(rf"\g<1>{chance.randrange(1000, 10000)}", text, count=1), "latin-1")
 
 
-def graphs(agents: Path) -> list[str]:
+def export_dot_texts(agents: Path) -> list[str]:
     """The state machines as texts for Graphviz."""
-    (reading,) = read_subjects([agents])
-    assert reading.subject is not None
-    return [export(design, Format.DOT).decode() for design in reading.subject.project.designs]
+    (reading,) = load_site_inputs([agents])
+    assert reading.site_input is not None
+    return [export_design(design, ExportFormat.DOT).decode() for design in reading.site_input.project.designs]
 
 
-def exported() -> float:
+def measure_export() -> float:
     design = ring(STATES)
     begun = time.process_time()
-    export(design, Format.SVG)
+    export_design(design, ExportFormat.SVG)
     return time.process_time() - begun
 
 

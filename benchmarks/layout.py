@@ -14,15 +14,15 @@ import sys
 import threading
 import time
 
-from vicode.diagram import place
+from vicode.diagram import complete_layout
 from vicode.diagram.layout import LayoutService
 from vicode.model.design import Design, Guard, State, Transition
-from vicode.model.walks import walk_transitions
+from vicode.model.walks import iter_transitions
 
 SIZES = {20: 7, 100: 7, 300: 5, 1000: 5, 3000: 3}
 LIMIT_S = 90.0
 # Reads arrows as JSON lines, and answers when the picture is there: every transition, boxes of fixed size, no routes.
-BARE = """
+BARE_GRAPHVIZ = """
 import json, sys
 import pygraphviz
 for line in sys.stdin:
@@ -53,13 +53,13 @@ def make_design(size: int) -> Design:
     """Three transitions a state, four of five to one near by, the rest to anywhere."""
     chance = random.Random(1)
     states = tuple(
-        State(name=f"State{index}", transitions=tuple(lead(index, size, chance) for _ in range(3)))
+        State(name=f"State{index}", transitions=tuple(make_transition(index, size, chance) for _ in range(3)))
         for index in range(size)
     )
     return Design(component="Measured", initial="State0", states=states)
 
 
-def lead(index: int, size: int, chance: random.Random) -> Transition:
+def make_transition(index: int, size: int, chance: random.Random) -> Transition:
     is_near = chance.random() < 0.8
     to = (index + chance.choice((1, 1, 2, 3, -1, -5))) % size if is_near else chance.randrange(size)
     return Transition(to=f"State{to}", guard=Guard(when="perception.ball_seen"))
@@ -67,17 +67,17 @@ def lead(index: int, size: int, chance: random.Random) -> Transition:
 
 def time_layers(design: Design) -> float:
     start = time.perf_counter()
-    place(design)
+    complete_layout(design)
     return time.perf_counter() - start
 
 
 def time_service(design: Design, rounds: int, limit_s: float) -> list[float]:
     with LayoutService() as service:
-        service.lay_out(Design(component="Warm", states=(State(name="A"),)), timeout_s=limit_s)
+        service.compute(Design(component="Warm", states=(State(name="A"),)), timeout_s=limit_s)
         times = []
         for _ in range(rounds):
             start = time.perf_counter()
-            if service.lay_out(design, timeout_s=limit_s).note:
+            if service.compute(design, timeout_s=limit_s).note:
                 return []
             times.append(time.perf_counter() - start)
     return times
@@ -85,25 +85,25 @@ def time_service(design: Design, rounds: int, limit_s: float) -> list[float]:
 
 def time_bare(design: Design, rounds: int, limit_s: float) -> list[float]:
     """Empty when it crashes or takes longer than the limit."""
-    arrows = json.dumps([(each.source, each.decision.to) for each in walk_transitions(design)])  # type: ignore[union-attr]
+    arrows = json.dumps([(each.source, each.decision.to) for each in iter_transitions(design)])  # type: ignore[union-attr]
     times: list[float] = []
-    command = [sys.executable, "-c", BARE]
+    command = [sys.executable, "-c", BARE_GRAPHVIZ]
     with subprocess.Popen(
         command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, encoding="utf-8"
     ) as process:
         assert process.stdin is not None
         assert process.stdout is not None
-        ask(process, '[["A", "B"]]', limit_s)
+        request_layout(process, '[["A", "B"]]', limit_s)
         for _ in range(rounds):
             start = time.perf_counter()
-            if not ask(process, arrows, limit_s):
+            if not request_layout(process, arrows, limit_s):
                 return []
             times.append(time.perf_counter() - start)
         process.stdin.close()
     return times
 
 
-def ask(process: subprocess.Popen[str], request: str, limit_s: float) -> bool:
+def request_layout(process: subprocess.Popen[str], request: str, limit_s: float) -> bool:
     """Whether an answer came in time; a process that is too late is killed."""
     assert process.stdin is not None
     assert process.stdout is not None

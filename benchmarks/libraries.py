@@ -10,7 +10,7 @@ from importlib import import_module
 from importlib.util import find_spec
 from typing import Any, Protocol
 
-from benchmarks.machines import TICK_NS, TIMER_NS, Edge, Machine, TickClock, load_source, spell_guard
+from benchmarks.machines import TICK_NS, TIMER_NS, Edge, Machine, TickClock, format_guard, load_source
 from benchmarks.senses import Senses
 
 
@@ -25,10 +25,10 @@ class Model:
 
 
 Step = Callable[[], None]
-Contestant = tuple[Step, Callable[[], str]]
+Candidate = tuple[Step, Callable[[], str]]
 
 
-def find_libraries() -> dict[str, Callable[[Machine, Senses], Contestant]]:
+def find_libraries() -> dict[str, Callable[[Machine, Senses], Candidate]]:
     """Return the makers of those that are installed, by name."""
     makers = {
         "automat": ("automat", make_automat),
@@ -39,7 +39,7 @@ def find_libraries() -> dict[str, Callable[[Machine, Senses], Contestant]]:
     return {name: make for name, (module, make) in makers.items() if find_spec(module)}
 
 
-def make_transitions(machine: Machine, senses: Senses) -> Contestant:
+def make_transitions(machine: Machine, senses: Senses) -> Candidate:
     model = Model(senses)
     names = [f"S{state}" for state in range(len(machine.edges))]
     library = import_module("transitions").Machine(model=model, states=names, initial="S0", auto_transitions=False)
@@ -49,7 +49,7 @@ def make_transitions(machine: Machine, senses: Senses) -> Contestant:
     return _wrap(model, model.tick, lambda: model.state, acts=machine.acts)  # type: ignore[attr-defined]
 
 
-def make_statemachine(machine: Machine, senses: Senses) -> Contestant:
+def make_statemachine(machine: Machine, senses: Senses) -> Candidate:
     package, model = import_module("statemachine"), Model(senses)
     states = [package.State(initial=state == 0) for state in range(len(machine.edges))]
     links = [
@@ -65,7 +65,7 @@ def make_statemachine(machine: Machine, senses: Senses) -> Contestant:
     return _wrap(model, library.tick, lambda: _only(library.configuration).id, acts=machine.acts)
 
 
-def make_sismic(machine: Machine, senses: Senses) -> Contestant:
+def make_sismic(machine: Machine, senses: Senses) -> Candidate:
     package, model = import_module("sismic.model"), Model(senses)
     chart = package.Statechart("measured")
     chart.add_state(package.CompoundState("root", initial="S0"), None)
@@ -73,7 +73,7 @@ def make_sismic(machine: Machine, senses: Senses) -> Contestant:
         chart.add_state(package.BasicState(f"S{state}"), "root")
     for state, edges in enumerate(machine.edges):
         for number, edge in enumerate(edges):
-            guard = spell_guard(edge, "model.now_ns - model.entered_ns", "model.senses")
+            guard = format_guard(edge, "model.now_ns - model.entered_ns", "model.senses")
             link = package.Transition(f"S{state}", f"S{edge.target}", event="tick", guard=guard, priority=-number)
             chart.add_transition(link)
     interpreter = import_module("sismic.interpreter").Interpreter(chart, initial_context={"model": model})
@@ -99,7 +99,7 @@ class Inputs(Protocol):
         """Take the third edge."""
 
 
-def make_automat(machine: Machine, senses: Senses) -> Contestant:
+def make_automat(machine: Machine, senses: Senses) -> Candidate:
     model = Model(senses)
     builder = import_module("automat").TypeMachineBuilder(Inputs, Model)
     states = [builder.state(f"S{state}") for state in range(len(machine.edges))]
@@ -115,7 +115,7 @@ def make_automat(machine: Machine, senses: Senses) -> Contestant:
 def _make_check(edges: tuple[Edge, ...]) -> Callable[[Inputs, Model], None]:
     lines = ["def check(inputs, model) -> None:"]
     for number, edge in enumerate(edges):
-        guard = spell_guard(edge, "model.now_ns - model.entered_ns", "model.senses")
+        guard = format_guard(edge, "model.now_ns - model.entered_ns", "model.senses")
         lines += [f"    {'elif' if number else 'if'} {guard}:", f"        inputs.go_{number}()"]
     check: Callable[[Inputs, Model], None] = load_source("\n".join(lines)).check
     return check
@@ -139,7 +139,7 @@ def _make_guard(edge: Edge, model: Model) -> Callable[[], bool]:
     return guards[edge.sense]
 
 
-def _wrap(model: Model, tick: Callable[[], Any], find_state: Callable[[], str], *, acts: bool) -> Contestant:
+def _wrap(model: Model, tick: Callable[[], Any], find_state: Callable[[], str], *, acts: bool) -> Candidate:
     speeds = {f"S{state}": state for state in range(1000)}
     last = "S0"
 

@@ -46,7 +46,7 @@ class Handler(http.server.SimpleHTTPRequestHandler):
         self.wfile.write(body)
 
 
-def scores_of(address: str, chromium: str) -> dict[str, float]:
+def run_lighthouse(address: str, chromium: str) -> dict[str, float]:
     """The scores of one run, by category."""
     flags = "--headless=new --no-sandbox"
     command = ["npx", "--yes", LIGHTHOUSE, address, "--quiet", "--output=json", f"--chrome-flags={flags}"]
@@ -74,7 +74,7 @@ def main() -> int:
         print(f"{'':32}" + "".join(f"{name:>16}" for name in CATEGORIES))
         for page in args.pages:
             address = f"http://127.0.0.1:{server.server_port}/{page}"
-            runs = [scores_of(address, chromium) for _run in range(args.runs)]
+            runs = [run_lighthouse(address, chromium) for _run in range(args.runs)]
             found = [round(median(run[name] for run in runs)) for name in CATEGORIES]
             print(f"{page:32}" + "".join(f"{score:>16}" for score in found))
         server.shutdown()

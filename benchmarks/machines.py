@@ -117,7 +117,7 @@ def write_if_elif(machine: Machine) -> str:
         lines.append(f"        {'elif' if state else 'if'} state == 'S{state}':")
         for number, edge in enumerate(edges):
             lines += [
-                f"            {'elif' if number else 'if'} {spell_guard(edge, 'now_ns - self.entered_ns')}:",
+                f"            {'elif' if number else 'if'} {format_guard(edge, 'now_ns - self.entered_ns')}:",
                 f"                self.state, self.entered_ns = 'S{edge.target}', now_ns",
             ]
     if machine.acts:
@@ -128,7 +128,7 @@ def write_if_elif(machine: Machine) -> str:
     return "\n".join(lines)
 
 
-def spell_guard(edge: Edge, time_in_state: str, senses: str = "self.senses") -> str:
+def format_guard(edge: Edge, time_in_state: str, senses: str = "self.senses") -> str:
     """Return the guard of an edge in Python."""
     return f"{senses}.{edge.sense} > 0.9" if edge.sense else f"{time_in_state} >= {TIMER_NS}"
 

@@ -1,6 +1,6 @@
 """How long `vicode edit` takes until a design is drawn, beside a NiceGUI page that says hello.
 
-`python -m benchmarks.opening [--rounds N]`; both are started in turn as fresh processes, and opened in one browser.
+`python -m benchmarks.startup [--rounds N]`; both are started in turn as fresh processes, and opened in one browser.
 """
 
 import argparse
@@ -58,7 +58,7 @@ def main() -> None:
         browser = playwright.chromium.launch(executable_path=path, args=["--no-sandbox", "--disable-dev-shm-usage"])
         for _round in range(rounds + 1):
             for name, (command, sign, path) in commands.items():
-                times[name].append(open_once(browser, command, sign, path))
+                times[name].append(measure_once(browser, command, sign, path))
     print(f"{'seconds':14} {'listening':>10} {'drawn':>10}")
     for name, all_measured in times.items():
         # The first round fills the disk's cache.
@@ -68,10 +68,10 @@ def main() -> None:
     print(f"{'ratio':14} {'':10} {median(ratios):10.2f}")
 
 
-def open_once(browser: Browser, command: list[str], sign: str, path: str) -> tuple[float, float]:
+def measure_once(browser: Browser, command: list[str], sign: str, path: str) -> tuple[float, float]:
     """Seconds from starting a server until it answers, and until what `sign` selects is drawn at `path`."""
     start = time.perf_counter()
-    with started(command) as url:
+    with start_server(command) as url:
         listening = time.perf_counter() - start
         context = browser.new_context(viewport={"width": 1366, "height": 768})
         page = context.new_page()
@@ -83,7 +83,7 @@ def open_once(browser: Browser, command: list[str], sign: str, path: str) -> tup
 
 
 @contextmanager
-def started(command: list[str]) -> Iterator[str]:
+def start_server(command: list[str]) -> Iterator[str]:
     """A server process, and the address that it prints."""
     environment = {**os.environ, "NICEGUI_STORAGE_PATH": "/tmp/vicode-benchmark"}
     with subprocess.Popen(command, stdout=subprocess.PIPE, text=True, env=environment) as process:

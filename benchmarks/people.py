@@ -1,6 +1,6 @@
 """Many people at work on one design: how soon edits reach every window, whether one is lost, what memory it takes.
 
-Run `python -m benchmarks.people [CLIENTS] [SECONDS]`. The clients are sockets that speak the pages' own protocol, in
+Run `python -m benchmarks.collaboration [CLIENTS] [SECONDS]`. The clients are sockets that speak the pages' own protocol, in
 one process beside the server: fifty real browsers would measure the machine, not the server. Each moves its own state.
 """
 
@@ -36,23 +36,23 @@ FORGET_S = 80.0
 
 
 @dataclass
-class Watch:
+class LatencyLog:
     """What was sent when, and how long each edit took to each window."""
 
     sent_s: dict[int, float] = field(default_factory=dict)
     took_s: list[float] = field(default_factory=list)
     errors: list[str] = field(default_factory=list)
-    gone: list[str] = field(default_factory=list)
-    heard_s: float = 0.0
+    disconnected: list[str] = field(default_factory=list)
+    last_event_s: float = 0.0
 
-    async def rest(self, quiet_s: float = 1.5, most_s: float = 120.0) -> None:
+    async def wait_until_idle(self, quiet_s: float = 1.5, most_s: float = 120.0) -> None:
         """Wait until nothing has come for a while: opening fifty windows is another thing than working in them."""
         end_s = time.perf_counter() + most_s
-        self.heard_s = time.perf_counter()
-        while time.perf_counter() - self.heard_s < quiet_s and time.perf_counter() < end_s:
+        self.last_event_s = time.perf_counter()
+        while time.perf_counter() - self.last_event_s < quiet_s and time.perf_counter() < end_s:
             await asyncio.sleep(0.1)
 
-    def mark(self) -> int:
+    def next_mark(self) -> int:
         """A number that no other edit has; it travels as a coordinate."""
         number = FIRST_MARK + len(self.sent_s)
         self.sent_s[number] = time.perf_counter()
@@ -75,18 +75,18 @@ class Result:
 class Client:
     """One window without a browser."""
 
-    def __init__(self, url: str, number: int, watch: Watch) -> None:
-        self.url, self.name, self.watch = url, f"C{number}", watch
+    def __init__(self, url: str, number: int, watch: LatencyLog) -> None:
+        self.url, self.name, self.log = url, f"C{number}", watch
         self.socket = socketio.AsyncClient(reconnection=False)
-        self.socket.on("*", self._hear)
-        self.socket.on("disconnect", lambda *_reason: watch.gone.append(self.name))
+        self.socket.on("*", self._on_event)
+        self.socket.on("disconnect", lambda *_reason: watch.disconnected.append(self.name))
         self.scene: dict[str, Any] = {}
         self.last: tuple[int, int] | None = None
         self.loaded = asyncio.Event()
         self.renames = asyncio.Event()
         self.rev = 0
 
-    async def enter(self) -> None:
+    async def connect(self) -> None:
         """Ask for the page, and connect as its script would."""
         async with aiohttp.ClientSession() as session, session.get(self.url + PAGE) as response:
             text = await response.text()
@@ -114,22 +114,22 @@ class Client:
                 await asyncio.wait_for(self.loaded.wait(), 5)
                 return
 
-    async def own_a_state(self) -> None:
+    async def create_own_state(self) -> None:
         """Make the state that this window moves, and name it."""
         await self._gesture({"kind": "create", "x": 0, "y": 0})
         await asyncio.wait_for(self.renames.wait(), 60)
-        await self._gesture({"kind": "rename", "of": "states", "id": self.made, "name": self.name})
+        await self._gesture({"kind": "rename", "of": "states", "id": self.created_state, "name": self.name})
 
-    async def work(self, until_s: float) -> None:
+    async def move_state_repeatedly(self, until_s: float) -> None:
         """Move the own state now and then."""
         while time.perf_counter() < until_s:
             await asyncio.sleep(random.uniform(0.5, 1.5) * PAUSE_S)
-            x = self.watch.mark()
+            x = self.log.next_mark()
             self.last = (x, random.randrange(1000))
             item = {"of": "states", "id": self.name, "x": self.last[0], "y": self.last[1]}
             await self._gesture({"kind": "move", "items": [item]})
 
-    async def leave(self) -> None:
+    async def disconnect(self) -> None:
         """Close the window; what it could no longer say does not matter then."""
         with contextlib.suppress(TimeoutError):
             await asyncio.wait_for(self.socket.disconnect(), 5)
@@ -146,15 +146,15 @@ class Client:
         }
         await self.socket.emit("event", message)
 
-    async def _hear(self, event: str, data: Any = None) -> None:
+    async def _on_event(self, event: str, data: Any = None) -> None:
         if event != "run_javascript":
             return
         code, now_s = str(data.get("code", "")), time.perf_counter()
-        self.watch.heard_s = now_s
-        if "showPeople" in code:
-            await self._emit("seen", {})
+        self.log.last_event_s = now_s
+        if "showPresence" in code:
+            await self._emit("presence-painted", {})
         if "renameInPlace" in code:
-            self.made = re.findall(r"State\d*", code)[-1]
+            self.created_state = re.findall(r"State\d*", code)[-1]
             self.renames.set()
         revs = re.findall(r'"rev":(\d+)', code)
         self.rev = int(revs[-1]) if revs else self.rev
@@ -164,34 +164,36 @@ class Client:
             self.loaded.set()
         if '"apply"' in code:
             for mark in re.findall(r'"x":(\d{6,})', code):
-                if int(mark) in self.watch.sent_s:
-                    self.watch.took_s.append(now_s - self.watch.sent_s[int(mark)])
+                if int(mark) in self.log.sent_s:
+                    self.log.took_s.append(now_s - self.log.sent_s[int(mark)])
 
 
 async def measure(url: str, pid: int, clients: int, seconds: float, forget_s: float = FORGET_S) -> Result:
     """Let clients work for some time, and look whether all of it is there."""
-    watch = Watch()
+    watch = LatencyLog()
     before = _memory_mb(pid)
     people = [Client(url, number, watch) for number in range(clients)]
     for client in people:
-        await client.enter()
-    begun = await asyncio.gather(*(client.own_a_state() for client in people), return_exceptions=True)
+        await client.connect()
+    begun = await asyncio.gather(*(client.create_own_state() for client in people), return_exceptions=True)
     watch.errors += [f"{client.name}: {each!r}" for client, each in zip(people, begun, strict=True) if each is not None]
     people = [client for client, each in zip(people, begun, strict=True) if each is None]
     # A server that builds fifty forms is silent for a while, and not at rest.
-    await watch.rest(quiet_s=1.5 + clients / 10)
+    await watch.wait_until_idle(quiet_s=1.5 + clients / 10)
     until_s = time.perf_counter() + seconds
-    outcomes = await asyncio.gather(*(client.work(until_s) for client in people), return_exceptions=True)
+    outcomes = await asyncio.gather(
+        *(client.move_state_repeatedly(until_s) for client in people), return_exceptions=True
+    )
     watch.errors += [repr(each) for each in outcomes if each is not None]
-    await watch.rest()
+    await watch.wait_until_idle()
     during = _memory_mb(pid)
     late = Client(url, clients, watch)
-    await late.enter()
-    await watch.rest()
+    await late.connect()
+    await watch.wait_until_idle()
     lost = [client.name for client in people if client.last and late.scene.get(client.name) != client.last]
-    watch.errors += [f"{name} lost its connection" for name in watch.gone]
+    watch.errors += [f"{name} lost its connection" for name in watch.disconnected]
     for client in (*people, late):
-        await client.leave()
+        await client.disconnect()
     await asyncio.sleep(forget_s)
     took = sorted(watch.took_s)
     return Result(
@@ -206,7 +208,7 @@ async def measure(url: str, pid: int, clients: int, seconds: float, forget_s: fl
 
 
 @contextmanager
-def started_server(said: Path) -> Iterator[tuple[str, int]]:
+def started_server(log_file: Path) -> Iterator[tuple[str, int]]:
     """An editor on a copy of the forward player; its URL and process. What it says goes into a file."""
     with tempfile.TemporaryDirectory() as folder:
         shutil.copytree(ROOT / "designs" / "forward", Path(folder) / "designs" / "forward")
@@ -215,10 +217,10 @@ def started_server(said: Path) -> Iterator[tuple[str, int]]:
         state["PYTHONMALLOC"] = os.environ.get("PYTHONMALLOC", "malloc")
         kept = {key: value for key, value in os.environ.items() if not key.startswith(("PYTEST", "NICEGUI"))}
         command = [sys.executable, "-m", "vicode", "edit", f"{folder}/designs", "--no-open", "--port", "0"]
-        with said.open("w") as log:
+        with log_file.open("w") as log:
             process = subprocess.Popen(command, stdout=log, stderr=subprocess.STDOUT, env={**kept, **state}, cwd=ROOT)
         try:
-            yield _url(said), process.pid
+            yield _url(log_file), process.pid
         finally:
             process.kill()
             process.wait()

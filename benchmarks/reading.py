@@ -1,6 +1,6 @@
 """How well drawings read: what is hidden by something else, counted in the browser on shipped and random designs.
 
-Run `python -m benchmarks.reading [RANDOM DESIGNS]`.
+Run `python -m benchmarks.readability [RANDOM DESIGNS]`.
 """
 
 import json
@@ -12,7 +12,7 @@ from urllib.request import Request, urlopen
 from playwright.sync_api import Page, sync_playwright
 
 from benchmarks.canvas import ARGUMENTS, open_page, serving
-from tests.editor.canvas.reading import forward_scenes, random_scenes, read
+from tests.editor.canvas.reading import forward_scenes, measure_legibility, random_scenes
 
 RANDOM = 20
 
@@ -41,7 +41,7 @@ def count_in(page: Page, address: str, scene: dict[str, Any]) -> dict[str, int]:
     page.wait_for_timeout(100)
     page.wait_for_function("document.querySelector('.vicode-canvas').vicode.view().resting")
     page.wait_for_timeout(100)
-    return asdict(read(page))
+    return asdict(measure_legibility(page))
 
 
 def show(counts: dict[str, int]) -> str:

@@ -12,13 +12,13 @@ import statistics
 import time
 from collections.abc import Callable, Sequence
 
-from benchmarks.libraries import Contestant, find_libraries
+from benchmarks.libraries import Candidate, find_libraries
 from benchmarks.machines import Machine, TickClock, load_source, make_machine, write_component, write_if_elif
 from benchmarks.senses import Senses
 from vicode.bica import Component, Root
 
 Inputs = Sequence[tuple[float, float, float]]
-HAND = "hand-written if/elif"
+HAND_WRITTEN = "hand-written if/elif"
 BUDGET_S = 0.15
 
 
@@ -37,12 +37,12 @@ def main() -> None:
         ("200 states x 3, states do nothing", make_machine(200, 3, acts=False), {}),
     ]
     for title, machine, rivals in cases:
-        makers = {HAND: make_if_elif, "generated component": make_component, **rivals}
+        makers = {HAND_WRITTEN: make_if_elif, "generated component": make_component, **rivals}
         print_case(title, measure_all(machine, makers, inputs, options.rounds))
     print("SMACH is not on the package index and not measured here.")
 
 
-def make_component(machine: Machine, senses: Senses) -> Contestant:
+def make_component(machine: Machine, senses: Senses) -> Candidate:
     root = Root(load_source(write_component(machine)).Measured, clock=TickClock())
     component: Component = root.main
     # The component reads the very object that all others read.
@@ -50,13 +50,13 @@ def make_component(machine: Machine, senses: Senses) -> Contestant:
     return root.step, lambda: component.state
 
 
-def make_if_elif(machine: Machine, senses: Senses) -> Contestant:
+def make_if_elif(machine: Machine, senses: Senses) -> Candidate:
     measured = load_source(write_if_elif(machine)).Measured(senses, TickClock())
     return measured.step, lambda: measured.state
 
 
 def measure_all(
-    machine: Machine, makers: dict[str, Callable[[Machine, Senses], Contestant]], inputs: Inputs, rounds: int
+    machine: Machine, makers: dict[str, Callable[[Machine, Senses], Candidate]], inputs: Inputs, rounds: int
 ) -> dict[str, tuple[float, float]]:
     """Return the median time of an iteration in ns and the median ratio to the hand-written one, by name."""
     senses = Root(Senses).component(Senses)
@@ -70,13 +70,13 @@ def measure_all(
     return {
         name: (
             statistics.median(own),
-            statistics.median(ours / hand for ours, hand in zip(own, times[HAND], strict=True)),
+            statistics.median(ours / hand for ours, hand in zip(own, times[HAND_WRITTEN], strict=True)),
         )
         for name, own in times.items()
     }
 
 
-def choose_inputs(contestants: dict[str, Contestant], senses: Senses, inputs: Inputs) -> dict[str, Inputs]:
+def choose_inputs(contestants: dict[str, Candidate], senses: Senses, inputs: Inputs) -> dict[str, Inputs]:
     """Check that all pass through the same states, and give the slow ones a shorter run."""
     expected: list[str] = []
     chosen: dict[str, Inputs] = {}

@@ -16,10 +16,10 @@ from collections.abc import Sequence
 from pathlib import Path
 from statistics import median
 
-from vicode.xabsl.compiler import compile_source, symbols_of
-from vicode.xabsl.engine.replaying import Robot
-from vicode.xabsl.engine.symbols import Symbol
-from vicode.xabsl.sources import load
+from vicode.xabsl.compiler import compile_source, declared_symbols
+from vicode.xabsl.engine.replaying import ReplayRobot
+from vicode.xabsl.engine.symbols import RobotSymbol
+from vicode.xabsl.sources import load_source
 
 ROOT = Path(__file__).parents[1]
 LARGEST = ROOT / "tests" / "xabsl" / "cases" / "programs" / "p11" / "agents.xabsl"
@@ -52,24 +52,24 @@ def measure_compilers(agents: Path) -> None:
         print(f"the original: {median(original_s):.2f} s, {median(ratios):.1f} × as long")
 
 
-def random_number(rng: random.Random, symbol: Symbol) -> float:
+def random_number(rng: random.Random, symbol: RobotSymbol) -> float:
     """A value for a column of inputs."""
     if symbol.kind == "d":
         return rng.uniform(-1000, 1000)
     return rng.randrange(8 if symbol.kind == "e" else 2)
 
 
-def nothing(now: int, cycle: int) -> None:
+def noop(now: int, cycle: int) -> None:
     """What the loop beside the engine calls."""
 
 
 def measure_engine(agents: Path) -> None:
     """Run the engine on inputs of which some change before every cycle, through all agents."""
-    compiled = compile_source(load(agents))
+    compiled = compile_source(load_source(agents))
     if compiled.program is None:
         raise SystemExit(f"{agents} has errors: vicode xabsl check {agents}")
-    symbols = symbols_of(compiled.table)
-    robot, rng = Robot(compiled.program, symbols, traced=False), random.Random(1)
+    symbols = declared_symbols(compiled.table)
+    robot, rng = ReplayRobot(compiled.program, symbols, traced=False), random.Random(1)
     inputs = [each for each in symbols.symbols if each.role == "input"]
     rates, ratios, active = [], [], 0
     for _ in range(ROUNDS):
@@ -80,13 +80,13 @@ def measure_engine(agents: Path) -> None:
                 count = len(robot.engine.active_options)
                 active += count
             for symbol in rng.sample(inputs, min(4, len(inputs))):
-                robot.world.put(symbol.name, random_number(rng, symbol))
+                robot.world.set_input(symbol.name, random_number(rng, symbol))
             robot.now += rng.randrange(10, 100)
             begun_s = time.perf_counter()
             robot.engine.execute()
             ended_s = time.perf_counter()
             for _option in range(count):
-                nothing(robot.now, cycle)
+                noop(robot.now, cycle)
             spent_s += ended_s - begun_s
             beside_s += time.perf_counter() - ended_s
         rates.append(CYCLES / spent_s)

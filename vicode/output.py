@@ -18,7 +18,7 @@ class OutputFile:
     text: str
 
 
-class Status(StrEnum):
+class FileStatus(StrEnum):
     """What a folder has to say to a file that should be in it."""
 
     NEW = "new"
@@ -28,22 +28,22 @@ class Status(StrEnum):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Difference:
+class FileDiff:
     """One file in a folder: `old` as it is on disk, `new` as it should be; None where there is none."""
 
     path: str
-    status: Status
+    status: FileStatus
     old: str | None
     new: str | None
 
 
-def compare(
+def compare_files(
     files: Iterable[OutputFile],
     folder: Path,
     *,
-    keep: Iterable[str] = (),
-    is_ours: Callable[[str], bool] = lambda _text: False,
-) -> tuple[Difference, ...]:
+    kept_paths: Iterable[str] = (),
+    is_generated: Callable[[str], bool] = lambda _text: False,
+) -> tuple[FileDiff, ...]:
     """Every file against the folder, by path.
 
     Args:
@@ -53,21 +53,21 @@ def compare(
         keep: Further paths that are not stale, though this time nothing is written to them.
     """
     wanted = {file.path: file.text for file in files}
-    kept = {*wanted, *keep}
+    kept = {*wanted, *kept_paths}
     differences = [_compare_one(path, text, _read(folder / path)) for path, text in wanted.items()]
-    for path in _list_beside(kept, folder):
+    for path in _list_sibling_sources(kept, folder):
         old = _read(folder / path)
-        if path not in kept and old is not None and is_ours(old):
-            differences.append(Difference(path=path, status=Status.STALE, old=old, new=None))
+        if path not in kept and old is not None and is_generated(old):
+            differences.append(FileDiff(path=path, status=FileStatus.STALE, old=old, new=None))
     return tuple(sorted(differences, key=lambda difference: difference.path))
 
 
-def apply(differences: Iterable[Difference], folder: Path) -> tuple[Path, ...]:
+def apply_diffs(differences: Iterable[FileDiff], folder: Path) -> tuple[Path, ...]:
     """Write what is new or changed, delete what is stale; returns the touched files."""
     touched = []
     for difference in differences:
         path = folder / difference.path
-        if difference.status is Status.UNCHANGED:
+        if difference.status is FileStatus.UNCHANGED:
             continue
         touched.append(path)
         if difference.new is None:
@@ -78,7 +78,7 @@ def apply(differences: Iterable[Difference], folder: Path) -> tuple[Path, ...]:
     return tuple(touched)
 
 
-def set_aside(path: Path) -> Path:
+def back_up_edited(path: Path) -> Path:
     """Copy a file to NAME.edited beside it, or NAME.edited2 … where that is taken; returns the copy."""
     number = 1
     while (copy := path.with_name(f"{path.name}.edited{number if number > 1 else ''}")).exists():
@@ -87,7 +87,7 @@ def set_aside(path: Path) -> Path:
     return copy
 
 
-def diff(difference: Difference) -> str:
+def format_diff(difference: FileDiff) -> str:
     """The change as a unified diff."""
     old, new = difference.old or "", difference.new or ""
     before = f"a/{difference.path}" if difference.old is not None else "/dev/null"
@@ -95,10 +95,10 @@ def diff(difference: Difference) -> str:
     return "".join(unified_diff(old.splitlines(keepends=True), new.splitlines(keepends=True), before, after))
 
 
-def write_atomically(path: Path, content: str | bytes, *, is_kept: bool = True) -> None:
+def write_atomically(path: Path, content: str | bytes, *, is_durable: bool = True) -> None:
     """Replace a file in one step: a reader, or a crash in the middle, sees the old content or the new one.
 
-    With `is_kept` the new one also outlives a loss of power right after; what can be made again need not wait for that.
+    With `is_durable` the new one also outlives a loss of power right after; what can be made again need not wait for that.
 
     Raises:
         OSError: It cannot be written; the error names this file, which is as it was.
@@ -106,7 +106,7 @@ def write_atomically(path: Path, content: str | bytes, *, is_kept: bool = True) 
     target = path.resolve()
     temporary = target.with_name(f".{target.name}.{secrets.token_hex(4)}.tmp")
     try:
-        _write_new(temporary, content.encode("utf-8") if isinstance(content, str) else content, is_kept=is_kept)
+        _write_new(temporary, content.encode("utf-8") if isinstance(content, str) else content, is_durable=is_durable)
         if target.exists():
             temporary.chmod(target.stat().st_mode & 0o777)
         temporary.replace(target)
@@ -120,20 +120,20 @@ def write_atomically(path: Path, content: str | bytes, *, is_kept: bool = True) 
         raise
 
 
-def _write_new(file: Path, content: bytes, *, is_kept: bool) -> None:
+def _write_new(file: Path, content: bytes, *, is_durable: bool) -> None:
     descriptor = os.open(file, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o666)
     with os.fdopen(descriptor, "wb") as stream:
         stream.write(content)
         stream.flush()
-        if is_kept:
+        if is_durable:
             os.fsync(stream.fileno())
 
 
-def _compare_one(path: str, new: str, old: str | None) -> Difference:
+def _compare_one(path: str, new: str, old: str | None) -> FileDiff:
     if old is None:
-        return Difference(path=path, status=Status.NEW, old=None, new=new)
-    status = Status.UNCHANGED if old == new else Status.CHANGED
-    return Difference(path=path, status=status, old=old, new=new)
+        return FileDiff(path=path, status=FileStatus.NEW, old=None, new=new)
+    status = FileStatus.UNCHANGED if old == new else FileStatus.CHANGED
+    return FileDiff(path=path, status=status, old=old, new=new)
 
 
 def _read(path: Path) -> str | None:
@@ -144,7 +144,7 @@ def _read(path: Path) -> str | None:
         return None
 
 
-def _list_beside(paths: Iterable[str], folder: Path) -> list[str]:
+def _list_sibling_sources(paths: Iterable[str], folder: Path) -> list[str]:
     """Source files in the folders that hold `paths`, and below them."""
     packages = sorted({path.rsplit("/", 1)[0] for path in paths if "/" in path})
     suffixes = {Path(path).suffix for path in paths}

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
-_HERE = Path(__file__).parent
+_PACKAGE_FOLDER = Path(__file__).parent
 
 
 def render(template: str, **views: object) -> str:
@@ -16,7 +16,7 @@ def render(template: str, **views: object) -> str:
     return _environment().get_template(template).render(**views)
 
 
-def text_of(path: str) -> str:
+def read_asset(path: str) -> str:
     """A file that stands among the templates and is no template, `docsite/site.css`."""
     return (_folder() / path).read_text(encoding="utf-8")
 
@@ -46,5 +46,5 @@ def _is_html(template: str | None) -> bool:
 
 def _folder() -> Path:
     # In an installed package the templates lie inside it, in a checkout beside it.
-    installed = _HERE / "_templates"
-    return installed if installed.is_dir() else _HERE.parent / "templates"
+    installed = _PACKAGE_FOLDER / "_templates"
+    return installed if installed.is_dir() else _PACKAGE_FOLDER.parent / "templates"

@@ -7,17 +7,17 @@
   const folder = path.slice(0, path.lastIndexOf("/") + 1);
   let source = null;
 
-  function concerns(file) {
+  function affectsThisPage(file) {
     if (file === "*" || file === path) return true;
-    if (file === `${folder}search.js`) return "vicodeIndex" in window;
+    if (file === `${folder}search.js`) return "vicodeSearchIndex" in window;
     return file === `${folder}site.css` || file === `${folder}site.js`;
   }
 
-  function show(errors) {
-    document.querySelector(".live-errors")?.remove();
+  function showErrors(errors) {
+    document.querySelector(".build-errors")?.remove();
     if (!errors) return;
     const box = document.createElement("section");
-    box.className = "live-errors";
+    box.className = "build-errors";
     box.setAttribute("role", "alert");
     const title = document.createElement("h2");
     title.textContent = "The latest change cannot be shown";
@@ -28,10 +28,10 @@
     document.body.append(box);
   }
 
-  function hear(event) {
+  function onMessage(event) {
     const news = JSON.parse(event.data);
-    if (news.changed.some(concerns)) reload();
-    else show(news.errors);
+    if (news.changed.some(affectsThisPage)) reload();
+    else showErrors(news.errors);
   }
 
   // Who looks for something goes on first.
@@ -42,17 +42,17 @@
   }
 
   // A browser has few connections to one server: pages that nobody sees leave them to the others.
-  function listen() {
+  function updateConnection() {
     if (document.hidden) {
       source?.close();
       source = null;
     } else if (!source) {
-      source = new EventSource(`/-/news?since=${build}`);
-      source.addEventListener("message", hear);
+      source = new EventSource(`/-/events?since=${build}`);
+      source.addEventListener("message", onMessage);
     }
   }
 
-  document.addEventListener("visibilitychange", listen);
+  document.addEventListener("visibilitychange", updateConnection);
   addEventListener("pagehide", () => source?.close());
-  listen();
+  updateConnection();
 })();

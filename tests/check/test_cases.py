@@ -8,7 +8,7 @@ import pytest
 
 from vicode.check import check_project
 from vicode.findings import Finding, render_text
-from vicode.store import locate, open_project
+from vicode.store import locate_findings, open_project
 
 CASES = Path(__file__).parent / "cases"
 EXPECTED = re.compile(r"# E: ([A-Z0-9 ]+)$")
@@ -26,7 +26,7 @@ def test_findings_are_on_the_guilty_lines(case: Path, tmp_path: Path) -> None:
         folder.mkdir()
         shutil.copy(case, folder)
     opened = open_project(folder)
-    findings = locate((*opened.findings, *check_project(opened.project)), opened)
+    findings = locate_findings((*opened.findings, *check_project(opened.project)), opened)
     assert _found(findings) == _expected(folder), render_text(findings)
 
 
@@ -41,5 +41,5 @@ def _expected(folder: Path) -> Codes:
 
 
 def _found(findings: tuple[Finding, ...]) -> Codes:
-    places = [(finding.place, finding.rule.code) for finding in findings]
+    places = [(finding.location, finding.rule.code) for finding in findings]
     return {(Path(place.file).name, place.line, code) if place else ("", 0, code) for place, code in places}

@@ -3,8 +3,8 @@
 from pathlib import Path
 
 from vicode.check import check_design, check_project
-from vicode.check.code import python_problem
-from vicode.findings import Finding, Thing
+from vicode.check.code import validate_python
+from vicode.findings import Finding, FindingSubject
 from vicode.model.design import Code, Declaration, Design, Guard, RunCode, State, Transition, Use
 from vicode.model.project import Enumeration, Interface, Project
 
@@ -23,8 +23,8 @@ def test_the_nearest_state_is_named() -> None:
     states = (State(name="Wait", transitions=(Transition(to="Kik"), Transition(to="Kick", guard=Guard(after="1")))),)
     design = _design(states=(*states, State(name="Kick", final=True)))
     finding = next(each for each in check_design(Project(name="p"), design) if each.rule.code == "D402")
-    assert (finding.message, finding.mend) == ("there is no state 'Kik'", "did you mean 'Kick'?")
-    assert finding.thing == Thing(component="Player", path=("states", "Wait", "transitions", 0, "to"))
+    assert (finding.message, finding.fix) == ("there is no state 'Kik'", "did you mean 'Kick'?")
+    assert finding.subject == FindingSubject(component="Player", path=("states", "Wait", "transitions", 0, "to"))
 
 
 def test_a_circle_is_named_as_a_whole() -> None:
@@ -36,7 +36,7 @@ def test_a_circle_is_named_as_a_whole() -> None:
     findings = check_project(Project(name="p", designs=designs), {"Egg"})
     circle = next(finding for finding in findings if finding.rule.code == "D408")
     assert circle.message == "components use each other in a circle: Egg → Chick → Hen → Egg"
-    assert {finding.thing.component for finding in findings if finding.thing} == {"Egg"}
+    assert {finding.subject.component for finding in findings if finding.subject} == {"Egg"}
 
 
 def test_a_mistake_in_an_expression_is_marked_exactly() -> None:
@@ -47,30 +47,30 @@ def test_a_mistake_in_an_expression_is_marked_exactly() -> None:
         variables=(Declaration(name="tries", initial="0"),),
     )
     finding = _only(check_design(Project(name="p"), design))
-    assert finding.mend == "did you mean 'tries'?"
-    assert finding.thing is not None
-    assert finding.thing.span is not None
-    assert guard.when[slice(*finding.thing.span)] == "tires"
+    assert finding.fix == "did you mean 'tries'?"
+    assert finding.subject is not None
+    assert finding.subject.span is not None
+    assert guard.when[slice(*finding.subject.span)] == "tires"
 
 
 def test_code_is_marked_where_python_stumbles() -> None:
     text = "    if True:\n        é = 1\n\n    x = = 2\n"
-    problem = python_problem(text, "action")
+    problem = validate_python(text, "action")
     assert problem is not None
     assert text[slice(*problem[1])] == "="
     assert text[: problem[1][0]].count("\n") == 3
 
 
 def test_code_is_judged_where_it_will_stand() -> None:
-    assert python_problem("return 1", "action") is None
-    assert python_problem("return 1", "module") is not None
-    assert python_problem("def f(self):\n    return 1", "members") is None
-    assert python_problem("pass\rimport os", "action") is not None
-    assert python_problem("# <vicode Wait.enter 00000000>\n# </vicode>", "action") is not None
-    assert python_problem("from __future__ import division", "module") is not None
-    assert python_problem("# a remark", "action") is None
-    assert python_problem("break", "action") is not None
-    assert python_problem("'''\n", "predicate") is not None
+    assert validate_python("return 1", "action") is None
+    assert validate_python("return 1", "module") is not None
+    assert validate_python("def f(self):\n    return 1", "members") is None
+    assert validate_python("pass\rimport os", "action") is not None
+    assert validate_python("# <vicode Wait.enter 00000000>\n# </vicode>", "action") is not None
+    assert validate_python("from __future__ import division", "module") is not None
+    assert validate_python("# a remark", "action") is None
+    assert validate_python("break", "action") is not None
+    assert validate_python("'''\n", "predicate") is not None
 
 
 def test_no_code_is_run(tmp_path: Path) -> None:
@@ -108,4 +108,4 @@ def test_an_enumeration_without_elements_says_that_it_has_none() -> None:
         states=(State(name="Wait", transitions=(Transition(to="Wait", guard=Guard(when="Foot.a == 1")),)),)
     )
     finding = next(each for each in check_design(project, design) if each.rule.code == "E306")
-    assert (finding.message, finding.mend) == ("'Foot' has no element 'a'", "it has none")
+    assert (finding.message, finding.fix) == ("'Foot' has no element 'a'", "it has none")

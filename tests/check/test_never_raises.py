@@ -10,11 +10,11 @@ from vicode.model.design import (
     Assign,
     Call,
     Code,
-    Common,
+    CommonSection,
     Decision,
+    DecisionGroup,
     Declaration,
     Design,
-    Group,
     Guard,
     RunCode,
     State,
@@ -74,7 +74,7 @@ decisions: "st.SearchStrategy[Decision]" = st.recursive(
     st.builds(Transition, to=names, guard=guards, id=names, disabled=st.booleans())
     | st.builds(Stay, guard=guards, id=names, disabled=st.booleans()),
     lambda inner: st.builds(
-        Group, guard=guards, then=_tuples(inner), otherwise=_tuples(inner), id=names, disabled=st.booleans()
+        DecisionGroup, guard=guards, then=_tuples(inner), otherwise=_tuples(inner), id=names, disabled=st.booleans()
     ),
     max_leaves=4,
 )
@@ -106,7 +106,7 @@ designs = st.builds(
     initial=names,
     module=codes,
     members=codes,
-    common=st.builds(Common, actions=_tuples(actions), transitions=_tuples(decisions)),
+    common=st.builds(CommonSection, actions=_tuples(actions), transitions=_tuples(decisions)),
     states=_tuples(states),
 )
 interfaces = st.builds(
@@ -139,13 +139,13 @@ def test_no_project_makes_the_checks_raise(project: Project) -> None:
 def test_no_design_makes_the_checks_raise(project: Project, design: Design) -> None:
     findings = check_design(project, design)
     _assert_well_formed(findings)
-    assert all(finding.thing and finding.thing.component == design.component for finding in findings)
+    assert all(finding.subject and finding.subject.component == design.component for finding in findings)
 
 
 def _assert_well_formed(findings: tuple[Finding, ...]) -> None:
     assert len(set(findings)) == len(findings)
     for finding in findings:
         assert finding.message
-        assert finding.thing is not None
-        span = finding.thing.span
+        assert finding.subject is not None
+        span = finding.subject.span
         assert span is None or 0 <= span[0] <= span[1]

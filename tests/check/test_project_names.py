@@ -36,7 +36,7 @@ def _problem(project: Project) -> str:
 )
 def test_the_package_must_not_hide_anything(name: str, reason: str) -> None:
     project = Project(name=name, world="world:World", components=(HEAD,))
-    package = plan_package(project, frozenset()).package
+    package = plan_package(project, frozenset()).name
     assert _problem(project) == (f"the package '{package}' of this project {reason}" if reason else "")
 
 
@@ -50,5 +50,5 @@ def test_a_folder_without_a_project_file_gives_its_own_name(tmp_path: Path) -> N
         (tmp_path / name).mkdir()
         (tmp_path / name / "blinker.yaml").write_text(BLINKER, encoding="utf-8")
     (finding,) = check_project(open_project(tmp_path / "types").project)
-    assert (finding.rule.code, finding.mend) == ("P208", "give another name with 'project:' in project.yaml")
+    assert (finding.rule.code, finding.fix) == ("P208", "give another name with 'project:' in project.yaml")
     assert check_project(open_project(tmp_path / "blinking").project) == ()

@@ -7,9 +7,9 @@ import pytest
 
 from vicode.check import check_project
 from vicode.findings import RULES, Rule, render_text
-from vicode.store import locate, open_project
+from vicode.store import locate_findings, open_project
 from vicode.xabsl.compiler import compile_source
-from vicode.xabsl.sources import load
+from vicode.xabsl.sources import load_source
 
 PAGE = Path(__file__).parents[2] / "docs" / "rules.md"
 SECTION = re.compile(r"^### ([A-Z]\d{3})\n(.*?)(?=^##)", re.MULTILINE | re.DOTALL)
@@ -65,7 +65,7 @@ def _check(code: str, file: str, text: str, folder: Path) -> tuple[set[str], str
         content = _put_in(frame, text) if name == (file or "player.yaml") else frame
         (folder / name).write_text(content, encoding="utf-8")
     opened = open_project(folder)
-    findings = locate((*opened.findings, *check_project(opened.project)), opened)
+    findings = locate_findings((*opened.findings, *check_project(opened.project)), opened)
     return {finding.rule.code for finding in findings}, render_text(findings)
 
 
@@ -75,7 +75,7 @@ def _check_xabsl(file: str, text: str, folder: Path) -> tuple[set[str], str]:
         frame["agents.xabsl"] = f'include "{file}";\n' + frame["agents.xabsl"]
     for name, content in {**frame, "notes.txt": "", file: text}.items():
         (folder / name).write_text(content, encoding="utf-8")
-    findings = compile_source(load(folder / "agents.xabsl")).findings
+    findings = compile_source(load_source(folder / "agents.xabsl")).findings
     return {finding.rule.code for finding in findings}, render_text(findings)
 
 

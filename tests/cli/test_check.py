@@ -9,7 +9,7 @@ import pytest
 
 from tests.cli.commands import BULB, LAMP, lamps, vicode
 from vicode import __version__
-from vicode.cli.printing import _MOST_BYTES, _read_lines
+from vicode.cli.printing import _MAX_BYTES, _read_lines
 
 __all__ = ["lamps"]
 
@@ -78,7 +78,7 @@ def test_what_is_no_file_is_not_read(lamps: Path, capsys: pytest.CaptureFixture[
 
 def test_of_a_long_file_no_more_is_read_than_one_would_read(tmp_path: Path) -> None:
     long = tmp_path / "long.yaml"
-    long.write_text("a\n" * (_MOST_BYTES // 2) + "never shown\n")
+    long.write_text("a\n" * (_MAX_BYTES // 2) + "never shown\n")
     lines = _read_lines(str(long))
     assert lines[0] == "a"
     assert "never shown" not in lines

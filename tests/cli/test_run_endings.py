@@ -10,7 +10,7 @@ import pytest
 
 from tests.cli.commands import LAMP, lamps, vicode
 from vicode.cli import watching
-from vicode.cli.watching import PlainWatcher, follow
+from vicode.cli.watching import PlainTracePrinter, follow_process
 
 __all__ = ["lamps"]
 
@@ -18,7 +18,7 @@ DEAF = "import signal, time; signal.signal(signal.SIGINT, signal.SIG_IGN); print
 AGAIN = "stopping after this iteration; press Ctrl-C again to end at once\n"
 
 
-class Impatient(PlainWatcher):
+class InterruptingPrinter(PlainTracePrinter):
     """Presses Ctrl-C as often as it is told to when the program says something."""
 
     def __init__(self, times: int) -> None:
@@ -30,24 +30,24 @@ class Impatient(PlainWatcher):
             signal.raise_signal(signal.SIGINT)
 
 
-def follow_deaf(times: int) -> int:
+def follow_unresponsive_program(times: int) -> int:
     child = subprocess.Popen([sys.executable, "-c", DEAF], stdout=subprocess.PIPE, text=True, start_new_session=True)
-    return follow(child, Impatient(times))
+    return follow_process(child, InterruptingPrinter(times))
 
 
 def test_a_program_that_does_not_answer_is_ended(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    monkeypatch.setattr(watching, "_ANSWER_S", 0.1)
-    assert follow_deaf(1) == 130
+    monkeypatch.setattr(watching, "_INTERRUPT_TIMEOUT_S", 0.1)
+    assert follow_unresponsive_program(1) == 130
     assert capsys.readouterr().err == AGAIN + "it did not stop, and was ended\n"
 
 
 def test_the_second_interrupt_ends_it_at_once(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    monkeypatch.setattr(watching, "_ANSWER_S", 30.0)
-    assert follow_deaf(2) == 130
+    monkeypatch.setattr(watching, "_INTERRUPT_TIMEOUT_S", 30.0)
+    assert follow_unresponsive_program(2) == 130
     assert "Traceback" not in capsys.readouterr().err
 
 

@@ -4,8 +4,8 @@ import io
 
 from rich.console import Console
 
-from vicode.cli.live import LiveWatcher, draw_iteration
-from vicode.cli.watching import Changes, Record, describe_summary, describe_world
+from vicode.cli.live import LiveTracePrinter, render_iteration
+from vicode.cli.watching import StateChangeTracker, TraceRecord, describe_summary, describe_world
 
 
 def step(component: str, state: str, by: str | None = None, **more: object) -> dict[str, object]:
@@ -24,24 +24,24 @@ def step(component: str, state: str, by: str | None = None, **more: object) -> d
     }
 
 
-def record(*steps: dict[str, object], **more: object) -> Record:
+def record(*steps: dict[str, object], **more: object) -> TraceRecord:
     return {"iteration": 7, "time_ns": 2_000_000_000, "tree": list(steps), **more}
 
 
-def drawn(value: Record) -> list[str]:
+def drawn(value: TraceRecord) -> list[str]:
     console = Console(file=io.StringIO(), width=100)
     with console.capture() as capture:
-        console.print(draw_iteration(value))
+        console.print(render_iteration(value))
     return [line.rstrip() for line in capture.get().splitlines()]
 
 
 def test_changes_are_told_once_and_restarts_too() -> None:
-    changes = Changes()
-    assert changes.lines_of(record(step("A", "X"), step("Eyes", "", "A"))) == ["    2.00 s  A: X"]
-    assert changes.lines_of(record(step("A", "X"))) == []
+    changes = StateChangeTracker()
+    assert changes.describe_changes(record(step("A", "X"), step("Eyes", "", "A"))) == ["    2.00 s  A: X"]
+    assert changes.describe_changes(record(step("A", "X"))) == []
     changed = step("A", "Y", changed_from="X", transition="sees")
-    assert changes.lines_of(record(changed)) == ["    2.00 s  A: X → Y  (sees)"]
-    assert changes.lines_of(record(step("A", "X"))) == ["    2.00 s  A: Y → X"]
+    assert changes.describe_changes(record(changed)) == ["    2.00 s  A: X → Y  (sees)"]
+    assert changes.describe_changes(record(step("A", "X"))) == ["    2.00 s  A: Y → X"]
 
 
 def test_the_tree_shows_who_activated_whom() -> None:
@@ -58,7 +58,7 @@ def test_the_tree_shows_who_activated_whom() -> None:
 
 def test_the_live_view_scrolls_changes_and_texts() -> None:
     file = io.StringIO()
-    watcher = LiveWatcher(Console(file=file, width=80, force_terminal=True, color_system=None))
+    watcher = LiveTracePrinter(Console(file=file, width=80, force_terminal=True, color_system=None))
     watcher.show_iteration(record(step("One", "X")), ["    2.00 s  One: W → X"])
     watcher.show_text("error: something")
     watcher.close()

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.xabsl.cases_of import CASES, read_case, words
+from tests.xabsl.cases_of import CASES, parse_words, read_case
 from vicode.cli.door import main
 
 CIRCLE = CASES / "programs" / "drive_circle"
@@ -16,7 +16,7 @@ CIRCLE = CASES / "programs" / "drive_circle"
 def test_a_behavior_is_compiled_and_run(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     code, symbols, trace = (tmp_path / name for name in ("circle.dat", "circle.sym", "circle.jsonl"))
     assert main(["xabsl", "compile", str(CIRCLE / "agents.xabsl"), "-o", str(code), "--symbols", str(symbols)]) == 0
-    assert words(code.read_text()) == words(read_case("drive_circle", "intermediate.dat"))
+    assert parse_words(code.read_text()) == parse_words(read_case("drive_circle", "intermediate.dat"))
     inputs = ["--symbols", str(symbols), "--inputs", str(CIRCLE / "inputs.csv")]
     assert main(["xabsl", "run", str(code), *inputs, "--trace", str(trace)]) == 0
     wanted = [json.loads(line) for line in read_case("drive_circle", "trace.jsonl").splitlines()]
@@ -45,7 +45,7 @@ def test_the_file_with_the_agents_is_found_or_named(
 
 def test_without_output_the_code_is_printed(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["xabsl", "compile", str(CIRCLE / "agents.xabsl")]) == 0
-    assert words(capsys.readouterr().out) == words(read_case("drive_circle", "intermediate.dat"))
+    assert parse_words(capsys.readouterr().out) == parse_words(read_case("drive_circle", "intermediate.dat"))
 
 
 def test_nothing_is_written_where_something_is_wrong(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -126,4 +126,4 @@ def test_behaviors_of_teams_compile_without_errors(agents: str, tmp_path: Path) 
     assert main(["xabsl", "compile", agents, "-o", str(code)]) == 0
     original = Path(agents).with_name("intermediate.dat")
     if original.exists():
-        assert words(code.read_text()) == words(original.read_text())
+        assert parse_words(code.read_text()) == parse_words(original.read_text())

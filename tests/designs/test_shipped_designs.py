@@ -15,7 +15,7 @@ PAPER = {"Player", "SearchBall", "FollowBall", "FaceBall", "SearchNet", "Body", 
 def test_there_are_no_findings(folder: str) -> None:
     opened = open_project(DESIGNS / folder)
     findings = (*opened.findings, *check_project(opened.project))
-    assert not [f"{finding.rule.code} {finding.message} at {finding.thing}" for finding in findings]
+    assert not [f"{finding.rule.code} {finding.message} at {finding.subject}" for finding in findings]
 
 
 def test_the_forward_has_the_components_of_the_paper() -> None:

@@ -5,8 +5,8 @@ from collections.abc import Collection
 from itertools import combinations
 from pathlib import Path
 
-from vicode.diagram.boxes import COMMON_SIZE, Size, size_of_state, size_of_use
-from vicode.diagram.placing import Placement
+from vicode.diagram.boxes import COMMON_SIZE, Size, state_size, use_size
+from vicode.diagram.placing import NodeLayout
 from vicode.model.design import Design, Guard, Point, State, Transition
 from vicode.store import open_project
 
@@ -38,11 +38,11 @@ def ring_design(size: int, chords: int = 1) -> Design:
     return Design(component="Ring", initial="State0", states=tuple(states))
 
 
-def list_boxes(design: Design, placement: Placement) -> dict[str, tuple[Point, Size]]:
+def list_boxes(design: Design, placement: NodeLayout) -> dict[str, tuple[Point, Size]]:
     """Every box that is drawn, under names for messages."""
-    boxes = {f"state {name}": (at, size_of_state(name)) for name, at in placement.states.items()}
+    boxes = {f"state {name}": (at, state_size(name)) for name, at in placement.states.items()}
     boxes |= {
-        f"use {use.alias}": (placement.uses[use.alias], size_of_use(use.alias, use.component)) for use in design.uses
+        f"use {use.alias}": (placement.uses[use.alias], use_size(use.alias, use.component)) for use in design.uses
     }
     if design.common.transitions or design.common.actions:
         boxes["common"] = placement.common, COMMON_SIZE

@@ -2,7 +2,7 @@
 
 import pytest
 
-from vicode.diagram.around import USED, USERS, around_figure
+from vicode.diagram.around import MORE_USED, MORE_USERS, neighborhood_diagram
 from vicode.model.design import Call, Design, State, Use
 from vicode.model.project import Project
 
@@ -16,16 +16,16 @@ def user_of(name: str, *used: str, asked: tuple[str, ...] = ()) -> Design:
 def around(project: Project, name: str) -> dict[str, float]:
     """How far to the right of it each neighbor stands."""
     names = {design.component for design in project.designs}
-    figure = around_figure(project, name, names.__contains__)
+    figure = neighborhood_diagram(project, name, names.__contains__)
     known = {node.key for node in figure.nodes}
-    assert all({arrow.source, arrow.target} <= known for arrow in figure.arrows)
-    assert all(name in (arrow.source, arrow.target) for arrow in figure.arrows)
-    boxes = [(node.at, node.size) for node in figure.nodes]
+    assert all({arrow.source, arrow.target} <= known for arrow in figure.edges)
+    assert all(name in (arrow.source, arrow.target) for arrow in figure.edges)
+    boxes = [(node.center, node.size) for node in figure.nodes]
     for index, (at, size) in enumerate(boxes):
         for other, its in boxes[:index]:
             beside = abs(at[0] - other[0]) >= (size.width + its.width) / 2
             assert beside or abs(at[1] - other[1]) >= (size.height + its.height) / 2
-    return {node.key: node.at[0] for node in figure.nodes}
+    return {node.key: node.center[0] for node in figure.nodes}
 
 
 def test_users_stand_to_the_left_and_used_to_the_right() -> None:
@@ -54,11 +54,11 @@ def test_of_many_the_first_are_shown_and_how_many_more_there_are(count: int) -> 
     middle = user_of("Middle", *(f"Leg{index:02}" for index in range(count)))
     project = Project(name="p", designs=(*users, middle))
     names = {design.component for design in project.designs}
-    labels = {node.key: node.label for node in around_figure(project, "Middle", names.__contains__).nodes}
+    labels = {node.key: node.label for node in neighborhood_diagram(project, "Middle", names.__contains__).nodes}
     assert len(around(project, "Middle")) == 25
     if count == 12:
-        assert {USERS, USED}.isdisjoint(labels)
+        assert {MORE_USERS, MORE_USED}.isdisjoint(labels)
     else:
-        assert labels[USERS] == labels[USED] == f"{count - 11} more"
+        assert labels[MORE_USERS] == labels[MORE_USED] == f"{count - 11} more"
         assert "User10" in labels
         assert "User11" not in labels

@@ -3,13 +3,13 @@
 import pytest
 
 from tests.diagram.drawn_designs import HOSTILE_NAMES, ring_design
-from vicode.diagram.dot import Direction, Effort, write_dot
-from vicode.diagram.sketch import sketch_of
-from vicode.model.design import Call, Common, Design, Guard, State, Transition, Use
+from vicode.diagram.dot import LayoutEffort, RankDirection, write_layout_dot
+from vicode.diagram.sketch import build_layout_graph
+from vicode.model.design import Call, CommonSection, Design, Guard, State, Transition, Use
 
 
 def _lines(design: Design) -> list[str]:
-    text = write_dot(sketch_of(design), Direction.RIGHT, Effort.FULL)
+    text = write_layout_dot(build_layout_graph(design), RankDirection.RIGHT, LayoutEffort.FULL)
     return [line.strip() for line in text.splitlines()]
 
 
@@ -41,7 +41,7 @@ def test_links_weigh_less_than_transitions_and_need_no_rank_of_their_own() -> No
         component="D",
         initial="A",
         uses=(Use(alias="eyes", component="Eyes"), Use(alias="legs", component="Legs")),
-        common=Common(transitions=(Transition(to="B"),)),
+        common=CommonSection(transitions=(Transition(to="B"),)),
         states=(first, State(name="B")),
     )
     attributes = dict(line.split(" [") for line in _lines(design) if "->" in line)
@@ -54,7 +54,9 @@ def test_links_weigh_less_than_transitions_and_need_no_rank_of_their_own() -> No
 
 
 def test_long_names_get_wider_boxes() -> None:
-    nodes = sketch_of(Design(component="D", states=(State(name="A"), State(name="LookForTheBallAround")))).nodes
+    nodes = build_layout_graph(
+        Design(component="D", states=(State(name="A"), State(name="LookForTheBallAround")))
+    ).nodes
     assert nodes[0].width == 140
     assert nodes[1].width > 200
 

@@ -11,9 +11,9 @@ from pathlib import Path
 import pytest
 
 from tests.diagram.drawn_designs import HOSTILE_NAMES, find_overlaps, list_boxes, ring_design, shipped_designs
-from vicode.diagram import place
-from vicode.diagram.layout import WORKER, Layout, LayoutService, Method, lay_out
-from vicode.diagram.settling import screens_of
+from vicode.diagram import complete_layout
+from vicode.diagram.layout import WORKER_COMMAND, LayoutMethod, LayoutResult, LayoutService, compute_layout
+from vicode.diagram.settling import screens_needed
 from vicode.model.design import Design, State, Transition
 
 PATIENCE_S = 60.0
@@ -22,51 +22,51 @@ PATIENCE_S = 60.0
 @pytest.mark.parametrize("design", shipped_designs(), ids=lambda design: design.component)
 def test_shipped_designs_are_laid_out_the_same_each_time_without_overlaps(design: Design) -> None:
     with LayoutService() as service:
-        first, second = (service.lay_out(design, timeout_s=PATIENCE_S) for _ in range(2))
+        first, second = (service.compute(design, timeout_s=PATIENCE_S) for _ in range(2))
     assert first == second
-    assert (first.method, first.note) == (Method.GRAPHVIZ, "")
+    assert (first.method, first.note) == (LayoutMethod.GRAPHVIZ, "")
     _assert_sound(design, first)
 
 
 def test_what_layers_show_far_larger_is_placed_in_layers() -> None:
     design = ring_design(300, chords=3)
-    layout = lay_out(design, timeout_s=PATIENCE_S)
-    assert layout.method == Method.LAYERS
+    layout = compute_layout(design, timeout_s=PATIENCE_S)
+    assert layout.method == LayoutMethod.LAYERS
     assert "times as large; placed in layers instead" in layout.note
-    assert screens_of(layout.placement.states.values()) < 6
+    assert screens_needed(layout.layout.states.values()) < 6
     _assert_sound(design, layout)
 
 
 def test_the_players_layout_is_read_on_a_screen() -> None:
     (design,) = (design for design in shipped_designs() if design.component == "Player")
-    placement = lay_out(design, timeout_s=PATIENCE_S).placement
-    assert screens_of([*placement.states.values(), *placement.uses.values()]) < 1.1
+    placement = compute_layout(design, timeout_s=PATIENCE_S).layout
+    assert screens_needed([*placement.states.values(), *placement.uses.values()]) < 1.1
 
 
 def test_any_text_can_be_a_name() -> None:
     names = HOSTILE_NAMES
     leads = (names[(2 * index + 1) % len(names)] for index in range(len(names)))
     states = tuple(State(name=name, transitions=(Transition(to=to),)) for name, to in zip(names, leads, strict=True))
-    layout = lay_out(Design(component="D", initial=names[0], states=states), timeout_s=PATIENCE_S)
-    assert (layout.method, layout.note) == (Method.GRAPHVIZ, "")
-    assert set(layout.placement.states) == set(names)
-    assert not find_overlaps(list_boxes(Design(component="D", states=states), layout.placement))
+    layout = compute_layout(Design(component="D", initial=names[0], states=states), timeout_s=PATIENCE_S)
+    assert (layout.method, layout.note) == (LayoutMethod.GRAPHVIZ, "")
+    assert set(layout.layout.states) == set(names)
+    assert not find_overlaps(list_boxes(Design(component="D", states=states), layout.layout))
 
 
 def test_a_design_without_states_has_a_layout() -> None:
-    assert lay_out(Design(component="D")).placement.states == {}
+    assert compute_layout(Design(component="D")).layout.states == {}
 
 
 def test_nothing_needs_a_dot_program(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     monkeypatch.setenv("PATH", str(tmp_path))
-    assert lay_out(ring_design(12), timeout_s=PATIENCE_S).method == Method.GRAPHVIZ
+    assert compute_layout(ring_design(12), timeout_s=PATIENCE_S).method == LayoutMethod.GRAPHVIZ
 
 
 def test_without_library_and_program_there_are_layers(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     monkeypatch.setenv("PATH", str(tmp_path))
     _hide_library(monkeypatch, tmp_path)
-    layout = lay_out(ring_design(12), timeout_s=PATIENCE_S)
-    assert layout.method == Method.LAYERS
+    layout = compute_layout(ring_design(12), timeout_s=PATIENCE_S)
+    assert layout.method == LayoutMethod.LAYERS
     assert "could not be run" in layout.note
     _assert_sound(ring_design(12), layout)
 
@@ -77,9 +77,9 @@ def test_an_installed_dot_stands_in_for_the_library(monkeypatch: pytest.MonkeyPa
     program.chmod(0o700)
     _hide_library(monkeypatch, tmp_path)
     monkeypatch.setenv("PATH", str(tmp_path))
-    layout = lay_out(ring_design(2, chords=0), timeout_s=PATIENCE_S)
-    assert layout == Layout(placement=layout.placement, method=Method.GRAPHVIZ)
-    (x, y), (below_x, below_y) = layout.placement.states.values()
+    layout = compute_layout(ring_design(2, chords=0), timeout_s=PATIENCE_S)
+    assert layout == LayoutResult(layout=layout.layout, method=LayoutMethod.GRAPHVIZ)
+    (x, y), (below_x, below_y) = layout.layout.states.values()
     assert below_x == x
     assert below_y == pytest.approx(y + 4 * 72, abs=5)
 
@@ -87,50 +87,50 @@ def test_an_installed_dot_stands_in_for_the_library(monkeypatch: pytest.MonkeyPa
 def test_what_takes_too_long_is_placed_in_layers_and_the_next_is_served() -> None:
     design = ring_design(800, chords=3)
     with LayoutService() as service:
-        late = service.lay_out(design, timeout_s=0.2)
-        assert late.method == Method.LAYERS
+        late = service.compute(design, timeout_s=0.2)
+        assert late.method == LayoutMethod.LAYERS
         assert late.note == "Graphviz took longer than 0.2 s; placed in layers instead"
-        assert service.lay_out(ring_design(5), timeout_s=PATIENCE_S).method == Method.GRAPHVIZ
+        assert service.compute(ring_design(5), timeout_s=PATIENCE_S).method == LayoutMethod.GRAPHVIZ
     _assert_sound(design, late)
 
 
 def test_a_killed_worker_is_replaced() -> None:
     suicidal = (sys.executable, "-c", "import os, signal; input(); os.kill(os.getpid(), signal.SIGKILL)")
     with LayoutService(suicidal) as service:
-        layout = service.lay_out(ring_design(5), timeout_s=PATIENCE_S)
+        layout = service.compute(ring_design(5), timeout_s=PATIENCE_S)
         assert layout.note == "Graphviz stopped unexpectedly; placed in layers instead"
-        assert service.lay_out(ring_design(5), timeout_s=PATIENCE_S) == layout
+        assert service.compute(ring_design(5), timeout_s=PATIENCE_S) == layout
 
 
 def test_a_worker_killed_between_two_requests_is_replaced() -> None:
     with LayoutService() as service:
-        before = service.lay_out(ring_design(5), timeout_s=PATIENCE_S)
+        before = service.compute(ring_design(5), timeout_s=PATIENCE_S)
         process = service._process
         assert process is not None
         os.kill(process.pid, signal.SIGKILL)
         process.wait()
-        assert service.lay_out(ring_design(5), timeout_s=PATIENCE_S) == before
+        assert service.compute(ring_design(5), timeout_s=PATIENCE_S) == before
 
 
 def test_closing_from_another_thread_ends_a_request() -> None:
     service = LayoutService((sys.executable, "-c", "import time; time.sleep(600)"))
     closing = threading.Timer(0.5, service.close)
     closing.start()
-    layout = service.lay_out(ring_design(5), timeout_s=PATIENCE_S)
+    layout = service.compute(ring_design(5), timeout_s=PATIENCE_S)
     closing.join()
     service.close()
-    assert layout.method == Method.LAYERS
+    assert layout.method == LayoutMethod.LAYERS
 
 
 def test_a_program_that_cannot_be_started_is_said() -> None:
     with LayoutService(("no-such-program-here",)) as service:
-        assert "No such file" in service.lay_out(ring_design(3)).note
+        assert "No such file" in service.compute(ring_design(3)).note
 
 
 def test_a_thousand_states_get_an_answer() -> None:
     design = ring_design(1000)
-    layout = lay_out(design, timeout_s=10.0)
-    assert len(set(layout.placement.states.values())) == 1000
+    layout = compute_layout(design, timeout_s=10.0)
+    assert len(set(layout.layout.states.values())) == 1000
 
 
 def test_noise_of_the_library_is_no_answer() -> None:
@@ -142,13 +142,13 @@ def test_noise_of_the_library_is_no_answer() -> None:
     assert (ended.stdout, ended.stderr) == ("answer", "noise")
 
 
-@pytest.mark.parametrize("command", [WORKER, ("no-such-program-here",)], ids=["graphviz", "layers"])
+@pytest.mark.parametrize("command", [WORKER_COMMAND, ("no-such-program-here",)], ids=["graphviz", "layers"])
 def test_only_some_states_move_to_about_where_they_were(command: tuple[str, ...]) -> None:
     (design,) = (design for design in shipped_designs() if design.component == "Player")
     moved = {state.name for state in design.states[1:5]}
-    before = place(design)
+    before = complete_layout(design)
     with LayoutService(command) as service:
-        after = service.lay_out(design, only=moved, timeout_s=PATIENCE_S).placement
+        after = service.compute(design, only=moved, timeout_s=PATIENCE_S).layout
     rest = set(before.states) - moved
     assert {name: after.states[name] for name in rest} == {name: before.states[name] for name in rest}
     assert (after.uses, after.common) == (before.uses, before.common)
@@ -160,10 +160,10 @@ def test_only_some_states_move_to_about_where_they_were(command: tuple[str, ...]
 def test_a_free_spot_is_kept() -> None:
     far = tuple(State(name=name, at=(5000.0, 3000.0)) for name in ("A", "B"))
     design = Design(component="D", states=(*far, State(name="C", at=(0.0, 0.0))))
-    after = lay_out(design, only={"A", "B", "unknown"}, timeout_s=PATIENCE_S).placement.states
+    after = compute_layout(design, only={"A", "B", "unknown"}, timeout_s=PATIENCE_S).layout.states
     (left, top), (right, bottom) = after["A"], after["B"]
     assert (abs(left + right - 10000) <= 20, abs(top + bottom - 6000) <= 20) == (True, True)
-    assert not find_overlaps(list_boxes(design, place(replace(design, states=_at(design, after)))))
+    assert not find_overlaps(list_boxes(design, complete_layout(replace(design, states=_at(design, after)))))
 
 
 def test_neither_library_is_imported_by_the_editors_side() -> None:
@@ -183,8 +183,8 @@ def _hide_library(monkeypatch: pytest.MonkeyPatch, folder: Path) -> None:
     monkeypatch.setenv("PYTHONPATH", str(folder))
 
 
-def _assert_sound(design: Design, layout: Layout) -> None:
-    assert not find_overlaps(list_boxes(design, layout.placement))
-    moved = [*layout.placement.states.values(), *layout.placement.uses.values()]
-    if layout.method == Method.GRAPHVIZ:
+def _assert_sound(design: Design, layout: LayoutResult) -> None:
+    assert not find_overlaps(list_boxes(design, layout.layout))
+    moved = [*layout.layout.states.values(), *layout.layout.uses.values()]
+    if layout.method == LayoutMethod.GRAPHVIZ:
         assert all(coordinate % 10 == 0 for point in moved for coordinate in point)

@@ -6,15 +6,15 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from vicode.diagram.palettes import LIGHT
-from vicode.diagram.shapes import Drawing
-from vicode.diagram.shapes import Group as Shapes
-from vicode.diagram.tree import MOST_NODES, Links, draw_tree
-from vicode.findings import Path
-from vicode.model.design import Decision, Group, Guard, Stay, Transition
+from vicode.diagram.shapes import ShapeGroup as Shapes
+from vicode.diagram.shapes import VectorImage
+from vicode.diagram.tree import MAX_NODES, TreeLinks, render_decision_tree
+from vicode.findings import DesignPath
+from vicode.model.design import Decision, DecisionGroup, Guard, Stay, Transition
 
 Rect = tuple[float, float, float, float]
-LINKS = Links(condition=lambda path: "#" + "-".join(map(str, path)), target=lambda name: f"#{name}")
-PATH: Path = ("states", "A", "transitions")
+LINKS = TreeLinks(condition_href=lambda path: "#" + "-".join(map(str, path)), target_href=lambda name: f"#{name}")
+PATH: DesignPath = ("states", "A", "transitions")
 
 guards = st.sampled_from(["", "ball.seen", "ball.distance < 300 and not walk.busy"]).map(lambda when: Guard(when=when))
 leaves = st.one_of(
@@ -24,7 +24,7 @@ leaves = st.one_of(
 decisions = st.recursive(
     leaves,
     lambda inner: st.builds(
-        Group,
+        DecisionGroup,
         guard=guards,
         then=st.lists(inner, min_size=1, max_size=3).map(tuple),
         otherwise=st.lists(inner, max_size=3).map(tuple),
@@ -33,16 +33,16 @@ decisions = st.recursive(
 )
 
 
-def draw(items: tuple[Decision, ...], most: int = MOST_NODES) -> Drawing | None:
-    return draw_tree(items, PATH, title="t", links=LINKS, palette=LIGHT, most=most)
+def draw(items: tuple[Decision, ...], most: int = MAX_NODES) -> VectorImage | None:
+    return render_decision_tree(items, PATH, title="t", links=LINKS, palette=LIGHT, max_nodes=most)
 
 
-def boxes_in(drawing: Drawing) -> list[Shapes]:
-    return [group for group in drawing.groups if group.kind != "way"]
+def boxes_in(drawing: VectorImage) -> list[Shapes]:
+    return [group for group in drawing.groups if group.css_class != "way"]
 
 
 def points_of(group: Shapes) -> list[tuple[float, float]]:
-    steps = [numbers[-2:] for shape in group.shapes[:1] for _letter, numbers in shape.steps if numbers]  # type: ignore[union-attr]
+    steps = [numbers[-2:] for shape in group.shapes[:1] for _letter, numbers in shape.commands if numbers]  # type: ignore[union-attr]
     return [(x, y) for x, y in steps]
 
 
@@ -54,7 +54,7 @@ def rect_of(group: Shapes) -> Rect:
 def test_what_a_tree_says() -> None:
     near = Guard(when="near")
     items = (
-        Group(
+        DecisionGroup(
             guard=Guard(when="seen"),
             then=(Transition(to="Kick", guard=near, doc="it is near"),),
             otherwise=(Transition(to="Look"),),
@@ -63,7 +63,7 @@ def test_what_a_tree_says() -> None:
     )
     drawing = draw(items)
     assert drawing is not None
-    found = [(group.kind, group.title, group.href) for group in drawing.groups if group.kind != "way"]
+    found = [(group.css_class, group.title, group.href) for group in drawing.groups if group.css_class != "way"]
     assert found == [
         ("condition", "seen", "#states-A-transitions-0"),
         ("condition", "near\nit is near", "#states-A-transitions-0-then-0"),
@@ -82,12 +82,12 @@ def test_nothing_stands_in_the_way(items: tuple[Decision, ...]) -> None:
     nothing_overlaps(drawing)
 
 
-def nothing_overlaps(drawing: Drawing) -> None:
-    boxes = [rect_of(group) for group in drawing.groups if group.kind != "way"]
+def nothing_overlaps(drawing: VectorImage) -> None:
+    boxes = [rect_of(group) for group in drawing.groups if group.css_class != "way"]
     for one, other in combinations(boxes, 2):
         assert one[2] < other[0] or other[2] < one[0] or one[3] < other[1] or other[3] < one[1]
     for group in drawing.groups:
-        if group.kind == "way":
+        if group.css_class == "way":
             for start, end in pairwise(points_of(group)):
                 assert not [box for box in boxes if runs_through(start, end, box)]
     right, bottom = drawing.left + drawing.width, drawing.top + drawing.height
@@ -108,17 +108,17 @@ def test_nothing_to_decide() -> None:
 def nested(depth: int, wide: int) -> tuple[Decision, ...]:
     if not depth:
         return (Transition(to="B", guard=Guard(when="last")),)
-    return tuple(Group(guard=Guard(when=f"a{index}"), then=nested(depth - 1, wide)) for index in range(wide))
+    return tuple(DecisionGroup(guard=Guard(when=f"a{index}"), then=nested(depth - 1, wide)) for index in range(wide))
 
 
 def test_of_many_tests_the_first_are_drawn_and_a_box_leads_to_the_rest() -> None:
-    drawing = draw(tuple(Transition(to="B", guard=Guard(when=f"a == {number}")) for number in range(MOST_NODES)))
+    drawing = draw(tuple(Transition(to="B", guard=Guard(when=f"a == {number}")) for number in range(MAX_NODES)))
     assert drawing is not None
-    boxes = [group for group in drawing.groups if group.kind != "way"]
-    assert len(boxes) <= MOST_NODES
-    (folded,) = [group for group in boxes if group.kind == "folded"]
-    drawn = sum(group.kind == "condition" for group in boxes)
-    assert folded.title == f"{MOST_NODES - drawn} more tests, which are not drawn"
+    boxes = [group for group in drawing.groups if group.css_class != "way"]
+    assert len(boxes) <= MAX_NODES
+    (folded,) = [group for group in boxes if group.css_class == "folded"]
+    drawn = sum(group.css_class == "condition" for group in boxes)
+    assert folded.title == f"{MAX_NODES - drawn} more tests, which are not drawn"
     assert folded.href == f"#states-A-transitions-{drawn}"
     assert boxes[-1].title == "stay"
 
@@ -126,10 +126,10 @@ def test_of_many_tests_the_first_are_drawn_and_a_box_leads_to_the_rest() -> None
 def test_of_deep_tests_the_upper_levels_are_drawn_and_boxes_lead_to_the_rest() -> None:
     drawing = draw(nested(5, 3))
     assert drawing is not None
-    boxes = [group for group in drawing.groups if group.kind != "way"]
-    folded = [group for group in boxes if group.kind == "folded"]
+    boxes = [group for group in drawing.groups if group.css_class != "way"]
+    folded = [group for group in boxes if group.css_class == "folded"]
     # Levels of 3, 9 and 27 tests fit, one of 81 does not; below each of the 27 there are 3 with 3 each and their ends.
-    assert sum(group.kind == "condition" for group in boxes) == 3 + 9 + 27
+    assert sum(group.css_class == "condition" for group in boxes) == 3 + 9 + 27
     assert [group.title for group in folded] == ["21 more tests, which are not drawn"] * 27
     assert folded[0].href == "#states-A-transitions-0-then-0-then-0-then-0"
 
@@ -142,11 +142,11 @@ def test_a_folded_tree_is_a_tree(items: tuple[Decision, ...], most: int) -> None
     boxes_of = {"whole": boxes_in(whole), "part": boxes_in(part)}
     assert len(boxes_of["part"]) <= len(boxes_of["whole"]) + 1
     nothing_overlaps(part)
-    folded = [group for group in boxes_of["part"] if group.kind == "folded"]
+    folded = [group for group in boxes_of["part"] if group.css_class == "folded"]
     assert all(group.href.startswith("#states-A-transitions-") for group in folded)
-    shown = [(group.title, group.href) for group in boxes_of["part"] if group.kind == "condition"]
+    shown = [(group.title, group.href) for group in boxes_of["part"] if group.css_class == "condition"]
     assert set(shown) <= {(group.title, group.href) for group in boxes_of["whole"]}
-    assert len(shown) == sum(group.kind == "condition" for group in boxes_of["whole"]) or folded
+    assert len(shown) == sum(group.css_class == "condition" for group in boxes_of["whole"]) or folded
 
 
 @given(st.lists(decisions, min_size=1, max_size=4).map(tuple))
@@ -154,10 +154,10 @@ def test_every_box_and_line_leads_somewhere_and_says_what_it_is(items: tuple[Dec
     drawing = draw(items)
     if drawing is None:
         return
-    boxes = [group for group in drawing.groups if group.kind != "way"]
-    ways = [group for group in drawing.groups if group.kind == "way"]
+    boxes = [group for group in drawing.groups if group.css_class != "way"]
+    ways = [group for group in drawing.groups if group.css_class == "way"]
     implied = [group for group in boxes if not group.href]
     assert len(implied) <= 1
     assert all(group.title for group in boxes)
-    assert all(group.title.startswith("when ") and group.is_echo for group in ways[1:])
+    assert all(group.title.startswith("when ") and group.is_decorative for group in ways[1:])
     assert all(group.href for group in ways[1:] if not implied)

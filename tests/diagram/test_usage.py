@@ -5,11 +5,11 @@ from pathlib import Path
 from xml.etree import ElementTree
 
 from tests.diagram.drawn_designs import ring_design, shipped_designs
-from vicode.diagram.drawing import draw_figure
-from vicode.diagram.figure import Figure
+from vicode.diagram.drawing import render_diagram
+from vicode.diagram.figure import Diagram
 from vicode.diagram.svg import write_svg
-from vicode.diagram.thumbnail import thumbnail
-from vicode.diagram.usage import leaves_out, usage_figure
+from vicode.diagram.thumbnail import render_thumbnail
+from vicode.diagram.usage import dependency_diagram, has_omitted_uses
 from vicode.model.design import Call, Design, State, Use
 from vicode.model.project import Interface, Project
 from vicode.store import open_project
@@ -17,24 +17,24 @@ from vicode.store import open_project
 FORWARD = Path(__file__).parents[2] / "designs" / "forward"
 
 
-def xs_of(figure: Figure) -> dict[str, float]:
-    return {node.key: node.at[0] for node in figure.nodes}
+def xs_of(figure: Diagram) -> dict[str, float]:
+    return {node.key: node.center[0] for node in figure.nodes}
 
 
 def test_users_stand_before_what_they_use() -> None:
-    figure = usage_figure(open_project(FORWARD).project)
+    figure = dependency_diagram(open_project(FORWARD).project)
     xs = xs_of(figure)
-    for arrow in figure.arrows:
-        user, used = (arrow.target, arrow.source) if arrow.of == "requires" else (arrow.source, arrow.target)
+    for arrow in figure.edges:
+        user, used = (arrow.target, arrow.source) if arrow.edge_type == "requires" else (arrow.source, arrow.target)
         assert xs[user] < xs[used], arrow
     assert {"Player", "Perception", "Walk"} <= set(xs)
 
 
 def test_boxes_do_not_overlap() -> None:
-    figure = usage_figure(open_project(FORWARD).project)
+    figure = dependency_diagram(open_project(FORWARD).project)
     for one, other in combinations(figure.nodes, 2):
-        apart = abs(one.at[0] - other.at[0]) >= (one.size.width + other.size.width) / 2
-        assert apart or abs(one.at[1] - other.at[1]) >= one.size.height
+        apart = abs(one.center[0] - other.center[0]) >= (one.size.width + other.size.width) / 2
+        assert apart or abs(one.center[1] - other.center[1]) >= one.size.height
 
 
 def test_circles_end() -> None:
@@ -47,7 +47,7 @@ def test_circles_end() -> None:
         )
         for name in names
     )
-    figure = usage_figure(Project(name="all", designs=designs))
+    figure = dependency_diagram(Project(name="all", designs=designs))
     assert len(figure.nodes) == 30
 
 
@@ -72,19 +72,19 @@ def asking_project(count: int) -> Project:
 
 def test_a_dense_figure_leaves_out_what_is_only_asked() -> None:
     few, many = asking_project(20), asking_project(60)
-    assert not leaves_out(few)
-    assert usage_figure(few, sparse=True) == usage_figure(few)
-    assert leaves_out(many)
-    names = {node.key for node in usage_figure(many, sparse=True).nodes}
-    assert names == {node.key for node in usage_figure(many).nodes} - {"Asked"}
-    assert len(usage_figure(many, sparse=True).arrows) == len(usage_figure(many).arrows) - 60
+    assert not has_omitted_uses(few)
+    assert dependency_diagram(few, sparse=True) == dependency_diagram(few)
+    assert has_omitted_uses(many)
+    names = {node.key for node in dependency_diagram(many, sparse=True).nodes}
+    assert names == {node.key for node in dependency_diagram(many).nodes} - {"Asked"}
+    assert len(dependency_diagram(many, sparse=True).edges) == len(dependency_diagram(many).edges) - 60
 
 
 def test_designs_are_links_and_names_are_only_names() -> None:
     evil = '"><script>alert(1)</script>'
     project = Project(name="p", designs=(Design(component=evil, doc=evil, uses=(Use(alias="a", component="B"),)),))
-    figure = usage_figure(project, lambda component: f"/design/p/{component}")
-    root = ElementTree.fromstring(write_svg(draw_figure(figure, title=evil)))
+    figure = dependency_diagram(project, lambda component: f"/design/p/{component}")
+    root = ElementTree.fromstring(write_svg(render_diagram(figure, title=evil)))
     links = [element for element in root.iter() if element.tag.endswith("}a")]
     assert [link.attrib["href"] for link in links] == [f"/design/p/{evil}"]
     assert not [element for element in root.iter() if element.tag.endswith("script")]
@@ -92,6 +92,6 @@ def test_designs_are_links_and_names_are_only_names() -> None:
 
 def test_thumbnails_are_small_whatever_they_show() -> None:
     for design in (*shipped_designs(), Design(component="Nothing"), ring_design(300)):
-        text = thumbnail(design)
+        text = render_thumbnail(design)
         ElementTree.fromstring(text)
         assert len(text) < 200_000

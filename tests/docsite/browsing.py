@@ -41,7 +41,7 @@ _TOO_WIDE = "() => document.documentElement.scrollWidth - document.documentEleme
 
 
 @dataclass
-class Browsed:
+class BrowserCrawl:
     """What a site holds: `complaints` are those of the browser and ours, `pages` the files that links lead to."""
 
     complaints: list[str] = field(default_factory=list)
@@ -50,15 +50,15 @@ class Browsed:
     ids: dict[str, set[str]] = field(default_factory=dict)
 
     @property
-    def dead(self) -> list[str]:
+    def broken_links(self) -> list[str]:
         """Links to places that are on no page."""
         inner = [link for link in self.links if link.startswith("file:") and "#" in link]
         return sorted(link for link in inner if unquote(urldefrag(link).fragment) not in self.ids[urldefrag(link).url])
 
 
-def browse(page: Page, site: Path) -> Browsed:
+def crawl_in_browser(page: Page, site: Path) -> BrowserCrawl:
     """Open the home of a site and everything that can be reached from it."""
-    browsed = Browsed()
+    browsed = BrowserCrawl()
     complaints = browsed.complaints
     page.on("console", lambda message: complaints.append(f"{page.url}: {message.text}"))
     page.on("pageerror", lambda error: complaints.append(f"{page.url}: {error}"))

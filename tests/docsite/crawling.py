@@ -54,14 +54,14 @@ def read_page(text: str) -> ReadPage:
     return reader.page
 
 
-def pages_of(files: tuple[OutputFile, ...]) -> dict[str, ReadPage]:
+def read_pages(files: tuple[OutputFile, ...]) -> dict[str, ReadPage]:
     """All pages of a site by path."""
     return {file.path: read_page(file.text) for file in files if file.path.endswith(".html")}
 
 
-def broken_links(files: tuple[OutputFile, ...]) -> list[str]:
+def find_broken_links(files: tuple[OutputFile, ...]) -> list[str]:
     """Every address that leads nowhere, and every one that leads out of the folder."""
-    pages = pages_of(files)
+    pages = read_pages(files)
     paths = {file.path for file in files}
     broken = []
     for path, page in pages.items():
@@ -75,10 +75,10 @@ def broken_links(files: tuple[OutputFile, ...]) -> list[str]:
     return broken
 
 
-def dangers(files: tuple[OutputFile, ...]) -> list[str]:
+def find_unsafe_content(files: tuple[OutputFile, ...]) -> list[str]:
     """Whatever could run or load something, but for the two scripts of every page."""
     found = []
-    for path, page in pages_of(files).items():
+    for path, page in read_pages(files).items():
         found += [f"{path}: {name}" for name in page.handlers]
         found += [f"{path}: {address}" for address in page.links if address.strip().lower().startswith(_RUNNING)]
         unknown = set(page.loaded) - {"site.css", "site.js"}

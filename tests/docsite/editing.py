@@ -10,12 +10,12 @@ from vicode.model.project import Project
 from vicode.store import open_project
 
 FORWARD = open_project(Path(__file__).parents[2] / "designs" / "forward").project
-NEW = State(name="Added", doc="*New* here.", transitions=(Transition(to="Added", guard=Guard(after="2")),))
+NEW_STATE = State(name="Added", doc="*New* here.", transitions=(Transition(to="Added", guard=Guard(after="2")),))
 
 Edit = Callable[[Project, random.Random], Project]
 
 
-def one_of(project: Project, chance: random.Random, change: Callable[[Design], Design]) -> Project:
+def edit_random_design(project: Project, chance: random.Random, change: Callable[[Design], Design]) -> Project:
     if not project.designs:
         return project
     at = chance.randrange(len(project.designs))
@@ -24,34 +24,48 @@ def one_of(project: Project, chance: random.Random, change: Callable[[Design], D
     return replace(project, designs=tuple(designs))
 
 
-def one_state(project: Project, chance: random.Random, change: Callable[[State], State]) -> Project:
+def edit_random_state(project: Project, chance: random.Random, change: Callable[[State], State]) -> Project:
     def edit(design: Design) -> Design:
         at = chance.randrange(len(design.states)) if design.states else 0
         return replace(
             design, states=tuple(change(each) if index == at else each for index, each in enumerate(design.states))
         )
 
-    return one_of(project, chance, edit)
+    return edit_random_design(project, chance, edit)
 
 
 EDITS: tuple[Edit, ...] = (
-    lambda project, chance: one_of(project, chance, lambda design: replace(design, doc=f"Doc {chance.random()}.")),
-    lambda project, chance: one_of(project, chance, lambda design: replace(design, states=design.states[1:])),
-    lambda project, chance: one_of(project, chance, lambda design: replace(design, states=(*design.states, NEW))),
-    lambda project, chance: one_of(project, chance, lambda design: replace(design, uses=design.uses[1:])),
-    lambda project, chance: one_of(project, chance, lambda design: replace(design, component=design.component + "X")),
-    lambda project, chance: one_of(project, chance, lambda design: replace(design, initial="Nowhere")),
-    lambda project, chance: one_of(
+    lambda project, chance: edit_random_design(
+        project, chance, lambda design: replace(design, doc=f"Doc {chance.random()}.")
+    ),
+    lambda project, chance: edit_random_design(
+        project, chance, lambda design: replace(design, states=design.states[1:])
+    ),
+    lambda project, chance: edit_random_design(
+        project, chance, lambda design: replace(design, states=(*design.states, NEW_STATE))
+    ),
+    lambda project, chance: edit_random_design(project, chance, lambda design: replace(design, uses=design.uses[1:])),
+    lambda project, chance: edit_random_design(
+        project, chance, lambda design: replace(design, component=design.component + "X")
+    ),
+    lambda project, chance: edit_random_design(project, chance, lambda design: replace(design, initial="Nowhere")),
+    lambda project, chance: edit_random_design(
         project,
         chance,
         lambda design: replace(design, outputs=(*design.outputs, Declaration(name=f"o{chance.randrange(9)}", doc="!"))),
     ),
-    lambda project, chance: one_state(project, chance, lambda state: replace(state, doc=f"*{chance.random()}*")),
-    lambda project, chance: one_state(project, chance, lambda state: replace(state, transitions=())),
-    lambda project, chance: one_state(project, chance, lambda state: replace(state, requires=state.requires[1:])),
-    lambda project, chance: one_state(project, chance, lambda state: replace(state, name=f"{state.name}2")),
-    lambda project, chance: one_state(project, chance, lambda state: replace(state, disabled=not state.disabled)),
-    lambda project, chance: one_state(project, chance, lambda state: replace(state, at=None)),
+    lambda project, chance: edit_random_state(
+        project, chance, lambda state: replace(state, doc=f"*{chance.random()}*")
+    ),
+    lambda project, chance: edit_random_state(project, chance, lambda state: replace(state, transitions=())),
+    lambda project, chance: edit_random_state(
+        project, chance, lambda state: replace(state, requires=state.requires[1:])
+    ),
+    lambda project, chance: edit_random_state(project, chance, lambda state: replace(state, name=f"{state.name}2")),
+    lambda project, chance: edit_random_state(
+        project, chance, lambda state: replace(state, disabled=not state.disabled)
+    ),
+    lambda project, chance: edit_random_state(project, chance, lambda state: replace(state, at=None)),
     lambda project, chance: replace(project, designs=project.designs[1:]),
     lambda project, chance: replace(project, designs=(*project.designs, *FORWARD.designs[:1])),
     lambda project, chance: replace(project, doc=f"About {chance.random()}."),

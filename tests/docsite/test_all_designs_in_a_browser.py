@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import Page
 
-from tests.docsite.browsing import OVERLAPS, browse
+from tests.docsite.browsing import OVERLAPS, crawl_in_browser
 from vicode.cli import main
 
 ROOT = Path(__file__).parents[2]
@@ -28,10 +28,10 @@ def site_of(path: Path, folder: Path) -> Path:
 )
 def test_all_pages_from_home(page: Page, tmp_path: Path, path: Path) -> None:
     site = site_of(path, tmp_path / "site")
-    browsed = browse(page, site)
+    browsed = crawl_in_browser(page, site)
     assert not browsed.complaints
     assert browsed.pages == {file.name for file in site.glob("*.html")}
-    assert not browsed.dead
+    assert not browsed.broken_links
     assert all(link.startswith(("file:", "https://")) for link in browsed.links)
 
 

@@ -12,17 +12,17 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from tests.docsite.crawling import broken_links
+from tests.docsite.crawling import find_broken_links
 from tests.docsite.editing import EDITS, FORWARD, Edit
 from vicode.check import check_project
 from vicode.cli import main
-from vicode.cli.subjects import read_subjects
+from vicode.cli.subjects import load_site_inputs
 from vicode.docsite import (
+    ComponentFinding,
     Manifest,
-    OwnFinding,
     SiteBuilder,
+    SiteInput,
     SourceText,
-    Subject,
     build_site,
     generated,
     load_manifest,
@@ -31,7 +31,7 @@ from vicode.docsite import (
 )
 from vicode.docsite.writing import tool_digest
 from vicode.findings import Severity
-from vicode.generators import ComponentText
+from vicode.generators import ComponentCode
 from vicode.model.design import Design
 from vicode.model.project import Project
 from vicode.output import OutputFile
@@ -39,29 +39,29 @@ from vicode.output import OutputFile
 ROOT = Path(__file__).parents[2]
 
 
-def subject_of_model(project: Project) -> Subject:
+def subject_of_model(project: Project) -> SiteInput:
     """A project that stands in no file, with texts that say where its states are."""
     found = [
-        OwnFinding(component=each.thing.component if each.thing else "", line=0, finding=each)
+        ComponentFinding(component=each.subject.component if each.subject else "", line=0, finding=each)
         for each in check_project(project)
     ]
     errors = [each for each in found if each.finding.severity is Severity.ERROR]
     faulty = {
-        language: frozenset(each.component for each in errors if each.finding.concerns(language))
+        language: frozenset(each.component for each in errors if each.finding.applies_to(language))
         for language in project.languages
     }
-    return Subject(
+    return SiteInput(
         project=project,
         findings=tuple(found),
         sources={design.component: source_of(design) for design in project.designs},
-        faulty=faulty,
+        components_with_errors=faulty,
     )
 
 
 def source_of(design: Design) -> SourceText:
     lines = [f"{state.name}: {len(state.transitions)}" for state in design.states]
     places = {("states", state.name): number for number, state in enumerate(design.states, start=1)}
-    return SourceText(path=f"{design.component}.yaml", text="\n".join(lines), language="yaml", lines=places)
+    return SourceText(path=f"{design.component}.yaml", text="\n".join(lines), language="yaml", line_numbers=places)
 
 
 class Folder:
@@ -78,7 +78,7 @@ class Folder:
         plan = self.builder.plan(subject_of_model(project))
         written = write_site(plan, self.out, load_manifest(self.kept), lambda _done, _of: None)
         save_manifest(written.manifest, self.kept)
-        return written.touched
+        return written.changed
 
     def files(self) -> tuple[OutputFile, ...]:
         return tuple(OutputFile(path=each.name, text=each.read_text("utf-8")) for each in sorted(self.out.iterdir()))
@@ -124,7 +124,7 @@ def test_pages_that_are_known_are_not_even_made(folder: Folder) -> None:
     folder.build(FORWARD)
     made: list[str] = []
     plan = [
-        replace(each, make=lambda each=each: made.append(each.path) or each.make())
+        replace(each, make=lambda each=each: made.append(each.path) or each.render())
         for each in folder.builder.plan(subject_of_model(FORWARD))
     ]
     write_site(plan, folder.out, load_manifest(folder.kept), lambda _done, _of: None)
@@ -132,7 +132,7 @@ def test_pages_that_are_known_are_not_even_made(folder: Folder) -> None:
     of_another_tool = replace(load_manifest(folder.kept), tool="another")
     written = write_site(plan, folder.out, of_another_tool, lambda _done, _of: None)
     assert made == [each.path for each in plan]
-    assert written.touched == ()
+    assert written.changed == ()
     assert written.manifest.tool == tool_digest()
 
 
@@ -182,7 +182,7 @@ def test_several_projects_have_a_common_home(tmp_path: Path, capsys: pytest.Capt
     assert "<em>right</em> &amp; back" in home.text
     style = OutputFile(path="site.css", text="")
     inner = tuple(OutputFile(path=f"{name}/index.html", text="") for name in ("Blink", "Blink-2", "p1"))
-    assert not broken_links((home, style, *inner))
+    assert not find_broken_links((home, style, *inner))
     assert main(["docs", str(tmp_path / "left"), str(tmp_path / "right"), str(behavior), "--out", str(out)]) == 0
     assert "0 changed" in capsys.readouterr().out
 
@@ -232,15 +232,15 @@ def test_a_behavior_of_one_agent_is_called_as_that(tmp_path: Path) -> None:
 @pytest.mark.parametrize("name", ["forward", "p1"])
 def test_a_single_file_is_the_one_of_the_whole_site(name: str) -> None:
     program = ROOT / "tests" / "xabsl" / "cases" / "programs" / "p1" / "agents.xabsl"
-    (reading,) = read_subjects([program])
-    subject = subject_of_model(FORWARD) if name == "forward" else reading.subject
+    (reading,) = load_site_inputs([program])
+    subject = subject_of_model(FORWARD) if name == "forward" else reading.site_input
     assert subject is not None
     with SiteBuilder() as builder, SiteBuilder() as other:
-        find = builder.open(subject)
+        find = builder.make_file_lookup(subject)
         for planned in other.plan(subject):
             found = find(planned.path)
             assert found is not None, planned.path
-            assert (found.path, found.key, found.make()) == (planned.path, planned.key, planned.make())
+            assert (found.path, found.key, found.render()) == (planned.path, planned.key, planned.render())
         assert [find(path) for path in ("nothing.html", "component-Nobody.html", "python-Nobody.html", "")] == [
             None
         ] * 4
@@ -248,23 +248,23 @@ def test_a_single_file_is_the_one_of_the_whole_site(name: str) -> None:
 
 def test_a_single_page_is_made_without_the_texts_of_others(monkeypatch: pytest.MonkeyPatch) -> None:
     written: list[str] = []
-    begin = generated.component_texts
+    begin = generated.component_generator
 
-    def listening(*given: Any) -> Callable[[Design], ComponentText | None]:
+    def listening(*given: Any) -> Callable[[Design], ComponentCode | None]:
         write = begin(*given)
         return lambda design: written.append(design.component) or write(design)
 
     monkeypatch.setattr(generated, "component_texts", listening)
     with SiteBuilder() as builder:
-        find = builder.open(subject_of_model(FORWARD))
+        find = builder.make_file_lookup(subject_of_model(FORWARD))
         assert find("index.html") is not None
         assert written == []
         page = find("component-Player.html")
         assert page is not None
-        assert "python-Player.html" in page.make()
+        assert "python-Player.html" in page.render()
         assert set(written) == {"Player"}
         # A page that was found before is not looked for again, and what it was made from is still known later.
         assert find("component-Player.html") is page
         count = len(written)
-        assert builder.open(subject_of_model(FORWARD))("component-Player.html") is not None
+        assert builder.make_file_lookup(subject_of_model(FORWARD))("component-Player.html") is not None
         assert len(written) == count

@@ -5,9 +5,9 @@ from pathlib import Path
 
 import pytest
 
-from tests.docsite.crawling import broken_links, read_page
-from vicode.docsite import Subject, build_site
-from vicode.docsite.references import READ, SET, references_of
+from tests.docsite.crawling import find_broken_links, read_page
+from vicode.docsite import SiteInput, build_site
+from vicode.docsite.references import READ, SET, find_symbol_references
 from vicode.model.design import Assign, Call, Code, Declaration, Design, Guard, RunCode, State, Transition, Use
 from vicode.model.project import INTERNAL, WORLD, Enumeration, Interface, Project
 from vicode.output import OutputFile
@@ -60,7 +60,7 @@ def small_project() -> Project:
 
 @pytest.fixture(scope="module")
 def files() -> tuple[OutputFile, ...]:
-    return build_site(Subject(project=small_project()))
+    return build_site(SiteInput(project=small_project()))
 
 
 def row_of(files: tuple[OutputFile, ...], path: str, name: str) -> list[str]:
@@ -88,7 +88,7 @@ def row_of(files: tuple[OutputFile, ...], path: str, name: str) -> list[str]:
     ],
 )
 def test_who_reads_and_who_sets(how: str, component: str, name: str) -> None:
-    assert references_of(small_project()).to(how, component, name) == {"Chase": ("Go",)}
+    assert find_symbol_references(small_project()).users(how, component, name) == {"Chase": ("Go",)}
 
 
 @pytest.mark.parametrize(
@@ -96,7 +96,7 @@ def test_who_reads_and_who_sets(how: str, component: str, name: str) -> None:
     [(SET, "Eyes", "distance"), (READ, "Eyes", "unseen"), (SET, "Eyes", "size"), (READ, "Kept", "score")],
 )
 def test_what_nobody_says(how: str, component: str, name: str) -> None:
-    assert references_of(small_project()).to(how, component, name) == {}
+    assert find_symbol_references(small_project()).users(how, component, name) == {}
 
 
 def test_symbols_are_listed_with_all_that_is_known(files: tuple[OutputFile, ...]) -> None:
@@ -122,12 +122,12 @@ def test_types_and_constants_say_who_uses_them(files: tuple[OutputFile, ...]) ->
     assert "component-Chase.html#state-Go" in read_page(text).links
     assert "interface-Eyes.html#variable-mode" in read_page(text).links
     assert row_of(files, "types.html", "far")[-1] == "Chase"
-    assert not broken_links(files)
+    assert not find_broken_links(files)
 
 
 def test_everything_of_a_project_is_a_symbol_or_a_parameter() -> None:
     project = open_project(FORWARD).project
-    files = build_site(Subject(project=project))
+    files = build_site(SiteInput(project=project))
     symbols = read_page(next(file.text for file in files if file.path == "symbols.html"))
     for each in project.components:
         for declaration in each.readable:

@@ -15,8 +15,8 @@ from markdown_it.token import Token
 
 from tests.editor.hostile_project import PAYLOADS, write_hostile_project
 from vicode.cli import main
-from vicode.docsite.docs import html_of
-from vicode.docsite.markdown_text import address, code, escaped, fence, of_html
+from vicode.docsite.docs import render_doc
+from vicode.docsite.markdown_text import escape_text, fence, inline_code, markdown_from_html, markdown_href
 from vicode.templating import template_files
 
 ROOT = Path(__file__).parents[2]
@@ -158,16 +158,16 @@ def test_nothing_of_a_stranger_is_a_sign(payload: str, tmp_path: Path) -> None:
 @given(LINES)
 def test_words_stay_words(text: str) -> None:
     words = " ".join(text.split())
-    html = READER.render(escaped(text)).strip()
+    html = READER.render(escape_text(text)).strip()
     assert unescape(html.removeprefix("<p>").removesuffix("</p>")) == words
     assert re.findall("<[^>]*>", html) == (["<p>", "</p>"] if words else [])
-    cell = READER.render(f"| a | b |\n| --- | --- |\n| {escaped(text)} | {code(text)} |\n")
+    cell = READER.render(f"| a | b |\n| --- | --- |\n| {escape_text(text)} | {inline_code(text)} |\n")
     assert cell.count("<td>") == 2
 
 
 @given(LINES)
 def test_code_stays_code(text: str) -> None:
-    html = READER.renderInline(code(text))
+    html = READER.renderInline(inline_code(text))
     assert unescape(re.sub("</?code>", "", html)) == " ".join(text.split())
 
 
@@ -197,13 +197,13 @@ def test_docs_are_the_same_in_markdown(doc: str) -> None:
         return re.sub(r"\s+", "", plain.replace("&#124;", "|"))
 
     reader = MarkdownIt("commonmark", {"html": True}).enable("table")
-    assert shape(reader.render(of_html(html_of(doc)))) == shape(html_of(doc))
+    assert shape(reader.render(markdown_from_html(render_doc(doc)))) == shape(render_doc(doc))
 
 
 def test_addresses_lead_to_pages_in_markdown() -> None:
-    assert address("component-A.html#state-B") == "component-A.md#state-B"
-    assert address("python-A.html#L12") == "python-A.md"
-    assert address("https://example.org/a b.html") == "https://example.org/a%20b.html"
+    assert markdown_href("component-A.html#state-B") == "component-A.md#state-B"
+    assert markdown_href("python-A.html#L12") == "python-A.md"
+    assert markdown_href("https://example.org/a b.html") == "https://example.org/a%20b.html"
 
 
 def test_several_projects_have_a_common_home(tmp_path: Path) -> None:

@@ -8,14 +8,14 @@ from typing import Any
 
 import pytest
 
-from tests.docsite.crawling import broken_links, dangers, pages_of, read_page
+from tests.docsite.crawling import find_broken_links, find_unsafe_content, read_page, read_pages
 from tests.editor.hostile_project import PAYLOADS, write_hostile_project
 from vicode.cli import main
-from vicode.docsite import Subject, build_site
-from vicode.docsite.docs import html_of, summary_of
+from vicode.docsite import SiteInput, build_site
+from vicode.docsite.docs import render_doc, summarize
 from vicode.docsite.searching import search_script
-from vicode.docsite.views import Entry
-from vicode.model.design import Call, Declaration, Design, Group, Guard, State, Stay, Transition, Use
+from vicode.docsite.views import SiteEntry
+from vicode.model.design import Call, DecisionGroup, Declaration, Design, Guard, State, Stay, Transition, Use
 from vicode.model.project import Project
 from vicode.output import OutputFile
 
@@ -46,7 +46,7 @@ def behavior(tmp_path_factory: pytest.TempPathFactory) -> tuple[OutputFile, ...]
 
 def index_in(script: str) -> dict[str, list[Any]]:
     """What the search looks through, as the page reads it."""
-    index: dict[str, list[Any]] = json.loads(script.split("window.vicodeIndex = ")[1].removesuffix(";\n"))
+    index: dict[str, list[Any]] = json.loads(script.split("window.vicodeSearchIndex = ")[1].removesuffix(";\n"))
     return index
 
 
@@ -63,12 +63,12 @@ def page(files: tuple[OutputFile, ...], path: str) -> str:
 
 
 def test_no_link_of_a_project_is_broken(forward: tuple[OutputFile, ...]) -> None:
-    assert not broken_links(forward)
-    assert sum(len(read.links) for read in pages_of(forward).values()) > 1000
+    assert not find_broken_links(forward)
+    assert sum(len(read.links) for read in read_pages(forward).values()) > 1000
 
 
 def test_no_link_of_a_behavior_is_broken(behavior: tuple[OutputFile, ...]) -> None:
-    assert not broken_links(behavior)
+    assert not find_broken_links(behavior)
     assert len([file for file in behavior if file.path.startswith("component-")]) == 19
     source = read_page(page(behavior, "source-opt0.html"))
     assert "option opt0 {" in source.text
@@ -100,10 +100,10 @@ def test_a_language_that_cannot_say_a_design_says_why(tmp_path: Path, forward: t
 
 def test_languages_that_the_project_did_not_ask_for_are_shown(tmp_path: Path) -> None:
     design = Design(component="Calm", initial="A", states=(State(name="A", transitions=(Transition(to="A"),)),))
-    files = build_site(Subject(project=Project(name="p", languages=("python",), designs=(design,))))
+    files = build_site(SiteInput(project=Project(name="p", languages=("python",), designs=(design,))))
     assert "option calm" in read_page(page(files, "xabsl-Calm.html")).text.lower()
     assert "component-Calm.html#state-A-0" in read_page(page(files, "xabsl-Calm.html")).links
-    assert not broken_links(files)
+    assert not find_broken_links(files)
 
 
 def test_an_agent_has_a_page_with_what_it_may_activate(behavior: tuple[OutputFile, ...]) -> None:
@@ -127,22 +127,22 @@ def test_a_state_machine_is_shown_among_its_neighbors(forward: tuple[OutputFile,
 
 def test_what_is_found_has_its_own_address_whatever_is_empty() -> None:
     entries = [
-        Entry(name="A", kind="component", where="", href="component-A.html"),
-        Entry(name="B", kind="state", where="A", href="component-A.html#state-B"),
-        Entry(name="C", kind="agent", where="p", href="agent-C.html", doc="Plays."),
-        Entry(name="D", kind="state", where="A", href="component-A.html#state-D-2", words="x > 1\ny"),
+        SiteEntry(name="A", kind="component", context="", href="component-A.html"),
+        SiteEntry(name="B", kind="state", context="A", href="component-A.html#state-B"),
+        SiteEntry(name="C", kind="agent", context="p", href="agent-C.html", doc="Plays."),
+        SiteEntry(name="D", kind="state", context="A", href="component-A.html#state-D-2", search_text="x > 1\ny"),
     ]
     index = index_in(search_script(entries))
     rows = [unpacked(row, index) for row in index["entries"]]
     assert [(name, kind, where, href) for name, kind, where, href, _doc, _code in rows] == [
-        (each.name, each.kind, each.where or "", each.href) for each in entries
+        (each.name, each.kind, each.context or "", each.href) for each in entries
     ]
     assert [row[4:] for row in rows] == [["", ""], ["", ""], ["Plays.", ""], ["", "x > 1 y"]]
 
 
 @pytest.mark.parametrize("name", ["forward", "behavior"])
 def test_no_place_of_a_page_has_two_things(name: str, request: pytest.FixtureRequest) -> None:
-    pages = pages_of(request.getfixturevalue(name))
+    pages = read_pages(request.getfixturevalue(name))
     doubled = [f"{path}#{id_}" for path, read in pages.items() for id_, count in read.ids.items() if count > 1]
     assert not doubled
 
@@ -156,7 +156,7 @@ def test_every_thing_is_found(forward: tuple[OutputFile, ...]) -> None:
     assert ("net_bearing", "output", "Perception") in found
     words = next(row[5] for row in rows if row[:3] == ["Kick", "state", "Player"])
     assert "log.info" in words
-    pages = pages_of(forward)
+    pages = read_pages(forward)
     assert all(row[3].partition("#")[2] in {"", *pages[row[3].partition("#")[0]].ids} for row in rows)
 
 
@@ -198,8 +198,8 @@ def test_nothing_of_a_stranger_runs(payload: str, tmp_path: Path) -> None:
     write_hostile_project(tmp_path / "evil", PAYLOADS[payload])
     main(["docs", str(tmp_path / "evil"), "--out", str(tmp_path / "site")])
     files = files_in(tmp_path / "site")
-    assert not dangers(files)
-    assert not broken_links(files)
+    assert not find_unsafe_content(files)
+    assert not find_broken_links(files)
     assert PAYLOADS[payload].split()[0] in read_page(page(files, "component-Player.html")).text
 
 
@@ -218,19 +218,19 @@ def test_names_of_a_stranger_are_only_names() -> None:
                 modulates=(Call(alias=evil, arguments=((evil, evil),)),),
                 transitions=(
                     Transition(to=evil, guard=Guard(when=evil), doc=evil),
-                    Group(guard=Guard(when="a"), then=(Stay(),), otherwise=(Transition(to="nowhere"),)),
+                    DecisionGroup(guard=Guard(when="a"), then=(Stay(),), otherwise=(Transition(to="nowhere"),)),
                 ),
             ),
         ),
     )
-    files = build_site(Subject(project=Project(name=evil, doc=evil, languages=(), designs=(design,))))
-    assert not dangers(files)
-    assert not broken_links(files)
+    files = build_site(SiteInput(project=Project(name=evil, doc=evil, languages=(), designs=(design,))))
+    assert not find_unsafe_content(files)
+    assert not find_broken_links(files)
 
 
 def test_names_that_differ_in_case_alone_keep_their_pages() -> None:
     designs = tuple(Design(component=name, states=(State(name="A"),)) for name in ("Walk", "walk"))
-    files = build_site(Subject(project=Project(name="p", languages=(), designs=designs)))
+    files = build_site(SiteInput(project=Project(name="p", languages=(), designs=designs)))
     paths = [file.path.casefold() for file in files]
     assert len(paths) == len(set(paths))
     assert len([path for path in paths if path.startswith("component-")]) == 2
@@ -241,18 +241,18 @@ def test_the_same_project_gives_the_same_bytes(forward: tuple[OutputFile, ...], 
 
 
 def test_docs_are_markdown_without_danger() -> None:
-    html = html_of("# Title\n\n*soft* [evil](javascript:x) [page](gone.html) ![p](http://x/y.png) <b>x</b>\n\n- `a`")
+    html = render_doc("# Title\n\n*soft* [evil](javascript:x) [page](gone.html) ![p](http://x/y.png) <b>x</b>\n\n- `a`")
     assert "<h2>Title</h2>" in html
-    inner = html_of("## One\n\n### Two\n\n###### Last", below=3)
+    inner = render_doc("## One\n\n### Two\n\n###### Last", parent_level=3)
     assert [inner.count(f"<h{level}>") for level in (4, 5, 6)] == [1, 1, 1]
     assert "<em>soft</em>" in html
     assert "<li>" in html
     assert re.findall(r'href="([^"]*)"', html) == ["http://x/y.png"]
     assert "<img" not in html
     assert "<b>" not in html
-    assert '<a href="https://example.org">w</a>' in html_of("[w](https://example.org)")
-    assert summary_of("Looks around. Then it goes.\n\nMore.") == "Looks around."
-    assert summary_of("Reads `a_b` of *one* [site](https://example.org)\nor <i>two</i>.") == (
+    assert '<a href="https://example.org">w</a>' in render_doc("[w](https://example.org)")
+    assert summarize("Looks around. Then it goes.\n\nMore.") == "Looks around."
+    assert summarize("Reads `a_b` of *one* [site](https://example.org)\nor <i>two</i>.") == (
         "Reads a_b of one site or <i>two</i>."
     )
 

@@ -9,8 +9,8 @@ from playwright.sync_api import Page, expect
 
 from tests.editor.hostile_project import PAYLOADS, write_hostile_project
 from vicode.cli import main
-from vicode.docsite import Subject, build_site
-from vicode.model.design import Decision, Design, Group, Guard, State, Transition
+from vicode.docsite import SiteInput, build_site
+from vicode.model.design import Decision, DecisionGroup, Design, Guard, State, Transition
 from vicode.model.project import Project
 
 FORWARD = Path(__file__).parents[2] / "designs" / "forward"
@@ -49,9 +49,9 @@ def behavior_site(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 def test_from_home_to_a_state(page: Page, site: Path) -> None:
     page.goto((site / "index.html").as_uri())
-    page.locator(".drawing a.state", has_text="Player").click()
+    page.locator(".diagram a.state", has_text="Player").click()
     expect(page.locator("h1")).to_have_text("Player")
-    page.locator(".drawing a.state", has_text="WatchBall").click()
+    page.locator(".diagram a.state", has_text="WatchBall").click()
     expect(page.locator("#state-WatchBall h3")).to_be_in_viewport()
     page.locator("#state-WatchBall h3").get_by_text("Python").click()
     expect(page.locator("tr:target")).to_contain_text("_in_watch_ball")
@@ -80,7 +80,7 @@ def test_searching_by_keys(page: Page, site: Path) -> None:
     expect(page.locator("tr:target")).to_contain_text("net_bearing")
     page.keyboard.press("/")
     page.keyboard.type("nobody says this")
-    expect(page.locator("#found")).to_contain_text("Nothing")
+    expect(page.locator("#search-results")).to_contain_text("Nothing")
 
 
 def test_what_is_found_in_a_transition_shows_it(page: Page, site: Path) -> None:
@@ -92,7 +92,7 @@ def test_what_is_found_in_a_transition_shows_it(page: Page, site: Path) -> None:
     expect(found.locator("code.about")).to_contain_text("→ AlignFront")
     expect(found.locator("mark").first).to_be_visible()
     page.locator("#search").fill("( [a .*")
-    expect(page.locator("#found")).to_contain_text("Nothing")
+    expect(page.locator("#search-results")).to_contain_text("Nothing")
     page.locator("#search").fill("AlignFront")
     expect(page.get_by_role("option").first.locator("bdi mark")).to_have_text("AlignFront")
 
@@ -103,7 +103,7 @@ def deep_site(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("deep")
     states = (State(name="Many", transitions=nested(5, 3)), State(name="Row", transitions=nested(6, 1)))
     design = Design(component="Deep", initial="Many", states=states)
-    for file in build_site(Subject(project=Project(name="deep", designs=(design,)))):
+    for file in build_site(SiteInput(project=Project(name="deep", designs=(design,)))):
         (folder / file.path).write_text(file.text, "utf-8")
     return folder
 
@@ -112,7 +112,7 @@ def nested(depth: int, wide: int) -> tuple[Decision, ...]:
     if not depth:
         return (Transition(to="Row", guard=Guard(when="last_of_them > 3")),)
     guards = (Guard(when=f"something.seen and distance < {index}") for index in range(wide))
-    return tuple(Group(guard=guard, then=nested(depth - 1, wide)) for guard in guards)
+    return tuple(DecisionGroup(guard=guard, then=nested(depth - 1, wide)) for guard in guards)
 
 
 def test_a_box_stands_for_tests_that_are_not_drawn(page: Page, deep_site: Path) -> None:
@@ -144,41 +144,41 @@ def test_a_wide_tree_is_moved_as_a_drawing(page: Page, deep_site: Path) -> None:
 
 def test_a_drawing_zooms_and_tells_what_belongs_together(page: Page, site: Path) -> None:
     page.goto((site / "component-Player.html").as_uri())
-    drawing = page.locator(".drawing svg[role=group]").first
+    drawing = page.locator(".diagram svg[role=group]").first
     whole = drawing.get_attribute("viewBox")
-    page.locator(".sheet").first.focus()
+    page.locator(".viewport").first.focus()
     page.keyboard.press("+")
     assert drawing.get_attribute("viewBox") != whole
     page.keyboard.press("ArrowRight")
     page.keyboard.press("0")
     assert drawing.get_attribute("viewBox") == whole
     page.locator("a.state[data-key='s:LookForBall']").hover()
-    expect(page.locator("a.state.is-lit", has_text="FollowBall")).to_have_count(1)
-    expect(page.locator("a.state:not(.is-lit)", has_text="AlignFront")).to_have_count(1)
+    expect(page.locator("a.state.is-highlighted", has_text="FollowBall")).to_have_count(1)
+    expect(page.locator("a.state:not(.is-highlighted)", has_text="AlignFront")).to_have_count(1)
 
 
 def test_a_box_of_a_large_map_is_found_with_its_neighbors(page: Page, behavior_site: Path) -> None:
     page.goto((behavior_site / "index.html").as_uri())
-    drawing = page.locator(".drawing svg[role=group]")
+    drawing = page.locator(".diagram svg[role=group]")
     whole = drawing.get_attribute("viewBox")
     field = page.get_by_label("Find in the drawing")
     field.press_sequentially("opt1")
-    expect(drawing).to_have_class("is-asked")
+    expect(drawing).to_have_class("has-highlight")
     assert drawing.get_attribute("viewBox") != whole
     found = drawing.locator("a[data-key='opt1']")
-    expect(found).to_have_class("state is-lit")
+    expect(found).to_have_class("state is-highlighted")
     expect(found).to_be_in_viewport()
-    assert 1 < drawing.locator("[data-key].is-lit").count() < drawing.locator("[data-key]").count()
+    assert 1 < drawing.locator("[data-key].is-highlighted").count() < drawing.locator("[data-key]").count()
     # The pointer asks for another one only as long as it is there.
     found.hover()
     page.locator("h1").hover()
-    expect(found).to_have_class("state is-lit")
+    expect(found).to_have_class("state is-highlighted")
     field.fill("no such thing")
     field.press("Enter")
-    expect(found).to_have_class("state is-lit")
+    expect(found).to_have_class("state is-highlighted")
     field.press("Escape")
     expect(field).to_have_value("")
-    expect(drawing).not_to_have_class("is-asked")
+    expect(drawing).not_to_have_class("has-highlight")
     assert drawing.get_attribute("viewBox") == whole
 
 
@@ -190,7 +190,7 @@ def test_a_small_drawing_needs_no_finding(page: Page, site: Path) -> None:
 
 def test_a_drawing_is_dragged_without_selecting_its_texts(page: Page, behavior_site: Path) -> None:
     page.goto((behavior_site / "index.html").as_uri())
-    drawing = page.locator(".drawing svg[role=group]")
+    drawing = page.locator(".diagram svg[role=group]")
     whole = drawing.get_attribute("viewBox")
     box = drawing.bounding_box()
     assert box
@@ -211,9 +211,9 @@ def test_a_decision_and_its_line_are_shown_together(page: Page, site: Path) -> N
     expect(tree.locator(".condition.is-target", has_text="net ahead to a side")).to_have_count(1)
     expect(tree.locator(".target.is-target", has_text="AlignDiagonal")).to_have_count(1)
     tree.locator("a.condition", has_text="net beside").hover()
-    expect(page.locator("#state-SearchNet-0-then-2")).to_have_class("depth-1 is-lit")
+    expect(page.locator("#state-SearchNet-0-then-2")).to_have_class("depth-1 is-highlighted")
     page.locator("#state-SearchNet-1").hover()
-    expect(tree.locator("a.condition.is-lit", has_text="no net, or behind")).to_have_count(1)
+    expect(tree.locator("a.condition.is-highlighted", has_text="no net, or behind")).to_have_count(1)
     page.locator("li:target").get_by_text("Python").click()
     expect(page.locator("tr:target")).to_contain_text("net ahead to a side")
 

@@ -11,13 +11,13 @@ from pathlib import Path
 
 import pytest
 
-from vicode.cli.docs_watch import changes_in
+from vicode.cli.docs_watch import iter_changes
 
 ROOT = Path(__file__).parents[2]
 
 
 @dataclass
-class Watching:
+class WatchProcess:
     """A site that is watched by a process of its own; `lines` are all that it said."""
 
     project: Path
@@ -57,9 +57,9 @@ class Watching:
 
 
 @pytest.fixture
-def watching(tmp_path: Path) -> Iterator[Watching]:
+def watching(tmp_path: Path) -> Iterator[WatchProcess]:
     shutil.copytree(ROOT / "designs" / "blink", tmp_path / "Blink")
-    watched = Watching(project=tmp_path / "Blink", out=tmp_path / "site")
+    watched = WatchProcess(project=tmp_path / "Blink", out=tmp_path / "site")
     yield watched
     if watched.process is not None:
         assert watched.process.stdout is not None
@@ -68,7 +68,7 @@ def watching(tmp_path: Path) -> Iterator[Watching]:
         watched.process.wait()
 
 
-def test_a_site_in_the_folder_of_its_designs_follows_them(watching: Watching) -> None:
+def test_a_site_in_the_folder_of_its_designs_follows_them(watching: WatchProcess) -> None:
     watching.out = watching.project
     watching.start()
     watching.edit("Bright", "Lit")
@@ -76,7 +76,7 @@ def test_a_site_in_the_folder_of_its_designs_follows_them(watching: Watching) ->
     assert "state-Lit" in watching.page()
 
 
-def test_a_folder_that_is_put_in_the_place_of_another_is_followed(watching: Watching) -> None:
+def test_a_folder_that_is_put_in_the_place_of_another_is_followed(watching: WatchProcess) -> None:
     watching.start()
     shutil.rmtree(watching.project)
     watching.wait_for("No such file or directory")
@@ -92,14 +92,14 @@ def test_a_folder_that_is_put_in_the_place_of_another_is_followed(watching: Watc
 def test_a_folder_in_the_place_of_another_is_known_though_it_could_have_its_number(tmp_path: Path) -> None:
     folder = tmp_path / "Blink"
     folder.mkdir()
-    changes = changes_in([folder])
+    changes = iter_changes([folder])
     next(changes)
     folder.rmdir()
     folder.mkdir()
     assert next(changes, "over") == "over"
 
 
-def test_what_cannot_be_written_is_said_and_it_goes_on(watching: Watching) -> None:
+def test_what_cannot_be_written_is_said_and_it_goes_on(watching: WatchProcess) -> None:
     watching.start()
     page = watching.out / "component-Blink.html"
     page.unlink()
@@ -116,7 +116,7 @@ def test_what_cannot_be_written_is_said_and_it_goes_on(watching: Watching) -> No
     assert "state-Shining" in watching.page()
 
 
-def test_ctrl_c_ends_it_without_a_word(watching: Watching) -> None:
+def test_ctrl_c_ends_it_without_a_word(watching: WatchProcess) -> None:
     watching.start()
     assert watching.process is not None
     watching.process.send_signal(signal.SIGINT)

@@ -17,7 +17,7 @@ import pytest
 from playwright.sync_api import Page
 
 from tests.conftest import opened_beside
-from tests.editor.slow_line import SlowLine
+from tests.editor.slow_line import SlowConnection
 
 ROOT = Path(__file__).parents[2]
 
@@ -38,9 +38,9 @@ def editor(project: Path, tmp_path: Path) -> Iterator[str]:
 
 
 @pytest.fixture
-def line(page: Page) -> SlowLine:
+def line(page: Page) -> SlowConnection:
     """What lies between the page and the editor."""
-    return SlowLine(page)
+    return SlowConnection(page)
 
 
 @pytest.fixture
@@ -67,7 +67,7 @@ def started_editor(folder: Path, storage: Path, options: tuple[str, ...] = ("--n
     said = storage / "said.log"
     said.write_text("")
     arguments = ["edit", str(folder), "--no-open", "--port", "0", *options]
-    brood = _brood()
+    brood = _fork_server()
     assert brood.stdin is not None
     assert brood.stdout is not None
     brood.stdin.write(json.dumps({"arguments": arguments, "environment": environment, "log": str(said)}) + "\n")
@@ -85,7 +85,7 @@ def started_editor(folder: Path, storage: Path, options: tuple[str, ...] = ("--n
 
 
 @cache
-def _brood() -> "subprocess.Popen[str]":
+def _fork_server() -> "subprocess.Popen[str]":
     """What all editors of this test process split off from; it ends with it."""
     command = [sys.executable, "-m", "tests.editor.brood"]
     pipe = subprocess.PIPE

@@ -63,7 +63,7 @@ def centre_of(page: Page, name: str) -> Point:
 
 def empty_corner(page: Page) -> Point:
     """A point of the drawing where nothing is."""
-    stage = page.locator("main.stage").bounding_box()
+    stage = page.locator("main.design-view").bounding_box()
     assert stage is not None
     return (stage["x"] + 30, stage["y"] + stage["height"] - 40)
 

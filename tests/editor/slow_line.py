@@ -5,7 +5,7 @@ import time
 from playwright.sync_api import Page, WebSocketRoute
 
 
-class SlowLine:
+class SlowConnection:
     """What the server says to a page can be held back; what the page says arrives at once."""
 
     def __init__(self, page: Page) -> None:
@@ -16,12 +16,12 @@ class SlowLine:
     def hold(self) -> None:
         self.is_held = True
 
-    def let_go(self) -> None:
+    def release(self) -> None:
         """Hand on all that waits, and all that comes from now on."""
         self.is_held = False
         self._send(len(self.waiting))
 
-    def let_through(self, page: Page, words: str) -> None:
+    def release_until(self, page: Page, words: str) -> None:
         """Hand on what waits, up to the first message that says these words; it may be on the way still."""
         until_s = time.monotonic() + 20
         while not (found := [at for at, (_route, said) in enumerate(self.waiting) if words in _plain(said)]):

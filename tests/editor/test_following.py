@@ -4,13 +4,13 @@ import pytest
 from hypothesis import given
 
 from tests.strategies.designs import designs
-from vicode.editor.session import follow, follow_gesture
-from vicode.editor.view import Selected, transition_key
-from vicode.model.design import Design, Group, Guard, State, Stay, Transition, Use
+from vicode.editor.session import rebase_gesture, rebase_selection
+from vicode.editor.view import ItemRef, transition_key
+from vicode.model.design import DecisionGroup, Design, Guard, State, Stay, Transition, Use
 from vicode.model.edits import remove_decisions, remove_states, rename_state, rename_use, reorder_decision
-from vicode.model.walks import walk_decisions
+from vicode.model.walks import iter_decisions
 
-GROUP = Group(guard=Guard(when="x"), then=(Stay(), Transition(to="B")))
+GROUP = DecisionGroup(guard=Guard(when="x"), then=(Stay(), Transition(to="B")))
 OLD = Design(
     component="Player",
     initial="A",
@@ -39,28 +39,30 @@ OLD = Design(
     ],
 )
 def test_a_thing_is_found_again(of: str, key: str, new: Design, found: str | None) -> None:
-    assert follow(Selected(of=of, id=key), OLD, new) == (None if found is None else Selected(of=of, id=found))
+    assert rebase_selection(ItemRef(kind=of, id=key), OLD, new) == (
+        None if found is None else ItemRef(kind=of, id=found)
+    )
 
 
 @given(designs, designs)
 def test_following_never_raises(old: Design, new: Design) -> None:
-    for located in walk_decisions(old):
-        follow(Selected(of="transitions", id=transition_key(located.path)), old, new)
+    for located in iter_decisions(old):
+        rebase_selection(ItemRef(kind="transitions", id=transition_key(located.path)), old, new)
     for state in old.states:
-        follow(Selected(of="states", id=state.name), old, new)
+        rebase_selection(ItemRef(kind="states", id=state.name), old, new)
 
 
 def test_a_late_gesture_is_done_to_what_it_was_made_on() -> None:
     new = remove_decisions(rename_state(OLD, "A", "Z"), [("states", "Z", "transitions", 0)])
     items = [{"of": "transitions", "id": "A/2"}, {"of": "transitions", "id": "A/0"}, {"of": "states", "id": "A"}]
-    assert follow_gesture({"kind": "delete", "items": items}, OLD, new) == {
+    assert rebase_gesture({"kind": "delete", "items": items}, OLD, new) == {
         "kind": "delete",
         "items": [{"of": "transitions", "id": "Z/1"}, {"of": "states", "id": "Z"}],
     }
-    late = follow_gesture({"kind": "reconnect", "id": "A/1", "end": "target", "state": "A"}, OLD, new)
+    late = rebase_gesture({"kind": "reconnect", "id": "A/1", "end": "target", "state": "A"}, OLD, new)
     assert late == {"kind": "reconnect", "id": "Z/0", "end": "target", "state": "Z"}
-    assert follow_gesture({"kind": "reconnect", "id": "A/0", "end": "target", "state": "B"}, OLD, new) is None
-    assert follow_gesture({"kind": "connect", "source": "A", "target": None}, OLD, new) == {
+    assert rebase_gesture({"kind": "reconnect", "id": "A/0", "end": "target", "state": "B"}, OLD, new) is None
+    assert rebase_gesture({"kind": "connect", "source": "A", "target": None}, OLD, new) == {
         "kind": "connect",
         "source": "Z",
         "target": None,

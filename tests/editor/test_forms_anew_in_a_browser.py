@@ -7,12 +7,12 @@ import pytest
 from playwright.sync_api import Locator, Page, expect
 
 from tests.editor.player_page import open_player, save, select_state, state, wait_for_another
-from tests.editor.slow_line import SlowLine
+from tests.editor.slow_line import SlowConnection
 
 expect.set_options(timeout=20_000)
 
 
-def rename_kick(page: Page, url: str, line: SlowLine) -> None:
+def rename_kick(page: Page, url: str, line: SlowConnection) -> None:
     """Begin to type into the doc of a state that was renamed, while the browser still shows the form before."""
     page.set_viewport_size({"width": 1366, "height": 768})
     page.goto(url + "design/forward/Player?select=Kick")
@@ -32,7 +32,7 @@ def doc_in(file: Path) -> str:
 
 @pytest.mark.parametrize("way", ["to the next field", "to another panel", "saving"])
 def test_what_was_left_before_the_new_form_came_is_kept(
-    editor: str, page: Page, project: Path, line: SlowLine, way: str
+    editor: str, page: Page, project: Path, line: SlowConnection, way: str
 ) -> None:
     rename_kick(page, editor, line)
     file = project / "forward" / "player.yaml"
@@ -44,7 +44,7 @@ def test_what_was_left_before_the_new_form_came_is_kept(
             page.get_by_role("tab", name="History").click()
         case _:
             page.keyboard.press("Control+s")
-    line.let_go()
+    line.release()
     expect(page.get_by_label("State", exact=True)).to_have_value("Shoot")
     expect(page.get_by_role("textbox", name="Doc")).to_have_value("Kick, with the eyes on the ball. Defend now.")
     if way == "saving":
@@ -55,9 +55,11 @@ def test_what_was_left_before_the_new_form_came_is_kept(
     assert "  Shoot:" in file.read_text()
 
 
-def test_who_stays_in_the_field_types_on_in_the_new_one(editor: str, page: Page, project: Path, line: SlowLine) -> None:
+def test_who_stays_in_the_field_types_on_in_the_new_one(
+    editor: str, page: Page, project: Path, line: SlowConnection
+) -> None:
     rename_kick(page, editor, line)
-    line.let_go()
+    line.release()
     page.keyboard.type(" And then.")
     expect(page.get_by_role("textbox", name="Doc")).to_have_value(
         "Kick, with the eyes on the ball. Defend now. And then."
@@ -81,7 +83,7 @@ def kick_hard(other: Page, url: str, name: str = "Shoot") -> Locator:
     return doc
 
 
-def doc_of_kick(page: Page, url: str, line: SlowLine) -> Locator:
+def doc_of_kick(page: Page, url: str, line: SlowConnection) -> Locator:
     """The field of a doc that the window shows, from now on behind a slow line."""
     open_player(page, url)
     select_state(page, "Kick")
@@ -91,10 +93,12 @@ def doc_of_kick(page: Page, url: str, line: SlowLine) -> Locator:
     return doc
 
 
-def test_what_others_make_of_the_text_meanwhile_stays(editor: str, page: Page, other: Page, line: SlowLine) -> None:
+def test_what_others_make_of_the_text_meanwhile_stays(
+    editor: str, page: Page, other: Page, line: SlowConnection
+) -> None:
     rename_kick(page, editor, line)
     doc = kick_hard(other, editor)
-    line.let_go()
+    line.release()
     page.keyboard.type(" And then.")
     expect(page.get_by_role("textbox", name="Doc")).to_have_value(
         "Kick, with the eyes on the ball. Defend now. And then."
@@ -102,20 +106,20 @@ def test_what_others_make_of_the_text_meanwhile_stays(editor: str, page: Page, o
     expect(doc).to_have_value("Kick hard, with the eyes on the ball. Defend now. And then.")
 
 
-def test_what_is_told_twice_is_in_the_text_once(editor: str, page: Page, other: Page, line: SlowLine) -> None:
+def test_what_is_told_twice_is_in_the_text_once(editor: str, page: Page, other: Page, line: SlowConnection) -> None:
     rename_kick(page, editor, line)
     doc = kick_hard(other, editor)
     page.keyboard.press("Control+s")
     page.keyboard.type(" And then.")
     page.keyboard.press("Tab")
-    line.let_go()
+    line.release()
     both = "Kick hard, with the eyes on the ball. Defend now. And then."
     expect(doc).to_have_value(both)
     expect(page.get_by_role("textbox", name="Doc")).to_have_value(both)
 
 
 def test_what_is_told_twice_of_a_form_that_went_is_in_the_text_once(
-    editor: str, page: Page, other: Page, line: SlowLine
+    editor: str, page: Page, other: Page, line: SlowConnection
 ) -> None:
     mine = doc_of_kick(page, editor, line)
     state(page, "GetUp").click()
@@ -126,13 +130,13 @@ def test_what_is_told_twice_of_a_form_that_went_is_in_the_text_once(
     page.keyboard.press("Control+s")
     page.keyboard.type(" And then.")
     page.keyboard.press("Tab")
-    line.let_go()
+    line.release()
     expect(doc).to_have_value("Kick hard, with the eyes on the ball. Defend now. And then.")
     expect(mine).not_to_have_value(re.compile("Kick"))
 
 
 def test_what_is_typed_into_a_wide_editor_until_it_closes_is_kept(
-    editor: str, page: Page, other: Page, line: SlowLine
+    editor: str, page: Page, other: Page, line: SlowConnection
 ) -> None:
     open_player(page, editor)
     select_state(page, "CircleBall")
@@ -149,7 +153,7 @@ def test_what_is_typed_into_a_wide_editor_until_it_closes_is_kept(
     name.press("Enter")
     expect(state(other, "GoRound")).to_be_visible()
     page.keyboard.type(" and second")
-    line.let_go()
+    line.release()
     expect(page.get_by_role("dialog")).to_have_count(0)
     expect(page.get_by_text("Somebody else removed, renamed or moved")).to_be_visible()
     expect(page.get_by_text("Somebody else changed the order")).to_have_count(0)
@@ -158,14 +162,14 @@ def test_what_is_typed_into_a_wide_editor_until_it_closes_is_kept(
 
 
 def test_what_is_typed_before_the_field_was_heard_of_is_not_written_over(
-    editor: str, page: Page, other: Page, line: SlowLine
+    editor: str, page: Page, other: Page, line: SlowConnection
 ) -> None:
     mine = doc_of_kick(page, editor, line)
     doc = kick_hard(other, editor, "Kick")
     mine.focus()
     page.keyboard.press("End")
     page.keyboard.type(" Defend now.")
-    line.let_go()
+    line.release()
     expect(doc).to_have_value("Kick hard, with the eyes on the ball. Defend now.")
     expect(mine).to_have_value("Kick, with the eyes on the ball. Defend now.")
     page.keyboard.type(" And then.")
@@ -176,14 +180,14 @@ def test_what_is_typed_before_the_field_was_heard_of_is_not_written_over(
 
 
 def test_what_was_typed_and_taken_back_gives_way_to_what_came_meanwhile(
-    editor: str, page: Page, other: Page, line: SlowLine
+    editor: str, page: Page, other: Page, line: SlowConnection
 ) -> None:
     mine = doc_of_kick(page, editor, line)
     mine.focus()
     page.keyboard.press("End")
     kick_hard(other, editor, "Kick")
     page.keyboard.type("x")
-    line.let_go()
+    line.release()
     page.keyboard.press("Backspace")
     mine.blur()
     expect(mine).to_have_value("Kick hard, with the eyes on the ball.")
@@ -193,13 +197,15 @@ def final(page: Page) -> Locator:
     return page.get_by_role("checkbox", name="Final")
 
 
-def test_a_press_that_comes_too_early_for_the_new_form_is_done_there(editor: str, page: Page, line: SlowLine) -> None:
+def test_a_press_that_comes_too_early_for_the_new_form_is_done_there(
+    editor: str, page: Page, line: SlowConnection
+) -> None:
     open_player(page, editor)
     select_state(page, "Kick")
     line.hold()
     state(page, "GetUp").click()
     final(page).click()
-    line.let_go()
+    line.release()
     expect(page.get_by_label("State", exact=True)).to_have_value("GetUp")
     expect(final(page)).to_be_checked()
     expect(state(page, "GetUp")).to_have_attribute("aria-label", "State GetUp, final, requires 1, modulates 1")
@@ -207,30 +213,30 @@ def test_a_press_that_comes_too_early_for_the_new_form_is_done_there(editor: str
     expect(final(page)).not_to_be_checked()
 
 
-def test_several_presses_that_come_too_early_are_all_done(editor: str, page: Page, line: SlowLine) -> None:
+def test_several_presses_that_come_too_early_are_all_done(editor: str, page: Page, line: SlowConnection) -> None:
     open_player(page, editor)
     select_state(page, "GetUp")
     line.hold()
     for _ in range(3):
         page.get_by_role("button", name="Add: Stay").click()
-    line.let_go()
+    line.release()
     expect(page.get_by_label("Inspector").get_by_text("stay", exact=True)).to_have_count(3)
 
 
-def test_a_press_on_what_is_built_anew_before_the_hand_lets_go(editor: str, page: Page, line: SlowLine) -> None:
+def test_a_press_on_what_is_built_anew_before_the_hand_lets_go(editor: str, page: Page, line: SlowConnection) -> None:
     open_player(page, editor)
     select_state(page, "Kick")
     line.hold()
     state(page, "GetUp").click()
     final(page).hover()
     page.mouse.down()
-    line.let_go()
+    line.release()
     expect(page.get_by_label("State", exact=True)).to_have_value("GetUp")
     page.mouse.up()
     expect(final(page)).to_be_checked()
 
 
-def test_a_press_on_what_moves_away_before_the_hand_lets_go(editor: str, page: Page, line: SlowLine) -> None:
+def test_a_press_on_what_moves_away_before_the_hand_lets_go(editor: str, page: Page, line: SlowConnection) -> None:
     open_player(page, editor)
     select_state(page, "GetUp")
     add = page.get_by_role("button", name="Add: Stay")
@@ -239,7 +245,7 @@ def test_a_press_on_what_moves_away_before_the_hand_lets_go(editor: str, page: P
     add.click()
     add.hover()
     page.mouse.down()
-    line.let_go()
+    line.release()
     expect(rows).to_have_count(1)
     page.mouse.up()
     expect(rows).to_have_count(2)

@@ -26,7 +26,7 @@ def code(project: Path) -> Path:
 def test_drawing_and_code_lead_to_each_other(editor: str, page: Page) -> None:
     open_player(page, editor)
     open_code(page)
-    forward = page.locator(".preview .is-forward")
+    forward = page.locator(".preview .is-highlighted")
     state(page, "Kick").click()
     expect(forward.first).to_contain_text("def _in_kick(")
     expect(forward.first).to_be_in_viewport()

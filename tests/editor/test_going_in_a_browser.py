@@ -5,7 +5,7 @@ import re
 from playwright.sync_api import Locator, Page, expect
 
 from tests.editor.player_page import component, open_player, select_state, state
-from tests.editor.slow_line import SlowLine
+from tests.editor.slow_line import SlowConnection
 
 
 def palette(page: Page) -> Locator:
@@ -60,9 +60,11 @@ def test_keys_choose_among_what_is_found(editor: str, page: Page) -> None:
     expect(page).to_have_url(re.compile(r"Player$"))
 
 
-def test_what_is_chosen_in_a_list_is_meant_though_a_newer_list_comes(editor: str, page: Page, line: SlowLine) -> None:
+def test_what_is_chosen_in_a_list_is_meant_though_a_newer_list_comes(
+    editor: str, page: Page, line: SlowConnection
+) -> None:
     open_player(page, editor)
-    open_palette(page, "look")
+    open_palette(page, "inspect")
     options = palette(page).get_by_role("option")
     expect(options).to_have_count(15)
     line.hold()
@@ -70,7 +72,7 @@ def test_what_is_chosen_in_a_list_is_meant_though_a_newer_list_comes(editor: str
     for _ in range(4):
         page.keyboard.press("ArrowDown")
     expect(selected_option(page)).to_contain_text("GetUp → LookForBall")
-    line.let_go()
+    line.release()
     expect(options).to_have_count(6)
     expect(options.nth(2)).to_have_attribute("aria-selected", "true")
     expect(options.nth(2)).to_contain_text("GetUp → LookForBall")
@@ -81,7 +83,7 @@ def test_what_is_chosen_in_a_list_is_meant_though_a_newer_list_comes(editor: str
         page.keyboard.press("ArrowDown")
     expect(selected_option(page)).to_contain_text("GetUp → LookForBall")
     page.keyboard.press("Enter")
-    line.let_go()
+    line.release()
     expect(page.get_by_role("heading", name="Transition from GetUp")).to_be_visible()
 
 
@@ -139,7 +141,7 @@ def test_double_clicks_lead_down_and_crumbs_and_back_lead_up(editor: str, page: 
 def test_back_shows_the_drawing_as_it_was_left(editor: str, page: Page) -> None:
     open_player(page, editor)
     view = 'document.querySelector(".vicode-canvas").vicode.view()'
-    stage = page.locator("main.stage").bounding_box()
+    stage = page.locator("main.design-view").bounding_box()
     assert stage is not None
     page.mouse.move(stage["x"] + 200, stage["y"] + 200)
     page.keyboard.down("Control")

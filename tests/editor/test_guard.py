@@ -6,8 +6,8 @@ from typing import Any
 
 import pytest
 
-from vicode.editor.guard import COOKIE, MAXIMUM_BODY, Guard
-from vicode.editor.serve import Address, choose_address
+from vicode.editor.guard import MAX_BODY_BYTES, TOKEN_COOKIE, AccessMiddleware
+from vicode.editor.serve import ServerAddress, choose_address
 
 Headers = dict[str, str]
 
@@ -22,7 +22,7 @@ async def _application(scope: Any, receive: Any, send: Any) -> None:
     await send({"type": "http.response.body", "body": b"page"})
 
 
-def ask(guard: Guard, headers: Headers, **scope: Any) -> list[dict[str, Any]]:
+def ask(guard: AccessMiddleware, headers: Headers, **scope: Any) -> list[dict[str, Any]]:
     sent: list[dict[str, Any]] = []
     bodies = iter(scope.pop("bodies", [b""]))
     body = next(bodies)
@@ -41,8 +41,8 @@ def ask(guard: Guard, headers: Headers, **scope: Any) -> list[dict[str, Any]]:
     return sent
 
 
-LOCAL = Guard(_application, hosts=("127.0.0.1", "localhost", "::1"))
-OPEN = Guard(_application, hosts=None, token="secret")
+LOCAL = AccessMiddleware(_application, hosts=("127.0.0.1", "localhost", "::1"))
+OPEN = AccessMiddleware(_application, hosts=None, token="secret")
 
 
 @pytest.mark.parametrize(
@@ -86,13 +86,13 @@ def test_a_body_is_counted_as_it_comes() -> None:
     small = ask(LOCAL, {"host": "localhost"}, method="POST", bodies=[b"x" * 1000] * 3)
     assert small[0]["status"] == 200
     large = ask(
-        LOCAL, {"host": "localhost"}, method="POST", bodies=[b"x" * 1_000_000] * (MAXIMUM_BODY // 1_000_000 + 2)
+        LOCAL, {"host": "localhost"}, method="POST", bodies=[b"x" * 1_000_000] * (MAX_BODY_BYTES // 1_000_000 + 2)
     )
     assert large[0]["status"] == 413
 
 
 def test_a_body_that_says_it_is_too_large_is_not_read() -> None:
-    headers = {"host": "localhost", "content-length": str(MAXIMUM_BODY + 1)}
+    headers = {"host": "localhost", "content-length": str(MAX_BODY_BYTES + 1)}
     assert ask(LOCAL, headers, method="POST")[0]["status"] == 413
     assert ask(LOCAL, {**headers, "content-length": "9" * 30}, method="POST")[0]["status"] == 200
     assert ask(LOCAL, {**headers, "content-length": "²"}, method="POST")[0]["status"] == 200
@@ -100,8 +100,8 @@ def test_a_body_that_says_it_is_too_large_is_not_read() -> None:
 
 def test_a_server_others_can_reach_asks_for_its_token() -> None:
     assert ask(OPEN, {"host": "robot:1"})[0]["status"] == 403
-    assert ask(OPEN, {"host": "robot:1", "cookie": f"{COOKIE}=wrong"})[0]["status"] == 403
-    assert ask(OPEN, {"host": "robot:1", "cookie": f"{COOKIE}=secret"})[0]["status"] == 200
+    assert ask(OPEN, {"host": "robot:1", "cookie": f"{TOKEN_COOKIE}=wrong"})[0]["status"] == 403
+    assert ask(OPEN, {"host": "robot:1", "cookie": f"{TOKEN_COOKIE}=secret"})[0]["status"] == 200
     assert ask(OPEN, {"host": "robot:1"}, query_string=b"token=wrong")[0]["status"] == 403
 
 
@@ -118,7 +118,7 @@ def test_a_token_is_made_for_every_address_but_this_machine() -> None:
     address = choose_address("0.0.0.0", 0)
     assert len(address.token) > 20
     assert address.url == f"http://127.0.0.1:{address.port}/?token={address.token}"
-    assert Address(host="::1", port=8000).url == "http://[::1]:8000/"
+    assert ServerAddress(host="::1", port=8000).url == "http://[::1]:8000/"
 
 
 def test_an_address_that_cannot_be_had_is_told_before_anything_starts() -> None:

@@ -5,8 +5,8 @@ from pathlib import Path
 
 import pytest
 
-from vicode.editor.session import Document, Sheet
-from vicode.editor.session.history import LIMIT
+from vicode.editor.session import DocumentSession, SharedDocument
+from vicode.editor.session.history import MAX_ENTRIES
 from vicode.model.design import Design, State, Transition
 from vicode.model.edits import add_state, add_transition, rename_state, update_state
 
@@ -14,10 +14,10 @@ DESIGN = Design(component="Player", initial="A", states=(State(name="A"), State(
 
 
 @pytest.fixture
-def hands() -> tuple[Document, Document]:
+def hands() -> tuple[DocumentSession, DocumentSession]:
     """Ana's and Ben's hold on one design."""
     ticks = iter(range(100_000))
-    sheet = Sheet(
+    sheet = SharedDocument(
         file=Path("player.yaml"),
         disk_text="",
         saved=DESIGN,
@@ -25,26 +25,28 @@ def hands() -> tuple[Document, Document]:
         clock=lambda: float(next(ticks)),
     )
     for name in ("ana", "ben"):
-        sheet.people.greet(name, name.title())
-    return Document(sheet, "ana"), Document(sheet, "ben")
+        sheet.users.get_or_create_user(name, name.title())
+    return DocumentSession(sheet, "ana"), DocumentSession(sheet, "ben")
 
 
-def say(document: Document, state: str, doc: str, *, typing: bool = False) -> None:
+def say(document: DocumentSession, state: str, doc: str, *, typing: bool = False) -> None:
     def change(design: Design) -> Design:
         return update_state(design, state, lambda old: replace(old, doc=doc))
 
-    document.edit(f"say {doc}", change, typing_in=f"doc of {state}" if typing else "")
+    document.edit(f"say {doc}", change, coalesce_key=f"doc of {state}" if typing else "")
 
 
-def docs(document: Document) -> list[str]:
+def docs(document: DocumentSession) -> list[str]:
     return [state.doc for state in document.design.states]
 
 
-def labels(document: Document) -> list[str]:
+def labels(document: DocumentSession) -> list[str]:
     return [step.label for step in document.history.path[1:]]
 
 
-def test_undo_of_the_last_step_goes_back_and_a_new_edit_makes_a_branch(hands: tuple[Document, Document]) -> None:
+def test_undo_of_the_last_step_goes_back_and_a_new_edit_makes_a_branch(
+    hands: tuple[DocumentSession, DocumentSession],
+) -> None:
     ana, _ben = hands
     say(ana, "A", "one")
     say(ana, "A", "two")
@@ -53,14 +55,14 @@ def test_undo_of_the_last_step_goes_back_and_a_new_edit_makes_a_branch(hands: tu
     say(ana, "A", "three")
     assert labels(ana) == ["say one", "say three"]
     assert ana.redo_label == ""
-    left = next(step for step in ana.history.steps.values() if step.label == "say two")
-    ana.jump(left.id)
+    left = next(step for step in ana.history.entries.values() if step.label == "say two")
+    ana.jump_to(left.id)
     assert docs(ana) == ["two", ""]
-    ana.jump(999)
+    ana.jump_to(999)
     assert docs(ana) == ["two", ""]
 
 
-def test_undo_takes_ones_own_step_out_of_what_others_did_since(hands: tuple[Document, Document]) -> None:
+def test_undo_takes_ones_own_step_out_of_what_others_did_since(hands: tuple[DocumentSession, DocumentSession]) -> None:
     ana, ben = hands
     say(ana, "A", "mine")
     say(ben, "B", "theirs")
@@ -76,7 +78,7 @@ def test_undo_takes_ones_own_step_out_of_what_others_did_since(hands: tuple[Docu
     assert (ana.undo_label, ben.undo_label) == ("redo say mine", "redo say theirs")
 
 
-def test_undo_refuses_in_words_what_another_changed_since(hands: tuple[Document, Document]) -> None:
+def test_undo_refuses_in_words_what_another_changed_since(hands: tuple[DocumentSession, DocumentSession]) -> None:
     ana, ben = hands
     say(ana, "A", "mine")
     say(ben, "B", "theirs")
@@ -90,7 +92,7 @@ def test_undo_refuses_in_words_what_another_changed_since(hands: tuple[Document,
     assert docs(ana) == ["", "theirs"]
 
 
-def test_undo_of_a_state_that_another_leads_to_is_refused(hands: tuple[Document, Document]) -> None:
+def test_undo_of_a_state_that_another_leads_to_is_refused(hands: tuple[DocumentSession, DocumentSession]) -> None:
     ana, ben = hands
     ana.edit("add state C", lambda design: add_state(design, State(name="C")))
     ben.edit("connect", lambda design: add_transition(design, "A", "C"))
@@ -98,7 +100,7 @@ def test_undo_of_a_state_that_another_leads_to_is_refused(hands: tuple[Document,
     assert ana.design.state("C") is not None
 
 
-def test_a_rename_taken_back_keeps_what_others_did_to_the_state(hands: tuple[Document, Document]) -> None:
+def test_a_rename_taken_back_keeps_what_others_did_to_the_state(hands: tuple[DocumentSession, DocumentSession]) -> None:
     ana, ben = hands
     ana.edit("rename", lambda design: rename_state(design, "A", "Begin"))
     say(ben, "Begin", "theirs")
@@ -110,7 +112,7 @@ def test_a_rename_taken_back_keeps_what_others_did_to_the_state(hands: tuple[Doc
     assert ana.design.initial == "Begin"
 
 
-def test_typing_of_two_people_is_one_step_each(hands: tuple[Document, Document]) -> None:
+def test_typing_of_two_people_is_one_step_each(hands: tuple[DocumentSession, DocumentSession]) -> None:
     ana, ben = hands
     for text in ("h", "he", "hel"):
         say(ana, "A", text, typing=True)
@@ -121,23 +123,25 @@ def test_typing_of_two_people_is_one_step_each(hands: tuple[Document, Document])
     assert docs(ana) == ["", "HEL"]
 
 
-def test_typing_goes_on_as_a_new_step_after_another_edit_and_after_a_pause(hands: tuple[Document, Document]) -> None:
+def test_typing_goes_on_as_a_new_step_after_another_edit_and_after_a_pause(
+    hands: tuple[DocumentSession, DocumentSession],
+) -> None:
     ana, ben = hands
     say(ana, "A", "a", typing=True)
     say(ben, "B", "drag")
     say(ana, "A", "ab", typing=True)
     assert len(ana.history.path) == 4
     later = iter(range(10_000, 20_000))
-    ana.sheet.clock = lambda: float(next(later))
+    ana.shared.clock = lambda: float(next(later))
     say(ana, "A", "abc", typing=True)
     assert len(ana.history.path) == 5
 
 
-def test_the_history_keeps_its_newest_steps(hands: tuple[Document, Document]) -> None:
+def test_the_history_keeps_its_newest_steps(hands: tuple[DocumentSession, DocumentSession]) -> None:
     ana, _ben = hands
-    for number in range(LIMIT + 20):
+    for number in range(MAX_ENTRIES + 20):
         say(ana, "A", str(number))
-    assert len(ana.history.steps) == LIMIT
-    for _step in range(LIMIT + 20):
+    assert len(ana.history.entries) == MAX_ENTRIES
+    for _step in range(MAX_ENTRIES + 20):
         assert ana.undo() == ""
     assert docs(ana)[0] == "20"

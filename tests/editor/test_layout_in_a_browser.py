@@ -16,7 +16,7 @@ def begin(page: Page) -> None:
     page.get_by_role("button", name="Lay out what is selected, or everything").click()
     expect(page.get_by_text("Preview:")).to_be_visible(timeout=40_000)
     # Keys are the drawing's from the moment it shows the preview.
-    expect(page.locator("main.stage .stage")).to_be_focused()
+    expect(page.locator("main.design-view .stage")).to_be_focused()
 
 
 def test_a_layout_is_shown_and_left_with_escape_or_taken_with_enter(editor: str, page: Page, project: Path) -> None:

@@ -4,7 +4,7 @@ import asyncio
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
-from benchmarks.people import measure, started_server
+from benchmarks.collaboration import measure, started_server
 
 PATIENCE_S = 150
 

@@ -1,7 +1,7 @@
 """What the card over a thing tells beyond its drawing."""
 
-from vicode.editor.view import Selected, peek_of
-from vicode.model.design import Assign, Call, Code, Common, Design, Guard, RunCode, State, Transition
+from vicode.editor.view import ItemRef, tooltip_sections
+from vicode.model.design import Assign, Call, Code, CommonSection, Design, Guard, RunCode, State, Transition
 
 BODY = Code(texts=(("cpp", "go();"), ("python", "\n".join(f"step({index})" for index in range(20)))))
 DESIGN = Design(
@@ -14,29 +14,29 @@ DESIGN = Design(
             transitions=(Transition(to="Kick", guard=Guard(code=BODY)), Transition(to="Kick")),
         ),
     ),
-    common=Common(actions=(Assign(values=(("seen", "x" * 200),)),)),
+    common=CommonSection(actions=(Assign(values=(("seen", "x" * 200),)),)),
 )
 
 
 def test_a_state_tells_what_it_does_in_the_first_language_written() -> None:
-    enter, do = peek_of(DESIGN, Selected(of="states", id="Kick"), ("xabsl", "cpp"))
+    enter, do = tooltip_sections(DESIGN, ItemRef(kind="states", id="Kick"), ("xabsl", "cpp"))
     assert enter == {"name": "enter", "text": "tries = 0\ngo();"}
     assert do == {"name": "do", "text": "walk(speed=3, turn=0)"}
 
 
 def test_long_texts_are_cut() -> None:
-    (enter, _do) = peek_of(DESIGN, Selected(of="states", id="Kick"), ("python",))
+    (enter, _do) = tooltip_sections(DESIGN, ItemRef(kind="states", id="Kick"), ("python",))
     assert enter["text"].splitlines()[-1] == "… 10 more lines"
-    (common,) = peek_of(DESIGN, Selected(of="common", id="@common"), ("python",))
+    (common,) = tooltip_sections(DESIGN, ItemRef(kind="common", id="@common"), ("python",))
     assert len(common["text"]) == 90
 
 
 def test_a_transition_tells_its_predicate() -> None:
-    (section,) = peek_of(DESIGN, Selected(of="transitions", id="Kick/0"), ("cpp",))
+    (section,) = tooltip_sections(DESIGN, ItemRef(kind="transitions", id="Kick/0"), ("cpp",))
     assert section == {"name": "holds when", "text": "go();"}
-    assert peek_of(DESIGN, Selected(of="transitions", id="Kick/1"), ("cpp",)) == []
+    assert tooltip_sections(DESIGN, ItemRef(kind="transitions", id="Kick/1"), ("cpp",)) == []
 
 
 def test_what_is_not_there_tells_nothing() -> None:
     for of in ("states", "transitions", "components", "links", "nonsense"):
-        assert peek_of(DESIGN, Selected(of=of, id="Gone/7"), ("python",)) == []
+        assert tooltip_sections(DESIGN, ItemRef(kind=of, id="Gone/7"), ("python",)) == []

@@ -5,41 +5,41 @@ from dataclasses import dataclass, field
 from hypothesis import given
 from hypothesis import strategies as st
 
-from vicode.editor.session import DISK, Company, People, Presence
-from vicode.editor.session.keystrokes import Keystrokes, Shown
-from vicode.editor.session.wording import words_of_path, words_of_presence, words_of_value
-from vicode.editor.view import Selected
+from vicode.editor.session import DISK_USER, Presence, PresenceRoom, UserDirectory
+from vicode.editor.session.keystrokes import FieldMerge, SentValues
+from vicode.editor.session.wording import describe_path, describe_presence, describe_value
+from vicode.editor.view import ItemRef
 from vicode.model.design import Transition
 
 
 def test_people_are_guests_until_they_choose_a_name() -> None:
-    people = People()
-    first, second = people.greet("1"), people.greet("2", "  Ana\n<b>  ")
+    people = UserDirectory()
+    first, second = people.get_or_create_user("1"), people.get_or_create_user("2", "  Ana\n<b>  ")
     assert (first.name, second.name) == ("Guest 1", "Ana <b>")
     assert first.colour != second.colour
-    assert people.greet("1", "Ben") == people.greet("1")
-    assert len(people.greet("3", "x" * 99).name) == 24
-    assert people.greet("2", "\x07").name == "Ana <b>"
+    assert people.get_or_create_user("1", "Ben") == people.get_or_create_user("1")
+    assert len(people.get_or_create_user("3", "x" * 99).name) == 24
+    assert people.get_or_create_user("2", "\x07").name == "Ana <b>"
     assert people.name_of("1") == "Ben"
-    assert people.name_of(DISK) == "another program"
+    assert people.name_of(DISK_USER) == "another program"
     assert people.name_of("nobody") == "somebody"
 
 
 def test_a_company_knows_who_is_here_and_tells_changes() -> None:
-    people, company = People(), Company()
+    people, company = UserDirectory(), PresenceRoom()
     heard: list[int] = []
-    unwatch = company.watch(lambda: heard.append(len(company.all)))
-    company.enter("a", people.greet("1", "Ana"))
-    company.enter("b", people.greet("2", "Ben"))
-    company.turn("b", selected=(Selected(of="states", id="Kick"),))
-    company.turn("b", selected=(Selected(of="states", id="Kick"),))
-    company.turn("gone", pointer=(1.0, 2.0))
+    unwatch = company.subscribe(lambda: heard.append(len(company.presences)))
+    company.join("a", people.get_or_create_user("1", "Ana"))
+    company.join("b", people.get_or_create_user("2", "Ben"))
+    company.update("b", selected=(ItemRef(kind="states", id="Kick"),))
+    company.update("b", selected=(ItemRef(kind="states", id="Kick"),))
+    company.update("gone", pointer=(1.0, 2.0))
     assert heard == [1, 2, 2]
-    assert [words_of_presence(each) for each in company.others("a")] == ["state Kick"]
-    company.turn("b", typing_in=("states", "Kick", "doc"))
-    assert company.typing_at(("states", "Kick", "doc"), "a") == ("Ben",)
-    assert company.typing_at(("states", "Kick", "doc"), "b") == ()
-    assert [words_of_presence(each) for each in company.others("a")] == ["types doc of state Kick"]
+    assert [describe_presence(each) for each in company.others("a")] == ["state Kick"]
+    company.update("b", typing_in=("states", "Kick", "doc"))
+    assert company.names_editing(("states", "Kick", "doc"), "a") == ("Ben",)
+    assert company.names_editing(("states", "Kick", "doc"), "b") == ()
+    assert [describe_presence(each) for each in company.others("a")] == ["types doc of state Kick"]
     company.leave("b")
     assert company.others("a") == ()
     unwatch()
@@ -48,46 +48,48 @@ def test_a_company_knows_who_is_here_and_tells_changes() -> None:
 
 
 def test_paths_and_values_are_said_in_words() -> None:
-    assert words_of_path(()) == "the design"
-    assert words_of_path(("doc",)) == "doc of the design"
-    assert words_of_path(("variables", "n", "type")) == "type of variable n"
-    assert words_of_path(("states", "Kick", "transitions", 1, "when")) == "transition 2 of state Kick, when"
-    assert words_of_path(("common", "transitions", 0)) == "transition 1 of the common ones"
-    assert words_of_value(None) == "(removed)"
-    assert words_of_value("") == "(empty)"
-    assert words_of_value((10.0, 20.5)) == "10, 20.5"
-    assert words_of_value(Transition(to="Kick", doc="now")) == "to: Kick\ndoc: now"
-    presence = Presence(window="a", person=People().greet("1"), selected=(Selected(of="transitions", id="Kick/0"),))
-    assert words_of_presence(presence) == "transition 1 of state Kick"
+    assert describe_path(()) == "the design"
+    assert describe_path(("doc",)) == "doc of the design"
+    assert describe_path(("variables", "n", "type")) == "type of variable n"
+    assert describe_path(("states", "Kick", "transitions", 1, "when")) == "transition 2 of state Kick, when"
+    assert describe_path(("common", "transitions", 0)) == "transition 1 of the common ones"
+    assert describe_value(None) == "(removed)"
+    assert describe_value("") == "(empty)"
+    assert describe_value((10.0, 20.5)) == "10, 20.5"
+    assert describe_value(Transition(to="Kick", doc="now")) == "to: Kick\ndoc: now"
+    presence = Presence(
+        window="a", user=UserDirectory().get_or_create_user("1"), selected=(ItemRef(kind="transitions", id="Kick/0"),)
+    )
+    assert describe_presence(presence) == "transition 1 of state Kick"
 
 
 def test_what_is_typed_meets_what_others_typed() -> None:
-    keys = Keystrokes()
-    keys.show("ball")
-    assert keys.bring_in("the ball", "ball") == "the ball"
-    keys.sent("the ball", "the ball")
-    assert keys.bring_in("the red ball", "the ball rolls") == "the red ball rolls"
-    keys.sent("the red ball", "the red ball")
+    keys = FieldMerge()
+    keys.set_shown("ball")
+    assert keys.merge_typed("the ball", "ball") == "the ball"
+    keys.record_sent("the ball", "the ball")
+    assert keys.merge_typed("the red ball", "the ball rolls") == "the red ball rolls"
+    keys.record_sent("the red ball", "the red ball")
     # What they typed stays in the design, though it is not shown to who types on.
-    assert keys.bring_in("the red ball!", "the red ball rolls") == "the red ball! rolls"
-    keys.sent("the red ball!", "the red ball!")
-    assert keys.bring_in("the red ball!!", "the red ball!") == "the red ball!!"
+    assert keys.merge_typed("the red ball!", "the red ball rolls") == "the red ball! rolls"
+    keys.record_sent("the red ball!", "the red ball!")
+    assert keys.merge_typed("the red ball!!", "the red ball!") == "the red ball!!"
 
 
 @given(st.lists(st.tuples(st.booleans(), st.integers(0, 12), st.integers(0, 3)), max_size=20))
 def test_whoever_types_and_rests_no_keystroke_is_lost(presses: list[tuple[bool, int, int]]) -> None:
     """Each press: who, where, and how many letters come before the next is sent."""
-    design, shown, keys, left = "ball", ["ball", "ball"], [Keystrokes(), Keystrokes()], ["ABCDEFGH" * 8, "01234567" * 8]
+    design, shown, keys, left = "ball", ["ball", "ball"], [FieldMerge(), FieldMerge()], ["ABCDEFGH" * 8, "01234567" * 8]
     typed = ["", ""]
     for each in keys:
-        each.show(design)
+        each.set_shown(design)
     for who, where, count in [*presses, (False, 0, 1), (True, 0, 1)]:
         letters, left[who] = left[who][:count], left[who][count:]
         typed[who] += letters
         at = min(where, len(shown[who]))
         shown[who] = shown[who][:at] + letters + shown[who][at:]
-        design = keys[who].bring_in(shown[who], design)
-        keys[who].sent(shown[who], shown[who])
+        design = keys[who].merge_typed(shown[who], design)
+        keys[who].record_sent(shown[who], shown[who])
     assert sorted(design) == sorted("ball" + "".join(typed))
 
 
@@ -107,7 +109,7 @@ class Window:
     number: int = 0
     heard: int = 0
     has_focus: bool = False
-    shown: Shown = field(default_factory=Shown)
+    shown: SentValues = field(default_factory=SentValues)
 
     def type(self, where: int, count: int) -> None:
         now, self.letters = self.letters[:count], self.letters[count:]
@@ -135,7 +137,7 @@ class Window:
         if self.value != design:
             self.value, self.number = design, self.number + 1
             self.down.append((design, self.number, self.heard))
-        self.shown.show(design, self.number)
+        self.shown.record_shown(design, self.number)
 
     def hear(self, design: str) -> str:
         """The design after the next message."""
@@ -143,11 +145,11 @@ class Window:
         self.has_focus = what != "blur"
         if what == "text":
             self.heard = told
-            self.shown.typed_on(on)
+            self.shown.select_base(on)
             if text != design:
-                design = self.shown.keystrokes.bring_in(text, design)
+                design = self.shown.field_merge.merge_typed(text, design)
             self.value = text
-            self.shown.keystrokes.sent(text, text)
+            self.shown.field_merge.record_sent(text, text)
         return design
 
 
@@ -195,17 +197,17 @@ def test_however_slow_the_line_no_keystroke_is_lost(happenings: list[tuple[bool,
 
 
 def test_a_spelling_of_the_design_is_nobodys_change() -> None:
-    keys = Keystrokes()
-    keys.show("")
-    keys.sent("x=1\ny", "x = 1\ny = ")
-    assert keys.bring_in("x=1\ny=2", "x = 1\ny = ") == "x=1\ny=2"
-    assert keys.bring_in("x=1\ny=2", "x = 1\nz = 3\ny = ").replace(" ", "") == "x=1\nz=3\ny=2"
+    keys = FieldMerge()
+    keys.set_shown("")
+    keys.record_sent("x=1\ny", "x = 1\ny = ")
+    assert keys.merge_typed("x=1\ny=2", "x = 1\ny = ") == "x=1\ny=2"
+    assert keys.merge_typed("x=1\ny=2", "x = 1\nz = 3\ny = ").replace(" ", "") == "x=1\nz=3\ny=2"
 
 
 def test_choices_of_two_people_come_together() -> None:
-    keys = Keystrokes()
-    keys.show(["a", "b"])
-    assert keys.bring_in(["a", "c"], ["a", "b", "d"]) == ["a", "d", "c"]
-    keys.sent(["a", "c"], ["a", "c"])
-    assert keys.bring_in(["a", "c", "e"], ["a", "d", "c"]) == ["a", "d", "c", "e"]
-    assert keys.bring_in(True, False) is True
+    keys = FieldMerge()
+    keys.set_shown(["a", "b"])
+    assert keys.merge_typed(["a", "c"], ["a", "b", "d"]) == ["a", "d", "c"]
+    keys.record_sent(["a", "c"], ["a", "c"])
+    assert keys.merge_typed(["a", "c", "e"], ["a", "d", "c"]) == ["a", "d", "c", "e"]
+    assert keys.merge_typed(True, False) is True

@@ -10,9 +10,9 @@ from hypothesis import settings
 from hypothesis import strategies as st
 from hypothesis.stateful import RuleBasedStateMachine, initialize, invariant, rule
 
-from vicode.editor.session import ChangedOnDiskError, Document, Workspace
+from vicode.editor.session import DiskConflictError, DocumentSession, Workspace
 from vicode.model.design import Design, State
-from vicode.model.edits import add_state, add_transition, move, remove_states, rename_state, update_state
+from vicode.model.edits import add_state, add_transition, move_nodes, remove_states, rename_state, update_state
 from vicode.store import read_design, save_design
 
 PEOPLE = ("ana", "ben", "cem")
@@ -49,11 +49,11 @@ class PeopleAtWork(RuleBasedStateMachine):
         self.file = self.folder / "player.yaml"
         self.file.write_text(save_design(START))
         self.workspace = Workspace(self.folder, key="x")
-        document = self.workspace.document("Player")
+        document = self.workspace.open_document("Player")
         assert document is not None
         self.clock = 0.0
-        document.sheet.clock = self.tick
-        self.hands = {name: Document(document.sheet, name) for name in PEOPLE}
+        document.shared.clock = self.tick
+        self.hands = {name: DocumentSession(document.shared, name) for name in PEOPLE}
         self.expected = {name: Expected() for name in PEOPLE}
 
     def tick(self) -> float:
@@ -66,12 +66,12 @@ class PeopleAtWork(RuleBasedStateMachine):
     @rule(who=people, text=st.text("abc \n", max_size=6), is_typing=st.booleans())
     def say(self, who: str, text: str, is_typing: bool) -> None:
         hand, expected = self.hands[who], self.expected[who]
-        steps, old = len(hand.history.steps), expected.doc
+        steps, old = len(hand.history.entries), expected.doc
         typing_in = "doc" if is_typing else ""
-        hand.edit(f"say {text}", lambda design: with_doc(design, who, text), typing_in=typing_in)
+        hand.edit(f"say {text}", lambda design: with_doc(design, who, text), coalesce_key=typing_in)
         if text == old:
             return
-        if len(hand.history.steps) == steps:
+        if len(hand.history.entries) == steps:
             before = expected.undo.pop()
             assert before is not None
             old = before[0]
@@ -83,7 +83,7 @@ class PeopleAtWork(RuleBasedStateMachine):
         changes: dict[str, Any] = {
             "add": lambda design: design if design.state(one) else add_state(design, State(name=one)),
             "rename": lambda design: rename_state(design, one, two),
-            "move": lambda design: move(design, {one: (self.tick(), 0.0)}),
+            "move": lambda design: move_nodes(design, {one: (self.tick(), 0.0)}),
             "remove": lambda design: remove_states(design, [one]),
             "connect": lambda design: add_transition(design, one, two) if design.state(one) else design,
             "doc": lambda design: with_doc(design, one, f"{who} {self.tick()}"),
@@ -104,18 +104,20 @@ class PeopleAtWork(RuleBasedStateMachine):
         assert read is not None
         changed = with_doc(remove_states(read, [gone] if gone else []), "disk", text)
         self.file.write_text(save_design(changed, self.file.read_text()))
-        self.workspace.follow_disk()
+        self.workspace.sync_from_disk()
         disk = self.hands["ana"].design.state("disk")
-        assert self.hands["ana"].sheet.clash is not None or (disk is not None and disk.doc == text)
+        assert self.hands["ana"].shared.disk_conflict is not None or (disk is not None and disk.doc == text)
 
     @rule(who=people, takes_theirs=st.booleans())
     def save(self, who: str, takes_theirs: bool) -> None:
-        def act(hand: Document) -> None:
+        def act(hand: DocumentSession) -> None:
             try:
                 self.workspace.save(hand)
-            except ChangedOnDiskError:
-                assert hand.sheet.conflicts
-                self.workspace.settle(hand, [each.path for each in hand.sheet.conflicts] if takes_theirs else [])
+            except DiskConflictError:
+                assert hand.shared.conflicts
+                self.workspace.resolve_conflict(
+                    hand, [each.path for each in hand.shared.conflicts] if takes_theirs else []
+                )
                 self.workspace.save(hand)
 
         self.noting(who, act)
@@ -126,9 +128,9 @@ class PeopleAtWork(RuleBasedStateMachine):
     def noting(self, who: str, act: Any) -> None:
         """Do something that may add a step of this person."""
         hand = self.hands[who]
-        newest = max(hand.history.steps)
+        newest = max(hand.history.entries)
         act(hand)
-        new = [step for id_, step in hand.history.steps.items() if id_ > newest and step.person == who]
+        new = [step for id_, step in hand.history.entries.items() if id_ > newest and step.user_id == who]
         if new:
             self.expected[who].undo += [None] * len(new)
             self.expected[who].redo = []

@@ -150,7 +150,7 @@ def test_a_name_being_typed_on_the_drawing_outlives_what_others_call_it(editor: 
     open_player(other, editor)
     select_state(page, "Kick")
     select_state(other, "Kick")
-    page.locator("main.stage .stage").focus()
+    page.locator("main.design-view .stage").focus()
     page.keyboard.press("F2")
     box = page.locator("input.rename")
     expect(box).to_be_focused()

@@ -52,7 +52,7 @@ def test_an_element_is_added_named_and_taken_back(editor: str, page: Page, proje
     undo(page)
     expect(third.get_by_label("Meaning")).to_have_value("On both legs.")
     # Each was a step of the history as well: the doc, the name, the element.
-    page.locator("main.stage .stage").focus()
+    page.locator("main.design-view .stage").focus()
     page.keyboard.press("Control+z")
     expect(third.get_by_label("Meaning")).to_have_value("")
     page.keyboard.press("Control+z")

@@ -80,7 +80,7 @@ def test_breakpoints_stop_a_run(editor: str, page: Page) -> None:
     open_simulation(page, editor)
     select_state(page, "FollowBall")
     page.keyboard.press("F9")
-    expect(state(page, "FollowBall").locator(".stop-sign")).to_have_count(1)
+    expect(state(page, "FollowBall").locator(".breakpoint-sign")).to_have_count(1)
     page.get_by_role("button", name="Play or pause (F6)").click()
     expect(active(page)).to_have_attribute("data-id", "LookForBall")
     page.get_by_role("switch", name="Perception ball_seen").click()
@@ -88,12 +88,12 @@ def test_breakpoints_stop_a_run(editor: str, page: Page) -> None:
 
     # One on a transition, by the gutter of its guard.
     page.get_by_role("button", name="Breakpoint on → LookForBall").click()
-    expect(page.locator('g.chip[data-id="FollowBall/0"] .stop-sign')).to_have_count(1)
+    expect(page.locator('g.chip[data-id="FollowBall/0"] .breakpoint-sign')).to_have_count(1)
     page.get_by_role("spinbutton", name="Perception ball_age, number").fill("9")
     page.keyboard.press("F6")
     expect(page.get_by_text("Stopped at a breakpoint: the transition to LookForBall")).to_be_visible()
     page.keyboard.press("F9")
-    expect(state(page, "FollowBall").locator(".stop-sign")).to_have_count(0)
+    expect(state(page, "FollowBall").locator(".breakpoint-sign")).to_have_count(0)
 
 
 def test_an_edit_ends_the_run_and_offers_to_start_again(editor: str, page: Page) -> None:
@@ -178,7 +178,7 @@ def test_the_menu_runs_to_a_state_and_sets_breakpoints(editor: str, page: Page) 
     select_state(page, "LookForBall")
     page.keyboard.press("Shift+F10")
     page.get_by_role("menuitem", name="Breakpoint, or none").click()
-    expect(state(page, "LookForBall").locator(".stop-sign")).to_have_count(1)
+    expect(state(page, "LookForBall").locator(".breakpoint-sign")).to_have_count(1)
     select_state(page, "FollowBall")
     page.keyboard.press("Control+F10")
     expect(page.get_by_text("Stopped on entering LookForBall")).to_be_visible()

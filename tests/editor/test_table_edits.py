@@ -8,24 +8,24 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.strategies.designs import designs
-from vicode.editor.session import Document, Outcome, Sheet
-from vicode.editor.session.table_edits import LONGEST, apply_table_edit
-from vicode.editor.view import Selected, table_difference, table_of
-from vicode.model.design import COMMON, Call, Common, Design, Group, Guard, State, Transition, Use
+from vicode.editor.session import DocumentSession, EditResult, SharedDocument
+from vicode.editor.session.table_edits import MAX_CELL_LENGTH, apply_table_edit
+from vicode.editor.view import ItemRef, diff_tables, make_table
+from vicode.model.design import COMMON, Call, CommonSection, DecisionGroup, Design, Guard, State, Transition, Use
 from vicode.store import read_design, save_design
 
 DESIGN = Design(
     component="Player",
     initial="A",
     uses=(Use(alias="head", component="Head"), Use(alias="legs", component="Legs")),
-    common=Common(transitions=(Transition(to="A", guard=Guard(when="fallen")),)),
+    common=CommonSection(transitions=(Transition(to="A", guard=Guard(when="fallen")),)),
     states=(
         State(
             name="A",
             modulates=(Call(alias="legs", arguments=(("speed", "1"),)),),
             transitions=(
                 Transition(to="B", guard=Guard(after="5")),
-                Group(guard=Guard(when="x"), then=(Transition(to="A"),), otherwise=(Transition(to="B"),)),
+                DecisionGroup(guard=Guard(when="x"), then=(Transition(to="A"),), otherwise=(Transition(to="B"),)),
             ),
         ),
         State(name="B", final=True),
@@ -34,20 +34,22 @@ DESIGN = Design(
 
 
 @pytest.fixture
-def document() -> Document:
-    return Document(Sheet(file=Path("player.yaml"), disk_text="", saved=DESIGN, check=lambda _design: ()))
+def document() -> DocumentSession:
+    return DocumentSession(
+        SharedDocument(file=Path("player.yaml"), disk_text="", saved=DESIGN, check=lambda _design: ())
+    )
 
 
-def rows(document: Document) -> dict[str, dict[str, Any]]:
-    return {row["id"]: row for row in table_of(document.design, ())["rows"]}
+def rows(document: DocumentSession) -> dict[str, dict[str, Any]]:
+    return {row["id"]: row for row in make_table(document.design, ())["rows"]}
 
 
-def write(document: Document, row: str, column: str, value: str) -> Outcome:
+def write(document: DocumentSession, row: str, column: str, value: str) -> EditResult:
     base = rows(document)[row]["cells"].get(column, "")
     return apply_table_edit(document, {"kind": "set", "row": row, "column": column, "value": value, "base": base})
 
 
-def test_rows_stand_in_the_order_of_the_decisions(document: Document) -> None:
+def test_rows_stand_in_the_order_of_the_decisions(document: DocumentSession) -> None:
     table = rows(document)
     assert list(table) == [
         "common/@common",
@@ -67,8 +69,8 @@ def test_rows_stand_in_the_order_of_the_decisions(document: Document) -> None:
 
 @given(old=designs, new=designs)
 def test_a_difference_makes_one_table_of_another(old: Design, new: Design) -> None:
-    before, after = table_of(old, ()), table_of(new, ())
-    changes = table_difference(before, after)
+    before, after = make_table(old, ()), make_table(new, ())
+    changes = diff_tables(before, after)
     shown = {row["id"]: row for row in before["rows"]}
     for key in changes["remove"]:
         del shown[key]
@@ -91,21 +93,23 @@ def test_a_difference_makes_one_table_of_another(old: Design, new: Design) -> No
         ("transitions/@common/0", "when", "up"),
     ],
 )
-def test_a_cell_takes_a_value_and_undo_gives_it_back(document: Document, row: str, column: str, value: str) -> None:
-    assert not write(document, row, column, value).refused
+def test_a_cell_takes_a_value_and_undo_gives_it_back(
+    document: DocumentSession, row: str, column: str, value: str
+) -> None:
+    assert not write(document, row, column, value).error
     assert rows(document)[row]["cells"][column] == value
     document.undo()
     assert document.design == DESIGN
 
 
-def test_modulating_another_component_keeps_the_parameters_of_the_first(document: Document) -> None:
+def test_modulating_another_component_keeps_the_parameters_of_the_first(document: DocumentSession) -> None:
     write(document, "states/A", "modulates", "head legs")
     calls = document.design.states[0].modulates
     assert calls == (Call(alias="head"), Call(alias="legs", arguments=(("speed", "1"),)))
 
 
-def test_a_new_name_goes_where_the_old_one_was(document: Document) -> None:
-    assert write(document, "states/B", "name", "Rest").select == (Selected(of="states", id="Rest"),)
+def test_a_new_name_goes_where_the_old_one_was(document: DocumentSession) -> None:
+    assert write(document, "states/B", "name", "Rest").new_selection == (ItemRef(kind="states", id="Rest"),)
     assert rows(document)["transitions/A/0"]["cells"]["name"] == "Rest"
 
 
@@ -119,47 +123,49 @@ def test_a_new_name_goes_where_the_old_one_was(document: Document) -> None:
         ("transitions/A/1", "name", "B", "only a transition"),
         ("states/A", "code", "pass", "cannot be changed"),
         ("states/A", "final", "yes", "cannot be changed"),
-        ("states/A", "doc", "x" * (LONGEST + 1), "too long"),
+        ("states/A", "doc", "x" * (MAX_CELL_LENGTH + 1), "too long"),
         ("common/@common", "name", "all", "inspector"),
     ],
 )
-def test_what_cannot_be_is_refused_in_words(document: Document, row: str, column: str, value: str, words: str) -> None:
-    assert words in write(document, row, column, value).refused
+def test_what_cannot_be_is_refused_in_words(
+    document: DocumentSession, row: str, column: str, value: str, words: str
+) -> None:
+    assert words in write(document, row, column, value).error
     assert document.design == DESIGN
 
 
-def test_what_another_wrote_meanwhile_is_not_written_over_silently(document: Document) -> None:
+def test_what_another_wrote_meanwhile_is_not_written_over_silently(document: DocumentSession) -> None:
     wish = {"kind": "set", "row": "states/A", "column": "doc", "value": "mine", "base": "before"}
     write(document, "states/A", "doc", "theirs")
-    assert "it became 'theirs'" in apply_table_edit(document, wish).refused
+    assert "it became 'theirs'" in apply_table_edit(document, wish).error
     assert document.design.states[0].doc == "theirs"
 
 
-def test_flags_flip(document: Document) -> None:
+def test_flags_flip(document: DocumentSession) -> None:
     for row, column in (("states/A", "final"), ("states/B", "initial"), ("transitions/A/0", "disabled")):
         apply_table_edit(document, {"kind": "toggle", "row": row, "column": column})
         assert rows(document)[row]["cells"][column] is True
     assert (
-        "mark another" in apply_table_edit(document, {"kind": "toggle", "row": "states/B", "column": "initial"}).refused
+        "mark another" in apply_table_edit(document, {"kind": "toggle", "row": "states/B", "column": "initial"}).error
     )
 
 
-def test_rows_are_added_below_and_selected(document: Document) -> None:
+def test_rows_are_added_below_and_selected(document: DocumentSession) -> None:
     outcome = apply_table_edit(document, {"kind": "add-transition", "row": "transitions/A/0"})
-    assert outcome.select == (Selected(of="transitions", id="A/1"),)
+    assert outcome.new_selection == (ItemRef(kind="transitions", id="A/1"),)
     assert rows(document)["transitions/A/1"]["cells"]["name"] == "B"
     apply_table_edit(document, {"kind": "add-transition", "row": "common/@common"})
     assert len(document.design.common.transitions) == 2
     outcome = apply_table_edit(document, {"kind": "add-state", "row": "transitions/A/0"})
     assert [state.name for state in document.design.states] == ["A", "State", "B"]
-    assert outcome.select == (Selected(of="states", id="State"),)
+    assert outcome.new_selection == (ItemRef(kind="states", id="State"),)
     apply_table_edit(document, {"kind": "add-state", "row": ""})
     assert document.design.states[-1].name == "State2"
 
 
-def test_rows_are_moved_and_removed(document: Document) -> None:
+def test_rows_are_moved_and_removed(document: DocumentSession) -> None:
     outcome = apply_table_edit(document, {"kind": "move", "row": "transitions/A/0", "by": 1})
-    assert outcome.select == (Selected(of="transitions", id="A/1"),)
+    assert outcome.new_selection == (ItemRef(kind="transitions", id="A/1"),)
     apply_table_edit(document, {"kind": "move", "row": "transitions/A/1", "by": 1})
     assert rows(document)["transitions/A/1"]["cells"]["after"] == "5"
     apply_table_edit(document, {"kind": "move", "row": "states/B", "by": -1})
@@ -169,7 +175,7 @@ def test_rows_are_moved_and_removed(document: Document) -> None:
     assert list(rows(document)) == ["common/@common", "transitions/@common/0", "states/A"]
 
 
-def test_the_order_of_states_reaches_the_file(document: Document) -> None:
+def test_the_order_of_states_reaches_the_file(document: DocumentSession) -> None:
     text = save_design(DESIGN, "")
     apply_table_edit(document, {"kind": "move", "row": "states/B", "by": -1})
     again = read_design(save_design(document.design, text), "player.yaml").design
@@ -190,7 +196,9 @@ _COLUMNS = st.sampled_from(["name", "when", "after", "requires", "modulates", "d
 def test_wild_payloads_never_raise_nor_break_a_design(
     kind: str, row: object, column: object, value: object, base: object, by: object
 ) -> None:
-    document = Document(Sheet(file=Path("player.yaml"), disk_text="", saved=DESIGN, check=lambda _design: ()))
+    document = DocumentSession(
+        SharedDocument(file=Path("player.yaml"), disk_text="", saved=DESIGN, check=lambda _design: ())
+    )
     payload = {"kind": kind, "row": row, "column": column, "value": value, "base": base, "by": by}
     apply_table_edit(document, payload)
     assert read_design(save_design(document.design, ""), "player.yaml").design is not None

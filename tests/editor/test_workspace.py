@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from vicode.editor.session import DISK, ChangedOnDiskError, Document, Library, Workspace, apply_gesture
+from vicode.editor.session import DISK_USER, DiskConflictError, DocumentSession, Library, Workspace, apply_gesture
 from vicode.model.design import Declaration, Guard, Transition
 from vicode.model.edits import replace_decision
 from vicode.store import read_design, save_design
@@ -16,18 +16,18 @@ def workspace(project: Path) -> Workspace:
     return Workspace(project / "forward", key="forward")
 
 
-def opened(workspace: Workspace, component: str) -> Document:
-    document = workspace.document(component)
+def opened(workspace: Workspace, component: str) -> DocumentSession:
+    document = workspace.open_document(component)
     assert document is not None
     return document
 
 
 def test_library_opens_the_agent_or_the_file_that_was_named(project: Path) -> None:
     library = Library(project)
-    first = library.first
+    first = library.initial_design
     assert first is not None
     assert (first[0].key, first[1]) == ("forward", "Player")
-    by_file = Library(project / "forward" / "face_ball.yaml").first
+    by_file = Library(project / "forward" / "face_ball.yaml").initial_design
     assert by_file is not None
     assert by_file[1] == "FaceBall"
     assert library.workspace("elsewhere") is None
@@ -38,8 +38,8 @@ def test_an_unedited_save_writes_nothing(workspace: Workspace) -> None:
     before = document.file.stat()
     workspace.save(document)
     assert document.file.stat().st_mtime_ns == before.st_mtime_ns
-    assert workspace.document("Player") is document
-    assert workspace.document("Perception") is None
+    assert workspace.open_document("Player") is document
+    assert workspace.open_document("Perception") is None
 
 
 def test_an_edit_changes_its_own_lines(workspace: Workspace) -> None:
@@ -55,11 +55,11 @@ def test_an_edit_changes_its_own_lines(workspace: Workspace) -> None:
     assert sum(line not in after for line in before) == 2
 
 
-def with_doc(document: Document, doc: str) -> None:
+def with_doc(document: DocumentSession, doc: str) -> None:
     document.edit("doc", lambda design: replace(design, doc=doc))
 
 
-def write_doc(document: Document, doc: str) -> str:
+def write_doc(document: DocumentSession, doc: str) -> str:
     """Another program gives the design another doc; returns the text of the file."""
     read = read_design(document.file.read_text(), document.file.name)
     assert read.design is not None
@@ -73,10 +73,10 @@ def test_what_another_program_wrote_elsewhere_in_the_file_is_merged_in(workspace
     with_doc(document, "mine")
     text = document.file.read_text()
     document.file.write_text(text.replace("frequency: 10", "frequency: 20  # faster"))
-    workspace.follow_disk()
+    workspace.sync_from_disk()
     assert (document.design.doc, document.design.frequency_hz, document.is_saved) == ("mine", 20, False)
-    assert document.history.present.label == "merge from disk"
-    assert document.history.present.person == DISK
+    assert document.history.current.label == "merge from disk"
+    assert document.history.current.user_id == DISK_USER
     workspace.save(document)
     assert "# faster" in document.file.read_text()
     assert "  mine\n" in document.file.read_text()
@@ -90,14 +90,14 @@ def test_what_both_changed_is_told_and_settled_one_by_one(workspace: Workspace) 
     document.edit("faster", lambda design: replace(design, frequency_hz=50.0))
     text = write_doc(document, "theirs").replace("frequency: 10", "frequency: 20  # faster")
     document.file.write_text(text)
-    with pytest.raises(ChangedOnDiskError):
+    with pytest.raises(DiskConflictError):
         workspace.save(document)
     assert document.file.read_text() == text
-    assert [conflict.path for conflict in document.sheet.conflicts] == [("doc",), ("frequency",)]
-    workspace.settle(document, [("doc",)])
+    assert [conflict.path for conflict in document.shared.conflicts] == [("doc",), ("frequency",)]
+    workspace.resolve_conflict(document, [("doc",)])
     assert (document.design.doc, document.design.frequency_hz) == ("theirs", 50)
-    assert document.sheet.clash is None
-    beside = next(step for step in document.history.steps.values() if step.label == "as it was on disk")
+    assert document.shared.disk_conflict is None
+    beside = next(step for step in document.history.entries.values() if step.label == "as it was on disk")
     assert (beside.design.doc, beside.design.frequency_hz) == ("theirs", 20)
     document.undo()
     assert (document.design.doc, document.design.frequency_hz) == ("mine", 50)
@@ -107,25 +107,25 @@ def test_who_works_on_touches_more_or_takes_it_back(workspace: Workspace) -> Non
     document = opened(workspace, "Player")
     with_doc(document, "mine")
     document.file.write_text(write_doc(document, "theirs").replace("frequency: 10", "frequency: 20  # faster"))
-    workspace.follow_disk()
-    assert [conflict.path for conflict in document.sheet.conflicts] == [("doc",)]
+    workspace.sync_from_disk()
+    assert [conflict.path for conflict in document.shared.conflicts] == [("doc",)]
     document.edit("faster", lambda design: replace(design, frequency_hz=50.0))
-    assert [conflict.path for conflict in document.sheet.conflicts] == [("doc",), ("frequency",)]
-    with pytest.raises(ChangedOnDiskError):
+    assert [conflict.path for conflict in document.shared.conflicts] == [("doc",), ("frequency",)]
+    with pytest.raises(DiskConflictError):
         workspace.save(document)
     document.undo()
     document.undo()
     workspace.save(document)
     assert (document.design.doc, document.design.frequency_hz) == ("theirs", 20)
     assert "frequency: 20  # faster" in document.file.read_text()
-    assert document.sheet.clash is None
+    assert document.shared.disk_conflict is None
 
 
 def test_saving_over_keeps_what_does_not_touch(workspace: Workspace) -> None:
     document = opened(workspace, "Player")
     with_doc(document, "mine")
     document.file.write_text(write_doc(document, "theirs").replace("frequency: 10", "frequency: 20  # faster"))
-    workspace.save(document, over=True)
+    workspace.save(document, overwrite=True)
     assert "frequency: 20  # faster" in document.file.read_text()
     assert "  mine\n" in document.file.read_text()
 
@@ -144,9 +144,9 @@ def test_a_file_that_cannot_be_read_is_put_aside_before_it_is_written_over(works
     document = opened(workspace, "Player")
     with_doc(document, "mine")
     document.file.write_text("<<<<<<< HEAD\n")
-    with pytest.raises(ChangedOnDiskError):
+    with pytest.raises(DiskConflictError):
         workspace.save(document)
-    workspace.save(document, over=True)
+    workspace.save(document, overwrite=True)
     assert document.file.with_name("player.yaml.edited").read_text() == "<<<<<<< HEAD\n"
     assert "mine" in document.file.read_text()
 
@@ -181,9 +181,9 @@ def test_what_others_read_is_checked_when_it_changes(workspace: Workspace) -> No
 def test_generate_writes_what_the_design_says(workspace: Workspace) -> None:
     document = opened(workspace, "Player")
     first = workspace.generate(document)
-    assert first.is_sound, first.words
+    assert first.is_complete, first.message
     assert {"player.py", "face_ball.py", "declarations.py"} <= {path.name for path in first.files}
-    assert "up to date" in workspace.generate(document).words
+    assert "up to date" in workspace.generate(document).message
     path = ("states", "LookForBall", "transitions", 0)
     guarded = Transition(to="FollowBall", guard=Guard(when="perception.ball_distance < 1234"))
     document.edit("guard", lambda design: replace_decision(design, path, guarded))
@@ -199,14 +199,14 @@ def test_generate_refuses_mistakes_and_hand_edits_in_words(workspace: Workspace)
     document.edit("broken", lambda design: replace(design, variables=(Declaration(name="kick", type="Kik"),)))
     workspace.save(document)
     refused = workspace.generate(document)
-    assert not refused.is_sound
-    assert "Nothing generated" in refused.words
+    assert not refused.is_complete
+    assert "Nothing generated" in refused.message
     document.undo()
     edited = written.read_text().replace("recent = self._distances[-5:]", "recent = self._distances[-9:]")
     written.write_text(edited)
     document.edit("doc", lambda design: replace(design, doc="new"))
     workspace.save(document)
-    assert "edited" in workspace.generate(document).words
+    assert "edited" in workspace.generate(document).message
     assert written.read_text() == edited
 
 
@@ -216,11 +216,11 @@ def test_what_the_file_says_in_vain_is_a_finding_and_stops_generating(project: P
     workspace = Workspace(project / "forward", key="forward")
     document = opened(workspace, "Turn")
     assert [finding.rule.code for finding in document.findings] == ["Y102"]
-    assert "Nothing generated" in workspace.generate(document).words
+    assert "Nothing generated" in workspace.generate(document).message
     file.write_text(file.read_text().replace("    on_enter: wave\n", ""))
-    workspace.follow_disk()
+    workspace.sync_from_disk()
     assert document.findings == ()
-    assert workspace.generate(document).is_sound
+    assert workspace.generate(document).is_complete
 
 
 def test_files_that_come_change_and_go_are_followed(workspace: Workspace) -> None:
@@ -231,15 +231,15 @@ def test_files_that_come_change_and_go_are_followed(workspace: Workspace) -> Non
         document.file.write_text(text + "# theirs\n")
     (workspace.folder / "wave.yaml").write_text("vicode: 1\ncomponent: Wave\nstates: {Up: {}}\n")
     (workspace.folder / "search_net.yaml").unlink()
-    workspace.follow_disk()
+    workspace.sync_from_disk()
     assert (player.design.frequency_hz, player.is_saved) == (12, True)
     assert (turn.design.doc, turn.design.frequency_hz, turn.is_saved) == ("mine", 12, False)
     assert opened(workspace, "Wave").design.states
-    assert workspace.document("SearchNet") is None
+    assert workspace.open_document("SearchNet") is None
     assert {finding.rule.code for finding in player.findings} == {"P202"}
     (workspace.folder / "search_net.yaml").write_text("component: SearchNet\nstates: [\n")
-    workspace.follow_disk()
-    told = [(finding.message, finding.mend) for finding in player.findings]
+    workspace.sync_from_disk()
+    told = [(finding.message, finding.fix) for finding in player.findings]
     assert told == [("the design of 'SearchNet' cannot be read", "mend search_net.yaml first")]
     workspace.save(turn)
     assert turn.file.read_text().endswith("# theirs\n")
@@ -248,24 +248,24 @@ def test_files_that_come_change_and_go_are_followed(workspace: Workspace) -> Non
 def test_a_design_whose_file_is_gone_is_kept_until_it_is_saved_again(workspace: Workspace) -> None:
     document = opened(workspace, "Turn")
     document.file.unlink()
-    workspace.follow_disk()
-    assert workspace.document("Turn") is document
+    workspace.sync_from_disk()
+    assert workspace.open_document("Turn") is document
     assert "no design" in workspace.reload(document)
-    with pytest.raises(ChangedOnDiskError):
+    with pytest.raises(DiskConflictError):
         workspace.save(document)
-    workspace.save(document, over=True)
+    workspace.save(document, overwrite=True)
     assert "component: Turn" in document.file.read_text()
 
 
 def test_a_file_that_is_gone_is_made_again_with_its_comments(workspace: Workspace) -> None:
     document = opened(workspace, "Turn")
     document.file.write_text(f"# by hand\n{document.file.read_text()}")
-    workspace.follow_disk()
+    workspace.sync_from_disk()
     with_doc(document, "mine")
     document.file.unlink()
-    workspace.follow_disk()
+    workspace.sync_from_disk()
     # As the dialog does it.
-    workspace.settle(document)
+    workspace.resolve_conflict(document)
     workspace.save(document)
     assert document.file.read_text().startswith("# by hand\n")
     assert "mine" in document.file.read_text()
@@ -276,8 +276,8 @@ def test_a_file_that_is_no_text_is_put_aside_too(workspace: Workspace) -> None:
     document = opened(workspace, "Player")
     with_doc(document, "mine")
     document.file.write_bytes(b"doc: f\xfcnf\n")
-    workspace.follow_disk()
-    workspace.settle(document)
+    workspace.sync_from_disk()
+    workspace.resolve_conflict(document)
     assert document.file.with_name("player.yaml.edited").read_bytes() == b"doc: f\xfcnf\n"
     assert "mine" in document.file.read_text()
 

@@ -4,13 +4,13 @@ import re
 
 import pytest
 
-from vicode.findings import RULES, Rule, Severity, rule
+from vicode.findings import RULES, Rule, Severity, get_rule
 
 
 def test_a_rule_is_found_by_its_code() -> None:
-    assert rule("D421").name == "unreachable-state"
+    assert get_rule("D421").name == "unreachable-state"
     with pytest.raises(KeyError):
-        rule("D000")
+        get_rule("D000")
 
 
 def test_names_are_unique() -> None:

@@ -4,23 +4,23 @@ import json
 
 from vicode.findings import (
     Finding,
+    FindingSubject,
     Note,
-    Place,
     Severity,
-    Thing,
+    SourceLocation,
     did_you_mean,
-    nearest,
+    get_rule,
+    nearest_name,
     render_json,
     render_text,
-    rule,
     sort_findings,
     worst_severity,
 )
 
 
 def _finding(code: str, line: int = 1, column: int = 1, length: int = 1) -> Finding:
-    place = Place(file="goalie.yaml", line=line, column=column, length=length)
-    return Finding(rule=rule(code), message="wrong", mend="mend it", place=place)
+    place = SourceLocation(file="goalie.yaml", line=line, column=column, length=length)
+    return Finding(rule=get_rule(code), message="wrong", fix="fix it", location=place)
 
 
 def test_findings_are_in_the_order_of_their_places_and_said_once() -> None:
@@ -35,14 +35,14 @@ def test_the_worst_severity_counts() -> None:
 
 def test_a_caret_stands_under_the_guilty_text() -> None:
     text = render_text([_finding("D402", 3, 9, 4)], lambda _file, _line: "  - {to: Jmup}\n")
-    assert text == ("goalie.yaml:3:9: error D402 unknown-state: wrong; mend it\n      - {to: Jmup}\n            ^^^^\n")
+    assert text == ("goalie.yaml:3:9: error D402 unknown-state: wrong; fix it\n      - {to: Jmup}\n            ^^^^\n")
 
 
 def test_notes_follow_their_finding() -> None:
     finding = Finding(
-        rule=rule("D413"),
+        rule=get_rule("D413"),
         message="the id 'a' is given twice",
-        notes=(Note(message="first here", place=Place(file="goalie.yaml", line=2, column=3)),),
+        notes=(Note(message="first here", location=SourceLocation(file="goalie.yaml", line=2, column=3)),),
     )
     assert render_text([finding]) == (
         "error D413 duplicate-id: the id 'a' is given twice\n  goalie.yaml:2:3: note: first here\n"
@@ -50,9 +50,12 @@ def test_notes_follow_their_finding() -> None:
 
 
 def test_json_names_the_thing_and_the_place() -> None:
-    thing = Thing(component="Goalie", path=("states", "Wait"))
+    thing = FindingSubject(component="Goalie", path=("states", "Wait"))
     finding = Finding(
-        rule=rule("D422"), message="never left", thing=thing, place=Place(file="g.yaml", line=4, column=3)
+        rule=get_rule("D422"),
+        message="never left",
+        subject=thing,
+        location=SourceLocation(file="g.yaml", line=4, column=3),
     )
     (shown,) = json.loads(render_json([finding]))
     assert shown == {
@@ -60,7 +63,7 @@ def test_json_names_the_thing_and_the_place() -> None:
         "name": "trap-state",
         "severity": "warning",
         "message": "never left",
-        "mend": "",
+        "fix": "",
         "file": "g.yaml",
         "line": 4,
         "column": 3,
@@ -71,6 +74,6 @@ def test_json_names_the_thing_and_the_place() -> None:
 
 
 def test_the_nearest_name_forgives_case_and_slips() -> None:
-    assert nearest("kik", ["Wait", "Kick"]) == "Kick"
-    assert nearest("", ["Wait"]) is None
+    assert nearest_name("kik", ["Wait", "Kick"]) == "Kick"
+    assert nearest_name("", ["Wait"]) is None
     assert did_you_mean("zzz", ["Wait"], "add it") == "add it"

@@ -22,13 +22,13 @@ def write_files(files: Iterable[OutputFile], folder: Path) -> None:
         path.write_text(file.text, encoding="utf-8")
 
 
-def format_complaints(folder: Path) -> str:
+def format_diff(folder: Path) -> str:
     """What the formatter would change, empty when nothing."""
     command = [*_RUFF, "format", "--isolated", "--no-cache", "--line-length", "120", "--diff", "."]
     return subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False).stdout
 
 
-def lint_complaints(folder: Path) -> str:
+def lint_errors(folder: Path) -> str:
     """What the linter finds, empty when nothing."""
     command = [*_RUFF, "check", "--isolated", "--no-cache", "--quiet", "--output-format", "concise"]
     command += ["--line-length", "120", "--select", _RULES, "--ignore", _IGNORED, "--config", _HAND_WRITTEN]

@@ -13,7 +13,7 @@ from tests.generators.formatting import write_files
 from vicode.bica import ErrorRecord, Root, SimulatedClock
 from vicode.check import check_project
 from vicode.findings import Severity, render_text
-from vicode.generators import generate, python_class
+from vicode.generators import generate, python_class_path
 from vicode.store import open_project
 
 _NUMBERS = itertools.count()
@@ -72,7 +72,7 @@ components:
 """
 
 
-class Play:
+class RunHarness:
     """A component at work; `tick` lets time pass and steps it, `log` is what was done since."""
 
     def __init__(self, root_class: type[Any]) -> None:
@@ -92,14 +92,14 @@ class Play:
         return list(self.world.log)
 
 
-Player = Callable[..., Play]
+StartHarness = Callable[..., RunHarness]
 
 
 @pytest.fixture
-def play(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Player:
+def play(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> StartHarness:
     """Generate designs, the first of them the root, and make it."""
 
-    def start(*designs: str) -> Play:
+    def start(*designs: str) -> RunHarness:
         name = f"play{next(_NUMBERS)}"
         (tmp_path / "project.yaml").write_text(PROJECT.format(name=name), encoding="utf-8")
         (tmp_path / f"parts_{name}.py").write_text(PARTS, encoding="utf-8")
@@ -113,9 +113,9 @@ def play(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Player:
         write_files(generate(opened.project, sources=sources), tmp_path / "out")
         monkeypatch.syspath_prepend(tmp_path / "out" / "python")
         monkeypatch.syspath_prepend(tmp_path)
-        root = opened.component_of(tmp_path / "design0.yaml")
+        root = opened.find_component(tmp_path / "design0.yaml")
         assert root is not None
-        module, _colon, class_name = python_class(opened.project, root).partition(":")
-        return Play(getattr(importlib.import_module(module), class_name))
+        module, _colon, class_name = python_class_path(opened.project, root).partition(":")
+        return RunHarness(getattr(importlib.import_module(module), class_name))
 
     return start

@@ -8,11 +8,11 @@ from vicode.model.design import (
     Action,
     Assign,
     Call,
-    Common,
+    CommonSection,
     Decision,
+    DecisionGroup,
     Declaration,
     Design,
-    Group,
     Guard,
     State,
     Stay,
@@ -31,7 +31,7 @@ _rarely = st.sampled_from([False, False, False, True])
 
 
 @dataclass(frozen=True)
-class Words:
+class ExpressionDrawer:
     """Draws expressions of one design; `is_xabsl` allows what has another result without."""
 
     draw: st.DrawFn
@@ -128,7 +128,7 @@ class Words:
             case _:
                 then = self.decisions(names, asks, depth - 1) or (Stay(),)
                 otherwise = self.decisions(names, asks, depth - 1) if self.draw(st.booleans()) else ()
-                return Group(guard=guard, then=then, otherwise=otherwise, doc=doc, disabled=is_off)
+                return DecisionGroup(guard=guard, then=then, otherwise=otherwise, doc=doc, disabled=is_off)
 
 
 @st.composite
@@ -142,7 +142,7 @@ def portable_projects(draw: st.DrawFn) -> Project:
 @st.composite
 def _designs(draw: st.DrawFn, component: str, *, is_xabsl: bool, unit: str) -> Design:
     is_player = component == "Player"
-    words = Words(draw, (*_NUMBERS, *(() if is_player else ("k",))), _TRUTHS, is_xabsl)
+    words = ExpressionDrawer(draw, (*_NUMBERS, *(() if is_player else ("k",))), _TRUTHS, is_xabsl)
     names = draw(st.lists(st.sampled_from(["A", "b", "C_1", "look", "Rest"]), min_size=1, max_size=4, unique=True))
     states = []
     for name in names:
@@ -163,7 +163,7 @@ def _designs(draw: st.DrawFn, component: str, *, is_xabsl: bool, unit: str) -> D
             transitions=words.decisions(names, asks),
         )
         states.append(state)
-    common = Common(
+    common = CommonSection(
         actions=(words.assign(),) if draw(st.booleans()) else (),
         transitions=words.decisions(names, ("action_done",)) if draw(st.booleans()) else (),
     )

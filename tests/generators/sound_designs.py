@@ -6,10 +6,10 @@ from vicode.model.design import (
     Assign,
     Call,
     Code,
-    Common,
+    CommonSection,
+    DecisionGroup,
     Declaration,
     Design,
-    Group,
     Guard,
     RunCode,
     State,
@@ -111,14 +111,14 @@ guards = st.builds(
 rarely = st.sampled_from([False, False, False, True])
 
 
-def _decisions(names: list[str]) -> st.SearchStrategy[tuple[Transition | Stay | Group, ...]]:
+def _decisions(names: list[str]) -> st.SearchStrategy[tuple[Transition | Stay | DecisionGroup, ...]]:
     leaf = st.builds(Transition, to=st.sampled_from(names), guard=guards, doc=docs, disabled=rarely) | st.builds(
         Stay, guard=guards, disabled=rarely
     )
     tree = st.recursive(
         leaf,
         lambda inner: st.builds(
-            Group,
+            DecisionGroup,
             guard=guards,
             then=st.lists(inner, min_size=1, max_size=2).map(tuple),
             otherwise=st.lists(inner, max_size=2).map(tuple),
@@ -163,7 +163,7 @@ def sound_designs(draw: st.DrawFn) -> Design:
         outputs=(Declaration(name="seen", type="bool"), Declaration(name="n", initial="0", unit="m\n")),
         variables=(Declaration(name="a", type="float", initial="limit / 2"), Declaration(name="b", doc=draw(docs))),
         initial=initial,
-        common=Common(actions=draw(actions), transitions=draw(decisions)),
+        common=CommonSection(actions=draw(actions), transitions=draw(decisions)),
         states=states,
     )
 

@@ -2,7 +2,7 @@
 
 import math
 
-from tests.generators.playing import Player, play
+from tests.generators.playing import StartHarness, play
 
 __all__ = ["play"]
 
@@ -26,7 +26,7 @@ states:
 """
 
 
-def test_entering_requiring_deciding_acting_in_order(play: Player) -> None:
+def test_entering_requiring_deciding_acting_in_order(play: StartHarness) -> None:
     two = play(TWO.format(frequency=1000))
     assert two.tick() == ["enter A", "eyes", "legs restart", "legs 1 8"]
     assert two.tick() == ["eyes", "legs 1 8"]
@@ -34,7 +34,7 @@ def test_entering_requiring_deciding_acting_in_order(play: Player) -> None:
     assert two.tick() == ["eyes", "legs 1 8", "act B"]
 
 
-def test_times_are_kept_to_the_nanosecond(play: Player) -> None:
+def test_times_are_kept_to_the_nanosecond(play: StartHarness) -> None:
     two = play(TWO.format(frequency=1000))
     two.tick(seen=True)
     assert two.main.state == "B"
@@ -47,7 +47,7 @@ def test_times_are_kept_to_the_nanosecond(play: Player) -> None:
     assert two.main.state == "A"
 
 
-def test_between_periods_only_requirements_and_calls_are_stepped(play: Player) -> None:
+def test_between_periods_only_requirements_and_calls_are_stepped(play: StartHarness) -> None:
     two = play(TWO.format(frequency=2))
     two.tick()
     assert two.tick(100, seen=True) == ["eyes", "legs 1 8"]
@@ -65,7 +65,7 @@ states:
 """
 
 
-def test_whoever_paused_restarts(play: Player) -> None:
+def test_whoever_paused_restarts(play: StartHarness) -> None:
     caller = play(CALLER, TWO.format(frequency=1000))
     caller.tick(seen=True)
     assert caller.main.two.state == "B"
@@ -76,7 +76,7 @@ def test_whoever_paused_restarts(play: Player) -> None:
     assert caller.main.two.state == "A"
 
 
-def test_whoever_resumes_goes_on(play: Player) -> None:
+def test_whoever_resumes_goes_on(play: StartHarness) -> None:
     caller = play(CALLER, "resume: true\n" + TWO.format(frequency=1000))
     caller.tick(seen=True)
     caller.tick(distance=1.0)
@@ -111,7 +111,7 @@ states:
 """
 
 
-def test_decision_trees_fall_through_and_stay(play: Player) -> None:
+def test_decision_trees_fall_through_and_stay(play: StartHarness) -> None:
     expected = {1: "C", 2: "S", 10: "A", 11: "S", 12: "C", 20: "B", 21: "C", 30: "S", 40: "D", 50: "S"}
     for x, state in expected.items():
         tree = play(TREE)
@@ -142,7 +142,7 @@ states:
 """
 
 
-def test_values_are_set_as_declared(play: Player) -> None:
+def test_values_are_set_as_declared(play: StartHarness) -> None:
     values = play(VALUES)
     assert (values.main.speed, type(values.main.speed)) == (3.0, float)
     assert values.tick()[-1] == "legs 7 -3"
@@ -170,7 +170,7 @@ states:
 """
 
 
-def test_a_final_state_is_told_to_the_caller(play: Player) -> None:
+def test_a_final_state_is_told_to_the_caller(play: StartHarness) -> None:
     nested = play(NESTED, LAST)
     states = []
     for _ in range(5):
@@ -194,7 +194,7 @@ states:
 """
 
 
-def test_an_exception_is_reported_with_its_place_and_work_goes_on(play: Player) -> None:
+def test_an_exception_is_reported_with_its_place_and_work_goes_on(play: StartHarness) -> None:
     failing = play(FAILING)
     failing.main.n = 1
     failing.tick()
@@ -218,7 +218,7 @@ states:
 """
 
 
-def test_times_may_count_milliseconds(play: Player) -> None:
+def test_times_may_count_milliseconds(play: StartHarness) -> None:
     component = play(MILLISECONDS)
     states = []
     for _ in range(6):
@@ -237,7 +237,7 @@ states:
 """
 
 
-def test_hand_written_components_get_the_declared_defaults(play: Player) -> None:
+def test_hand_written_components_get_the_declared_defaults(play: StartHarness) -> None:
     armed = play(ARM)
     assert armed.tick() == ["arm 2.0 False left 7"]
     assert armed.tick(1000) == ["arm 2.0 False right 2"]

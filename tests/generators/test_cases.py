@@ -8,13 +8,13 @@ from pathlib import Path
 
 import pytest
 
-from tests.generators.formatting import format_complaints, lint_complaints, write_files
+from tests.generators.formatting import format_diff, lint_errors, write_files
 from vicode import regions
 from vicode.check import check_project
 from vicode.findings import Severity, render_text
 from vicode.generators import generate, list_outputs
 from vicode.output import OutputFile
-from vicode.store import OpenProject, locate, open_project
+from vicode.store import OpenProject, locate_findings, open_project
 from vicode.sync import find_hand_edits
 
 CASES = Path(__file__).parent / "cases"
@@ -23,7 +23,7 @@ NAMES = sorted(path.name for path in CASES.iterdir() if path.is_dir())
 
 def open_case(name: str) -> OpenProject:
     opened = open_project(CASES / name)
-    findings = locate([*opened.findings, *check_project(opened.project)], opened)
+    findings = locate_findings([*opened.findings, *check_project(opened.project)], opened)
     errors = [finding for finding in findings if finding.severity is Severity.ERROR]
     assert not errors, render_text(errors)
     return opened
@@ -51,21 +51,21 @@ def test_the_files_are_as_expected(name: str, accept: bool) -> None:
 @pytest.mark.parametrize("name", NAMES)
 def test_the_code_is_what_the_tools_would_leave(name: str, tmp_path: Path) -> None:
     write_files(generate_case(name), tmp_path)
-    assert format_complaints(tmp_path) == ""
-    assert lint_complaints(tmp_path) == ""
+    assert format_diff(tmp_path) == ""
+    assert lint_errors(tmp_path) == ""
 
 
 @pytest.mark.parametrize("name", NAMES)
 def test_the_code_compiles_and_its_marks_are_whole(name: str) -> None:
     for file in generate_case(name):
-        comment = regions.comment_of(file.path)
+        comment = regions.get_comment_prefix(file.path)
         if file.path.endswith(".py"):
             compile(file.text, file.path, "exec")
-        found = regions.find(file.text, comment)
+        found = regions.find_regions(file.text, comment)
         assert not found.findings
         assert not any(regions.is_edited(region) for region in found.regions)
-        assert regions.is_sealed(file.text)
-        assert not regions.is_touched(file.text, comment)
+        assert regions.has_header(file.text)
+        assert not regions.is_edited_outside_regions(file.text, comment)
 
 
 @pytest.mark.parametrize("name", NAMES)

@@ -8,7 +8,7 @@ from pathlib import Path
 from hypothesis import Phase, assume, given, settings
 from hypothesis import strategies as st
 
-from tests.generators.formatting import format_complaints, write_files
+from tests.generators.formatting import format_diff, write_files
 from tests.generators.sound_designs import docs, project_of, sound_designs, words
 from tests.strategies.designs import designs, projects
 from vicode import regions
@@ -17,9 +17,9 @@ from vicode.findings import Severity
 from vicode.generators import UnsoundDesignError, generate
 from vicode.generators.python.text import comment, docstring, quoted
 from vicode.model.design import Design
-from vicode.model.enabling import enabled_part
+from vicode.model.enabling import strip_disabled
 from vicode.model.project import Project
-from vicode.output import compare
+from vicode.output import compare_files
 from vicode.sync import find_hand_edits
 
 
@@ -34,10 +34,10 @@ def test_sound_designs_give_code_that_compiles(design: Design, text: str) -> Non
     files = generate(project)
     for file in files:
         compile(file.text, file.path, "exec", dont_inherit=True)
-        found = regions.find(file.text)
+        found = regions.find_regions(file.text)
         assert not found.findings
         assert not any(regions.is_edited(region) for region in found.regions)
-        assert not regions.is_touched(file.text)
+        assert not regions.is_edited_outside_regions(file.text)
     assert files == generate(project)
 
 
@@ -45,7 +45,7 @@ def test_sound_designs_give_code_that_compiles(design: Design, text: str) -> Non
 def test_what_is_disabled_is_not_in_the_code(design: Design) -> None:
     project = project_of(design)
     assume(is_sound(project))
-    assert generate(project) == generate(project_of(enabled_part(design)))
+    assert generate(project) == generate(project_of(strip_disabled(design)))
 
 
 # Shrinking would start the formatter thousands of times.
@@ -59,7 +59,7 @@ def test_the_formatter_changes_nothing(some: list[Design]) -> None:
             project = project_of(design)
             if is_sound(project):
                 write_files(generate(project), Path(folder) / f"number_{number}")
-        assert format_complaints(Path(folder)) == ""
+        assert format_diff(Path(folder)) == ""
 
 
 @given(projects, st.lists(designs, max_size=2))
@@ -82,7 +82,7 @@ def test_no_doc_leaves_its_docstring(text: str) -> None:
     (node,) = ast.parse(source).body
     assert isinstance(node, ast.ClassDef)
     assert len(node.body) == 1
-    assert (ast.get_docstring(node) or "").split() == regions.defuse(text).split()
+    assert (ast.get_docstring(node) or "").split() == regions.escape_marks(text).split()
 
 
 @given(docs)
@@ -105,6 +105,6 @@ def test_what_was_just_generated_is_not_edited(design: Design) -> None:
     with tempfile.TemporaryDirectory() as name:
         write_files(generate(project), Path(name))
         different = generate(project, sources={design.component: "other.yaml"})
-        differences = compare(different, Path(name))
+        differences = compare_files(different, Path(name))
         assert any(each.old != each.new for each in differences)
         assert find_hand_edits(differences) == ()

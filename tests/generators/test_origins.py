@@ -7,10 +7,10 @@ import pytest
 from hypothesis import given
 
 from tests.generators.sound_designs import project_of, sound_designs
-from vicode.generators import Origin, generate, origins_of
+from vicode.generators import Origin, generate, list_origins
 from vicode.model.design import Design, Transition
 from vicode.model.project import Project
-from vicode.model.walks import decision_at
+from vicode.model.walks import find_decision
 from vicode.store import open_project
 
 ROOT = Path(__file__).parents[2]
@@ -20,8 +20,8 @@ FORWARD = open_project(ROOT / "designs" / "forward").project
 def text_of(project: Project, component: str) -> str:
     """The module of a component."""
     others = {design.component for design in project.designs} - {component}
-    whole = {file.path: file.text for file in generate(project, components=(component,), leave_out=others)}
-    shared = {file.path for file in generate(project, components=(component,), leave_out={*others, component})}
+    whole = {file.path: file.text for file in generate(project, components=(component,), exclude=others)}
+    shared = {file.path for file in generate(project, components=(component,), exclude={*others, component})}
     (text,) = (text for path, text in whole.items() if path not in shared)
     return text
 
@@ -31,14 +31,14 @@ def assert_lines_say_it(project: Project, component: str) -> int:
     text = text_of(project, component)
     lines, design = text.split("\n"), project.design(component)
     assert design is not None
-    origins = origins_of(project, component, "python", text)
+    origins = list_origins(project, component, "python", text)
     states = {origin.path[1]: origin for origin in origins if origin.path[0] == "states" and len(origin.path) == 2}
     enabled = {state.name for state in design.states if not state.disabled}
     assert set(states) == enabled
     count = 0
     for origin in origins:
         assert 1 <= origin.first <= origin.last <= len(lines)
-        located = decision_at(design, origin.path)
+        located = find_decision(design, origin.path)
         if located is None:
             continue
         count += 1
@@ -64,7 +64,7 @@ def test_the_player_in_full() -> None:
     assert assert_lines_say_it(FORWARD, "Player") == 16
     text = text_of(FORWARD, "Player")
     lines = text.split("\n")
-    found = {origin.path: lines[origin.first - 1].strip() for origin in origins_of(FORWARD, "Player", "python", text)}
+    found = {origin.path: lines[origin.first - 1].strip() for origin in list_origins(FORWARD, "Player", "python", text)}
     assert found["states", "Kick"].startswith("def _in_kick(")
     assert found["states", "Kick", "enter"] == "def _enter_kick(self) -> None:"
     assert found["states", "LookForBall", "transitions", 0] == "# ball seen"
@@ -78,5 +78,5 @@ def test_random_designs(design: Design) -> None:
 
 
 def test_a_text_that_is_no_module_has_no_origins() -> None:
-    assert origins_of(FORWARD, "Player", "python", "def (") == ()
-    assert origins_of(FORWARD, "Nobody", "python", "") == ()
+    assert list_origins(FORWARD, "Player", "python", "def (") == ()
+    assert list_origins(FORWARD, "Nobody", "python", "") == ()

@@ -10,10 +10,10 @@ from hypothesis import assume, given
 from tests.generators.sound_designs import project_of, sound_designs
 from tests.generators.test_laws import is_sound
 from vicode.bica import Root
-from vicode.editor.session.simulation.setup import with_ids
-from vicode.generators import generate, python_class, python_probes
+from vicode.editor.session.simulation.setup import with_decision_ids
+from vicode.generators import generate, python_class_path, python_probes
 from vicode.model.design import Design
-from vicode.output import apply, compare
+from vicode.output import apply_diffs, compare_files
 from vicode.store import read_design
 
 DESIGN = """
@@ -36,7 +36,7 @@ states:
 @given(sound_designs())
 def test_probes_compile_and_name_every_guard(design: Design) -> None:
     assume(is_sound(project_of(design)))
-    text = python_probes(project_of(with_ids(design)), design.component).text
+    text = python_probes(project_of(with_decision_ids(design)), design.component).text
     module = ast.parse(text)
     names = [node.targets[0].id for node in module.body if isinstance(node, ast.Assign)]  # type: ignore[attr-defined]
     assert names == ["GUARDS", "READS", "ENUMERATIONS"]
@@ -45,11 +45,11 @@ def test_probes_compile_and_name_every_guard(design: Design) -> None:
 def test_probes_say_what_holds(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     design = read_design(DESIGN.format(name="Probed"), "probed.yaml").design
     assert design is not None
-    project = project_of(with_ids(design))
+    project = project_of(with_decision_ids(design))
     files = [*generate(project, components=["Probed"]), python_probes(project, "Probed")]
-    apply(compare(files, tmp_path), tmp_path)
+    apply_diffs(compare_files(files, tmp_path), tmp_path)
     monkeypatch.syspath_prepend(tmp_path / "python")
-    module, _colon, name = python_class(project, "Probed").partition(":")
+    module, _colon, name = python_class_path(project, "Probed").partition(":")
     main = Root(getattr(importlib.import_module(module), name)).main
     probes = importlib.import_module(f"{module.partition('.')[0]}._probes")
 

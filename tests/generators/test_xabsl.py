@@ -23,11 +23,21 @@ from vicode import regions
 from vicode.bica import Component, Root, SimulatedClock
 from vicode.check import check_project
 from vicode.findings import Severity, render_text
-from vicode.generators import UnsoundDesignError, generate, list_outputs, origins_of, python_class
-from vicode.model.design import Common, Decision, Declaration, Design, Group, Guard, State, Stay, Transition
+from vicode.generators import UnsoundDesignError, generate, list_origins, list_outputs, python_class_path
+from vicode.model.design import (
+    CommonSection,
+    Decision,
+    DecisionGroup,
+    Declaration,
+    Design,
+    Guard,
+    State,
+    Stay,
+    Transition,
+)
 from vicode.model.project import Project
-from vicode.model.walks import decision_at
-from vicode.xabsl.compiler import Compiled, compile_source, symbols_of
+from vicode.model.walks import find_decision
+from vicode.xabsl.compiler import CompileResult, compile_source, declared_symbols
 from vicode.xabsl.engine import Engine
 from vicode.xabsl.parser import parse
 from vicode.xabsl.printer import print_file
@@ -44,7 +54,7 @@ def texts_of(project: Project) -> dict[str, str]:
     return {file.path.removeprefix(root): file.text for file in generate(project, languages=["xabsl"])}
 
 
-def compiled_of(project: Project) -> Compiled:
+def compiled_of(project: Project) -> CompileResult:
     return compile_source(load_texts(texts_of(project)))
 
 
@@ -67,8 +77,8 @@ def test_the_files_are_laid_out_and_sealed(project: Project) -> None:
     files = generate(project, languages=["xabsl"])
     assert [file.path for file in files] == sorted(list_outputs(project, languages=["xabsl"]))
     for file in files:
-        assert regions.is_sealed(file.text)
-        assert not regions.is_touched(file.text, "//")
+        assert regions.has_header(file.text)
+        assert not regions.is_edited_outside_regions(file.text, "//")
         assert print_file(parse(file.text).file) == file.text
     assert files == generate(project, languages=["xabsl"])
 
@@ -80,7 +90,7 @@ def option_of(transitions: tuple[Decision, ...], common: tuple[Decision, ...] = 
         component="One",
         initial="S",
         variables=(*(Declaration(name=name, type="bool") for name in names), *map(number, "nm")),
-        common=Common(transitions=common),
+        common=CommonSection(transitions=common),
         states=(State(name="S", transitions=transitions), *(State(name=name) for name in "XYZ")),
     )
     project = Project(name="Law", languages=("xabsl",), designs=(design,))
@@ -98,19 +108,19 @@ def to(state: str, when: str = "") -> Transition:
 
 
 def test_what_falls_through_keeps_the_guards_around_it() -> None:
-    inner = Group(guard=Guard(when="b"), then=(to("X", "c"),), otherwise=(to("Y", "d"),))
-    text = option_of((Group(guard=Guard(when="a"), then=(inner,), otherwise=()), to("Z", "e")))
+    inner = DecisionGroup(guard=Guard(when="b"), then=(to("X", "c"),), otherwise=(to("Y", "d"),))
+    text = option_of((DecisionGroup(guard=Guard(when="a"), then=(inner,), otherwise=()), to("Z", "e")))
     assert "decision { if (a && b && c) goto X; else if (a && !b && d) goto Y; else if (e) goto Z; else stay; }" in text
 
 
 def test_what_ends_stays_nested() -> None:
-    group = Group(guard=Guard(when="a"), then=(to("X", "b"), Stay()), otherwise=(to("Y", "c"),))
+    group = DecisionGroup(guard=Guard(when="a"), then=(to("X", "b"), Stay()), otherwise=(to("Y", "c"),))
     text = option_of((group, to("Z")))
     assert "decision { if (a) { if (b) goto X; else stay; } else if (c) goto Y; else goto Z; }" in text
 
 
 def test_common_decisions_are_common_where_xabsl_can_say_them() -> None:
-    ending = Group(guard=Guard(when="a"), then=(to("X", "b"), to("Y")))
+    ending = DecisionGroup(guard=Guard(when="a"), then=(to("X", "b"), to("Y")))
     text = option_of((to("Z", "c"),), (ending, to("X", "d")))
     assert "common decision { if (a) { if (b) goto X; else goto Y; } else if (d) goto X; }" in text
     assert "initial state S { decision { else if (c) goto Z; else stay; }" in text
@@ -201,7 +211,7 @@ def main_of(project: Project, folder: Path) -> Root:
     sys.path.insert(0, str(folder / renamed.name / "python"))
     try:
         importlib.invalidate_caches()
-        module, _colon, name = python_class(renamed, "Player").partition(":")
+        module, _colon, name = python_class_path(renamed, "Player").partition(":")
         return Root(
             getattr(importlib.import_module(module), name), clock=SimulatedClock(), world=World(), on_error="stop"
         )
@@ -215,7 +225,7 @@ def test_both_programs_do_the_same(folder: Path, project: Project, seed: int) ->
     result = compiled_of(project)
     assert result.program is not None
     world, now = World(), SimpleNamespace(ms=0)
-    engine = Engine(result.program, world, symbols=symbols_of(result.table), clock=lambda: now.ms)
+    engine = Engine(result.program, world, symbols=declared_symbols(result.table), clock=lambda: now.ms)
     components = {type(each).__name__: each for each in root.components}
     for iteration in range(14):
         if iteration:
@@ -274,12 +284,12 @@ def test_every_decision_is_found_in_the_lines_of_its_state(project: Project) -> 
     for design in project.designs:
         text = texts_of(project)[f"Options/{design.component}.xabsl"]
         lines = text.split("\n")
-        origins = origins_of(project, design.component, "xabsl", text)
+        origins = list_origins(project, design.component, "xabsl", text)
         states = {origin.path[1]: origin for origin in origins if len(origin.path) == 2 and origin.path[0] == "states"}
         assert set(states) == {state.name for state in design.states if not state.disabled}
         for origin in origins:
             assert 1 < origin.first <= origin.last < len(lines)
-            located = decision_at(design, origin.path)
+            located = find_decision(design, origin.path)
             if located is None:
                 continue
             block = "\n".join(lines[origin.first - 1 : origin.last])

@@ -20,7 +20,7 @@ POSITIONAL_PARAMETERS = 5
 LARGEST_TEXT_BYTES = 2_000_000
 
 # library -> the only room that may import it
-ROOM_OF_LIBRARY = {
+PACKAGE_OF_LIBRARY = {
     "fastapi": "editor",
     "graphviz": "diagram",
     "jinja2": "templating",
@@ -61,7 +61,17 @@ RUNNING_ALLOWED = frozenset(
 )
 
 FunctionNode = ast.FunctionDef | ast.AsyncFunctionDef
-DEEPER = (ast.If, ast.For, ast.AsyncFor, ast.While, ast.With, ast.AsyncWith, ast.Try, ast.TryStar, ast.Match)
+NESTING_STATEMENTS = (
+    ast.If,
+    ast.For,
+    ast.AsyncFor,
+    ast.While,
+    ast.With,
+    ast.AsyncWith,
+    ast.Try,
+    ast.TryStar,
+    ast.Match,
+)
 
 
 def _list_files() -> tuple[str, ...]:
@@ -83,7 +93,7 @@ PACKAGE = tuple(path for path in PYTHON if path.startswith("vicode/"))
 
 def test_there_is_something_to_check() -> None:
     assert "vicode/__init__.py" in PACKAGE
-    assert "tests/house/test_tidy.py" in PYTHON
+    assert "tests/architecture/test_code_rules.py" in PYTHON
 
 
 def test_modules_are_short() -> None:
@@ -92,13 +102,13 @@ def test_modules_are_short() -> None:
     _assert_none(offenders, f"split by what the parts are for (at most {MODULE_LINES} lines)")
 
 
-def test_module_names_say_what_is_inside() -> None:
+def test_module_names_are_specific() -> None:
     parts = {path: {part.lower() for part in Path(path).with_suffix("").parts} for path in (*PYTHON, *JAVASCRIPT)}
     offenders = [path for path, names in parts.items() if names & VAGUE_NAMES]
     _assert_none(offenders, "name the module after the thing it holds")
 
 
-def test_modules_begin_with_what_they_are_for() -> None:
+def test_modules_have_docstrings() -> None:
     offenders = [path for path in PYTHON if not _has_short_docstring(path)]
     offenders += [path for path in JAVASCRIPT if not _read(path).lstrip().startswith(("//", "/*"))]
     _assert_none(
@@ -107,19 +117,21 @@ def test_modules_begin_with_what_they_are_for() -> None:
 
 
 def test_functions_are_short() -> None:
-    sizes = {_place(path, node): _count_lines(node) for path in PYTHON for node in _functions(path)}
+    sizes = {_describe_function(path, node): _count_lines(node) for path in PYTHON for node in _functions(path)}
     offenders = [f"{place}: {size} lines" for place, size in sizes.items() if size > FUNCTION_LINES]
     _assert_none(offenders, f"name the steps as functions (at most {FUNCTION_LINES} lines)")
 
 
 def test_functions_are_flat() -> None:
-    depths = {_place(path, node): _measure_nesting(node.body) for path in PYTHON for node in _functions(path)}
+    depths = {
+        _describe_function(path, node): _measure_nesting(node.body) for path in PYTHON for node in _functions(path)
+    }
     offenders = [f"{place}: {depth} levels" for place, depth in depths.items() if depth > NESTING]
     _assert_none(offenders, f"return early, or make the inner part a function (at most {NESTING} levels)")
 
 
 def test_functions_take_few_positional_parameters() -> None:
-    counts = {_place(path, node): _count_positional(node) for path in PACKAGE for node in _functions(path)}
+    counts = {_describe_function(path, node): _count_positional(node) for path in PACKAGE for node in _functions(path)}
     offenders = [f"{place}: {count} parameters" for place, count in counts.items() if count > POSITIONAL_PARAMETERS]
     _assert_none(offenders, f"put `*` before the rest (at most {POSITIONAL_PARAMETERS} positional)")
 
@@ -153,9 +165,9 @@ def test_yaml_is_never_loaded_with_tags() -> None:
     _assert_none([path for path in PYTHON if unsafe.search(_read(path))], "walk events or nodes, or use yaml.safe_load")
 
 
-@pytest.mark.parametrize("library", sorted(ROOM_OF_LIBRARY))
-def test_one_room_a_library(library: str) -> None:
-    home = ROOM_OF_LIBRARY[library]
+@pytest.mark.parametrize("library", sorted(PACKAGE_OF_LIBRARY))
+def test_only_one_package_imports_a_library(library: str) -> None:
+    home = PACKAGE_OF_LIBRARY[library]
     offenders = [
         f"{path} imports {library}"
         for path in PACKAGE
@@ -217,7 +229,7 @@ def _functions(path: str) -> Iterator[FunctionNode]:
     return (node for node in ast.walk(_parse(path)) if isinstance(node, FunctionNode))
 
 
-def _place(path: str, node: FunctionNode) -> str:
+def _describe_function(path: str, node: FunctionNode) -> str:
     return f"{path}:{node.lineno}: {node.name}"
 
 
@@ -236,7 +248,7 @@ def _measure_nesting(body: list[ast.stmt]) -> int:
 
 
 def _measure_statement(statement: ast.stmt) -> int:
-    if not isinstance(statement, DEEPER):
+    if not isinstance(statement, NESTING_STATEMENTS):
         return 0
     depths = [1 + _measure_nesting(block) for block in _blocks(statement)]
     if isinstance(statement, ast.If):

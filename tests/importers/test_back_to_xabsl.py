@@ -8,11 +8,11 @@ from pathlib import Path
 import pytest
 from hypothesis import given
 
-from tests.importers.following import imported
+from tests.importers.following import import_checked
 from tests.importers.test_designs import texts
 from tests.importers.test_following import NESTED, NESTING, SUPPORT, TEAM, TOGETHER, agents
 from tests.strategies.behaviors import behaviors
-from tests.xabsl.cases_of import CASES, PROGRAMS, load_texts, read_probes, words
+from tests.xabsl.cases_of import CASES, PROGRAMS, load_texts, parse_words, read_probes
 from vicode.check import check_project
 from vicode.findings import Finding, Severity, render_text
 from vicode.generators import generate
@@ -21,7 +21,7 @@ from vicode.xabsl import tree
 from vicode.xabsl.compiler import compile_source
 from vicode.xabsl.engine.writing import write_code
 from vicode.xabsl.printer import print_file
-from vicode.xabsl.sources import Source, load
+from vicode.xabsl.sources import ProgramSource, load_source
 
 PROBES = {
     probe.name: probe.files for probe in read_probes() if compile_source(load_texts(probe.files)).program is not None
@@ -49,15 +49,15 @@ def texts_of(project: Project) -> dict[str, str]:
     return {file.path.removeprefix(root): file.text for file in files}
 
 
-def assert_is_the_same(source: Source) -> None:
-    made, before = imported(source)
+def assert_is_the_same(source: ProgramSource) -> None:
+    made, before = import_checked(source)
     assert before.program is not None
     project = replace(made.project, languages=("xabsl",))
     errors = [each for each in check_project(project) if each.severity is Severity.ERROR]
     assert not errors, render_text(errors)
     after = compile_source(load_texts(texts_of(project)))
     assert after.program is not None, render_text(after.findings)
-    assert words(write_code(after.program)) == words(write_code(before.program))
+    assert parse_words(write_code(after.program)) == parse_words(write_code(before.program))
     assert after.program.title == (before.program.title or "behavior")
     assert _slips(after.findings) <= _slips(before.findings)
     known = {each.rule.code for each in before.findings}
@@ -71,7 +71,7 @@ def _slips(findings: Iterable[Finding]) -> int:
 
 @pytest.mark.parametrize("name", [name for name in PROGRAMS if (CASES / "programs" / name / "agents.xabsl").exists()])
 def test_whole_programs(name: str) -> None:
-    assert_is_the_same(load(CASES / "programs" / name / "agents.xabsl"))
+    assert_is_the_same(load_source(CASES / "programs" / name / "agents.xabsl"))
 
 
 @pytest.mark.parametrize("name", sorted(PROBES))
@@ -80,7 +80,7 @@ def test_tiny_programs(name: str) -> None:
 
 
 @given(behaviors(with_functions=True))
-def test_random_programs(files: dict[str, tree.File]) -> None:
+def test_random_programs(files: dict[str, tree.FileNode]) -> None:
     assert_is_the_same(load_texts({name: print_file(file) for name, file in files.items()}))
 
 
@@ -91,4 +91,4 @@ def test_odd_programs(name: str) -> None:
 
 @pytest.mark.parametrize("path", WRITTEN or [str(CASES / "programs" / "drive_circle" / "agents.xabsl")])
 def test_behaviors_of_teams(path: str) -> None:
-    assert_is_the_same(load(Path(path)))
+    assert_is_the_same(load_source(Path(path)))

@@ -5,12 +5,12 @@ from pathlib import Path
 
 import pytest
 
-from tests.importers.following import imported
+from tests.importers.following import import_checked
 from tests.xabsl.cases_of import CASES, PROGRAMS, load_texts
-from vicode.model.design import Assign, Call, Design, Group, Stay, Transition
+from vicode.model.design import Assign, Call, DecisionGroup, Design, Stay, Transition
 from vicode.model.project import INTERNAL, WORLD, Project
-from vicode.store import read_design, read_project_file, save_design, save_project_file, with_remarks
-from vicode.xabsl.sources import load
+from vicode.store import add_comments, read_design, read_project_file, save_design, save_project_file
+from vicode.xabsl.sources import load_source
 
 SYMBOLS = """
 /*** Title: ignored here */
@@ -103,7 +103,7 @@ def texts() -> dict[str, str]:
 
 @pytest.fixture(scope="module")
 def project() -> Project:
-    return imported(load_texts(texts()))[0].project
+    return import_checked(load_texts(texts()))[0].project
 
 
 @pytest.fixture(scope="module")
@@ -166,7 +166,7 @@ def test_trees_stay_trees(main: Design) -> None:
     state = main.states[0]
     assert (state.name, state.xabsl_name, state.doc) == ("search_all", "search.all", "looks around\nfor the ball")
     near, far = state.transitions
-    assert isinstance(near, Group)
+    assert isinstance(near, DecisionGroup)
     assert near.guard.when == "ball_symbols.ball_distance < 100 and not ball_symbols.class_"
     first, second = near.then
     assert isinstance(first, Transition)
@@ -198,12 +198,12 @@ def test_actions_keep_their_order(main: Design) -> None:
 
 
 def test_every_comment_is_in_the_files() -> None:
-    made, _compiled = imported(load_texts(texts()))
-    text = with_remarks(save_project_file(made.project), made.remarks, of_project=True)
+    made, _compiled = import_checked(load_texts(texts()))
+    text = add_comments(save_project_file(made.project), made.comments, is_project_file=True)
     for words in ("nearer than this", "namespace acts: What it does", "the end", "Title: ignored here"):
         assert words in text
     for design, about in zip(made.project.designs, made.designs, strict=True):
-        written = with_remarks(save_design(design), about.remarks)
+        written = add_comments(save_design(design), about.comments)
         assert read_design(written).design == design
         if design.component == "main":
             assert about.path == "Options/main.yaml"
@@ -216,21 +216,21 @@ def test_every_comment_is_in_the_files() -> None:
 
 @pytest.mark.parametrize("program", PROGRAMS)
 def test_the_files_say_what_was_imported(program: str) -> None:
-    source = load(CASES / "programs" / program / "agents.xabsl")
-    made, _compiled = imported(source)
-    again, _ = imported(source)
+    source = load_source(CASES / "programs" / program / "agents.xabsl")
+    made, _compiled = import_checked(source)
+    again, _ = import_checked(source)
     assert again == made
-    text = with_remarks(save_project_file(made.project), made.remarks, of_project=True)
+    text = add_comments(save_project_file(made.project), made.comments, is_project_file=True)
     assert read_project_file(text).project == replace(made.project, designs=())
     for design, about in zip(made.project.designs, made.designs, strict=True):
-        read = read_design(with_remarks(save_design(design), about.remarks))
+        read = read_design(add_comments(save_design(design), about.comments))
         assert read.findings == ()
         assert read.design == design
 
 
 def test_a_remark_never_changes_what_a_file_means(tmp_path: Path) -> None:
     text = "vicode: 1\ncomponent: X\nmodule: |\n  one\n  two\ninitial: a\nstates: {a: {}}\n"
-    marked = with_remarks(text, [(("module",), "about the module"), (("states", "a"), "evil: {\n\x00 }"), ((), "top")])
+    marked = add_comments(text, [(("module",), "about the module"), (("states", "a"), "evil: {\n\x00 }"), ((), "top")])
     assert read_design(marked).design == read_design(text).design
     assert marked.startswith("# top\n")
     assert "# about the module\nmodule: |" in marked

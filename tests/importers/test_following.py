@@ -7,13 +7,13 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from tests.importers.following import follow, follow_team
+from tests.importers.following import compare_runs, compare_team_runs
 from tests.strategies.behaviors import behaviors
 from tests.xabsl.cases_of import CASES, PROGRAMS, load_texts
 from vicode.xabsl import tree
 from vicode.xabsl.compiler import compile_source
 from vicode.xabsl.printer import print_file
-from vicode.xabsl.sources import load
+from vicode.xabsl.sources import load_source
 
 WRITTEN = [path for path in os.environ.get("VICODE_XABSL_BEHAVIORS", "").split(":") if path]
 
@@ -87,25 +87,25 @@ def agents(*files: str) -> str:
 
 @pytest.mark.parametrize("program", PROGRAMS)
 def test_programs_do_the_same(program: str, tmp_path: Path) -> None:
-    source = load(CASES / "programs" / program / "agents.xabsl")
+    source = load_source(CASES / "programs" / program / "agents.xabsl")
     compiled = compile_source(source)
     assert compiled.program is not None
     for number, (agent, _root) in enumerate(compiled.program.agents[:2]):
-        follow(source, tmp_path / str(number), agent, count=150, seed=number)
+        compare_runs(source, tmp_path / str(number), agent, count=150, seed=number)
 
 
 @given(behaviors(with_functions=True), st.integers(0, 1000))
 @settings(suppress_health_check=[HealthCheck.function_scoped_fixture])
 def test_random_behaviors_do_the_same(
-    tmp_path_factory: pytest.TempPathFactory, files: dict[str, tree.File], seed: int
+    tmp_path_factory: pytest.TempPathFactory, files: dict[str, tree.FileNode], seed: int
 ) -> None:
     source = load_texts({name: print_file(file) for name, file in files.items()})
-    follow(source, tmp_path_factory.mktemp("behavior"), "main", count=15, seed=seed)
+    compare_runs(source, tmp_path_factory.mktemp("behavior"), "main", count=15, seed=seed)
 
 
 def test_a_call_among_the_arguments_changes_what_was_given_before(tmp_path: Path) -> None:
     texts = {"agents.xabsl": agents("symbols.xabsl", "main.xabsl"), "symbols.xabsl": NESTED, "main.xabsl": NESTING}
-    assert follow(load_texts(texts), tmp_path, "one", count=300) == 300
+    assert compare_runs(load_texts(texts), tmp_path, "one", count=300) == 300
 
 
 def test_robots_of_a_team_agree_in_the_same_way(tmp_path: Path) -> None:
@@ -115,14 +115,14 @@ def test_robots_of_a_team_agree_in_the_same_way(tmp_path: Path) -> None:
         "main.xabsl": TOGETHER,
         "support.xabsl": SUPPORT,
     }
-    seen = follow_team(load_texts(texts), tmp_path, "one", robots=3, count=400)
+    seen = compare_team_runs(load_texts(texts), tmp_path, "one", robots=3, count=400)
     assert {"handle", "pass", "wait", "far", "near"} <= seen
 
 
 @pytest.mark.parametrize("path", WRITTEN or [str(CASES / "programs" / "drive_circle" / "agents.xabsl")])
 def test_whole_behaviors_do_the_same(path: str, tmp_path: Path) -> None:
-    source = load(Path(path))
+    source = load_source(Path(path))
     compiled = compile_source(source)
     assert compiled.program is not None
     for number, (agent, _root) in enumerate(compiled.program.agents):
-        follow(source, tmp_path / str(number), agent, count=3000 if number == 0 else 300, seed=number)
+        compare_runs(source, tmp_path / str(number), agent, count=3000 if number == 0 else 300, seed=number)

@@ -6,14 +6,14 @@ from typing import Any
 
 import pytest
 
-from tests.importers.following import ByPython, imported
+from tests.importers.following import GeneratedPythonRun, import_checked
 from tests.importers.test_designs import texts
 from tests.xabsl.cases_of import CASES, PROGRAMS, load_texts
-from vicode.importers import robot_text
-from vicode.importers.names import plain_name
-from vicode.xabsl.compiler import symbols_of
+from vicode.importers import render_robot_class
+from vicode.importers.names import to_design_name
+from vicode.xabsl.compiler import declared_symbols
 from vicode.xabsl.engine import Engine
-from vicode.xabsl.sources import Source, load
+from vicode.xabsl.sources import ProgramSource, load_source
 
 
 def made_robot(text: str, folder: Path) -> Any:
@@ -30,21 +30,21 @@ def made_robot(text: str, folder: Path) -> Any:
 @pytest.mark.parametrize("program", [*PROGRAMS, "odd names"])
 def test_it_serves_both(program: str, tmp_path: Path) -> None:
     path = CASES / "programs" / program / "agents.xabsl"
-    source: Source = load(path) if program in PROGRAMS else load_texts(texts())
-    made, compiled = imported(source)
+    source: ProgramSource = load_source(path) if program in PROGRAMS else load_texts(texts())
+    made, compiled = import_checked(source)
     assert compiled.program is not None
-    robot = made_robot(robot_text(made.project), tmp_path)
-    symbols = symbols_of(compiled.table)
+    robot = made_robot(render_robot_class(made.project), tmp_path)
+    symbols = declared_symbols(compiled.table)
     engine = Engine(compiled.program, robot, symbols=symbols, clock=lambda: 5)
     agent = compiled.program.agents[0][0]
-    python = ByPython(made.project, compiled, agent, tmp_path)
+    python = GeneratedPythonRun(made.project, compiled, agent, tmp_path)
     python.root.world = robot
     for component in python.root.components:
         component.world = robot
     for _ in range(5):
         engine.execute()
         python.root.step()
-    active = {plain_name(each.name): plain_name(each.state) for each in engine.active_options}
+    active = {to_design_name(each.name): to_design_name(each.state) for each in engine.active_options}
     states = {type(each).__name__: each.state for each in python.root.components}
     assert active
     if program in PROGRAMS:
@@ -57,8 +57,8 @@ def test_a_strangers_words_stay_in_comments(tmp_path: Path) -> None:
     files["Symbols/ball.xabsl"] = (
         files["Symbols/ball.xabsl"].replace("how far", evil.replace("*/", "")).replace('"The ball"', '"a\nimport os"')
     )
-    made, _compiled = imported(load_texts(files))
-    robot = made_robot(robot_text(made.project), tmp_path)
+    made, _compiled = import_checked(load_texts(files))
+    robot = made_robot(render_robot_class(made.project), tmp_path)
     assert robot.ball_distance == 0
     assert robot.class_ is False
     assert robot.angle(to_x=1) == 0

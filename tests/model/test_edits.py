@@ -6,9 +6,9 @@ from vicode.model.design import (
     COMMON,
     Call,
     Code,
-    Common,
+    CommonSection,
+    DecisionGroup,
     Design,
-    Group,
     Guard,
     RunCode,
     State,
@@ -17,32 +17,32 @@ from vicode.model.design import (
     Use,
 )
 from vicode.model.edits import (
+    add_modulation,
+    add_requirement,
     add_state,
     add_transition,
     add_use,
-    free_name,
-    give_id,
-    modulate,
-    move,
+    assign_id,
+    move_nodes,
     remove_decisions,
+    remove_link,
     remove_states,
     remove_uses,
     rename_state,
     rename_use,
     reorder_decision,
     replace_decision,
-    require,
-    unlink,
+    unique_name,
     update_state,
 )
-from vicode.model.walks import decision_at, walk_transitions
+from vicode.model.walks import find_decision, iter_transitions
 
-TREE = Group(guard=Guard(when="seen"), then=(Transition(to="B"), Stay()), otherwise=(Transition(to="A"),))
+TREE = DecisionGroup(guard=Guard(when="seen"), then=(Transition(to="B"), Stay()), otherwise=(Transition(to="A"),))
 DESIGN = Design(
     component="Player",
     initial="A",
     uses=(Use(alias="head", component="Head"),),
-    common=Common(transitions=(Transition(to="B", guard=Guard(when="head.tired or done(head)")),)),
+    common=CommonSection(transitions=(Transition(to="B", guard=Guard(when="head.tired or done(head)")),)),
     states=(
         State(name="A", transitions=(Transition(to="B"), TREE), requires=("head",)),
         State(
@@ -53,7 +53,7 @@ DESIGN = Design(
 
 
 def targets(design: Design) -> list[tuple[str, str]]:
-    return [(at.source, at.decision.to) for at in walk_transitions(design) if isinstance(at.decision, Transition)]
+    return [(at.source, at.decision.to) for at in iter_transitions(design) if isinstance(at.decision, Transition)]
 
 
 def test_rename_follows_every_way_and_keeps_an_id() -> None:
@@ -82,8 +82,8 @@ def test_remove_states_takes_their_transitions_and_finds_another_start() -> None
 def test_transitions_get_ids_of_their_own_when_they_need_one() -> None:
     twice = add_transition(add_transition(DESIGN, "B", "A"), "B", "A")
     for index in (1, 2, 2):
-        twice = give_id(twice, ("states", "B", "transitions", index))
-    ids = [at.decision.id for at in walk_transitions(twice) if at.source == "B"]
+        twice = assign_id(twice, ("states", "B", "transitions", index))
+    ids = [at.decision.id for at in iter_transitions(twice) if at.source == "B"]
     assert ids == ["", "b_to_a", "b_to_a2"]
     assert targets(add_transition(DESIGN, COMMON, "A"))[1] == (COMMON, "A")
 
@@ -91,11 +91,11 @@ def test_transitions_get_ids_of_their_own_when_they_need_one() -> None:
 def test_decisions_are_replaced_moved_and_removed_inside_groups() -> None:
     path = ("states", "A", "transitions", 1, "then", 0)
     changed = replace_decision(DESIGN, path, Stay(doc="wait"))
-    found = decision_at(changed, path)
+    found = find_decision(changed, path)
     assert found is not None
     assert found.decision == Stay(doc="wait")
     moved = reorder_decision(DESIGN, path, 1)
-    assert isinstance(decision_at(moved, path).decision, Stay)  # type: ignore[union-attr]
+    assert isinstance(find_decision(moved, path).decision, Stay)  # type: ignore[union-attr]
     both = remove_decisions(DESIGN, [path, ("states", "A", "transitions", 0)])
     assert targets(both)[1:] == [("A", "A"), ("B", "A")]
 
@@ -110,12 +110,12 @@ def test_many_removals_at_once_do_not_shift_each_other() -> None:
 def test_uses_and_links() -> None:
     used = add_use(DESIGN, "Head")
     assert [use.alias for use in used.uses] == ["head", "head2"]
-    linked = modulate(require(used, "B", "head2"), "A", "head2")
+    linked = add_modulation(add_requirement(used, "B", "head2"), "A", "head2")
     assert linked.states[1].requires == ("head2",)
     assert linked.states[0].modulates == (Call(alias="head2"),)
-    assert modulate(require(linked, "B", "head2"), "A", "head2") == linked
-    assert unlink(linked, "A", "head2", modulates=True).states[0].modulates == ()
-    assert unlink(DESIGN, "B", "head", modulates=True).states[1].actions == ()
+    assert add_modulation(add_requirement(linked, "B", "head2"), "A", "head2") == linked
+    assert remove_link(linked, "A", "head2", modulates=True).states[0].modulates == ()
+    assert remove_link(DESIGN, "B", "head", modulates=True).states[1].actions == ()
     gone = remove_uses(DESIGN, ["head"])
     assert (gone.uses, gone.states[0].requires, gone.states[1].actions) == ((), (), ())
 
@@ -129,8 +129,8 @@ def test_rename_use_follows_expressions_calls_and_links() -> None:
 
 
 def test_move_and_names() -> None:
-    moved = move(DESIGN, {"A": (1, 2)}, {"head": (3, 4)}, (5, 6))
+    moved = move_nodes(DESIGN, {"A": (1, 2)}, {"head": (3, 4)}, (5, 6))
     assert (moved.states[0].at, moved.uses[0].at, moved.common.at) == ((1, 2), (3, 4), (5, 6))
-    assert move(DESIGN, {"Nowhere": (1, 2)}) == DESIGN
+    assert move_nodes(DESIGN, {"Nowhere": (1, 2)}) == DESIGN
     assert add_state(Design(component="C"), State(name="S")).initial == "S"
-    assert free_name("State", {"State", "State2"}) == "State3"
+    assert unique_name("State", {"State", "State2"}) == "State3"

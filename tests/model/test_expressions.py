@@ -5,7 +5,17 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from vicode.model.design import Declaration, Design, Use
-from vicode.model.expressions import Apply, Comparison, Logic, Node, Number, Reading, parse_expression, scope_of, walk
+from vicode.model.expressions import (
+    Comparison,
+    Expr,
+    FunctionCall,
+    Logic,
+    Number,
+    OutputRef,
+    build_scope,
+    parse_expression,
+    walk,
+)
 from vicode.model.project import Enumeration, Interface, Project
 
 DESIGN = Design(
@@ -34,12 +44,12 @@ PROJECT = Project(
         ),
     ),
 )
-SCOPE = scope_of(PROJECT, DESIGN)
+SCOPE = build_scope(PROJECT, DESIGN)
 
 
-def tree_of(text: str, expected: str | None = None) -> Node:
+def tree_of(text: str, expected: str | None = None) -> Expr:
     parsed = parse_expression(text, SCOPE, expected)
-    assert parsed.mistakes == ()
+    assert parsed.diagnostics == ()
     assert parsed.tree is not None
     return parsed.tree
 
@@ -116,7 +126,7 @@ def test_types(text: str, type_: str) -> None:
     ],
 )
 def test_mistakes_stand_at_their_characters(text: str, code: str, guilty: str | None) -> None:
-    mistakes = parse_expression(text, SCOPE).mistakes
+    mistakes = parse_expression(text, SCOPE).diagnostics
     assert [mistake.rule.code for mistake in mistakes] == [code]
     start, end = mistakes[0].span
     if guilty is not None:
@@ -125,16 +135,16 @@ def test_mistakes_stand_at_their_characters(text: str, code: str, guilty: str | 
 
 
 def test_expected_types() -> None:
-    assert parse_expression("tries", SCOPE, "float").mistakes == ()
-    (mistake,) = parse_expression("tries", SCOPE, "bool").mistakes
-    assert (mistake.rule.code, mistake.mend) == ("E304", "compare it, for example != 0")
-    (mistake,) = parse_expression("speed", SCOPE, "int").mistakes
-    assert "round" in mistake.mend
+    assert parse_expression("tries", SCOPE, "float").diagnostics == ()
+    (mistake,) = parse_expression("tries", SCOPE, "bool").diagnostics
+    assert (mistake.rule.code, mistake.fix) == ("E304", "compare it, for example != 0")
+    (mistake,) = parse_expression("speed", SCOPE, "int").diagnostics
+    assert "round" in mistake.fix
 
 
 def test_all_mistakes_come_at_once_with_the_nearest_name() -> None:
-    mistakes = parse_expression("tires > 1 and perception.ball_sen", SCOPE, "bool").mistakes
-    assert [mistake.mend for mistake in mistakes] == ["did you mean 'tries'?", "did you mean 'ball_seen'?"]
+    mistakes = parse_expression("tires > 1 and perception.ball_sen", SCOPE, "bool").diagnostics
+    assert [mistake.fix for mistake in mistakes] == ["did you mean 'tries'?", "did you mean 'ball_seen'?"]
 
 
 def test_shape_of_trees() -> None:
@@ -143,8 +153,8 @@ def test_shape_of_trees() -> None:
     comparison, reading = tree.operands
     assert isinstance(comparison, Comparison)
     assert comparison.operators == ("<", "<")
-    assert isinstance(comparison.operands[1], Apply)
-    assert isinstance(reading, Reading)
+    assert isinstance(comparison.operands[1], FunctionCall)
+    assert isinstance(reading, OutputRef)
     assert [node.value for node in walk(tree) if isinstance(node, Number)] == [1, 3, 4]
 
 
@@ -152,12 +162,12 @@ def test_shape_of_trees() -> None:
     "text", ["(" * 300, "-" * 9000 + "1", "1+" * 4000 + "1", "x" * 20_000, "a\0b", "not " * 500 + "ready"]
 )
 def test_monstrous_texts_are_mistakes(text: str) -> None:
-    assert [mistake.rule.code for mistake in parse_expression(text, SCOPE).mistakes] == ["E301"]
+    assert [mistake.rule.code for mistake in parse_expression(text, SCOPE).diagnostics] == ["E301"]
 
 
 @given(st.text(max_size=60) | st.text(alphabet="tries perception.ball_x()<>=+-*/%0123456789 \n#'\"\\", max_size=60))
 def test_never_raises_and_stays_inside_the_text(text: str) -> None:
     parsed = parse_expression(text, SCOPE, "bool")
-    assert (parsed.tree is not None) or parsed.mistakes
-    for mistake in parsed.mistakes:
+    assert (parsed.tree is not None) or parsed.diagnostics
+    for mistake in parsed.diagnostics:
         assert 0 <= mistake.span[0] <= mistake.span[1] <= max(1, len(text))

@@ -2,7 +2,7 @@
 
 import pytest
 
-from vicode.model.names import is_name, name_like
+from vicode.model.names import is_valid_name, name_from_text
 
 
 @pytest.mark.parametrize(
@@ -18,5 +18,5 @@ from vicode.model.names import is_name, name_like
     ],
 )
 def test_the_nearest_name_is_one_or_nothing(text: str, name: str) -> None:
-    assert name_like(text) == name
-    assert not name or is_name(name)
+    assert name_from_text(text) == name
+    assert not name or is_valid_name(name)

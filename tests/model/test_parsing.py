@@ -9,7 +9,7 @@ from concurrent.futures import ThreadPoolExecutor
 
 import pytest
 
-from vicode.model.parsing import parse_module, take_turns
+from vicode.model.parsing import parse_module, serialize_calls
 
 SOURCE = "def f(x):\n" + "    if x and (1 + (2 + (3 + (4 + x)))):\n        return [g(y, [y]) for y in x]\n" * 60
 
@@ -38,7 +38,7 @@ def test_threads_do_not_disturb_each_other() -> None:
 
 
 def test_who_reads_literals_takes_turns() -> None:
-    read = take_turns(ast.literal_eval)
+    read = serialize_calls(ast.literal_eval)
     with ThreadPoolExecutor(4) as threads:
         trees = [threads.submit(parse_module, SOURCE) for _ in range(40)]
         values = [read(f"[{number}, ['a', 'b']]") for number in range(4000)]

@@ -8,17 +8,23 @@ from vicode.model.design import (
     Assign,
     Call,
     Code,
-    Common,
+    CommonSection,
+    DecisionGroup,
     Design,
-    Group,
     Guard,
     RunCode,
     State,
     Transition,
     Use,
 )
-from vicode.model.parts import Wanted, append_decisions, part_of, put_in, repeat_decision
-from vicode.model.walks import walk_decisions, walk_transitions
+from vicode.model.parts import (
+    FragmentSelection,
+    append_decisions,
+    duplicate_decision,
+    extract_fragment,
+    insert_fragment,
+)
+from vicode.model.walks import iter_decisions, iter_transitions
 from vicode.store import read_design, save_design
 
 DESIGN = Design(
@@ -29,7 +35,7 @@ DESIGN = Design(
         Use(alias="legs", component="Legs"),
         Use(alias="eyes", component="Eyes"),
     ),
-    common=Common(transitions=(Transition(to="C"),)),
+    common=CommonSection(transitions=(Transition(to="C"),)),
     states=(
         State(
             name="A",
@@ -39,7 +45,7 @@ DESIGN = Design(
             transitions=(
                 Transition(to="B", id="a_to_b"),
                 Transition(to="C"),
-                Group(guard=Guard(when="x"), then=(Transition(to="C"),)),
+                DecisionGroup(guard=Guard(when="x"), then=(Transition(to="C"),)),
             ),
         ),
         State(name="B", at=(200, 0), transitions=(Transition(to="A", guard=Guard(when="eyes.open")),)),
@@ -50,17 +56,19 @@ ALL = {"Head", "Legs", "Eyes"}
 
 
 def arrows(design: Design) -> list[tuple[str, str]]:
-    return [(at.source, at.decision.to) for at in walk_transitions(design) if isinstance(at.decision, Transition)]
+    return [(at.source, at.decision.to) for at in iter_transitions(design) if isinstance(at.decision, Transition)]
 
 
 def test_a_part_takes_along_the_components_it_speaks_of() -> None:
-    assert [use.alias for use in part_of(DESIGN, Wanted(states=["A"])).uses] == ["head", "legs"]
-    assert [use.alias for use in part_of(DESIGN, Wanted(states=["B"])).uses] == ["eyes"]
-    assert part_of(DESIGN, Wanted(states=["C"], aliases=["legs"])).uses == (DESIGN.uses[1],)
+    assert [use.alias for use in extract_fragment(DESIGN, FragmentSelection(states=["A"])).uses] == ["head", "legs"]
+    assert [use.alias for use in extract_fragment(DESIGN, FragmentSelection(states=["B"])).uses] == ["eyes"]
+    assert extract_fragment(DESIGN, FragmentSelection(states=["C"], aliases=["legs"])).uses == (DESIGN.uses[1],)
 
 
 def test_names_are_made_free_and_transitions_between_the_pasted_are_kept() -> None:
-    joined = put_in(DESIGN, part_of(DESIGN, Wanted(states=["A", "B"])), known=ALL, by=(40, 90))
+    joined = insert_fragment(
+        DESIGN, extract_fragment(DESIGN, FragmentSelection(states=["A", "B"])), available=ALL, offset=(40, 90)
+    )
     assert joined.states == ("A2", "B2")
     assert arrows(joined.design)[-4:] == [("A2", "B2"), ("A2", "C"), ("A2", "C"), ("B2", "A2")]
     assert joined.design.states[3].at == (40, 90)
@@ -68,7 +76,9 @@ def test_names_are_made_free_and_transitions_between_the_pasted_are_kept() -> No
 
 
 def test_what_leads_nowhere_is_left_out_with_the_groups_it_leaves_empty() -> None:
-    joined = put_in(Design(component="Other"), part_of(DESIGN, Wanted(states=["A", "B"])), known=ALL)
+    joined = insert_fragment(
+        Design(component="Other"), extract_fragment(DESIGN, FragmentSelection(states=["A", "B"])), available=ALL
+    )
     assert arrows(joined.design) == [("A", "B"), ("B", "A")]
     assert len(joined.design.states[0].transitions) == 1
     assert joined.design.initial == "A"
@@ -77,7 +87,7 @@ def test_what_leads_nowhere_is_left_out_with_the_groups_it_leaves_empty() -> Non
 
 def test_an_alias_that_means_something_else_here_gets_another_name() -> None:
     other = Design(component="Other", uses=(Use(alias="legs", component="Wheels"), Use(alias="head", component="Head")))
-    joined = put_in(other, part_of(DESIGN, Wanted(states=["A"])), known=ALL)
+    joined = insert_fragment(other, extract_fragment(DESIGN, FragmentSelection(states=["A"])), available=ALL)
     assert [(use.alias, use.component) for use in joined.design.uses][2:] == [("legs2", "Legs")]
     (action,) = joined.design.states[0].actions
     assert isinstance(action, RunCode)
@@ -85,39 +95,48 @@ def test_an_alias_that_means_something_else_here_gets_another_name() -> None:
 
 
 def test_components_that_are_not_to_be_had_are_told() -> None:
-    joined = put_in(Design(component="Other"), part_of(DESIGN, Wanted(states=["A"])), known={"Head"})
+    joined = insert_fragment(
+        Design(component="Other"), extract_fragment(DESIGN, FragmentSelection(states=["A"])), available={"Head"}
+    )
     assert joined.missing == ("Legs",)
     assert [use.alias for use in joined.design.uses] == ["head"]
 
 
 def test_code_never_shares_an_id() -> None:
-    joined = put_in(DESIGN, part_of(DESIGN, Wanted(states=["A"])), known=ALL)
+    joined = insert_fragment(DESIGN, extract_fragment(DESIGN, FragmentSelection(states=["A"])), available=ALL)
     copy = joined.design.states[-1]
     assert isinstance(copy.actions[0], RunCode)
     assert (copy.actions[0].id, copy.transitions[0].id) == ("go2", "a_to_b2")
-    cut = put_in(Design(component="Other"), part_of(DESIGN, Wanted(states=["A"])), known=ALL)
+    cut = insert_fragment(
+        Design(component="Other"), extract_fragment(DESIGN, FragmentSelection(states=["A"])), available=ALL
+    )
     assert isinstance(cut.design.states[0].actions[0], RunCode)
     assert cut.design.states[0].actions[0].id == "go"
 
 
 def test_numbers_at_the_end_of_names_are_counted_on() -> None:
     design = Design(component="X", states=(State(name="Kick2"), State(name="Kick3"), State(name="7")))
-    joined = put_in(design, design, known=())
+    joined = insert_fragment(design, design, available=())
     assert joined.states == ("Kick4", "Kick5", "72")
 
 
 def test_transitions_without_their_state_go_to_others() -> None:
-    part = part_of(DESIGN, Wanted(decisions=[("states", "A", "transitions", 0)]))
+    part = extract_fragment(DESIGN, FragmentSelection(decisions=[("states", "A", "transitions", 0)]))
     assert [item.to for item in part.common.transitions if isinstance(item, Transition)] == ["B"]
-    joined = append_decisions(DESIGN, part, ["B", "C"], known=ALL)
+    joined = append_decisions(DESIGN, part, ["B", "C"], available=ALL)
     assert arrows(joined.design)[-2:] == [("B", "B"), ("C", "B")]
 
 
 def test_the_common_part_is_joined_once() -> None:
-    part = part_of(DESIGN, Wanted(states=["C"], common=True))
-    assert put_in(DESIGN, part, known=()).design.common.transitions == (Transition(to="C"), Transition(to="C2"))
-    lone = Design(component="X", states=(State(name="C"),), common=Common(actions=(Assign(values=(("x", "1"),)),)))
-    again = put_in(lone, replace_states(lone), known=())
+    part = extract_fragment(DESIGN, FragmentSelection(states=["C"], common=True))
+    assert insert_fragment(DESIGN, part, available=()).design.common.transitions == (
+        Transition(to="C"),
+        Transition(to="C2"),
+    )
+    lone = Design(
+        component="X", states=(State(name="C"),), common=CommonSection(actions=(Assign(values=(("x", "1"),)),))
+    )
+    again = insert_fragment(lone, replace_states(lone), available=())
     assert len(again.design.common.actions) == 1
 
 
@@ -126,20 +145,20 @@ def replace_states(design: Design) -> Design:
 
 
 def test_a_decision_is_repeated_behind_itself() -> None:
-    twice = repeat_decision(DESIGN, ("states", "A", "transitions", 0))
+    twice = duplicate_decision(DESIGN, ("states", "A", "transitions", 0))
     assert [getattr(item, "id", "") for item in twice.states[0].transitions] == ["a_to_b", "a_to_b2", "", ""]
-    assert repeat_decision(DESIGN, ("states", "A", "transitions", 9)) is DESIGN
+    assert duplicate_decision(DESIGN, ("states", "A", "transitions", 9)) is DESIGN
 
 
 @given(designs, designs, st.data())
 def test_any_part_fits_anywhere(design: Design, other: Design, data: st.DataObject) -> None:
     names = data.draw(st.lists(st.sampled_from([state.name for state in design.states] or ["x"]), max_size=3))
-    part = part_of(design, Wanted(states=names, common=data.draw(st.booleans())))
-    joined = put_in(other, part, known={use.component for use in part.uses})
+    part = extract_fragment(design, FragmentSelection(states=names, common=data.draw(st.booleans())))
+    joined = insert_fragment(other, part, available={use.component for use in part.uses})
     result = joined.design
     assert len({state.name for state in result.states}) == len(other.states) + len(part.states)
     assert result.states[: len(other.states)] == other.states
-    new = [located for located in walk_decisions(result) if located.source in joined.states]
+    new = [located for located in iter_decisions(result) if located.source in joined.states]
     there = {state.name for state in result.states}
     assert all(at.decision.to in there for at in new if isinstance(at.decision, Transition))
     assert read_design(save_design(result)).design == result
@@ -152,4 +171,4 @@ def test_calls_count_as_speaking_of_a_component() -> None:
         states=(State(name="A", modulates=(Call(alias="head"),)), State(name="B", actions=(Call(alias="head"),))),
     )
     for name in "AB":
-        assert part_of(design, Wanted(states=[name])).uses == design.uses
+        assert extract_fragment(design, FragmentSelection(states=[name])).uses == design.uses

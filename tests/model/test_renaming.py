@@ -10,9 +10,21 @@ from hypothesis import strategies as st
 from tests.generators.portable_designs import portable_projects
 from tests.generators.sound_designs import project_of, sound_designs
 from vicode.check import check_project
-from vicode.model.design import Assign, Call, Code, Common, Declaration, Design, Guard, RunCode, State, Transition, Use
+from vicode.model.design import (
+    Assign,
+    Call,
+    Code,
+    CommonSection,
+    Declaration,
+    Design,
+    Guard,
+    RunCode,
+    State,
+    Transition,
+    Use,
+)
 from vicode.model.project import Project
-from vicode.model.renaming import Declared, Said, Way, has_declared, names_beside, rename_declared
+from vicode.model.renaming import ReferenceKind, ReferenceRename, SymbolRef, is_declared, rename_symbol, sibling_names
 from vicode.model.renaming.cpp import rename_in_cpp
 from vicode.model.renaming.expressions import rename_in_expression
 from vicode.model.renaming.python import rename_in_python
@@ -20,55 +32,75 @@ from vicode.model.renaming.python import rename_in_python
 projects = portable_projects() | sound_designs().map(project_of)
 
 
-def things_of(project: Project) -> list[Declared]:
+def things_of(project: Project) -> list[SymbolRef]:
     """Everything in a project that can have another name."""
-    kinds = [Declared(section=section, name="") for section in ("constants", "enumerations", "components", "agents")]
-    kinds += [Declared(section="elements", owner=each.name, name="") for each in project.enumerations]
+    kinds = [SymbolRef(section=section, name="") for section in ("constants", "enumerations", "components", "agents")]
+    kinds += [SymbolRef(section="elements", owner=each.name, name="") for each in project.enumerations]
     for name, interface in project.interfaces().items():
         sections = ("uses", "parameters", "outputs", "variables")
-        kinds += [Declared(component=name, section=section, name="") for section in sections]
+        kinds += [SymbolRef(component=name, section=section, name="") for section in sections]
         for output in interface.outputs:
-            kinds.append(Declared(component=name, section="arguments", owner=output.name, name=""))
-    return [replace(kind, name=name) for kind in kinds for name in names_beside(project, kind)]
+            kinds.append(SymbolRef(component=name, section="arguments", owner=output.name, name=""))
+    return [replace(kind, name=name) for kind in kinds for name in sibling_names(project, kind)]
 
 
 @settings(max_examples=60)
 @given(projects, st.data())
 def test_a_rename_brings_no_findings_and_can_be_taken_back(project: Project, data: st.DataObject) -> None:
     thing = data.draw(st.sampled_from(things_of(project)))
-    renamed = rename_declared(project, thing, "another_name")
-    assert not has_declared(renamed, thing)
+    renamed = rename_symbol(project, thing, "another_name")
+    assert not is_declared(renamed, thing)
     before, after = (Counter(each.rule.code for each in check_project(every)) for every in (project, renamed))
     assert after == before
-    assert rename_declared(renamed, replace(thing, name="another_name"), thing.name) == project
+    assert rename_symbol(renamed, replace(thing, name="another_name"), thing.name) == project
 
 
 @pytest.mark.parametrize(
     ("said", "text", "wanted"),
     [
-        (Said(way=Way.OWN, old="a", new="b"), "a + eyes.a + A.a > a", "b + eyes.a + A.a > b"),
-        (Said(way=Way.OWN, old="e5", new="x"), "1e5 < e5 and 2.e5", "1e5 < x and 2.e5"),
-        (Said(way=Way.OWN, old="min", new="low"), "min(min, 2)", "min(low, 2)"),
-        (Said(way=Way.OWN, old="x", new="z"), "eyes.far(x=x, y=x == x)", "eyes.far(x=z, y=z == z)"),
-        (Said(way=Way.OWN, old="a", new="b"), "a > (", "b > ("),
-        (Said(way=Way.ALIAS, old="head", new="neck"), "head . pan > done( head )", "neck . pan > done( neck )"),
-        (Said(way=Way.ALIAS, old="head", new="neck"), "eyes.head.x", "eyes.head.x"),
-        (Said(way=Way.MEMBER, owner="head", old="pan", new="yaw"), "head\n.pan + legs.pan", "head\n.yaw + legs.pan"),
+        (ReferenceRename(kind=ReferenceKind.OWN, old="a", new="b"), "a + eyes.a + A.a > a", "b + eyes.a + A.a > b"),
+        (ReferenceRename(kind=ReferenceKind.OWN, old="e5", new="x"), "1e5 < e5 and 2.e5", "1e5 < x and 2.e5"),
+        (ReferenceRename(kind=ReferenceKind.OWN, old="min", new="low"), "min(min, 2)", "min(low, 2)"),
         (
-            Said(way=Way.ARGUMENT, owner="eyes.far", old="x", new="z"),
+            ReferenceRename(kind=ReferenceKind.OWN, old="x", new="z"),
+            "eyes.far(x=x, y=x == x)",
+            "eyes.far(x=z, y=z == z)",
+        ),
+        (ReferenceRename(kind=ReferenceKind.OWN, old="a", new="b"), "a > (", "b > ("),
+        (
+            ReferenceRename(kind=ReferenceKind.ALIAS, old="head", new="neck"),
+            "head . pan > done( head )",
+            "neck . pan > done( neck )",
+        ),
+        (ReferenceRename(kind=ReferenceKind.ALIAS, old="head", new="neck"), "eyes.head.x", "eyes.head.x"),
+        (
+            ReferenceRename(kind=ReferenceKind.MEMBER, owner="head", old="pan", new="yaw"),
+            "head\n.pan + legs.pan",
+            "head\n.yaw + legs.pan",
+        ),
+        (
+            ReferenceRename(kind=ReferenceKind.ARGUMENT, owner="eyes.far", old="x", new="z"),
             "eyes.far(x=x) + f(x=1)",
             "eyes.far(z=x) + f(x=1)",
         ),
-        (Said(way=Way.ELEMENT, owner="Side", old="left", new="west"), "side == Side.left", "side == Side.west"),
-        (Said(way=Way.ENUMERATION, old="Side", new="Half"), "side == Side.left", "side == Half.left"),
+        (
+            ReferenceRename(kind=ReferenceKind.ELEMENT, owner="Side", old="left", new="west"),
+            "side == Side.left",
+            "side == Side.west",
+        ),
+        (
+            ReferenceRename(kind=ReferenceKind.ENUMERATION, old="Side", new="Half"),
+            "side == Side.left",
+            "side == Half.left",
+        ),
     ],
 )
-def test_only_what_is_meant_is_renamed_in_an_expression(said: Said, text: str, wanted: str) -> None:
+def test_only_what_is_meant_is_renamed_in_an_expression(said: ReferenceRename, text: str, wanted: str) -> None:
     assert rename_in_expression(text, said) == wanted
 
 
-OWN = Said(way=Way.OWN, old="tries", new="attempts")
-SHARED = Said(way=Way.ENUMERATION, old="Side", new="Half")
+OWN = ReferenceRename(kind=ReferenceKind.OWN, old="tries", new="attempts")
+SHARED = ReferenceRename(kind=ReferenceKind.ENUMERATION, old="Side", new="Half")
 
 
 @pytest.mark.parametrize(
@@ -98,24 +130,24 @@ SHARED = Said(way=Way.ENUMERATION, old="Side", new="Half")
         ("action", SHARED, "for Side in x:\n    print(Side)", "for Side in x:\n    print(Side)"),
         (
             "action",
-            replace(OWN, way=Way.MEMBER, owner="eyes"),
+            replace(OWN, way=ReferenceKind.MEMBER, owner="eyes"),
             "self.eyes.tries, self.tries",
             "self.eyes.attempts, self.tries",
         ),
         (
             "action",
-            replace(OWN, way=Way.PARAMETER, owner="legs"),
+            replace(OWN, way=ReferenceKind.PARAMETER, owner="legs"),
             "self.legs.modulate(tries=2); self._call(self.legs, tries=3); f(tries=4)",
             "self.legs.modulate(attempts=2); self._call(self.legs, attempts=3); f(tries=4)",
         ),
     ],
 )
-def test_only_what_is_certain_is_renamed_in_python(role: str, said: Said, text: str, wanted: str) -> None:
+def test_only_what_is_certain_is_renamed_in_python(role: str, said: ReferenceRename, text: str, wanted: str) -> None:
     assert rename_in_python(text, role, said) == wanted
 
 
-ELEMENT = Said(way=Way.ELEMENT, owner="Side", old="left", new="west")
-EYES = Said(way=Way.MEMBER, owner="eyes", old="tries", new="attempts")
+ELEMENT = ReferenceRename(kind=ReferenceKind.ELEMENT, owner="Side", old="left", new="west")
+EYES = ReferenceRename(kind=ReferenceKind.MEMBER, owner="eyes", old="tries", new="attempts")
 
 
 @pytest.mark.parametrize(
@@ -154,7 +186,7 @@ EYES = Said(way=Way.MEMBER, owner="eyes", old="tries", new="attempts")
         ("action", OWN, 'x = "open; this->tries', 'x = "open; this->tries'),
     ],
 )
-def test_only_what_is_certain_is_renamed_in_cpp(role: str, said: Said, text: str, wanted: str) -> None:
+def test_only_what_is_certain_is_renamed_in_cpp(role: str, said: ReferenceRename, text: str, wanted: str) -> None:
     assert rename_in_cpp(text, role, said) == wanted
 
 
@@ -188,7 +220,7 @@ PLAYER = Design(
     uses=(Use(alias="follow", component="Follow"), Use(alias="again", component="Follow")),
     variables=(Declaration(name="speed"), Declaration(name="near", type="bool")),
     initial="A",
-    common=Common(transitions=(Transition(to="A", guard=Guard(when="follow.near and near")),)),
+    common=CommonSection(transitions=(Transition(to="A", guard=Guard(when="follow.near and near")),)),
     states=(
         State(
             name="A",
@@ -205,7 +237,7 @@ TEAM = Project(name="team", designs=(FOLLOW, PLAYER))
 
 
 def test_a_parameter_is_renamed_where_others_set_it() -> None:
-    renamed = rename_declared(TEAM, Declared(component="Follow", section="parameters", name="speed"), "pace")
+    renamed = rename_symbol(TEAM, SymbolRef(component="Follow", section="parameters", name="speed"), "pace")
     follow, player = renamed.designs
     (go,) = follow.states
     assert follow.parameters[0].name == "pace"
@@ -224,7 +256,7 @@ def test_a_parameter_is_renamed_where_others_set_it() -> None:
 
 
 def test_an_output_is_renamed_where_others_read_it() -> None:
-    renamed = rename_declared(TEAM, Declared(component="Follow", section="outputs", name="near"), "close")
+    renamed = rename_symbol(TEAM, SymbolRef(component="Follow", section="outputs", name="near"), "close")
     follow, player = renamed.designs
     assert follow.states[0].actions[0] == Assign(values=(("close", "speed > 2"),))
     assert player.common.transitions[0].guard.when == "follow.close and near"
@@ -234,6 +266,6 @@ def test_an_output_is_renamed_where_others_read_it() -> None:
 
 
 def test_the_memory_of_a_design_is_nobody_elses() -> None:
-    renamed = rename_declared(TEAM, Declared(component="Player", section="variables", name="near"), "close")
+    renamed = rename_symbol(TEAM, SymbolRef(component="Player", section="variables", name="near"), "close")
     assert renamed.designs[0] == FOLLOW
     assert renamed.designs[1].common.transitions[0].guard.when == "follow.near and close"

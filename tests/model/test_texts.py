@@ -4,15 +4,15 @@ from hypothesis import given
 
 from tests.strategies.designs import designs
 from vicode.model.design import Design
-from vicode.model.texts import rewrite_text, walk_texts
+from vicode.model.texts import iter_texts, rewrite_text
 
 
 @given(designs)
 def test_each_text_can_be_replaced_where_it_stands(design: Design) -> None:
-    before = [(each.path, each.text) for each in walk_texts(design)]
+    before = [(each.path, each.text) for each in iter_texts(design)]
     for path, text in before:
         changed = rewrite_text(design, path, lambda old: f"{old}~")
-        after = [(each.path, each.text) for each in walk_texts(changed)]
+        after = [(each.path, each.text) for each in iter_texts(changed)]
         assert after == [(at, f"{old}~" if at == path else old) for at, old in before], path
         assert rewrite_text(changed, path, lambda _new, old=text: old) == design
 

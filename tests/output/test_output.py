@@ -7,16 +7,16 @@ from pathlib import Path
 import pytest
 
 from vicode import output
-from vicode.output import OutputFile, Status
+from vicode.output import FileStatus, OutputFile
 
 HEADER = "# Ours.\n"
 
 
-def compare(files: list[OutputFile], folder: Path, **arguments: list[str]) -> tuple[output.Difference, ...]:
-    return output.compare(files, folder, is_ours=lambda text: text.startswith(HEADER), **arguments)
+def compare(files: list[OutputFile], folder: Path, **arguments: list[str]) -> tuple[output.FileDiff, ...]:
+    return output.compare_files(files, folder, is_generated=lambda text: text.startswith(HEADER), **arguments)
 
 
-def statuses(files: list[OutputFile], folder: Path, **arguments: list[str]) -> dict[str, Status]:
+def statuses(files: list[OutputFile], folder: Path, **arguments: list[str]) -> dict[str, FileStatus]:
     return {each.path: each.status for each in compare(files, folder, **arguments)}
 
 
@@ -33,10 +33,10 @@ def test_every_status_is_told(tmp_path: Path) -> None:
     write(tmp_path, "p/gone.py", HEADER)
     files = [OutputFile(path=f"p/{name}.py", text=HEADER) for name in ("same", "other", "fresh")]
     assert statuses(files, tmp_path) == {
-        "p/fresh.py": Status.NEW,
-        "p/gone.py": Status.STALE,
-        "p/other.py": Status.CHANGED,
-        "p/same.py": Status.UNCHANGED,
+        "p/fresh.py": FileStatus.NEW,
+        "p/gone.py": FileStatus.STALE,
+        "p/other.py": FileStatus.CHANGED,
+        "p/same.py": FileStatus.UNCHANGED,
     }
 
 
@@ -46,28 +46,28 @@ def test_only_generated_sources_beside_ours_are_stale(tmp_path: Path) -> None:
     write(tmp_path, "q/other.py", HEADER)
     write(tmp_path, "p/kept.py", HEADER)
     files = [OutputFile(path="p/new.py", text=HEADER)]
-    assert statuses(files, tmp_path, keep=["p/kept.py"]) == {"p/new.py": Status.NEW}
+    assert statuses(files, tmp_path, keep=["p/kept.py"]) == {"p/new.py": FileStatus.NEW}
 
 
 def test_applying_makes_the_folder_agree(tmp_path: Path) -> None:
     write(tmp_path, "p/gone.py", HEADER)
     write(tmp_path, "p/a.py", HEADER + "old\n")
     files = [OutputFile(path="p/a.py", text=HEADER), OutputFile(path="p/sub/b.py", text=HEADER + "é\n")]
-    touched = output.apply(compare(files, tmp_path), tmp_path)
+    touched = output.apply_diffs(compare(files, tmp_path), tmp_path)
     assert [path.name for path in touched] == ["a.py", "gone.py", "b.py"]
-    assert set(statuses(files, tmp_path).values()) == {Status.UNCHANGED}
+    assert set(statuses(files, tmp_path).values()) == {FileStatus.UNCHANGED}
     assert sorted(path.name for path in tmp_path.rglob("*.*")) == ["a.py", "b.py"]
 
 
 def test_carriage_returns_of_a_checkout_are_no_change(tmp_path: Path) -> None:
     (tmp_path / "a.py").write_bytes(HEADER.replace("\n", "\r\n").encode())
-    assert statuses([OutputFile(path="a.py", text=HEADER)], tmp_path) == {"a.py": Status.UNCHANGED}
+    assert statuses([OutputFile(path="a.py", text=HEADER)], tmp_path) == {"a.py": FileStatus.UNCHANGED}
 
 
 def test_the_difference_reads_as_a_diff(tmp_path: Path) -> None:
     write(tmp_path, "a.py", "one\ntwo\n")
-    (changed,) = output.compare([OutputFile(path="a.py", text="one\nthree\n")], tmp_path)
-    assert output.diff(changed).splitlines() == [
+    (changed,) = output.compare_files([OutputFile(path="a.py", text="one\nthree\n")], tmp_path)
+    assert output.format_diff(changed).splitlines() == [
         "--- a/a.py",
         "+++ b/a.py",
         "@@ -1,2 +1,2 @@",

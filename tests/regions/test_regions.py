@@ -23,7 +23,7 @@ BODIES = [
 
 
 def find_one(text: str) -> regions.Region:
-    found = regions.find(text)
+    found = regions.find_regions(text)
     assert not found.findings
     (region,) = found.regions
     return region
@@ -31,7 +31,7 @@ def find_one(text: str) -> regions.Region:
 
 @pytest.mark.parametrize("body", BODIES)
 def test_what_is_wrapped_is_found_unedited(body: str) -> None:
-    text = "before\n" + regions.wrap("Kick.enter", body, indent="        ") + "after\n"
+    text = "before\n" + regions.wrap_region("Kick.enter", body, indent="        ") + "after\n"
     region = find_one(text)
     assert (region.id, region.line, region.indent) == ("Kick.enter", 2, "        ")
     assert not regions.is_edited(region)
@@ -39,40 +39,40 @@ def test_what_is_wrapped_is_found_unedited(body: str) -> None:
 
 @given(st.text(st.sampled_from(" \t\r\n#</>vicode\"'\\ab:=()f{}1"), max_size=60))
 def test_any_text_is_found_again_unedited(body: str) -> None:
-    found = regions.find(regions.wrap("a", body, indent="    "))
+    found = regions.find_regions(regions.wrap_region("a", body, indent="    "))
     assert found.regions
     assert not regions.is_edited(found.regions[0])
 
 
 @given(st.text(st.sampled_from(" \n#</>vicode ab12345678"), max_size=80) | st.text())
 def test_any_text_can_be_searched(text: str) -> None:
-    found = regions.find(text)
-    assert regions.find(regions.without_bodies(text)).regions == () or found.regions
+    found = regions.find_regions(text)
+    assert regions.find_regions(regions.strip_bodies(text)).regions == () or found.regions
 
 
 def test_indentation_does_not_change_strings() -> None:
-    wrapped = regions.wrap("a", 'text = """one\n  two\nthree"""', indent="    ")
+    wrapped = regions.wrap_region("a", 'text = """one\n  two\nthree"""', indent="    ")
     assert wrapped.splitlines()[1:4] == ['    text = """one', "  two", 'three"""']
     assert find_one(wrapped).body == 'text = """one\n  two\nthree"""'
 
 
 def test_indented_code_loses_its_margin() -> None:
-    assert find_one(regions.wrap("a", "    x = 1\n      y\n")).body == "x = 1\n  y"
+    assert find_one(regions.wrap_region("a", "    x = 1\n      y\n")).body == "x = 1\n  y"
 
 
 def test_an_edit_is_seen() -> None:
-    text = regions.wrap("a", "x = 1", indent="    ")
+    text = regions.wrap_region("a", "x = 1", indent="    ")
     assert regions.is_edited(find_one(text.replace("x = 1", "x = 2")))
 
 
 def test_line_ends_and_blanks_at_them_are_no_edit() -> None:
-    text = regions.wrap("a", "x = 1\ny = 2", indent="    ")
+    text = regions.wrap_region("a", "x = 1\ny = 2", indent="    ")
     assert not regions.is_edited(find_one(text.replace("\n", "  \r\n")))
 
 
 def test_a_definition_keeps_the_distance_formatters_want() -> None:
-    assert regions.wrap("a", "def f():\n    pass").endswith("pass\n\n\n# </vicode>\n")
-    assert regions.wrap("a", "def f():\n    pass", indent="    ").endswith("pass\n\n    # </vicode>\n")
+    assert regions.wrap_region("a", "def f():\n    pass").endswith("pass\n\n\n# </vicode>\n")
+    assert regions.wrap_region("a", "def f():\n    pass", indent="    ").endswith("pass\n\n    # </vicode>\n")
 
 
 @pytest.mark.parametrize(
@@ -82,42 +82,42 @@ def test_a_definition_keeps_the_distance_formatters_want() -> None:
         ("# <vicode a 12345678>\n# <vicode b 12345678>\n# </vicode>\n", 1, "no end mark"),
         ("x = 1\n# </vicode>\n", 2, "without its begin"),
         ("# <vicode a>\n", 1, "cannot be read"),
-        (regions.wrap("a", "x") + regions.wrap("a", "x"), 4, "two regions with the id 'a'"),
+        (regions.wrap_region("a", "x") + regions.wrap_region("a", "x"), 4, "two regions with the id 'a'"),
     ],
 )
 def test_broken_marks_are_named(text: str, line: int, message: str) -> None:
-    (finding, *_others) = regions.find(text, file="player.py").findings
+    (finding, *_others) = regions.find_regions(text, file="player.py").findings
     assert finding.rule.code == "G503"
     assert message in finding.message
-    assert finding.place is not None
-    assert (finding.place.file, finding.place.line) == ("player.py", line)
+    assert finding.location is not None
+    assert (finding.location.file, finding.location.line) == ("player.py", line)
 
 
 def test_other_languages_have_other_comments() -> None:
-    text = regions.wrap("a", "int x = 1;", comment="//", indent="  ")
-    assert text == f"  // <vicode a {regions.checksum_of('int x = 1;')}>\n  int x = 1;\n  // </vicode>\n"
-    assert regions.find(text, "//").regions[0].body == "int x = 1;"
+    text = regions.wrap_region("a", "int x = 1;", comment="//", indent="  ")
+    assert text == f"  // <vicode a {regions.compute_checksum('int x = 1;')}>\n  int x = 1;\n  // </vicode>\n"
+    assert regions.find_regions(text, "//").regions[0].body == "int x = 1;"
 
 
 def test_a_text_without_bodies_keeps_what_stands_around() -> None:
-    one, other = (f"a\n{regions.wrap('r', body)}b\n" for body in ("x = 1", "y = 2\nz = 3"))
-    assert regions.without_bodies(one) == regions.without_bodies(other) != regions.without_bodies(one + "c")
+    one, other = (f"a\n{regions.wrap_region('r', body)}b\n" for body in ("x = 1", "y = 2\nz = 3"))
+    assert regions.strip_bodies(one) == regions.strip_bodies(other) != regions.strip_bodies(one + "c")
 
 
 def test_defused_text_is_no_mark() -> None:
     text = "# <vicode a 12345678>\n# </vicode>"
-    assert regions.find(regions.defuse(text)) == regions.Found()
+    assert regions.find_regions(regions.escape_marks(text)) == regions.ParsedRegions()
 
 
 def test_a_seal_is_broken_by_any_edit_outside_regions() -> None:
-    sealed = regions.seal(f"a = 1\n{regions.wrap('r', 'x = 1')}", "player.yaml")
-    assert regions.is_sealed(sealed)
-    assert not regions.is_touched(sealed)
-    assert not regions.is_touched(sealed.replace("x = 1", "x = 2"))
-    assert regions.is_touched(sealed.replace("a = 1", "a = 2"))
-    assert regions.is_touched(sealed.replace("(seal ", "("))
+    sealed = regions.add_header(f"a = 1\n{regions.wrap_region('r', 'x = 1')}", "player.yaml")
+    assert regions.has_header(sealed)
+    assert not regions.is_edited_outside_regions(sealed)
+    assert not regions.is_edited_outside_regions(sealed.replace("x = 1", "x = 2"))
+    assert regions.is_edited_outside_regions(sealed.replace("a = 1", "a = 2"))
+    assert regions.is_edited_outside_regions(sealed.replace("(seal ", "("))
 
 
 def test_no_file_name_can_choose_an_encoding() -> None:
-    first = regions.seal("", "coding: utf-7\n.yaml").split("\n")[0]
+    first = regions.add_header("", "coding: utf-7\n.yaml").split("\n")[0]
     assert not re.search(r"coding[:=]", first)

@@ -4,31 +4,31 @@ import time
 
 import pytest
 
-from vicode.simulation.limits import MOST_LINES, Prints, TimeLimitError, time_limit
+from vicode.simulation.limits import MAX_LINES, CapturedOutput, TimeLimitError, time_limit
 
 
 def test_prints_are_kept_line_by_line() -> None:
-    prints = Prints()
+    prints = CapturedOutput()
     print("one\ntwo", file=prints)
     print("th", end="", file=prints)
     print("ree", end="", file=prints)
-    assert prints.take() == (["one", "two", "three"], 0)
-    assert prints.take() == ([], 0)
+    assert prints.drain() == (["one", "two", "three"], 0)
+    assert prints.drain() == ([], 0)
 
 
 def test_more_prints_are_counted() -> None:
-    prints = Prints()
-    for number in range(MOST_LINES + 7):
+    prints = CapturedOutput()
+    for number in range(MAX_LINES + 7):
         print(number, file=prints)
     print("x" * 1_000_000, file=prints)
-    lines, left_out = prints.take()
-    assert (len(lines), left_out) == (MOST_LINES, 8)
+    lines, left_out = prints.drain()
+    assert (len(lines), left_out) == (MAX_LINES, 8)
 
 
 def test_a_long_line_is_cut() -> None:
-    prints = Prints()
+    prints = CapturedOutput()
     print("x" * 1_000_000, end="", file=prints)
-    assert len(prints.take()[0][0]) == 2000
+    assert len(prints.drain()[0][0]) == 2000
 
 
 def test_time_is_up_in_the_middle_of_a_loop() -> None:

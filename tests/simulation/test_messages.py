@@ -8,39 +8,41 @@ from hypothesis import strategies as st
 
 from vicode.simulation import (
     Failed,
-    Looked,
-    Moment,
+    Inspected,
+    IterationResult,
     ProtocolError,
     Ready,
     Request,
-    Rested,
     Setup,
-    StandIn,
-    StandInOutput,
-    Stops,
-    decode_answer,
+    StopConditions,
+    Stopped,
+    Stub,
+    StubOutput,
+    decode_response,
     encode_request,
     encode_setup,
 )
-from vicode.simulation.messages import LONGEST_LINE, decode_request, decode_setup, encode_answer
-from vicode.simulation.resting import reason_to_rest
+from vicode.simulation.messages import MAX_MESSAGE_BYTES, decode_request, decode_setup, encode_response
+from vicode.simulation.resting import stop_reason
 
 SETUP = Setup(
     component="lamps.lamp:Lamp",
     probes="lamps._probes",
     path=("a", "b"),
-    stand_ins=(StandIn(component="Eye", outputs=(StandInOutput(name="seen", type="bool", value=False),)),),
+    stubs=(Stub(component="Eye", outputs=(StubOutput(name="seen", type="bool", value=False),)),),
     functions=(("eye", ("toward",)),),
     parameter_types=(("patience", "float"),),
     world="w:W",
     seed=3,
 )
-MOMENT = Moment(iteration=1, time_ns=0, state="Dark", prints=["Ä\n"], guards={"Dark/0": {"holds": None}})
+MOMENT = IterationResult(iteration=1, time_ns=0, state="Dark", prints=["Ä\n"], guards={"Dark/0": {"holds": None}})
 
 
 def test_setup_and_requests_are_read_as_written() -> None:
     assert decode_setup(encode_setup(SETUP)) == SETUP
-    request = Request(do="run", count=3, inputs={"Eye": {"seen": True}}, stops=Stops(states=("Lit",), errors=True))
+    request = Request(
+        kind="run", count=3, inputs={"Eye": {"seen": True}}, stops=StopConditions(states=("Lit",), errors=True)
+    )
     assert decode_request(encode_request(request)) == request
 
 
@@ -49,21 +51,21 @@ def test_setup_and_requests_are_read_as_written() -> None:
     [
         Ready(),
         MOMENT,
-        Looked(guards={"a": {"holds": True}}),
-        Rested(reason="count"),
+        Inspected(guards={"a": {"holds": True}}),
+        Stopped(reason="count"),
         Failed(message="no", error={"line": 3}, prints=["x"]),
     ],
 )
-def test_answers_are_read_as_written(answer: Ready | Moment | Looked | Rested | Failed) -> None:
-    line = encode_answer(answer)
+def test_answers_are_read_as_written(answer: Ready | IterationResult | Inspected | Stopped | Failed) -> None:
+    line = encode_response(answer)
     assert line.count(b"\n") == 1
-    assert decode_answer(line) == answer
+    assert decode_response(line) == answer
 
 
 def test_a_moment_too_large_to_tell_leaves_its_values_out() -> None:
-    large = Moment(iteration=2, time_ns=5, state="Lit", world="x" * LONGEST_LINE)
-    told = decode_answer(encode_answer(large))
-    assert isinstance(told, Moment)
+    large = IterationResult(iteration=2, time_ns=5, state="Lit", world="x" * MAX_MESSAGE_BYTES)
+    told = decode_response(encode_response(large))
+    assert isinstance(told, IterationResult)
     assert (told.iteration, told.state, told.world) == (2, "Lit", None)
     assert "too large" in told.prints[0]
 
@@ -77,15 +79,15 @@ def test_a_moment_too_large_to_tell_leaves_its_values_out() -> None:
         b'"ready"',
         b"{}",
         b'{"kind":"nothing"}',
-        b'{"kind":"moment"}',
-        b'{"kind":"moment","iteration":"1","time_ns":0,"state":"Dark"}',
+        b'{"kind":"iteration"}',
+        b'{"kind":"iteration","iteration":"1","time_ns":0,"state":"Dark"}',
         b'{"kind":"rested","reason":4}',
         b'{"kind":"ready","more":1}',
         b"[" * 100_000,
     ],
 )
 def test_junk_is_refused(line: bytes) -> None:
-    for decode in (decode_answer, decode_request, decode_setup):
+    for decode in (decode_response, decode_request, decode_setup):
         with pytest.raises(ProtocolError):
             decode(line)
 
@@ -95,15 +97,13 @@ _JSON = st.recursive(
     lambda inner: st.lists(inner, max_size=3) | st.dictionaries(st.text(max_size=8), inner, max_size=4),
     max_leaves=8,
 )
-_NAMES = st.sampled_from(
-    ["kind", "iteration", "time_ns", "state", "tree", "guards", "stops", "do", "stand_ins", "path"]
-)
+_NAMES = st.sampled_from(["kind", "iteration", "time_ns", "state", "tree", "guards", "stops", "kind", "stubs", "path"])
 
 
-@given(st.dictionaries(_NAMES, _JSON | st.sampled_from(["ready", "moment", "failed"])))
+@given(st.dictionaries(_NAMES, _JSON | st.sampled_from(["ready", "iteration", "failed"])))
 def test_no_line_raises_anything_else(plain: dict[str, object]) -> None:
     line = json.dumps(plain).encode()
-    for decode in (decode_answer, decode_request, decode_setup):
+    for decode in (decode_response, decode_request, decode_setup):
         try:
             decode(line)
         except ProtocolError:
@@ -111,10 +111,10 @@ def test_no_line_raises_anything_else(plain: dict[str, object]) -> None:
 
 
 def test_reasons_to_rest_have_an_order() -> None:
-    moment = Moment(iteration=4, time_ns=0, state="Lit", came_from="Dark", transition="Dark/0", done=True)
-    every = Stops(states=("Lit",), transitions=("Dark/0",), changes=True)
-    assert reason_to_rest(moment, every, was_done=False) == "transition"
-    assert reason_to_rest(moment, Stops(states=("Lit",), changes=True), was_done=False) == "state"
-    assert reason_to_rest(moment, Stops(changes=True), was_done=False) == "done"
-    assert reason_to_rest(moment, Stops(changes=True), was_done=True) == "change"
-    assert reason_to_rest(moment, Stops(), was_done=True) == ""
+    moment = IterationResult(iteration=4, time_ns=0, state="Lit", changed_from="Dark", transition="Dark/0", done=True)
+    every = StopConditions(states=("Lit",), transitions=("Dark/0",), changes=True)
+    assert stop_reason(moment, every, was_done=False) == "transition"
+    assert stop_reason(moment, StopConditions(states=("Lit",), changes=True), was_done=False) == "state"
+    assert stop_reason(moment, StopConditions(changes=True), was_done=False) == "done"
+    assert stop_reason(moment, StopConditions(changes=True), was_done=True) == "change"
+    assert stop_reason(moment, StopConditions(), was_done=True) == ""

@@ -6,15 +6,15 @@ from pathlib import Path
 import pytest
 
 from vicode.store import read_design, read_project_file
-from vicode.store.format import PROJECT_RECORDS, RECORDS
-from vicode.store.lines import MAXIMUM_FINDINGS
-from vicode.store.nodes import MAXIMUM_BYTES, MAXIMUM_DEPTH, MAXIMUM_NODES
-from vicode.store.shapes import Key, Leaf, Listing, Pair, Record, Shape, Table
+from vicode.store.format import DESIGN_RECORDS, PROJECT_RECORDS
+from vicode.store.lines import MAX_FINDINGS
+from vicode.store.nodes import MAX_BYTES, MAX_DEPTH, MAX_NODES
+from vicode.store.shapes import KeySchema, ListSchema, MapSchema, PairSchema, RecordSchema, ScalarSchema, ValueSchema
 
 PAGE = Path(__file__).parents[2] / "docs" / "design-format.md"
 BLOCK = re.compile(r"(<!-- keys: (\w+) -->\n)((?:\|.*\n)*)")
 EXAMPLE = re.compile(r"```yaml\n(.*?)```", re.DOTALL)
-BY_NAME = {record.name: record for record in (*PROJECT_RECORDS, *RECORDS)}
+BY_NAME = {record.name: record for record in (*PROJECT_RECORDS, *DESIGN_RECORDS)}
 
 
 def test_the_tables_are_those_of_the_reader(accept: bool) -> None:
@@ -39,34 +39,35 @@ def test_the_examples_are_sound(example: str) -> None:
 
 def test_the_limits_are_those_of_the_reader() -> None:
     text = PAGE.read_text(encoding="utf-8")
-    assert f"{MAXIMUM_BYTES // 1_000_000} MB" in text
-    assert f"{MAXIMUM_NODES // 1000} 000 values" in text
-    assert f"{MAXIMUM_DEPTH} levels" in text
-    assert MAXIMUM_FINDINGS > 100
+    assert f"{MAX_BYTES // 1_000_000} MB" in text
+    assert f"{MAX_NODES // 1000} 000 values" in text
+    assert f"{MAX_DEPTH} levels" in text
+    assert MAX_FINDINGS > 100
 
 
-def _table(record: Record) -> str:
+def _table(record: RecordSchema) -> str:
     rows = [
-        f"| `{key.name}` | {_shape(key.shape)} | {_default(key, record)} | {key.meaning} |\n" for key in record.keys
+        f"| `{key.name}` | {_shape(key.schema)} | {_default(key, record)} | {key.description} |\n"
+        for key in record.keys
     ]
     return "".join(["| key | shape | left out | meaning |\n", "|-----|-------|----------|---------|\n", *rows])
 
 
-def _default(key: Key, record: Record) -> str:
+def _default(key: KeySchema, record: RecordSchema) -> str:
     if key.required:
         return "a mistake"
     if key.name in record.one_of:
         return "one of " + ", ".join(f"`{name}`" for name in record.one_of)
     if key.name == "languages":
         return "`[python]`"
-    return f"`{key.implied}`" if isinstance(key.implied, str) else "no" if key.implied is False else "–"
+    return f"`{key.default}`" if isinstance(key.default, str) else "no" if key.default is False else "–"
 
 
-def _shape(shape: Shape) -> str:
+def _shape(shape: ValueSchema) -> str:
     match shape:
-        case Leaf(kind=kind, choices=choices):
+        case ScalarSchema(scalar_type=kind, choices=choices):
             return " or ".join(f"`{choice}`" for choice in choices) or str(kind)
-        case Pair() | Listing() | Table():
-            return shape.what
-        case Record():
-            return shape.what
+        case PairSchema() | ListSchema() | MapSchema():
+            return shape.description
+        case RecordSchema():
+            return shape.description

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tests.strategies.decorated import decorated_texts, fewer_examples
+from tests.strategies.decorated import commented_texts, fewer_examples
 from vicode.store import read_design, read_project_file, save_design
 
 DESIGNS = Path(__file__).parents[2] / "designs"
@@ -41,7 +41,7 @@ def test_any_damaged_design_is_read_and_saved(text: str, damages: list[tuple[flo
 
 
 @fewer_examples
-@given(decorated_texts(4), st.randoms(use_true_random=False))
+@given(commented_texts(4), st.randoms(use_true_random=False))
 def test_any_design_with_other_keys_is_read(text: str, random: object) -> None:
     words = re.findall(r"\w+", text)
     damaged = re.sub(r"\w+(?=:)", lambda match: random.choice([match.group(), *words]), text)  # type: ignore[attr-defined]
@@ -78,6 +78,6 @@ def test_tags_run_nothing(tmp_path: Path) -> None:
 
 def _read_both(text: str | bytes) -> None:
     for finding in (*read_design(text).findings, *read_project_file(text).findings):
-        assert finding.place is not None
-        assert finding.place.line >= 1
-        assert finding.place.column >= 1
+        assert finding.location is not None
+        assert finding.location.line >= 1
+        assert finding.location.column >= 1

@@ -6,11 +6,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tests.strategies.decorated import decorated_texts, fewer_examples
-from vicode.findings import Finding, Note, Place, Thing, rule
-from vicode.findings import Path as ThingPath
-from vicode.model.walks import walk_code, walk_expressions
-from vicode.store import locate, open_project, read_design
+from tests.strategies.decorated import commented_texts, fewer_examples
+from vicode.findings import DesignPath as ThingPath
+from vicode.findings import Finding, FindingSubject, Note, SourceLocation, get_rule
+from vicode.model.walks import iter_code, iter_expressions
+from vicode.store import locate_findings, open_project, read_design
 
 TEXT = """\
 vicode: 1
@@ -38,7 +38,7 @@ WHEN = ("states", "Look", "transitions")
 
 
 def _underlined(path: ThingPath, span: tuple[int, int] | None = None, *, of_key: bool = False) -> str:
-    place = read_design(TEXT).source.place(path, span, of_key=of_key)
+    place = read_design(TEXT).source_map.locate(path, span, of_key=of_key)
     return TEXT.splitlines()[place.line - 1][place.column - 1 :][: place.length]
 
 
@@ -77,35 +77,40 @@ def test_findings_and_notes_get_their_places(tmp_path: Path) -> None:
     (tmp_path / "player.yaml").write_text(TEXT, encoding="utf-8")
     project = open_project(tmp_path)
     first = Finding(
-        rule=rule("D402"),
+        rule=get_rule("D402"),
         message="no such state",
-        thing=Thing(component="Player", path=(*WHEN, 1, "to")),
-        notes=(Note(message="in this state", thing=Thing(component="Player", path=("states", "Look"), of_key=True)),),
+        subject=FindingSubject(component="Player", path=(*WHEN, 1, "to")),
+        notes=(
+            Note(
+                message="in this state",
+                subject=FindingSubject(component="Player", path=("states", "Look"), is_key=True),
+            ),
+        ),
     )
-    unknown = Finding(rule=rule("P202"), message="not here", thing=Thing(component="Goalie"))
-    placeless, located = locate([first, unknown], project)
+    unknown = Finding(rule=get_rule("P202"), message="not here", subject=FindingSubject(component="Goalie"))
+    placeless, located = locate_findings([first, unknown], project)
     assert placeless == unknown
-    assert located.place is not None
-    assert (located.place.line, located.place.column, located.place.length) == (10, 13, 4)
-    assert located.notes[0].place is not None
-    assert located.notes[0].place.line == 4
-    kept = Place(file="other", line=7, column=7)
-    assert locate([Finding(rule=rule("P202"), message="", place=kept)], project)[0].place == kept
+    assert located.location is not None
+    assert (located.location.line, located.location.column, located.location.length) == (10, 13, 4)
+    assert located.notes[0].location is not None
+    assert located.notes[0].location.line == 4
+    kept = SourceLocation(file="other", line=7, column=7)
+    assert locate_findings([Finding(rule=get_rule("P202"), message="", location=kept)], project)[0].location == kept
 
 
 @fewer_examples
-@given(decorated_texts(), st.data())
+@given(commented_texts(), st.data())
 def test_every_visible_character_is_found(text: str, data: st.DataObject) -> None:
     read = read_design(text)
     assert read.design is not None
-    texts = [(each.path, each.text) for each in walk_expressions(read.design)]
-    codes = [(each.path, each.code.texts) for each in walk_code(read.design)]
+    texts = [(each.path, each.text) for each in iter_expressions(read.design)]
+    codes = [(each.path, each.code.texts) for each in iter_code(read.design)]
     texts += [(path, pairs[0][1]) for path, pairs in codes if pairs]
     lines = text.replace("\r\n", "\n").replace("\r", "\n").split("\n")
     for path, value in texts:
         for index, char in enumerate(value):
             if char.isspace() or not char.isprintable() or not char.isascii():
                 continue
-            place = read.source.place(path, (index, index + 1))
+            place = read.source_map.locate(path, (index, index + 1))
             shown = lines[place.line - 1][place.column - 1 :]
             assert shown.startswith((char, f"\\{char}"))

@@ -26,12 +26,12 @@ def test_a_folder_is_a_project_with_all_its_designs(tmp_path: Path) -> None:
     _write(tmp_path, **{"inner__project": PROJECT, "inner__other": _design("Other"), ".hidden__x": _design("Hidden")})
     project = open_project(tmp_path)
     assert project.findings == ()
-    assert project.broken == ()
+    assert project.broken_files == ()
     assert project.project.name == "Forward"
     assert [design.component for design in project.project.designs] == ["KickLeft", "Player"]
     assert set(project.files) == set(project.sources) == set(project.texts) == {"", "KickLeft", "Player"}
     assert project.project_file == tmp_path / "project.yaml"
-    assert project.component_of(tmp_path / "kicks" / ".." / "player.yaml") == "Player"
+    assert project.find_component(tmp_path / "kicks" / ".." / "player.yaml") == "Player"
 
 
 def test_a_design_file_opens_the_project_above_it(tmp_path: Path) -> None:
@@ -58,13 +58,13 @@ def test_a_foreign_project_file_above_is_not_ours(tmp_path: Path) -> None:
 def test_broken_files_stay_visible(tmp_path: Path) -> None:
     _write(tmp_path, player=_design("Player"), broken="vicode: 1\ncomponent: [\n", second=_design("Player"))
     project = open_project(tmp_path)
-    assert [path.name for path in project.broken] == ["broken.yaml", "second.yaml"]
+    assert [path.name for path in project.broken_files] == ["broken.yaml", "second.yaml"]
     assert [finding.rule.code for finding in project.findings] == ["Y101", "P201"]
     assert project.files["Player"].name == "player.yaml"
     note = project.findings[1].notes[0]
-    assert note.place is not None
-    assert note.place.file.endswith("player.yaml")
-    assert note.place.line == 2
+    assert note.location is not None
+    assert note.location.file.endswith("player.yaml")
+    assert note.location.line == 2
 
 
 def test_a_file_that_is_named_is_read_whatever_it_is(tmp_path: Path) -> None:
@@ -103,7 +103,7 @@ def test_all_projects_of_a_folder_are_found(tmp_path: Path) -> None:
 def test_a_design_in_another_encoding_is_not_passed_over(tmp_path: Path) -> None:
     (tmp_path / "player.yaml").write_bytes(_design("Player").encode("utf-16"))
     project = open_project(tmp_path)
-    assert project.broken == (tmp_path / "player.yaml",)
+    assert project.broken_files == (tmp_path / "player.yaml",)
     assert [finding.rule.code for finding in project.findings] == ["Y110"]
 
 

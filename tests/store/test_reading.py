@@ -2,7 +2,7 @@
 
 import pytest
 
-from vicode.findings import Place
+from vicode.findings import SourceLocation
 from vicode.model.design import Assign, Call, Code, Declaration, Design, Guard, RunCode, Stay, Transition, Use
 from vicode.model.project import Agent, Enumeration
 from vicode.store import read_design, read_project_file
@@ -121,9 +121,9 @@ def test_a_project_reads_all_forms_of_enumerations() -> None:
 def test_the_nearest_known_key_is_named() -> None:
     (finding,) = read_design(HEAD + "states: {A: {on_entr: go()}}\n", "a.yaml").findings
     assert finding.message == "unknown key 'on_entr' in a state"
-    assert finding.place == Place(file="a.yaml", line=3, column=14, length=7)
+    assert finding.location == SourceLocation(file="a.yaml", line=3, column=14, length=7)
     (finding,) = read_design(HEAD + "states: {A: {on_enter: go()}}\n").findings
-    assert finding.mend == "did you mean 'enter'?"
+    assert finding.fix == "did you mean 'enter'?"
 
 
 @pytest.mark.parametrize("mark", ["", "\ufeff"])
@@ -131,7 +131,7 @@ def test_the_nearest_known_key_is_named() -> None:
 def test_places_do_not_mind_line_ends_marks_and_other_letters(mark: str, line_end: str) -> None:
     text = mark + "vicode: 1\ncomponent: Player\ndoc: ü😀\nstates: {ä😀: {at: no}}\n".replace("\n", line_end)
     (finding,) = read_design(text, "a.yaml").findings
-    assert finding.place == Place(file="a.yaml", line=4, column=19, length=2)
+    assert finding.location == SourceLocation(file="a.yaml", line=4, column=19, length=2)
 
 
 def test_bytes_that_are_no_text_are_a_finding() -> None:
@@ -142,7 +142,7 @@ def test_bytes_that_are_no_text_are_a_finding() -> None:
 def test_another_encoding_is_told_at_its_first_byte() -> None:
     latin = "vicode: 1\ncomponent: A\ndoc: gr\u00fcn\n".encode("latin-1")
     (finding,) = read_design(latin, "a.yaml").findings
-    assert finding.place == Place(file="a.yaml", line=3, column=8, length=1)
+    assert finding.location == SourceLocation(file="a.yaml", line=3, column=8, length=1)
     assert "0xfc" in finding.message
     (finding,) = read_design("vicode: 1\n".encode("utf-16"), "a.yaml").findings
     assert "UTF-16" in finding.message

@@ -31,11 +31,11 @@ def test_findings_can_be_read_by_people(path: Path) -> None:
     text = path.read_text(encoding="utf-8")
     for finding in _read(path.name, text):
         assert finding.message
-        assert finding.place is not None
-        assert finding.place.file == path.name
-        line = text.splitlines()[finding.place.line - 1]
-        assert 1 <= finding.place.column <= len(line)
-        assert finding.place.column + finding.place.length - 1 <= len(line)
+        assert finding.location is not None
+        assert finding.location.file == path.name
+        line = text.splitlines()[finding.location.line - 1]
+        assert 1 <= finding.location.column <= len(line)
+        assert finding.location.column + finding.location.length - 1 <= len(line)
 
 
 def _read(name: str, text: str) -> tuple[Finding, ...]:
@@ -44,5 +44,5 @@ def _read(name: str, text: str) -> tuple[Finding, ...]:
 
 
 def _line(finding: Finding) -> int:
-    assert finding.place is not None
-    return finding.place.line
+    assert finding.location is not None
+    return finding.location.line

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from tests.strategies.decorated import comments_of, decorated_texts, fewer_examples
+from tests.strategies.decorated import commented_texts, fewer_examples, find_comments
 from tests.strategies.designs import decisions, states
 from vicode.model.design import Code as CodeOf
 from vicode.model.design import Decision, Design, Guard, RunCode, State, Transition
@@ -44,7 +44,7 @@ def _guarded(decision: Decision) -> Decision:
 
 
 @fewer_examples
-@given(decorated_texts(), st.data(), st.sampled_from(sorted(EDITS)))
+@given(commented_texts(), st.data(), st.sampled_from(sorted(EDITS)))
 def test_an_edit_of_a_state_touches_no_other_line(text: str, data: st.DataObject, edit: str) -> None:
     design = _design_in(text)
     _assert_is_local(text, design, data.draw(st.integers(0, len(design.states) - 1)), edit)
@@ -60,7 +60,7 @@ def test_an_edit_of_a_shipped_design_touches_no_other_line(path: Path, edit: str
 
 
 @fewer_examples
-@given(decorated_texts(), states, st.integers(0, 9))
+@given(commented_texts(), states, st.integers(0, 9))
 def test_a_new_state_removes_no_line(text: str, state: State, place: int) -> None:
     design = _design_in(text)
     assume(state.name not in {each.name for each in design.states})
@@ -71,7 +71,7 @@ def test_a_new_state_removes_no_line(text: str, state: State, place: int) -> Non
 
 
 @fewer_examples
-@given(decorated_texts(), st.data())
+@given(commented_texts(), st.data())
 def test_a_removed_state_takes_only_its_own_lines(text: str, data: st.DataObject) -> None:
     design = _design_in(text)
     assume(len(design.states) > 1)
@@ -80,12 +80,12 @@ def test_a_removed_state_takes_only_its_own_lines(text: str, data: st.DataObject
     saved = _saved(new, text)
     assert _is_in_order(_lines(saved), _lines(text))
     start, end = _region(text, design, number)
-    own = comments_of("\n".join(_lines(text)[start:end]))
-    assert comments_of(text) - comments_of(saved) <= own | _attached_comments(_lines(text)[:start])
+    own = find_comments("\n".join(_lines(text)[start:end]))
+    assert find_comments(text) - find_comments(saved) <= own | _attached_comments(_lines(text)[:start])
 
 
 @fewer_examples
-@given(decorated_texts(), st.randoms(use_true_random=False))
+@given(commented_texts(), st.randoms(use_true_random=False))
 def test_reordered_states_keep_their_lines(text: str, random: object) -> None:
     design = _design_in(text)
     order = list(design.states)
@@ -96,7 +96,7 @@ def test_reordered_states_keep_their_lines(text: str, random: object) -> None:
 
 
 @fewer_examples
-@given(decorated_texts(), st.data(), st.lists(decisions, max_size=4).map(tuple))
+@given(commented_texts(), st.data(), st.lists(decisions, max_size=4).map(tuple))
 def test_other_transitions_leave_all_comments_outside(
     text: str, data: st.DataObject, transitions: tuple[Decision, ...]
 ) -> None:
@@ -105,7 +105,7 @@ def test_other_transitions_leave_all_comments_outside(
     saved = _saved(_with_state(design, number, replace(design.states[number], transitions=transitions)), text)
     start, end = _region(text, design, number)
     outside = _lines(text)[:start] + _lines(text)[end:]
-    assert comments_of("\n".join(outside)) <= comments_of(saved)
+    assert find_comments("\n".join(outside)) <= find_comments(saved)
 
 
 @pytest.mark.parametrize("path", DESIGN_FILES, ids=lambda path: path.stem)
@@ -151,8 +151,8 @@ def _with_state(design: Design, number: int, state: State) -> Design:
 
 def _region(text: str, design: Design, number: int) -> tuple[int, int]:
     """Lines from a state's key to the next state's comments, as numbers of lines."""
-    source = read_design(text).source
-    keys = [source.place(("states", state.name), of_key=True).line - 1 for state in design.states]
+    source = read_design(text).source_map
+    keys = [source.locate(("states", state.name), of_key=True).line - 1 for state in design.states]
     lines = _lines(text)
     if number + 1 == len(keys):
         return keys[number], len(lines)
@@ -168,7 +168,7 @@ def _attached_lines(lines: list[str]) -> list[str]:
 
 
 def _attached_comments(lines: list[str]) -> set[str]:
-    return comments_of("\n".join(_attached_lines(lines)))
+    return find_comments("\n".join(_attached_lines(lines)))
 
 
 def _lines(text: str) -> list[str]:

@@ -19,9 +19,9 @@ from vicode.store import (
     save_project_file,
 )
 from vicode.store.format import DESIGN, PROJECT
-from vicode.store.lines import Lines, Report
-from vicode.store.nodes import Mapping, Node, Scalar, parse_tree
-from vicode.store.shapes import Listing, Record, Shape, Table
+from vicode.store.lines import LineIndex, ReadReport
+from vicode.store.nodes import YamlMapping, YamlNode, YamlScalar, parse_yaml
+from vicode.store.shapes import ListSchema, MapSchema, RecordSchema, ValueSchema
 
 TOP = Path(__file__).parents[2]
 FILES = sorted((TOP / "designs").rglob("*.yaml")) + sorted((TOP / "tests").rglob("cases/*.yaml"))
@@ -40,8 +40,8 @@ def test_schema_and_reader_agree_about_files(path: Path) -> None:
     text = path.read_text(encoding="utf-8")
     is_project = path.stem.startswith("project")
     findings = (read_project_file if is_project else read_design)(text).findings
-    report = Report(lines=Lines(text, path.name))
-    root = parse_tree(text, report).root
+    report = ReadReport(line_index=LineIndex(text, path.name))
+    root = parse_yaml(text, report).root
     if report.findings or root is None:
         assert any(finding.severity is Severity.ERROR for finding in findings)
         return
@@ -60,7 +60,7 @@ def test_saved_projects_are_valid(project: Project) -> None:
 
 
 @pytest.mark.parametrize(("record", "schema"), [(DESIGN, design_schema()), (PROJECT, project_schema())])
-def test_the_schema_has_the_readers_keys(record: Record, schema: dict[str, object]) -> None:
+def test_the_schema_has_the_readers_keys(record: RecordSchema, schema: dict[str, object]) -> None:
     definitions = schema["$defs"]
     assert isinstance(definitions, dict)
     records = _records(record)
@@ -72,30 +72,30 @@ def test_the_schema_has_the_readers_keys(record: Record, schema: dict[str, objec
         assert mapping["additionalProperties"] is False
 
 
-def _records(shape: Shape, seen: tuple[Record, ...] = ()) -> tuple[Record, ...]:
-    if isinstance(shape, Table):
-        return _records(shape.value, seen)
-    if isinstance(shape, Listing):
-        return _records(shape.item(), seen)
-    if not isinstance(shape, Record) or shape.name in {each.name for each in seen}:
+def _records(shape: ValueSchema, seen: tuple[RecordSchema, ...] = ()) -> tuple[RecordSchema, ...]:
+    if isinstance(shape, MapSchema):
+        return _records(shape.value_schema, seen)
+    if isinstance(shape, ListSchema):
+        return _records(shape.item_schema(), seen)
+    if not isinstance(shape, RecordSchema) or shape.name in {each.name for each in seen}:
         return seen
     seen = (*seen, shape)
     for key in shape.keys:
-        seen = _records(key.shape, seen)
+        seen = _records(key.schema, seen)
     return seen
 
 
 def _parsed(text: str) -> object:
-    root = parse_tree(text, Report(lines=Lines(text, ""))).root
+    root = parse_yaml(text, ReadReport(line_index=LineIndex(text, ""))).root
     assert root is not None
     return _as_json(root)
 
 
-def _as_json(node: Node) -> object:
+def _as_json(node: YamlNode) -> object:
     """A value as an editor's YAML reader has it, after the core schema of YAML 1.2."""
-    if isinstance(node, Mapping):
-        return {key.text if isinstance(key, Scalar) else "?": _as_json(value) for key, value in node.pairs}
-    if not isinstance(node, Scalar):
+    if isinstance(node, YamlMapping):
+        return {key.text if isinstance(key, YamlScalar) else "?": _as_json(value) for key, value in node.pairs}
+    if not isinstance(node, YamlScalar):
         return [_as_json(item) for item in node.items]
     if node.style or node.text in CORE_WORDS:
         return node.text if node.style else CORE_WORDS[node.text]

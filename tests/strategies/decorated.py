@@ -16,19 +16,19 @@ COMMENT = re.compile(r"#~\d+")
 """A comment put in; its number makes it unique."""
 
 
-def comments_of(text: str) -> set[str]:
+def find_comments(text: str) -> set[str]:
     """The comments that were put into a text."""
     return set(COMMENT.findall(text))
 
 
 @st.composite
-def decorated_texts(draw: st.DrawFn, largest: int = 8) -> str:
+def commented_texts(draw: st.DrawFn, largest: int = 8) -> str:
     """The text of a random design with comments, blank lines and line ends put in where they change nothing."""
     text = save_design(draw(designs_with_states))
     meant = read_design(text).design
     random = Random(draw(st.integers(0, 2**32)))
     for number in range(random.randint(0, largest)):
-        changed = _decorated(text, number, random)
+        changed = _insert_comment(text, number, random)
         read = read_design(changed)
         # Inside code a comment would be code, and a number in quotes is none.
         text = changed if read.design == meant and not read.findings else text
@@ -37,7 +37,7 @@ def decorated_texts(draw: st.DrawFn, largest: int = 8) -> str:
     return text.replace("\n", "\r\n") if random.random() < 0.3 and "\r" not in text else text
 
 
-def _decorated(text: str, number: int, random: Random) -> str:
+def _insert_comment(text: str, number: int, random: Random) -> str:
     lines = text.split("\n")
     line = random.randrange(len(lines))
     column = len(lines[line]) - len(lines[line].lstrip())

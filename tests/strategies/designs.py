@@ -10,11 +10,11 @@ from vicode.model.design import (
     Assign,
     Call,
     Code,
-    Common,
+    CommonSection,
     Decision,
+    DecisionGroup,
     Declaration,
     Design,
-    Group,
     Guard,
     RunCode,
     State,
@@ -102,7 +102,7 @@ _stays = st.builds(Stay, guard=guards, doc=st.just("") | texts, id=ids, disabled
 decisions: st.SearchStrategy[Decision] = st.recursive(
     transitions | _stays,
     lambda inner: st.builds(
-        Group, guard=guards, then=_tuples(inner, 2), otherwise=_tuples(inner, 2), id=ids, disabled=st.booleans()
+        DecisionGroup, guard=guards, then=_tuples(inner, 2), otherwise=_tuples(inner, 2), id=ids, disabled=st.booleans()
     ),
     max_leaves=3,
 )
@@ -137,7 +137,11 @@ _parts: dict[str, st.SearchStrategy[Any]] = {
     "module": code,
     "members": code,
     "common": st.builds(
-        Common, doc=st.just("") | texts, at=points, actions=_tuples(actions, 2), transitions=_tuples(decisions, 2)
+        CommonSection,
+        doc=st.just("") | texts,
+        at=points,
+        actions=_tuples(actions, 2),
+        transitions=_tuples(decisions, 2),
     ),
 }
 designs = st.builds(Design, **_parts, states=_unique(states, "name", 3))

@@ -5,25 +5,27 @@ from pathlib import Path
 import pytest
 
 from vicode import regions
-from vicode.output import OutputFile, compare
-from vicode.sync import find_edits_by_file, find_hand_edits
+from vicode.output import OutputFile, compare_files
+from vicode.sync import find_hand_edits, find_hand_edits_by_file
 
 
 def text_of(body: str = "self.a = 1", name: str = "A") -> str:
-    wrapped = regions.wrap("S.enter", body, indent="    ")
-    return regions.seal(f"class {name}:\n    def f(self):\n{wrapped}", "a.yaml")
+    wrapped = regions.wrap_region("S.enter", body, indent="    ")
+    return regions.add_header(f"class {name}:\n    def f(self):\n{wrapped}", "a.yaml")
 
 
 def edits(tmp_path: Path, on_disk: str, fresh: str) -> list[tuple[str, int, str]]:
     (tmp_path / "a.py").write_text(on_disk, encoding="utf-8")
-    findings = find_hand_edits(compare([OutputFile(path="a.py", text=fresh)], tmp_path), shown="out")
-    assert all(finding.place and finding.place.file == "out/a.py" for finding in findings)
-    return [(finding.rule.code, finding.place.line if finding.place else 0, finding.message) for finding in findings]
+    findings = find_hand_edits(compare_files([OutputFile(path="a.py", text=fresh)], tmp_path), display_folder="out")
+    assert all(finding.location and finding.location.file == "out/a.py" for finding in findings)
+    return [
+        (finding.rule.code, finding.location.line if finding.location else 0, finding.message) for finding in findings
+    ]
 
 
 def test_untouched_files_may_be_replaced(tmp_path: Path) -> None:
     assert edits(tmp_path, text_of(), text_of("self.a = 2", "B")) == []
-    assert find_hand_edits(compare([OutputFile(path="new.py", text=text_of())], tmp_path)) == ()
+    assert find_hand_edits(compare_files([OutputFile(path="new.py", text=text_of())], tmp_path)) == ()
 
 
 def test_an_edited_region_is_named(tmp_path: Path) -> None:
@@ -67,5 +69,5 @@ def test_a_stale_file_with_an_edit_is_kept(tmp_path: Path) -> None:
     (package / "old.py").write_text(text_of().replace("self.a = 1", "mine"), encoding="utf-8")
     (package / "gone.py").write_text(text_of(), encoding="utf-8")
     files = [OutputFile(path="p/new.py", text=text_of())]
-    differences = compare(files, tmp_path, is_ours=regions.is_sealed)
-    assert list(find_edits_by_file(differences)) == ["p/old.py"]
+    differences = compare_files(files, tmp_path, is_generated=regions.has_header)
+    assert list(find_hand_edits_by_file(differences)) == ["p/old.py"]

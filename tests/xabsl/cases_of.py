@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from vicode.xabsl.sources import Source, load
+from vicode.xabsl.sources import ProgramSource, load_source
 
 CASES = Path(__file__).parent / "cases"
 PROGRAMS = sorted(path.name for path in (CASES / "programs").iterdir())
@@ -31,7 +31,7 @@ def read_probes() -> list[Probe]:
     ]
 
 
-def load_texts(files: dict[str, str], main: str = "agents.xabsl") -> Source:
+def load_texts(files: dict[str, str], main: str = "agents.xabsl") -> ProgramSource:
     """Load a program whose files are texts."""
     root = Path("/behavior")
 
@@ -41,7 +41,7 @@ def load_texts(files: dict[str, str], main: str = "agents.xabsl") -> Source:
             raise FileNotFoundError(2, "No such file or directory")
         return text
 
-    return load(root / main, read)
+    return load_source(root / main, read)
 
 
 def read_case(program: str, name: str) -> str:
@@ -53,7 +53,7 @@ def read_case(program: str, name: str) -> str:
         return file.read()
 
 
-def words(code: str) -> list[Any]:
+def parse_words(code: str) -> list[Any]:
     """Intermediate code, numbers as numbers."""
     plain = " ".join(line for line in code.splitlines() if not line.startswith("//"))
     return [_number(word) for word in plain.split()]

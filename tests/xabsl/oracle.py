@@ -3,14 +3,14 @@
 import math
 from typing import Any
 
-from vicode.xabsl.engine.program import Option, Program, State, Term
-from vicode.xabsl.engine.symbols import Symbols
+from vicode.xabsl.engine.program import CompiledOption, CompiledState, Program, Term
+from vicode.xabsl.engine.symbols import SymbolList
 
 
 class Oracle:
     """Runs a program on inputs without parameters; `inputs` are values by symbol, enums as full names."""
 
-    def __init__(self, program: Program, symbols: Symbols) -> None:
+    def __init__(self, program: Program, symbols: SymbolList) -> None:
         self.options = {option.name: option for option in program.options}
         self.root = program.agents[0][1]
         self.elements = dict((*symbols.enums, *symbols.internal_enums))
@@ -40,7 +40,7 @@ class Oracle:
     def _zero(self, kind: str, enum: str) -> Any:
         return {"d": 0.0, "b": False}.get(kind, self.elements.get(enum, ("",))[0])
 
-    def _call(self, action: Term, place: tuple[Option, State] | None, nodes: list[Any]) -> None:
+    def _call(self, action: Term, place: tuple[CompiledOption, CompiledState] | None, nodes: list[Any]) -> None:
         _letter, name, given = action
         slots = self.options[name].parameters if action[0] == "o" else self.behaviors[name]
         values = {each[-2]: each for each in given}
@@ -60,7 +60,7 @@ class Oracle:
             node += [self.now - self.activated[key], {slot.name: self.parameters[slot.name] for slot in slots}]
         self.is_active.add(key)
 
-    def _execute(self, option: Option, node: list[Any]) -> None:
+    def _execute(self, option: CompiledOption, node: list[Any]) -> None:
         name, key = option.name, f"o {option.name}"
         if key in self.is_active:
             self.twice.append(name)
@@ -82,12 +82,12 @@ class Oracle:
         times = [self.now - self.activated[key], self.now - self.since[name]]
         node += [self.state[name], *times, parameters, inner]
 
-    def _decide(self, tree: Term, place: tuple[Option, State]) -> str:
+    def _decide(self, tree: Term, place: tuple[CompiledOption, CompiledState]) -> str:
         while tree[0] == "i":
             tree = tree[2] if self._value(tree[1], "b", place) else tree[3]
         return str(tree[1])
 
-    def _is_done(self, state: State) -> bool:
+    def _is_done(self, state: CompiledState) -> bool:
         called = [self.options[action[1]] for action in state.actions if action[0] == "o"]
         return any(
             f"o {option.name}" in self.was
@@ -95,7 +95,7 @@ class Oracle:
             for option in called
         )
 
-    def _value(self, term: Term, kind: str, place: tuple[Option, State]) -> Any:
+    def _value(self, term: Term, kind: str, place: tuple[CompiledOption, CompiledState]) -> Any:
         letter = term[0]
         found = {"i": self.inputs, "o": self.values, "p": self.parameters}.get(letter)
         if found is not None:
@@ -106,7 +106,7 @@ class Oracle:
             return self._value(term[2] if self._value(term[1], "b", place) else term[3], kind, place)
         return self._decimal(term, place) if kind == "d" else self._boolean(term, place)
 
-    def _boolean(self, term: Term, place: tuple[Option, State]) -> bool:
+    def _boolean(self, term: Term, place: tuple[CompiledOption, CompiledState]) -> bool:
         letter = term[0]
         if letter == "t":
             return self._is_done(place[1])
@@ -119,7 +119,7 @@ class Oracle:
             return bool((left == right) != (letter == "n"))
         return bool({"<": left < right, "l": left <= right, ">": left > right, "g": left >= right}[letter])
 
-    def _decimal(self, term: Term, place: tuple[Option, State]) -> float:
+    def _decimal(self, term: Term, place: tuple[CompiledOption, CompiledState]) -> float:
         letter = term[0]
         if letter == "c":
             return float(term[1])

@@ -12,8 +12,17 @@ import pytest
 
 import vicode.xabsl.engine
 from tests.xabsl.cases_of import CASES, load_texts
-from vicode.xabsl.compiler import compile_source, symbols_of
-from vicode.xabsl.engine import CodeError, Engine, LoadError, Program, SymbolListError, Symbols, read_code, read_symbols
+from vicode.xabsl.compiler import compile_source, declared_symbols
+from vicode.xabsl.engine import (
+    CodeError,
+    Engine,
+    LoadError,
+    Program,
+    SymbolList,
+    SymbolListError,
+    read_code,
+    read_symbols,
+)
 from vicode.xabsl.engine.replaying import read_rows, replay_team
 
 SYMBOLS = """namespace symbols("Symbols") {
@@ -34,14 +43,14 @@ ACTS = (
 )
 
 
-def compiled(*options: str, agents: str = 'agent main("Main", main);\n') -> tuple[Program, Symbols]:
+def compiled(*options: str, agents: str = 'agent main("Main", main);\n') -> tuple[Program, SymbolList]:
     """A program of options, the first called main."""
     files = {"symbols.xabsl": SYMBOLS, "acts.xabsl": ACTS}
     files |= {f"option{number}.xabsl": text + "\n" for number, text in enumerate(options)}
     files["agents.xabsl"] = "".join(f'include "{name}";\n' for name in files) + agents
     result = compile_source(load_texts(files))
-    assert result.program, [(each.place, each.message) for each in result.findings]
-    return result.program, symbols_of(result.table)
+    assert result.program, [(each.location, each.message) for each in result.findings]
+    return result.program, declared_symbols(result.table)
 
 
 @dataclass
@@ -185,7 +194,7 @@ def test_all_that_is_missing_is_told_at_once() -> None:
     program, symbols = compiled(
         "option main { initial state one { action { walk(speed = 1); speed = ball.distance; } } }"
     )
-    fewer = Symbols(symbols=tuple(each for each in symbols.symbols if each.name != "ball.distance"))
+    fewer = SymbolList(symbols=tuple(each for each in symbols.symbols if each.name != "ball.distance"))
     with pytest.raises(LoadError) as caught:
         Engine(program, Robot(), symbols=fewer)
     assert set(caught.value.problems) == {

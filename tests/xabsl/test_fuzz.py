@@ -52,12 +52,12 @@ def mutations(rng: random.Random, text: str) -> str:
 
 def assert_inside(findings: list[Finding] | tuple[Finding, ...], files: dict[str, str]) -> None:
     for finding in findings:
-        assert finding.place
-        lines = files[finding.place.file].split("\n")
-        assert 1 <= finding.place.line <= len(lines)
-        line = lines[finding.place.line - 1]
-        assert 1 <= finding.place.column <= len(line) + 1
-        assert finding.place.column - 1 + finding.place.length <= max(len(line), finding.place.column)
+        assert finding.location
+        lines = files[finding.location.file].split("\n")
+        assert 1 <= finding.location.line <= len(lines)
+        line = lines[finding.location.line - 1]
+        assert 1 <= finding.location.column <= len(line) + 1
+        assert finding.location.column - 1 + finding.location.length <= max(len(line), finding.location.column)
 
 
 def _broken(count: int, seed: int) -> Iterator[str]:

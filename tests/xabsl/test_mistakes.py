@@ -5,9 +5,9 @@ from pathlib import Path
 from tests.check.test_rules_page import SECTIONS
 from tests.xabsl.cases_of import CASES, load_texts
 from vicode.findings import render_text
-from vicode.xabsl.compiler import Compiled, compile_source
+from vicode.xabsl.compiler import CompileResult, compile_source
 from vicode.xabsl.parser import parse
-from vicode.xabsl.sources import load
+from vicode.xabsl.sources import load_source
 
 SYMBOLS = """namespace symbols("Symbols") {
   enum side { left, right };
@@ -28,8 +28,8 @@ def codes_at(play: str, **others: str) -> list[str]:
     return [f"{each.place.line}:{each.place.column} {each.rule.code}" for each in in_play(compiled)]
 
 
-def in_play(compiled: Compiled) -> list:
-    found = [each for each in compiled.findings if each.place and each.place.file == "play.xabsl"]
+def in_play(compiled: CompileResult) -> list:
+    found = [each for each in compiled.findings if each.location and each.location.file == "play.xabsl"]
     return [each for each in found if each.rule.code not in ("X642", "X644")]
 
 
@@ -100,7 +100,7 @@ def test_deep_nesting_is_told_instead_of_failing() -> None:
 
 
 def test_what_the_original_never_looked_for() -> None:
-    compiled = compile_source(load(CASES / "programs" / "p1" / "agents.xabsl"))
+    compiled = compile_source(load_source(CASES / "programs" / "p1" / "agents.xabsl"))
     assert {each.rule.code for each in compiled.findings} == {"X642", "X643", "X644", "X646", "X647"}
 
 
@@ -108,7 +108,7 @@ def test_other_encodings_and_line_ends_are_read(tmp_path: Path) -> None:
     play = "// gr\u00fc\u00dfe\r\noption play {\r\n  initial state s {\r\n    action { }\r\n  }\r\n}\r\n"
     (tmp_path / "play.xabsl").write_bytes(play.encode("cp1252"))
     (tmp_path / "agents.xabsl").write_bytes(b"\xef\xbb\xbf" + b'include "play.xabsl";\r\nagent a("A", play);\r\n')
-    compiled = compile_source(load(tmp_path / "agents.xabsl"))
+    compiled = compile_source(load_source(tmp_path / "agents.xabsl"))
     assert compiled.program, render_text(compiled.findings)
 
 

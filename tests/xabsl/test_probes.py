@@ -2,9 +2,9 @@
 
 import pytest
 
-from tests.xabsl.cases_of import Probe, load_texts, read_probes, words
+from tests.xabsl.cases_of import Probe, load_texts, parse_words, read_probes
 from vicode.findings import Finding
-from vicode.xabsl.compiler import Compiled, compile_source
+from vicode.xabsl.compiler import CompileResult, compile_source
 from vicode.xabsl.engine.writing import write_code
 
 PROBES = read_probes()
@@ -31,7 +31,7 @@ OURS = {
 }
 
 
-def compile_probe(probe: Probe) -> Compiled:
+def compile_probe(probe: Probe) -> CompileResult:
     return compile_source(load_texts(probe.files))
 
 
@@ -63,9 +63,9 @@ def _line_of(message: str) -> str:
 
 
 def _place(finding: Finding) -> str:
-    assert finding.place
+    assert finding.location
     # The original tells no line where a file ends too early.
-    return f"{finding.place.file}:{0 if finding.rule.code == 'X605' else finding.place.line}"
+    return f"{finding.location.file}:{0 if finding.rule.code == 'X605' else finding.location.line}"
 
 
 @pytest.mark.parametrize("probe", [each for each in PROBES if each.code], ids=lambda probe: probe.name)
@@ -75,15 +75,15 @@ def test_the_code_is_the_originals(probe: Probe) -> None:
         assert program is None
         return
     assert program
-    root = words(write_code(program))
-    wanted = words(probe.code)
+    root = parse_words(write_code(program))
+    wanted = parse_words(probe.code)
     assert any(root[at : at + len(wanted)] == wanted for at in range(len(root)))
 
 
 @pytest.mark.parametrize("probe", PROBES, ids=lambda probe: probe.name)
 def test_every_message_stands_in_its_file(probe: Probe) -> None:
     for finding in compile_probe(probe).findings:
-        assert finding.place
-        lines = probe.files[finding.place.file].split("\n")
-        assert 1 <= finding.place.line <= len(lines)
-        assert 1 <= finding.place.column <= len(lines[finding.place.line - 1]) + 1
+        assert finding.location
+        lines = probe.files[finding.location.file].split("\n")
+        assert 1 <= finding.location.line <= len(lines)
+        assert 1 <= finding.location.column <= len(lines[finding.location.line - 1]) + 1

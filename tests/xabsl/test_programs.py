@@ -4,25 +4,25 @@ import json
 
 import pytest
 
-from tests.xabsl.cases_of import CASES, PROGRAMS, read_case, words
-from vicode.xabsl.compiler import Compiled, compile_source, symbols_of
+from tests.xabsl.cases_of import CASES, PROGRAMS, parse_words, read_case
+from vicode.xabsl.compiler import CompileResult, compile_source, declared_symbols
 from vicode.xabsl.engine.reading import read_code
 from vicode.xabsl.engine.replaying import read_rows, replay
 from vicode.xabsl.engine.symbols import read_symbols, write_symbols
 from vicode.xabsl.engine.writing import write_code
-from vicode.xabsl.sources import load
+from vicode.xabsl.sources import load_source
 
 
-def compiled_case(name: str) -> Compiled:
-    return compile_source(load(CASES / "programs" / name / "agents.xabsl"))
+def compiled_case(name: str) -> CompileResult:
+    return compile_source(load_source(CASES / "programs" / name / "agents.xabsl"))
 
 
 @pytest.mark.parametrize("name", PROGRAMS)
 def test_code_and_symbols_are_the_originals(name: str) -> None:
     compiled = compiled_case(name)
     assert compiled.program
-    assert words(write_code(compiled.program)) == words(read_case(name, "intermediate.dat"))
-    assert write_symbols(symbols_of(compiled.table)) == read_case(name, "symbols.txt")
+    assert parse_words(write_code(compiled.program)) == parse_words(read_case(name, "intermediate.dat"))
+    assert write_symbols(declared_symbols(compiled.table)) == read_case(name, "symbols.txt")
 
 
 @pytest.mark.parametrize("name", PROGRAMS)

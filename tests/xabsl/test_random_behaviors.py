@@ -11,25 +11,25 @@ from tests.xabsl.cases_of import load_texts
 from tests.xabsl.oracle import Oracle
 from vicode.findings import Severity
 from vicode.xabsl import tree
-from vicode.xabsl.compiler import compile_source, symbols_of
+from vicode.xabsl.compiler import compile_source, declared_symbols
 from vicode.xabsl.engine.program import Program
 from vicode.xabsl.engine.reading import read_code
-from vicode.xabsl.engine.replaying import Robot
-from vicode.xabsl.engine.symbols import Symbols, read_symbols, write_symbols
+from vicode.xabsl.engine.replaying import ReplayRobot
+from vicode.xabsl.engine.symbols import SymbolList, read_symbols, write_symbols
 from vicode.xabsl.engine.writing import write_code
 from vicode.xabsl.parser import parse
 from vicode.xabsl.printer import print_file
 
 
-def compiled(files: dict[str, tree.File]) -> tuple[Program, Symbols]:
+def compiled(files: dict[str, tree.FileNode]) -> tuple[Program, SymbolList]:
     result = compile_source(load_texts({name: print_file(file) for name, file in files.items()}))
     errors = [each for each in result.findings if each.severity is Severity.ERROR]
     assert result.program, errors
-    return result.program, symbols_of(result.table)
+    return result.program, declared_symbols(result.table)
 
 
 @given(behaviors())
-def test_a_printed_tree_is_read_as_the_same(files: dict[str, tree.File]) -> None:
+def test_a_printed_tree_is_read_as_the_same(files: dict[str, tree.FileNode]) -> None:
     for file in files.values():
         printed = print_file(file)
         parsed = parse(printed)
@@ -39,16 +39,16 @@ def test_a_printed_tree_is_read_as_the_same(files: dict[str, tree.File]) -> None
 
 
 @given(behaviors())
-def test_code_and_symbols_are_read_again(files: dict[str, tree.File]) -> None:
+def test_code_and_symbols_are_read_again(files: dict[str, tree.FileNode]) -> None:
     program, symbols = compiled(files)
     assert read_code(write_code(program)) == program
     assert read_symbols(write_symbols(symbols)).behaviors == symbols.behaviors
 
 
 @given(behaviors(), st.integers(0, 10_000))
-def test_the_engine_does_what_a_plain_reading_says(files: dict[str, tree.File], seed: int) -> None:
+def test_the_engine_does_what_a_plain_reading_says(files: dict[str, tree.FileNode], seed: int) -> None:
     program, symbols = compiled(files)
-    robot, oracle, rng = Robot(program, symbols), Oracle(program, symbols), random.Random(seed)
+    robot, oracle, rng = ReplayRobot(program, symbols), Oracle(program, symbols), random.Random(seed)
     elements = dict(symbols.enums)["side"]
     for _cycle in range(12):
         robot.now += rng.choice((1, 20, 60))
@@ -60,7 +60,7 @@ def test_the_engine_does_what_a_plain_reading_says(files: dict[str, tree.File], 
                     if symbol.kind == "e"
                     else rng.choice((0, 1, 3.5) if symbol.kind == "d" else (0, 1))
                 )
-                robot.world.put(symbol.name, number)
+                robot.world.set_input(symbol.name, number)
                 of = {"d": float, "b": bool, "e": lambda at: elements[int(at)]}[symbol.kind]
                 inputs[symbol.name] = of(number)
         robot.engine.execute()

@@ -60,7 +60,7 @@ agent player("Player", play);
 }
 
 
-class Editor:
+class LspClient:
     """A text editor: asks, and keeps the diagnostics that it is told."""
 
     def __init__(self, folder: Path) -> None:
@@ -71,8 +71,8 @@ class Editor:
         self.said: list[str] = []
         self.number = 0
         self.versions: dict[str, int] = {}
-        self.can = self.ask("initialize", {"processId": None, "rootUri": folder.as_uri(), "capabilities": {}})
-        self.tell("initialized", {})
+        self.can = self.request("initialize", {"processId": None, "rootUri": folder.as_uri(), "capabilities": {}})
+        self.notify("initialized", {})
 
     def send(self, message: dict[str, Any]) -> None:
         assert self.process.stdin
@@ -80,10 +80,10 @@ class Editor:
         self.process.stdin.write(b"Content-Length: %d\r\n\r\n%s" % (len(body), body))
         self.process.stdin.flush()
 
-    def tell(self, method: str, params: dict[str, Any]) -> None:
+    def notify(self, method: str, params: dict[str, Any]) -> None:
         self.send({"method": method, "params": params})
 
-    def ask(self, method: str, params: dict[str, Any]) -> Any:
+    def request(self, method: str, params: dict[str, Any]) -> Any:
         self.number += 1
         self.send({"id": self.number, "method": method, "params": params})
         while True:
@@ -112,18 +112,18 @@ class Editor:
     def open(self, name: str) -> None:
         text = (self.folder / name).read_text(encoding="utf-8")
         document = {"uri": self.uri(name), "languageId": "xabsl", "version": 1, "text": text}
-        self.tell("textDocument/didOpen", {"textDocument": document})
-        self.settle()
+        self.notify("textDocument/didOpen", {"textDocument": document})
+        self.wait_for_diagnostics()
 
     def change(self, name: str, text: str) -> None:
         self.versions[name] = self.versions.get(name, 1) + 1
         document = {"uri": self.uri(name), "version": self.versions[name]}
-        self.tell("textDocument/didChange", {"textDocument": document, "contentChanges": [{"text": text}]})
-        self.settle()
+        self.notify("textDocument/didChange", {"textDocument": document, "contentChanges": [{"text": text}]})
+        self.wait_for_diagnostics()
 
-    def settle(self) -> None:
+    def wait_for_diagnostics(self) -> None:
         """Wait until everything told so far was worked on."""
-        self.ask("textDocument/documentSymbol", {"textDocument": {"uri": self.uri("agents.xabsl")}})
+        self.request("textDocument/documentSymbol", {"textDocument": {"uri": self.uri("agents.xabsl")}})
 
     def at(self, name: str, text: str, word: str, *, end: bool = False) -> dict[str, Any]:
         """Parameters that point to the first place of a word in a text."""
@@ -135,18 +135,20 @@ class Editor:
     def complete(self, name: str, text: str, behind: str) -> list[str]:
         """What is offered behind the first place of a word, once the file has this text."""
         self.change(name, text)
-        return [each["label"] for each in self.ask("textDocument/completion", self.at(name, text, behind, end=True))]
+        return [
+            each["label"] for each in self.request("textDocument/completion", self.at(name, text, behind, end=True))
+        ]
 
 
 @pytest.fixture
-def editor(tmp_path: Path) -> Iterator[Editor]:
+def editor(tmp_path: Path) -> Iterator[LspClient]:
     (tmp_path / "options").mkdir()
     for name, text in FILES.items():
         (tmp_path / name).write_text(text, encoding="utf-8")
-    editor = Editor(tmp_path)
+    editor = LspClient(tmp_path)
     yield editor
-    editor.ask("shutdown", {})
-    editor.tell("exit", {})
+    editor.request("shutdown", {})
+    editor.notify("exit", {})
     assert editor.process.stdin
     editor.process.stdin.close()
     editor.process.wait(20)
@@ -158,41 +160,41 @@ def locations(found: list[dict[str, Any]]) -> list[tuple[str, int]]:
     return [(each["uri"].rsplit("/", 1)[1], each["range"]["start"]["line"] + 1) for each in found]
 
 
-def test_an_editor_is_served(editor: Editor) -> None:
+def test_an_editor_is_served(editor: LspClient) -> None:
     play, kick = FILES["options/play.xabsl"], FILES["options/kick.xabsl"]
     editor.open("options/play.xabsl")
     assert not any(editor.diagnostics.values())
 
-    hover = editor.ask("textDocument/hover", editor.at("options/play.xabsl", play, "ball.distance"))
+    hover = editor.request("textDocument/hover", editor.at("options/play.xabsl", play, "ball.distance"))
     assert 'float input ball.distance [0..5000] "mm"' in hover["contents"]["value"]
     assert "how far it is" in hover["contents"]["value"]
 
-    found = editor.ask("textDocument/definition", editor.at("options/play.xabsl", play, "kick(power"))
+    found = editor.request("textDocument/definition", editor.at("options/play.xabsl", play, "kick(power"))
     assert locations([found]) == [("kick.xabsl", 1)]
     asked = {**editor.at("options/play.xabsl", play, "ball.distance"), "context": {"includeDeclaration": True}}
-    found = editor.ask("textDocument/references", asked)
+    found = editor.request("textDocument/references", asked)
     assert locations(found) == [("symbols.xabsl", 4), ("play.xabsl", 4), ("play.xabsl", 16)]
 
-    found = editor.ask("textDocument/documentSymbol", {"textDocument": {"uri": editor.uri("options/play.xabsl")}})
+    found = editor.request("textDocument/documentSymbol", {"textDocument": {"uri": editor.uri("options/play.xabsl")}})
     assert [(each["name"], [child["name"] for child in each["children"]]) for each in found] == [
         ("play", ["wait", "go"])
     ]
 
     rename = {**editor.at("options/kick.xabsl", kick, "@power"), "newName": "strength"}
-    edit = editor.ask("textDocument/rename", rename)["changes"]
+    edit = editor.request("textDocument/rename", rename)["changes"]
     assert {uri.rsplit("/", 1)[1]: [each["newText"] for each in edits] for uri, edits in edit.items()} == {
         "kick.xabsl": ["@strength", "@strength"],
         "play.xabsl": ["strength"],
     }
     rename = {**editor.at("symbols.xabsl", FILES["symbols.xabsl"], "side"), "newName": "foot.side"}
-    edit = editor.ask("textDocument/rename", rename)["changes"]
+    edit = editor.request("textDocument/rename", rename)["changes"]
     assert [each["newText"] for each in edit[editor.uri("options/play.xabsl")]] == ["foot.side.right"]
     taken = {**editor.at("symbols.xabsl", FILES["symbols.xabsl"], "speed"), "newName": "foot"}
-    assert editor.ask("textDocument/rename", taken) is None
+    assert editor.request("textDocument/rename", taken) is None
     assert editor.said == ["there is a decimal output foot already"]
 
 
-def test_mistakes_are_told_in_every_file_while_one_types(editor: Editor) -> None:
+def test_mistakes_are_told_in_every_file_while_one_types(editor: LspClient) -> None:
     symbols = FILES["symbols.xabsl"]
     editor.open("symbols.xabsl")
     editor.change("symbols.xabsl", "// 😀 before\n" + symbols.replace("ball.distance", "ball.range"))
@@ -210,7 +212,7 @@ def test_mistakes_are_told_in_every_file_while_one_types(editor: Editor) -> None
     assert (found["code"], found["range"]["start"]["character"]) == ("X623", 44)
 
 
-def test_what_is_offered_depends_on_the_place(editor: Editor) -> None:
+def test_what_is_offered_depends_on_the_place(editor: LspClient) -> None:
     play = FILES["options/play.xabsl"]
     name = "options/play.xabsl"
     editor.open(name)
@@ -226,12 +228,12 @@ def test_what_is_offered_depends_on_the_place(editor: Editor) -> None:
     )
 
 
-def test_a_file_is_laid_out(editor: Editor) -> None:
+def test_a_file_is_laid_out(editor: LspClient) -> None:
     editor.open("options/kick.xabsl")
     crowded = "option kick { float @power; initial state only { action { speed = @power; } } }"
     editor.change("options/kick.xabsl", crowded)
     asked = {"textDocument": {"uri": editor.uri("options/kick.xabsl")}, "options": {"tabSize": 2, "insertSpaces": True}}
-    (edit,) = editor.ask("textDocument/formatting", asked)
+    (edit,) = editor.request("textDocument/formatting", asked)
     assert edit["newText"].split("\n")[1] == "  float @power;"
 
 

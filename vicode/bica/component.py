@@ -73,6 +73,7 @@ class Component:
     __slots__ = (
         "__dict__",
         "_called",
+        "_cooperative_states",
         "_current",
         "_entered_ns",
         "_initial",
@@ -81,7 +82,6 @@ class Component:
         "_started_ns",
         "_states",
         "_stepped_in",
-        "_together",
         "_transition",
         "_worked_ns",
         "root",
@@ -98,7 +98,7 @@ class Component:
         self._initial = self._current = State("", self.work)
         self._called: list[tuple[Component, dict[str, Any]]] = []
         self._left: State | None = None
-        self._together: dict[str, CooperativeState] = {}
+        self._cooperative_states: dict[str, CooperativeState] = {}
         self._transition: str | None = None
         self._stepped_in = -1
         self._started_ns = self._entered_ns = self._worked_ns = 0
@@ -125,7 +125,7 @@ class Component:
                 run = current.run
                 run()
             elif self._called:
-                self._step_called_again()
+                self._repeat_calls()
         except ComponentError:
             raise
         except Exception as error:
@@ -153,8 +153,8 @@ class Component:
     @property
     def conflict(self) -> bool:
         """Whether as many other robots are in the active state as may be in it."""
-        together = self._together.get(self.state)
-        return together is not None and together.is_crowded
+        together = self._cooperative_states.get(self.state)
+        return together is not None and together.is_full
 
     @property
     def state_time(self) -> float:
@@ -175,12 +175,14 @@ class Component:
             if state.capacity is not None or state.synchronized is not None:
                 join = self.root.team.join
                 number = state.synchronized or 0
-                self._together[state.name] = join(self, state.name, capacity=state.capacity, synchronized=number)
+                self._cooperative_states[state.name] = join(
+                    self, state.name, capacity=state.capacity, synchronized=number
+                )
 
     def _change_to(self, name: str, transition: str | None = None) -> None:
         """Leave the active state for another, enter that and act in it; a change to the active state only acts."""
         old, new = self._current, self._states[name]
-        if self._together and not self._may_enter(name):
+        if self._cooperative_states and not self._may_enter(name):
             new = old
         run = new.run
         if new is not old:
@@ -201,12 +203,12 @@ class Component:
         run(False)
 
     def _may_enter(self, name: str) -> bool:
-        together = self._together.get(name)
+        together = self._cooperative_states.get(name)
         return together is None or together.may_enter()
 
     def _stay(self) -> None:
         """End the decision without a change: act in the active state."""
-        if self._together:
+        if self._cooperative_states:
             # The others are asked for leave to stay too; only what they are told by it counts.
             self._may_enter(self.state)
         self._current.run(False)
@@ -219,7 +221,7 @@ class Component:
             self._called.append((component, parameters))
         component.step()
 
-    def _step_called_again(self) -> None:
+    def _repeat_calls(self) -> None:
         for component, parameters in self._called:
             # Another component may have modulated it since, so the parameters are set again.
             _modulate(component, parameters)

@@ -32,7 +32,7 @@ def load_component(name: str) -> type[Component]:
     Raises:
         UserCodeError: there is none, or its module fails.
     """
-    found = _find(name)
+    found = _import_attribute(name)
     if not (isinstance(found, type) and issubclass(found, Component)):
         raise UserCodeError(f"{name} is not a component of this runtime, {Component.__module__}")
     return found
@@ -46,39 +46,39 @@ def make_world(name: str | None, seed: int) -> Any:
     """
     if name is None:
         return None
-    make = _find(name)
-    with telling(f"cannot make {name}"):
+    make = _import_attribute(name)
+    with wrap_user_errors(f"cannot make {name}"):
         return make(seed=seed) if "seed" in inspect.signature(make).parameters else make()
 
 
 @contextmanager
-def telling(what: str, *, only_users: bool = False) -> Iterator[None]:
+def wrap_user_errors(what: str, *, only_user_code: bool = False) -> Iterator[None]:
     """Turn an exception inside into a `UserCodeError` that says `what` failed and where.
 
     Args:
         what: begins the line.
-        only_users: let pass what no code of the user had a part in, which is our own mistake or the outside world's.
+        only_user_code: let pass what no code of the user had a part in, which is our own mistake or the outside world's.
     """
     try:
         yield
     except (UserCodeError, ComponentError, CyclicUseError):
         raise
     except Exception as error:
-        place = _find_place(error)
-        if only_users and place is None:
+        place = _find_user_location(error)
+        if only_user_code and place is None:
             raise
         raise UserCodeError(f"{what}: {_describe(error, place)}") from error
 
 
-def _find(name: str) -> Any:
+def _import_attribute(name: str) -> Any:
     module, colon, attribute = name.partition(":")
     if not colon:
         raise UserCodeError(f"{name}: write it as module:Class")
     try:
-        with telling(f"cannot load {name}"):
+        with wrap_user_errors(f"cannot load {name}"):
             return getattr(importlib.import_module(module), attribute)
     except SystemExit as error:
-        raise UserCodeError(f"cannot load {name}: {_describe(error, _find_place(error))}") from error
+        raise UserCodeError(f"cannot load {name}: {_describe(error, _find_user_location(error))}") from error
 
 
 def _describe(error: BaseException, place: tuple[str, int] | None) -> str:
@@ -94,17 +94,17 @@ def _describe(error: BaseException, place: tuple[str, int] | None) -> str:
     return f"{design}{body}{message} [{file}:{line}]"
 
 
-def _find_place(error: BaseException) -> tuple[str, int] | None:
+def _find_user_location(error: BaseException) -> tuple[str, int] | None:
     """Return file and line of the deepest code of the user, else of any library, that `error` came through."""
     if isinstance(error, SyntaxError) and error.filename and Path(error.filename).is_file():
         return error.filename, error.lineno or 1
-    places = list(_places(error.__traceback__))
+    places = list(_iter_locations(error.__traceback__))
     users = [place for place in places if not place[0].startswith(_STANDARD_LIBRARY)]
     found = users or places
     return found[-1] if found else None
 
 
-def _places(traceback: TracebackType | None) -> Iterator[tuple[str, int]]:
+def _iter_locations(traceback: TracebackType | None) -> Iterator[tuple[str, int]]:
     """Yield the places outside of the runtime and of the import system, the deepest last."""
     while traceback is not None:
         frame = traceback.tb_frame

@@ -13,7 +13,7 @@ from .timing import replace_step, will_work
 if TYPE_CHECKING:
     from .root import Root
 
-Link = Literal["root", "requires", "modulates"]
+ActivationLink = Literal["root", "requires", "modulates"]
 
 
 class StepRecord(TypedDict):
@@ -21,7 +21,7 @@ class StepRecord(TypedDict):
 
     component: str
     by: str | None
-    link: Link
+    link: ActivationLink
     worked: bool
     state: str
     state_time_ns: int
@@ -64,7 +64,7 @@ class Observer:
 
         def observed_modulate(**parameters: Any) -> None:
             plain_modulate(**parameters)
-            self._modulated = (component, to_plain({**defaults, **parameters}))
+            self._modulated = (component, to_json_value({**defaults, **parameters}))
 
         component.__dict__["modulate"] = observed_modulate
         replace_step(component, lambda: self._observe_step(component, plain_step))
@@ -112,15 +112,15 @@ class Observer:
         record["state_time_ns"] = component.root.now_ns - component._entered_ns
         record["done"] = component.is_done
         if self._values:
-            record["values"] = to_plain(_find_values(component))
+            record["values"] = to_json_value(_collect_values(component))
 
 
-def to_plain(value: object) -> Any:
+def to_json_value(value: object) -> Any:
     """Turn a value into what JSON can say and what is the same in every run."""
     if isinstance(value, dict):
-        return {str(key): to_plain(item) for key, item in value.items()}
+        return {str(key): to_json_value(item) for key, item in value.items()}
     if isinstance(value, list | tuple):
-        return [to_plain(item) for item in value]
+        return [to_json_value(item) for item in value]
     if isinstance(value, Enum):
         return f"{type(value).__name__}.{value.name}"
     if isinstance(value, float) and not math.isfinite(value):
@@ -130,7 +130,7 @@ def to_plain(value: object) -> Any:
     return type(value).__name__
 
 
-def _find_values(component: Component) -> dict[str, object]:
+def _collect_values(component: Component) -> dict[str, object]:
     """Return the attributes of the design that are plain values; references to other components are none."""
     return {
         name: value

@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 import math
 
-_LONGEST_TICK_MS = 3_600_000.0
+_MAX_TICK_MS = 3_600_000.0
 
 
 def make_parser() -> argparse.ArgumentParser:
@@ -59,6 +59,6 @@ def tick_ms(text: str) -> float:
         argparse.ArgumentTypeError: it is outside of that.
     """
     number = float(text)
-    if not 1e-6 <= number <= _LONGEST_TICK_MS:
+    if not 1e-6 <= number <= _MAX_TICK_MS:
         raise argparse.ArgumentTypeError(f"{text} is no time between iterations; write milliseconds above 0, as 20")
     return number

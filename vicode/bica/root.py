@@ -53,7 +53,7 @@ class Root:
         self._on_error = on_error
         self._observer = observer
         self._components: dict[type[Component], Component] = {}
-        self._being_made: list[type[Component]] = []
+        self._under_construction: list[type[Component]] = []
         self._cycle_times: dict[str, CycleTimes] | None = None
         self.main = self.component(component_class)
         self._step_main = self._find_step()
@@ -92,16 +92,16 @@ class Root:
         known = self._components.get(component_class)
         if known is not None:
             return cast("C", known)
-        if component_class in self._being_made:
-            circle = [*self._being_made[self._being_made.index(component_class) :], component_class]
+        if component_class in self._under_construction:
+            circle = [*self._under_construction[self._under_construction.index(component_class) :], component_class]
             raise CyclicUseError(tuple(cls.__name__ for cls in circle))
-        self._being_made.append(component_class)
+        self._under_construction.append(component_class)
         try:
             made = component_class(self)
         finally:
-            self._being_made.pop()
+            self._under_construction.pop()
         self._components[component_class] = made
-        self._watch(made)
+        self._instrument(made)
         return made
 
     def step(self) -> None:
@@ -124,7 +124,7 @@ class Root:
     def _find_step(self) -> Callable[[], None]:
         return self.main.step if self._observer is None else partial(self._observer.observe_iteration, self)
 
-    def _watch(self, component: Component) -> None:
+    def _instrument(self, component: Component) -> None:
         if self._observer is not None:
             self._observer.attach(component)
         if self._cycle_times is not None:

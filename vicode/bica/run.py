@@ -18,8 +18,8 @@ from typing import TYPE_CHECKING, Any, TextIO
 
 from .clock import RealClock, SimulatedClock
 from .errors import ComponentError, CyclicUseError
-from .loading import UserCodeError, load_component, make_world, telling
-from .observer import IterationRecord, Observer, to_plain
+from .loading import UserCodeError, load_component, make_world, wrap_user_errors
+from .observer import IterationRecord, Observer, to_json_value
 from .options import make_parser
 from .root import Root
 
@@ -43,7 +43,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
                 lines, root = _prepare(options, files)
             except (CyclicUseError, OSError) as error:
                 raise UserCodeError(str(error)) from error
-            with telling("the world failed", only_users=True):
+            with wrap_user_errors("the world failed", only_user_code=True):
                 return _run(root, lines)
     except UserCodeError as error:
         return _fail(str(error), is_streamed=options.stream)
@@ -55,15 +55,15 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return 1
 
 
-def _prepare(options: argparse.Namespace, files: ExitStack) -> tuple[_Lines, Root]:
+def _prepare(options: argparse.Namespace, files: ExitStack) -> tuple[_RecordWriter, Root]:
     component_class = load_component(options.component)
     world = make_world(options.world, options.seed)
     trace = None
     if options.trace:
         trace = Path(options.trace).open("w", encoding="utf-8")  # noqa: SIM115 - the stack closes it
         files.callback(trace.close)
-    lines = _Lines(trace=trace, world=world, options=options)
-    with telling(f"cannot make {options.component}"):
+    lines = _RecordWriter(trace=trace, world=world, options=options)
+    with wrap_user_errors(f"cannot make {options.component}"):
         return lines, _make_root(component_class, lines)
 
 
@@ -79,7 +79,7 @@ def _fail(message: str, *, is_streamed: bool) -> int:
 
 
 @dataclass(slots=True, kw_only=True)
-class _Lines:
+class _RecordWriter:
     """Where the records of a run go: a trace file, the standard output of a live stream, both, or nowhere."""
 
     trace: TextIO | None
@@ -90,7 +90,7 @@ class _Lines:
         if self.trace is not None:
             self.trace.write(json.dumps(record) + "\n")
         if self.options.stream:
-            sys.stdout.write(json.dumps({**record, "world": _ask(self.world, "snapshot")}) + "\n")
+            sys.stdout.write(json.dumps({**record, "world": _call_optional(self.world, "snapshot")}) + "\n")
             if self.options.real_time:
                 sys.stdout.flush()
 
@@ -101,7 +101,7 @@ class _Lines:
         if self.options.stream:
             sys.stdout.write(json.dumps({"summary": {**summary, "cycle_times": cycle_times}}) + "\n")
         else:
-            sys.stdout.write(_describe(summary, cycle_times))
+            sys.stdout.write(_format_summary(summary, cycle_times))
         sys.stdout.flush()
 
 
@@ -109,19 +109,19 @@ class _Interrupt:
     """Notes the first Ctrl-C, so that the iteration ends whole; the second one ends the command at once."""
 
     def __init__(self, *, is_silent: bool) -> None:
-        self.has_come = False
+        self.is_requested = False
         self._is_silent = is_silent
-        signal.signal(signal.SIGINT, self._note)
+        signal.signal(signal.SIGINT, self._handle_signal)
 
-    def _note(self, _number: int, _frame: FrameType | None) -> None:
-        self.has_come = True
+    def _handle_signal(self, _number: int, _frame: FrameType | None) -> None:
+        self.is_requested = True
         if not self._is_silent:
             # Written past Python's streams: the signal may have come in the middle of a write to them.
             os.write(2, b"stopping after this iteration; press Ctrl-C again to end at once\n")
         signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
-def _make_root(component_class: type[Component], lines: _Lines) -> Root:
+def _make_root(component_class: type[Component], lines: _RecordWriter) -> Root:
     options = lines.options
     is_watched = lines.trace is not None or options.stream
     root = Root(
@@ -135,7 +135,7 @@ def _make_root(component_class: type[Component], lines: _Lines) -> Root:
     return root
 
 
-def _run(root: Root, lines: _Lines) -> int:
+def _run(root: Root, lines: _RecordWriter) -> int:
     stopped = _loop(root, lines.options)
     summary = {
         "stopped": stopped,
@@ -144,7 +144,7 @@ def _run(root: Root, lines: _Lines) -> int:
         "state": root.main.state,
         "done": root.main.is_done,
         "errors": root.errors.total(),
-        "world": _ask(root.world, "summary"),
+        "world": _call_optional(root.world, "summary"),
     }
     lines.write_summary(summary, {name: times.as_plain() for name, times in root.cycle_times.items()})
     return EXIT_CODES.get(stopped, 0)
@@ -164,7 +164,7 @@ def _loop(root: Root, options: argparse.Namespace) -> str:
         except ComponentError as error:
             sys.stderr.write(f"error: {error}\n")
             return "error"
-        if interrupt.has_come:
+        if interrupt.is_requested:
             return "interrupted"
         if getattr(world, "finished", False):
             return "finished"
@@ -190,12 +190,12 @@ def _count_ticks(options: argparse.Namespace, tick_ns: int) -> float:
     return min(by_seconds, math.inf if options.ticks is None else options.ticks)
 
 
-def _ask(world: Any, question: str) -> Any:
+def _call_optional(world: Any, question: str) -> Any:
     answer = getattr(world, question, None)
-    return to_plain(answer()) if answer is not None else None
+    return to_json_value(answer()) if answer is not None else None
 
 
-def _describe(summary: dict[str, Any], cycle_times: dict[str, Any]) -> str:
+def _format_summary(summary: dict[str, Any], cycle_times: dict[str, Any]) -> str:
     lines = [f"{name}: {value if isinstance(value, str) else json.dumps(value)}" for name, value in summary.items()]
     for name, times in cycle_times.items():
         numbers = ", ".join(f"{key} {value:g}" for key, value in times.items())

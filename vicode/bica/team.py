@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from .component import Component
 
-Place = tuple[str, str]
+StateKey = tuple[str, str]
 """A cooperative state: the names of its component and of itself."""
 
 
@@ -17,9 +17,9 @@ class TeamMessage:
     """What a robot tells the others: the cooperative states it is in, wants to enter, and whose component works."""
 
     priority: int = 0
-    executed: tuple[Place, ...] = ()
-    entering: tuple[Place, ...] = ()
-    near: tuple[Place, ...] = ()
+    executed: tuple[StateKey, ...] = ()
+    entering: tuple[StateKey, ...] = ()
+    near: tuple[StateKey, ...] = ()
 
 
 @dataclass(slots=True, eq=False)
@@ -38,41 +38,41 @@ class CooperativeState:
     executing: int = 0
     entering: int = 0
     in_component: int = 0
-    highest: int = 0
+    highest_priority: int = 0
     is_entering: bool = False
-    waited: int = 0
+    waiting_iterations: int = 0
 
-    def begin(self) -> None:
+    def reset(self) -> None:
         """Forget what the others told; count the cycles since this robot wants to enter."""
         self.executing = self.entering = self.in_component = 0
-        self.waited = self.waited + 1 if self.is_entering else 0
+        self.waiting_iterations = self.waiting_iterations + 1 if self.is_entering else 0
         self.is_entering = False
 
     @property
-    def is_crowded(self) -> bool:
+    def is_full(self) -> bool:
         """Whether as many others are in it as may be."""
         return self.is_capacity and self.executing >= self.number
 
     def may_enter(self) -> bool:
         """Whether this robot may be in it now; else the others are told that it wants to, unless it gives way."""
-        return self._has_room() if self.is_capacity else self._are_together()
+        return self._can_enter_within_capacity() if self.is_capacity else self._can_enter_together()
 
-    def _has_room(self) -> bool:
+    def _can_enter_within_capacity(self) -> bool:
         is_wanted = self.executing + self.entering >= self.number
-        if is_wanted and not self.is_crowded and self.highest == self.team.priority:
+        if is_wanted and not self.is_full and self.highest_priority == self.team.priority:
             # Two of one priority: neither enters, and both give way.
             return False
-        is_free = not self.is_crowded and not (is_wanted and self.highest > self.team.priority)
-        if is_free and self.waited >= self.team.ticks:
+        is_free = not self.is_full and not (is_wanted and self.highest_priority > self.team.priority)
+        if is_free and self.waiting_iterations >= self.team.ticks:
             return True
         self.is_entering = True
         return False
 
-    def _are_together(self) -> bool:
+    def _can_enter_together(self) -> bool:
         self.is_entering = True
         are_enough = self.in_component + 1 >= self.number
         are_ready = self.executing + self.entering == self.in_component
-        return are_enough and are_ready and self.waited > self.team.ticks // 2
+        return are_enough and are_ready and self.waiting_iterations > self.team.ticks // 2
 
 
 @dataclass(slots=True, eq=False)
@@ -81,7 +81,7 @@ class Team:
 
     priority: int = 0
     ticks: int = 0
-    _states: dict[Place, tuple[Component, CooperativeState]] = field(default_factory=dict)
+    _states: dict[StateKey, tuple[Component, CooperativeState]] = field(default_factory=dict)
 
     def join(self, component: Component, state: str, *, capacity: int | None, synchronized: int) -> CooperativeState:
         """Make a state of a component one that robots agree on."""
@@ -93,7 +93,7 @@ class Team:
     def prepare(self) -> None:
         """Forget what the others told; before their new messages are heard, once an iteration."""
         for _component, state in self._states.values():
-            state.begin()
+            state.reset()
 
     def hear(self, message: TeamMessage) -> None:
         """Take in the message of another robot; states that this one does not have are ignored."""
@@ -103,7 +103,9 @@ class Team:
         for place in message.entering:
             if place in self._states:
                 state = self._states[place][1]
-                state.highest = max(state.highest, message.priority) if state.entering else message.priority
+                state.highest_priority = (
+                    max(state.highest_priority, message.priority) if state.entering else message.priority
+                )
                 state.entering += 1
         for place in message.near:
             if place in self._states:

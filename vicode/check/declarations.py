@@ -2,29 +2,31 @@
 
 from collections.abc import Iterator
 
-from vicode.check.context import Context
+from vicode.check.context import RuleContext
 from vicode.check.readings import literal_value
-from vicode.findings import Finding, Path, did_you_mean
+from vicode.findings import DesignPath, Finding, did_you_mean
 from vicode.model.design import Assign, Declaration
 from vicode.model.expressions import BOOL, FLOAT, INT, UNKNOWN, Scope
 
 
-def find_bad_declarations(context: Context) -> Iterator[Finding]:
+def find_bad_declarations(context: RuleContext) -> Iterator[Finding]:
     """P205, P206: types and ranges of the design's declarations."""
     for section, declaration in context.design.declarations():
-        for code, path, message, mend in declaration_problems(declaration, (section, declaration.name), context.scope):
-            yield context.find(code, path, message, mend)
+        for code, path, message, mend in validate_declaration(declaration, (section, declaration.name), context.scope):
+            yield context.make_finding(code, path, message, mend)
 
 
-def find_bad_frequency(context: Context) -> Iterator[Finding]:
+def find_bad_frequency(context: RuleContext) -> Iterator[Finding]:
     """D416: a frequency that is not above 0."""
     hertz = context.design.frequency_hz
     if hertz is not None and not 0 < hertz < float("inf"):
         mend = "write a number above 0, or leave it out to work at every step"
-        yield context.find("D416", ("frequency",), f"{hertz:g} Hz is no frequency", mend)
+        yield context.make_finding("D416", ("frequency",), f"{hertz:g} Hz is no frequency", mend)
 
 
-def declaration_problems(declaration: Declaration, path: Path, scope: Scope) -> Iterator[tuple[str, Path, str, str]]:
+def validate_declaration(
+    declaration: Declaration, path: DesignPath, scope: Scope
+) -> Iterator[tuple[str, DesignPath, str, str]]:
     """What is wrong with a declaration and its arguments, as code, path, message, mend."""
     type_ = scope.type_of(declaration)
     if type_ == UNKNOWN:
@@ -38,22 +40,22 @@ def declaration_problems(declaration: Declaration, path: Path, scope: Scope) -> 
         elif type_ not in (INT, FLOAT, UNKNOWN):
             yield "P206", (*path, "range"), f"'{declaration.name}' is {type_}, only numbers have a range", "delete it"
     for argument in declaration.arguments or ():
-        yield from declaration_problems(argument, (*path, "arguments", argument.name), scope)
+        yield from validate_declaration(argument, (*path, "arguments", argument.name), scope)
 
 
-def find_values_outside(context: Context) -> Iterator[Finding]:
+def find_out_of_range_values(context: RuleContext) -> Iterator[Finding]:
     """D427: a literal outside the range of what it is given to."""
     for expression in context.expressions:
         receiver = expression.receiver
         if receiver is None or receiver.range is None or not expression.is_sound or expression.tree is None:
             continue
-        message = range_problem(receiver, literal_value(expression.tree, context.scope))
+        message = validate_range(receiver, literal_value(expression.tree, context.scope))
         if message:
             mend = "change the value, or the range"
-            yield context.find("D427", expression.path, message, mend, span=expression.tree.span)
+            yield context.make_finding("D427", expression.path, message, mend, span=expression.tree.span)
 
 
-def range_problem(declaration: Declaration, value: float | None) -> str:
+def validate_range(declaration: Declaration, value: float | None) -> str:
     """Says that a value is outside a declaration's range, empty when it is not."""
     if value is None or declaration.range is None:
         return ""
@@ -64,9 +66,9 @@ def range_problem(declaration: Declaration, value: float | None) -> str:
     return f"{value:g} is outside the range of '{declaration.name}', {low:g} to {high:g}{unit}"
 
 
-def find_unused_declarations(context: Context) -> Iterator[Finding]:
+def find_unused_declarations(context: RuleContext) -> Iterator[Finding]:
     """D424: parameters never read, variables and outputs neither read nor set."""
-    used = context.words.union(*(expression.parsed.names for expression in context.expressions))
+    used = context.code_identifiers.union(*(expression.analysis.names for expression in context.expressions))
     assigned = {
         name for placed in context.actions if isinstance(placed.action, Assign) for name, _text in placed.action.values
     }
@@ -78,12 +80,12 @@ def find_unused_declarations(context: Context) -> Iterator[Finding]:
             message = f"{section.removesuffix('s')} '{name}' is neither read nor set"
         else:
             continue
-        yield context.find("D424", (section, name), message, "use it, or delete it", of_key=True)
+        yield context.make_finding("D424", (section, name), message, "use it, or delete it", is_key=True)
 
 
 RULES = (
     find_bad_declarations,
     find_bad_frequency,
-    find_values_outside,
+    find_out_of_range_values,
     find_unused_declarations,
 )

@@ -5,23 +5,23 @@ from dataclasses import dataclass
 
 import networkx as nx
 
-from vicode.findings import Path
+from vicode.findings import DesignPath
 from vicode.model.design import COMMON, Call, Design, State
 from vicode.model.project import Project
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Graphs:
+class ComponentGraphs:
     """Components as nodes; `uses` and `steps` lead from a design's component to those it names."""
 
     uses: "nx.DiGraph[str]"
     steps: "nx.DiGraph[str]"
 
-    def stepped_below(self, component: str) -> set[str]:
+    def transitive_steps(self, component: str) -> set[str]:
         """All components that may work when this one is stepped, itself left out."""
         return set(nx.descendants(self.steps, component)) if component in self.steps else set()
 
-    def is_in_circle(self, component: str) -> bool:
+    def is_in_cycle(self, component: str) -> bool:
         """Whether stepping a component comes back to it, which is a mistake of its own."""
         return component in self.steps and any(
             nx.has_path(self.steps, following, component) for following in self.steps.successors(component)
@@ -29,17 +29,17 @@ class Graphs:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Step:
+class StepSite:
     """A place where a design steps a component; `state` is a name or COMMON."""
 
     state: str
     alias: str
     component: str
-    path: Path
+    path: DesignPath
     is_call: bool
 
 
-def graphs_of(project: Project) -> Graphs:
+def build_graphs(project: Project) -> ComponentGraphs:
     """Both graphs; of two designs with one name the first counts."""
     uses: nx.DiGraph[str] = nx.DiGraph()
     steps: nx.DiGraph[str] = nx.DiGraph()
@@ -49,24 +49,26 @@ def graphs_of(project: Project) -> Graphs:
                 graph.remove_edges_from(list(graph.out_edges(design.component)))
             graph.add_node(design.component)
         uses.add_edges_from((design.component, use.component) for use in design.uses)
-        steps.add_edges_from({(design.component, step.component) for step in steps_of(design)})
-    return Graphs(uses=uses, steps=steps)
+        steps.add_edges_from({(design.component, step.component) for step in iter_steps(design)})
+    return ComponentGraphs(uses=uses, steps=steps)
 
 
-def steps_of(design: Design) -> Iterator[Step]:
+def iter_steps(design: Design) -> Iterator[StepSite]:
     """Every place where a used component is stepped: the common ones, then by every state that is not disabled."""
     components = {use.alias: use.component for use in reversed(design.uses)}
     for index, action in enumerate(design.common.actions):
         if isinstance(action, Call) and action.alias in components:
-            path: Path = ("common", "actions", index, "call")
-            yield Step(state=COMMON, alias=action.alias, component=components[action.alias], path=path, is_call=True)
+            path: DesignPath = ("common", "actions", index, "call")
+            yield StepSite(
+                state=COMMON, alias=action.alias, component=components[action.alias], path=path, is_call=True
+            )
     for state in (state for state in design.states if not state.disabled):
-        for alias, place, is_call in _places(state):
+        for alias, place, is_call in _iter_stepped_aliases(state):
             if alias in components:
-                yield Step(state=state.name, alias=alias, component=components[alias], path=place, is_call=is_call)
+                yield StepSite(state=state.name, alias=alias, component=components[alias], path=place, is_call=is_call)
 
 
-def _places(state: State) -> Iterator[tuple[str, Path, bool]]:
+def _iter_stepped_aliases(state: State) -> Iterator[tuple[str, DesignPath, bool]]:
     """Aliases in the order they are stepped."""
     for index, alias in enumerate(state.requires):
         yield alias, ("states", state.name, "requires", index), False

@@ -24,5 +24,5 @@ KEYWORDS = {
 }
 """Keywords by language; C++ as of C++17 with its alternative tokens."""
 
-SHOWN = {"python": "Python", "cpp": "C++", "xabsl": "XABSL"}
+LANGUAGE_TITLES = {"python": "Python", "cpp": "C++", "xabsl": "XABSL"}
 """Languages as people write them."""

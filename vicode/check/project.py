@@ -7,13 +7,26 @@ from collections import Counter
 from collections.abc import Iterator
 from dataclasses import replace
 
-from vicode.check.declarations import declaration_problems, range_problem
-from vicode.check.expressions import changing_parts
-from vicode.check.named import Named, keyword_languages, name_problem, names_of_project, with_article
-from vicode.check.readings import Expression, Reader, literal_value, plain_reader, read_first_values, reader_of
-from vicode.findings import Finding, Note, Path, Span, Thing, did_you_mean, rule
+from vicode.check.declarations import validate_declaration, validate_range
+from vicode.check.expressions import find_nonconstant_nodes
+from vicode.check.named import (
+    Identifier,
+    iter_project_identifiers,
+    keyword_languages,
+    validate_identifier,
+    with_article,
+)
+from vicode.check.readings import (
+    ExpressionParser,
+    TypedExpression,
+    build_expression_parser,
+    build_uncached_parser,
+    literal_value,
+    parse_initial_values,
+)
+from vicode.findings import DesignPath, Finding, FindingSubject, Note, Span, did_you_mean, get_rule
 from vicode.model.design import Declaration
-from vicode.model.expressions import Scope, scope_of
+from vicode.model.expressions import Scope, build_scope
 from vicode.model.names import snake_case
 from vicode.model.project import LANGUAGES, Project
 
@@ -22,15 +35,15 @@ _CLASS_IN_MODULE = re.compile(r"[A-Za-z_]\w*(\.[A-Za-z_]\w*)*:[A-Za-z_]\w*\Z", r
 
 def find_unusable_project_names(project: Project) -> Iterator[Finding]:
     """P208: a name whose Python package cannot be imported, or is found in the place of another module."""
-    reason = _unusable_because(project) if "python" in project.languages else ""
+    reason = _package_problem(project) if "python" in project.languages else ""
     if reason:
-        message = f"the package '{_package_of(project)}' of this project {reason}"
+        message = f"the package '{_package_name(project)}' of this project {reason}"
         mend = "give another name with 'project:' in project.yaml"
-        yield replace(_find("P208", ("project",), message, mend), languages=("python",))
+        yield replace(_make_finding("P208", ("project",), message, mend), languages=("python",))
 
 
-def _unusable_because(project: Project) -> str:
-    package = _package_of(project)
+def _package_problem(project: Project) -> str:
+    package = _package_name(project)
     written = {"world": project.world, **{each.component: each.implementation for each in project.components}}
     hidden = [name for name, target in written.items() if target.partition(":")[0].partition(".")[0] == package]
     if keyword.iskeyword(package):
@@ -42,35 +55,35 @@ def _unusable_because(project: Project) -> str:
     return f"would hide the module of '{hidden[0]}'" if hidden else ""
 
 
-def _package_of(project: Project) -> str:
+def _package_name(project: Project) -> str:
     """The project's package in Python; the digit that the generators put a word before hides nothing."""
     return re.sub(r"[^a-z0-9]+", "_", snake_case(project.name), flags=re.ASCII).strip("_")
 
 
 def find_bad_names(project: Project) -> Iterator[Finding]:
     """D404 to D407: names in the project file."""
-    for named in names_of_project(project):
-        problem = name_problem(named, project.languages)
+    for named in iter_project_identifiers(project):
+        problem = validate_identifier(named, project.languages)
         if problem:
             code, message, mend = problem
             languages = keyword_languages(named, project.languages) if code == "D406" else ()
-            yield replace(_find(code, named.path, message, mend, of_key=True), languages=languages)
+            yield replace(_make_finding(code, named.path, message, mend, of_key=True), languages=languages)
 
 
 def find_duplicate_names(project: Project) -> Iterator[Finding]:
     """D407: one name for two constants, enumerations or elements, or for a type and a component."""
-    known: dict[tuple[Path, str], Named] = {}
-    for named in names_of_project(project):
-        if named.what == "enumeration" and project.interface(named.name):
+    known: dict[tuple[DesignPath, str], Identifier] = {}
+    for named in iter_project_identifiers(project):
+        if named.kind == "enumeration" and project.interface(named.name):
             message = f"'{named.name}' is already the name of a component"
-            yield _find("D407", named.path, message, "rename one of them", of_key=True)
+            yield _make_finding("D407", named.path, message, "rename one of them", of_key=True)
         # Constants and enumerations share one space of names, all others only meet their like.
-        place = () if named.is_shared else named.path[:-1]
+        place = () if named.is_expression_name else named.path[:-1]
         first = known.setdefault((place, named.name), named)
-        if first is not named and named.what != "hand-written component":
-            note = Note(message="first declared here", thing=Thing(path=first.path, of_key=True))
-            message = f"'{named.name}' is already the name of {with_article(first.what)}"
-            yield _find("D407", named.path, message, "rename one of them", of_key=True, notes=(note,))
+        if first is not named and named.kind != "hand-written component":
+            note = Note(message="first declared here", subject=FindingSubject(path=first.path, is_key=True))
+            message = f"'{named.name}' is already the name of {with_article(first.kind)}"
+            yield _make_finding("D407", named.path, message, "rename one of them", of_key=True, notes=(note,))
 
 
 def find_duplicate_components(project: Project) -> Iterator[Finding]:
@@ -78,19 +91,19 @@ def find_duplicate_components(project: Project) -> Iterator[Finding]:
     written = [interface.component for interface in project.components]
     for name, count in Counter(written).items():
         if count > 1:
-            yield _find("P201", ("components", name), f"'{name}' is declared twice", "rename one", of_key=True)
+            yield _make_finding("P201", ("components", name), f"'{name}' is declared twice", "rename one", of_key=True)
     designs = Counter(design.component for design in project.designs)
     for name, count in designs.items():
-        thing = Thing(component=name, path=("component",))
+        thing = FindingSubject(component=name, path=("component",))
         notes: tuple[Note, ...] = ()
         if name in written:
             message = f"'{name}' is also declared as hand-written"
-            notes = (Note(message="declared here", thing=Thing(path=("components", name), of_key=True)),)
+            notes = (Note(message="declared here", subject=FindingSubject(path=("components", name), is_key=True)),)
         elif count > 1:
             message = f"{count} designs are called '{name}'"
         else:
             continue
-        yield Finding(rule=rule("P201"), message=message, mend="rename one of them", thing=thing, notes=notes)
+        yield Finding(rule=get_rule("P201"), message=message, fix="rename one of them", subject=thing, notes=notes)
 
 
 def find_bad_implementations(project: Project) -> Iterator[Finding]:
@@ -98,14 +111,14 @@ def find_bad_implementations(project: Project) -> Iterator[Finding]:
     mend = "write module:Class, such as field.perception:Perception"
     add = "add implementation: module:Class, or implementation: world"
     for interface in project.components:
-        path: Path = ("components", interface.component)
+        path: DesignPath = ("components", interface.component)
         if not interface.implementation:
-            yield _find("P203", path, f"'{interface.component}' has no implementation", add)
-        elif not interface.is_handed_on and not _CLASS_IN_MODULE.match(interface.implementation):
+            yield _make_finding("P203", path, f"'{interface.component}' has no implementation", add)
+        elif not interface.is_generated and not _CLASS_IN_MODULE.match(interface.implementation):
             message = f"'{interface.implementation}' does not name a class in a module"
-            yield _find("P203", (*path, "implementation"), message, mend)
+            yield _make_finding("P203", (*path, "implementation"), message, mend)
     if project.world and not _CLASS_IN_MODULE.match(project.world):
-        yield _find("P203", ("world",), f"'{project.world}' does not name a class in a module", mend)
+        yield _make_finding("P203", ("world",), f"'{project.world}' does not name a class in a module", mend)
 
 
 def find_unknown_languages(project: Project) -> Iterator[Finding]:
@@ -113,7 +126,7 @@ def find_unknown_languages(project: Project) -> Iterator[Finding]:
     for index, language in enumerate(project.languages):
         if language not in LANGUAGES:
             mend = did_you_mean(language, LANGUAGES, f"known are {', '.join(LANGUAGES)}")
-            yield _find("P204", ("languages", index), f"there is no language '{language}'", mend)
+            yield _make_finding("P204", ("languages", index), f"there is no language '{language}'", mend)
 
 
 def find_unknown_roots(project: Project) -> Iterator[Finding]:
@@ -121,7 +134,7 @@ def find_unknown_roots(project: Project) -> Iterator[Finding]:
     for agent in project.agents:
         if project.interface(agent.root) is None:
             mend = did_you_mean(agent.root, project.interfaces(), "add its design")
-            yield _find("P202", ("agents", agent.name, "root"), f"there is no component '{agent.root}'", mend)
+            yield _make_finding("P202", ("agents", agent.name, "root"), f"there is no component '{agent.root}'", mend)
 
 
 def find_empty_enumerations(project: Project) -> Iterator[Finding]:
@@ -129,7 +142,9 @@ def find_empty_enumerations(project: Project) -> Iterator[Finding]:
     for enumeration in project.enumerations:
         if not enumeration.elements:
             path = ("enumerations", enumeration.name)
-            yield _find("P207", path, f"'{enumeration.name}' has no elements", "add one: [first, second]", of_key=True)
+            yield _make_finding(
+                "P207", path, f"'{enumeration.name}' has no elements", "add one: [first, second]", of_key=True
+            )
 
 
 def find_bad_frequencies(project: Project) -> Iterator[Finding]:
@@ -138,47 +153,51 @@ def find_bad_frequencies(project: Project) -> Iterator[Finding]:
         hertz = interface.frequency_hz
         if hertz is not None and not 0 < hertz < float("inf"):
             path = ("components", interface.component, "frequency")
-            yield _find("D416", path, f"{hertz:g} Hz is no frequency", "write a number above 0, or leave it out")
+            yield _make_finding(
+                "D416", path, f"{hertz:g} Hz is no frequency", "write a number above 0, or leave it out"
+            )
 
 
 def find_bad_declarations(project: Project) -> Iterator[Finding]:
     """P205, P206, D427, E3: types, ranges and first values of everything declared in the project file."""
     for declaration, path, reader in _declarations(project):
-        for code, here, message, mend in declaration_problems(declaration, path, reader.scope):
-            yield _find(code, here, message, mend)
-        for expression in read_first_values(declaration, path, reader):
-            yield from _find_bad_first_value(expression, reader.scope)
+        for code, here, message, mend in validate_declaration(declaration, path, reader.scope):
+            yield _make_finding(code, here, message, mend)
+        for expression in parse_initial_values(declaration, path, reader):
+            yield from _find_bad_initial_value(expression, reader.scope)
 
 
-def _find_bad_first_value(expression: Expression, scope: Scope) -> Iterator[Finding]:
-    for mistake in expression.parsed.mistakes:
-        yield _find(mistake.rule.code, expression.path, mistake.message, mistake.mend, span=mistake.span)
+def _find_bad_initial_value(expression: TypedExpression, scope: Scope) -> Iterator[Finding]:
+    for mistake in expression.analysis.diagnostics:
+        yield _make_finding(mistake.rule.code, expression.path, mistake.message, mistake.fix, span=mistake.span)
     if expression.tree is None or not expression.is_sound:
         return
     mend = "a first value is made of numbers, constants and enumeration elements"
-    for message, node in changing_parts(expression.tree):
-        yield _find("E308", expression.path, message, mend, span=node.span)
+    for message, node in find_nonconstant_nodes(expression.tree):
+        yield _make_finding("E308", expression.path, message, mend, span=node.span)
     receiver = expression.receiver
-    message = range_problem(receiver, literal_value(expression.tree, scope)) if receiver else ""
+    message = validate_range(receiver, literal_value(expression.tree, scope)) if receiver else ""
     if message:
-        yield _find("D427", expression.path, message, "change the value, or the range", span=expression.tree.span)
+        yield _make_finding(
+            "D427", expression.path, message, "change the value, or the range", span=expression.tree.span
+        )
 
 
-def _declarations(project: Project) -> Iterator[tuple[Declaration, Path, Reader]]:
+def _declarations(project: Project) -> Iterator[tuple[Declaration, DesignPath, ExpressionParser]]:
     """Every declaration with what it may be made from: a constant from those before it, all others from all of them."""
     for index, constant in enumerate(project.constants):
         before = replace(project, constants=project.constants[:index])
-        yield constant, ("constants", constant.name), plain_reader(scope_of(before, None))
-    reader = reader_of(project, None)
+        yield constant, ("constants", constant.name), build_uncached_parser(build_scope(before, None))
+    reader = build_expression_parser(project, None)
     for interface in project.components:
         for section in ("parameters", "outputs", "variables"):
             for declaration in getattr(interface, section):
                 yield declaration, ("components", interface.component, section, declaration.name), reader
 
 
-def _find(
+def _make_finding(
     code: str,
-    path: Path,
+    path: DesignPath,
     message: str,
     mend: str = "",
     *,
@@ -187,8 +206,8 @@ def _find(
     notes: tuple[Note, ...] = (),
 ) -> Finding:
     """A finding about a thing of the project file."""
-    thing = Thing(path=path, span=span, of_key=of_key)
-    return Finding(rule=rule(code), message=message, mend=mend, thing=thing, notes=notes)
+    thing = FindingSubject(path=path, span=span, is_key=of_key)
+    return Finding(rule=get_rule(code), message=message, fix=mend, subject=thing, notes=notes)
 
 
 RULES = (

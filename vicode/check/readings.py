@@ -5,88 +5,92 @@ from dataclasses import dataclass, replace
 from enum import StrEnum
 from functools import lru_cache
 
-from vicode.check.words import words_of
-from vicode.findings import Path
+from vicode.check.words import find_identifiers
+from vicode.findings import DesignPath
 from vicode.model.design import Assign, Call, Declaration, Design, Use
 from vicode.model.expressions import (
     BOOL,
     FLOAT,
     Done,
+    Expr,
+    ExpressionDiagnostic,
     Minus,
-    Mistake,
-    Node,
     Number,
-    Reading,
+    OutputRef,
     Scope,
     Variable,
+    build_scope,
     parse_expression,
-    scope_of,
     walk,
 )
 from vicode.model.project import Interface, Project
-from vicode.model.walks import Located, PlacedAction
+from vicode.model.walks import LocatedAction, LocatedDecision
 
 
-class Place(StrEnum):
+class ExpressionSite(StrEnum):
     """What an expression is for."""
 
-    FIRST = "first value"
+    INITIAL_VALUE = "first value"
     GUARD = "guard"
-    TIME = "time"
-    ASSIGNED = "assigned value"
+    AFTER = "time"
+    ASSIGNED_VALUE = "assigned value"
     ARGUMENT = "argument"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Expression:
+class TypedExpression:
     """An expression at its place; `receiver` is what its value goes to, where that has a declaration."""
 
-    place: Place
-    path: Path
+    site: ExpressionSite
+    path: DesignPath
     text: str
-    parsed: "Understood"
+    analysis: "ExpressionAnalysis"
     receiver: Declaration | None = None
 
     @property
-    def tree(self) -> Node | None:
+    def tree(self) -> Expr | None:
         """Its tree, None when there is none."""
-        return self.parsed.tree
+        return self.analysis.tree
 
     @property
     def is_sound(self) -> bool:
         """Whether its tree tells everything it reads."""
-        return self.parsed.tree is not None and not self.parsed.mistakes
+        return self.analysis.tree is not None and not self.analysis.diagnostics
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Understood:
+class ExpressionAnalysis:
     """A parsed text with the names and aliases it reads; of a text with mistakes both are all its words."""
 
-    tree: Node | None
-    mistakes: tuple[Mistake, ...]
+    tree: Expr | None
+    diagnostics: tuple[ExpressionDiagnostic, ...]
     names: frozenset[str]
     aliases: frozenset[str]
 
 
-Parser = Callable[[str, str | None], Understood]
+ParseFunction = Callable[[str, str | None], ExpressionAnalysis]
 """Parses a text for the type its place expects."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Reader:
+class ExpressionParser:
     """The names of a design with a parser that remembers what it has parsed for the same names."""
 
     scope: Scope
-    parse: Parser
+    parse: ParseFunction
 
 
-def reader_of(project: Project, design: Design | None) -> Reader:
+def build_expression_parser(project: Project, design: Design | None) -> ExpressionParser:
     """A reader of a design's expressions; without a design, of those in the project file."""
     if design is None:
-        return _reader(replace(_NAMELESS, constants=project.constants, enumerations=project.enumerations), None)
+        return _build_cached_parser(
+            replace(_EMPTY_PROJECT, constants=project.constants, enumerations=project.enumerations), None
+        )
     found = (project.interface(use.component) for use in design.uses)
     used = tuple(dict.fromkeys(interface for interface in found if interface is not None))
-    vocabulary = replace(_NAMELESS, constants=project.constants, enumerations=project.enumerations, components=used)
+    vocabulary = replace(
+        _EMPTY_PROJECT, constants=project.constants, enumerations=project.enumerations, components=used
+    )
     names = Design(
         component="",
         uses=tuple(Use(alias=use.alias, component=use.component) for use in design.uses),
@@ -94,62 +98,64 @@ def reader_of(project: Project, design: Design | None) -> Reader:
         outputs=design.outputs,
         variables=design.variables,
     )
-    return _reader(vocabulary, names)
+    return _build_cached_parser(vocabulary, names)
 
 
-_NAMELESS = Project(name="")
+_EMPTY_PROJECT = Project(name="")
 
 
 # The editor checks after every edit, and hardly ever do the names of a design change.
 @lru_cache(maxsize=64)
-def _reader(vocabulary: Project, names: Design | None) -> Reader:
-    reader = plain_reader(scope_of(vocabulary, names))
+def _build_cached_parser(vocabulary: Project, names: Design | None) -> ExpressionParser:
+    reader = build_uncached_parser(build_scope(vocabulary, names))
     return replace(reader, parse=lru_cache(maxsize=20_000)(reader.parse))
 
 
-def plain_reader(scope: Scope) -> Reader:
+def build_uncached_parser(scope: Scope) -> ExpressionParser:
     """A reader without a memory."""
-    return Reader(scope=scope, parse=lambda text, expected: understand(text, scope, expected))
+    return ExpressionParser(scope=scope, parse=lambda text, expected: analyze_expression(text, scope, expected))
 
 
-def understand(text: str, scope: Scope, expected: str | None) -> Understood:
+def analyze_expression(text: str, scope: Scope, expected: str | None) -> ExpressionAnalysis:
     """Parse a text and note what it reads."""
     parsed = parse_expression(text, scope, expected)
-    if parsed.tree is None or parsed.mistakes:
-        names = aliases = frozenset(words_of(text))
+    if parsed.tree is None or parsed.diagnostics:
+        names = aliases = frozenset(find_identifiers(text))
     else:
         nodes = tuple(walk(parsed.tree))
         names = frozenset(node.name for node in nodes if isinstance(node, Variable))
-        aliases = frozenset(node.alias for node in nodes if isinstance(node, Reading | Done))
-    return Understood(tree=parsed.tree, mistakes=parsed.mistakes, names=names, aliases=aliases)
+        aliases = frozenset(node.alias for node in nodes if isinstance(node, OutputRef | Done))
+    return ExpressionAnalysis(tree=parsed.tree, diagnostics=parsed.diagnostics, names=names, aliases=aliases)
 
 
-def read_expressions(
-    design: Design, reader: Reader, decisions: Iterable[Located], actions: Iterable[PlacedAction]
-) -> Iterator[Expression]:
+def parse_expressions(
+    design: Design, parser: ExpressionParser, decisions: Iterable[LocatedDecision], actions: Iterable[LocatedAction]
+) -> Iterator[TypedExpression]:
     """Every expression of a design, in the order of its file."""
     for section, declaration in design.declarations():
-        yield from read_first_values(declaration, (section, declaration.name), reader)
+        yield from parse_initial_values(declaration, (section, declaration.name), parser)
     for located in decisions:
         guard = located.decision.guard
         if guard.when:
-            yield _read(Place.GUARD, (*located.path, "when"), guard.when, reader, expected=BOOL)
+            yield _parse(ExpressionSite.GUARD, (*located.path, "when"), guard.when, parser, expected=BOOL)
         if guard.after:
-            yield _read(Place.TIME, (*located.path, "after"), guard.after, reader, expected=FLOAT)
+            yield _parse(ExpressionSite.AFTER, (*located.path, "after"), guard.after, parser, expected=FLOAT)
     for placed in actions:
-        yield from _read_action(placed, reader)
+        yield from _parse_action(placed, parser)
 
 
-def read_first_values(declaration: Declaration, path: Path, reader: Reader) -> Iterator[Expression]:
+def parse_initial_values(
+    declaration: Declaration, path: DesignPath, parser: ExpressionParser
+) -> Iterator[TypedExpression]:
     """The first value of a declaration and the defaults of its arguments."""
     if declaration.initial:
         key = {"parameters": "default", "constants": "value", "arguments": "default"}.get(str(path[-2]), "initial")
-        yield _read(Place.FIRST, (*path, key), declaration.initial, reader, receiver=declaration)
+        yield _parse(ExpressionSite.INITIAL_VALUE, (*path, key), declaration.initial, parser, receiver=declaration)
     for argument in declaration.arguments or ():
-        yield from read_first_values(argument, (*path, "arguments", argument.name), reader)
+        yield from parse_initial_values(argument, (*path, "arguments", argument.name), parser)
 
 
-def literal_value(tree: Node | None, scope: Scope) -> float | None:
+def literal_value(tree: Expr | None, scope: Scope) -> float | None:
     """The number that a literal, or a constant with a literal value, stands for; None for anything else."""
     match tree:
         case Number(value=value):
@@ -158,42 +164,44 @@ def literal_value(tree: Node | None, scope: Scope) -> float | None:
             return -value
         case Variable(name=name, kind="constant"):
             symbol = scope.symbols.get(name)
-            return _number(symbol.declaration.initial) if symbol else None
+            return _parse_number(symbol.declaration.initial) if symbol else None
         case _:
             return None
 
 
-def _number(text: str) -> float | None:
+def _parse_number(text: str) -> float | None:
     try:
         return float(text)
     except ValueError:
         return None
 
 
-def _read_action(placed: PlacedAction, reader: Reader) -> Iterator[Expression]:
+def _parse_action(placed: LocatedAction, reader: ExpressionParser) -> Iterator[TypedExpression]:
     match placed.action:
         case Assign(values=values):
             for name, text in values:
                 path = (*placed.path, "set", name)
-                yield _read(Place.ASSIGNED, path, text, reader, receiver=reader.scope.settable(name))
+                yield _parse(
+                    ExpressionSite.ASSIGNED_VALUE, path, text, reader, receiver=reader.scope.find_assignable(name)
+                )
         case Call(alias=alias, arguments=arguments):
             interface: Interface | None = reader.scope.uses.get(alias)
             middle = () if placed.phase == "modulates" else ("with",)
             for name, text in arguments:
                 parameter = interface.parameter(name) if interface else None
-                yield _read(Place.ARGUMENT, (*placed.path, *middle, name), text, reader, receiver=parameter)
+                yield _parse(ExpressionSite.ARGUMENT, (*placed.path, *middle, name), text, reader, receiver=parameter)
 
 
-def _read(
-    place: Place,
-    path: Path,
+def _parse(
+    place: ExpressionSite,
+    path: DesignPath,
     text: str,
-    reader: Reader,
+    reader: ExpressionParser,
     *,
     expected: str | None = None,
     receiver: Declaration | None = None,
-) -> Expression:
+) -> TypedExpression:
     if receiver is not None:
         expected = reader.scope.type_of(receiver)
     parsed = reader.parse(text, expected)
-    return Expression(place=place, path=path, text=text, parsed=parsed, receiver=receiver)
+    return TypedExpression(site=place, path=path, text=text, analysis=parsed, receiver=receiver)

@@ -7,36 +7,36 @@ from itertools import combinations
 
 import networkx as nx
 
-from vicode.check.context import Context
-from vicode.check.graphs import Step
+from vicode.check.context import RuleContext
+from vicode.check.graphs import StepSite
 from vicode.findings import Finding, Note
 from vicode.model.design import COMMON, Use
-from vicode.model.expressions import Done, Reading, walk
+from vicode.model.expressions import Done, OutputRef, walk
 
-Reach = Callable[[str, str], frozenset[str]]
+SharedDescendants = Callable[[str, str], frozenset[str]]
 
 
-def find_stepped_twice(context: Context) -> Iterator[Finding]:
+def find_stepped_twice(context: RuleContext) -> Iterator[Finding]:
     """D425: a component that one state steps twice, itself or through two of those it steps.
 
     Below the state only components without a frequency count: one that has a frequency works once an iteration,
     however often it is stepped.
     """
-    if context.graphs.is_in_circle(context.design.component):
+    if context.graphs.is_in_cycle(context.design.component):
         return
-    reach = cache(partial(_shared_below, context))
-    by_state: dict[str, list[Step]] = {COMMON: []}
+    reach = cache(partial(_shared_descendants, context))
+    by_state: dict[str, list[StepSite]] = {COMMON: []}
     for step in context.steps:
         by_state.setdefault(step.state, list(by_state[COMMON])).append(step)
     for state, steps in by_state.items():
         ordered = sorted(steps, key=lambda step: step.is_call)
-        for component, first, second in _find_twice(ordered, reach):
+        for component, first, second in _find_double_steps(ordered, reach):
             # What the common actions do alone is said once, not for every state again.
             if state in (first.state, second.state):
-                yield _report_twice(context, component, first, second)
+                yield _report_double_step(context, component, first, second)
 
 
-def _find_twice(steps: Iterable[Step], reach: Reach) -> Iterator[tuple[str, Step, Step]]:
+def _find_double_steps(steps: Iterable[StepSite], reach: SharedDescendants) -> Iterator[tuple[str, StepSite, StepSite]]:
     said: set[str] = set()
     for first, second in combinations(steps, 2):
         is_direct = first.component == second.component
@@ -46,7 +46,7 @@ def _find_twice(steps: Iterable[Step], reach: Reach) -> Iterator[tuple[str, Step
             yield component, first, second
 
 
-def _report_twice(context: Context, component: str, first: Step, second: Step) -> Finding:
+def _report_double_step(context: RuleContext, component: str, first: StepSite, second: StepSite) -> Finding:
     # A common step after a required one is second in time, but the state's own place is where it can be mended.
     first, second = (second, first) if second.state == COMMON else (first, second)
     ways = [
@@ -57,57 +57,57 @@ def _report_twice(context: Context, component: str, first: Step, second: Step) -
         mend = "step it once"
     else:
         mend = "step it in one place, or give it a frequency: it then works once an iteration"
-    note = Note(message="stepped here as well", thing=context.thing(first.path, of_key=_is_key(first)))
-    return context.find("D425", second.path, message, mend, of_key=_is_key(second), notes=[note])
+    note = Note(message="stepped here as well", subject=context.make_subject(first.path, is_key=_is_key(first)))
+    return context.make_finding("D425", second.path, message, mend, is_key=_is_key(second), notes=[note])
 
 
-def _is_key(step: Step) -> bool:
+def _is_key(step: StepSite) -> bool:
     return step.path[-2] == "modulates"
 
 
-def _shared_below(context: Context, first: str, second: str) -> frozenset[str]:
+def _shared_descendants(context: RuleContext, first: str, second: str) -> frozenset[str]:
     """Topmost components without a frequency that stepping either of two components reaches."""
     graph = context.graphs.steps
-    shared = ({first} | context.graphs.stepped_below(first)) & ({second} | context.graphs.stepped_below(second))
+    shared = ({first} | context.graphs.transitive_steps(first)) & ({second} | context.graphs.transitive_steps(second))
     working = {component for component in shared if not _has_frequency(context, component)}
     return frozenset(
-        each for each in working if not any(other != each and _leads(graph, other, each) for other in working)
+        each for each in working if not any(other != each and _has_path(graph, other, each) for other in working)
     )
 
 
-def _leads(graph: "nx.DiGraph[str]", first: str, second: str) -> bool:
+def _has_path(graph: "nx.DiGraph[str]", first: str, second: str) -> bool:
     return first in graph and second in graph and nx.has_path(graph, first, second)
 
 
-def _has_frequency(context: Context, component: str) -> bool:
+def _has_frequency(context: RuleContext, component: str) -> bool:
     interface = context.project.interface(component)
     return interface is None or bool(interface.frequency_hz)
 
 
-def find_never_stepped(context: Context) -> Iterator[Finding]:
+def find_never_stepped(context: RuleContext) -> Iterator[Finding]:
     """D426: reading an output of a component that neither this design steps nor its code, nor anyone below it."""
     stepped = {step.component for step in context.steps} | _stepped_by_code(context)
     for component in tuple(stepped):
-        stepped |= context.graphs.stepped_below(component)
+        stepped |= context.graphs.transitive_steps(component)
     idle = {use.alias: use.component for use in context.design.uses if _is_idle(context, use, stepped)}
     if not idle:
         return
     for expression in context.expressions:
         for node in walk(expression.tree) if expression.tree is not None else ():
-            if isinstance(node, Reading | Done) and node.alias in idle:
+            if isinstance(node, OutputRef | Done) and node.alias in idle:
                 message = f"'{node.alias}' is read, but nothing here steps {idle[node.alias]}"
                 mend = f"add requires: [{node.alias}] to the states that read it"
-                yield context.find("D426", expression.path, message, mend, span=node.span)
+                yield context.make_finding("D426", expression.path, message, mend, span=node.span)
 
 
-def _is_idle(context: Context, use: Use, stepped: Collection[str]) -> bool:
+def _is_idle(context: RuleContext, use: Use, stepped: Collection[str]) -> bool:
     """Nobody steps it, and it is not one that only hands on what it is asked."""
     interface = context.project.interface(use.component)
-    return use.component not in stepped and not (interface is not None and interface.is_handed_on)
+    return use.component not in stepped and not (interface is not None and interface.is_generated)
 
 
-def _stepped_by_code(context: Context) -> set[str]:
-    texts = [text for placed in context.codes for _language, text in placed.code.texts]
+def _stepped_by_code(context: RuleContext) -> set[str]:
+    texts = [text for placed in context.code_blocks for _language, text in placed.code.texts]
     calls = (
         (use.component, re.compile(rf"\b{re.escape(use.alias)}\s*(\.|->)\s*step\s*\(")) for use in context.design.uses
     )

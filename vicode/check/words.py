@@ -2,9 +2,9 @@
 
 import re
 
-_WORD = re.compile(r"[A-Za-z_]\w*", re.ASCII)
+_IDENTIFIER = re.compile(r"[A-Za-z_]\w*", re.ASCII)
 
 
-def words_of(text: str) -> frozenset[str]:
+def find_identifiers(text: str) -> frozenset[str]:
     """All names in a text."""
-    return frozenset(_WORD.findall(text))
+    return frozenset(_IDENTIFIER.findall(text))

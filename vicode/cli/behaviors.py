@@ -9,40 +9,40 @@ from vicode.cli.printing import print_findings
 
 if TYPE_CHECKING:
     from vicode.findings import Finding
-    from vicode.xabsl.compiler import Compiled
-    from vicode.xabsl.sources import ParseText, Source
+    from vicode.xabsl.compiler import CompileResult
+    from vicode.xabsl.sources import ParseText, ProgramSource
 
 
 _FOLDERS_ABOVE = 4
 
 
-def load_behavior(agents: Path, parse_text: "ParseText | None" = None) -> "Source":
+def load_behavior(agents: Path, parse_text: "ParseText | None" = None) -> "ProgramSource":
     """Read the behavior whose agents are in this file.
 
     Raises:
         OSError: It is another file of a behavior, of which the words would mean nothing alone.
     """
     from vicode.xabsl.parser import parse
-    from vicode.xabsl.sources import load
+    from vicode.xabsl.sources import load_source
 
-    source = load(agents, parse_text=parse_text or parse)
+    source = load_source(agents, parse_text=parse_text or parse)
     main = source.files.get(source.main)
     if main is not None and main.file.body and not source.has_agents:
-        found = next(_agents_around(agents), None)
+        found = next(_nearby_agent_files(agents), None)
         raise OSError(f"{agents} has no agents; name the file that has them{f': {found}' if found else ''}")
     return source
 
 
-def _agents_around(file: Path) -> Iterator[Path]:
-    from vicode.xabsl.sources import files_with_agents
+def _nearby_agent_files(file: Path) -> Iterator[Path]:
+    from vicode.xabsl.sources import find_agent_files
 
     folder = file.parent
     for _ in range(_FOLDERS_ABOVE):
-        yield from files_with_agents(folder, is_deep=False)
+        yield from find_agent_files(folder, recursive=False)
         folder = folder / ".." if folder.name in ("", "..") else folder.parent
 
 
-def compiled_behavior(agents: Path) -> "Compiled":
+def compile_behavior(agents: Path) -> "CompileResult":
     """Compile the behavior whose agents are in this file.
 
     Raises:
@@ -53,15 +53,15 @@ def compiled_behavior(agents: Path) -> "Compiled":
     return compile_source(load_behavior(agents))
 
 
-def shown(findings: "Sequence[Finding]", agents: Path) -> "tuple[Finding, ...]":
+def with_display_paths(findings: "Sequence[Finding]", agents: Path) -> "tuple[Finding, ...]":
     """Findings with the paths of files as they are seen from here."""
     folder = agents.parent
     return tuple(
-        replace(each, place=replace(each.place, file=str(folder / each.place.file)) if each.place else None)
+        replace(each, location=replace(each.location, file=str(folder / each.location.file)) if each.location else None)
         for each in findings
     )
 
 
-def tell(findings: "Sequence[Finding]", agents: Path, *, to_stderr: bool = True) -> None:
+def print_behavior_findings(findings: "Sequence[Finding]", agents: Path, *, to_stderr: bool = True) -> None:
     """Print findings."""
-    print_findings(shown(findings, agents), to_stderr=to_stderr)
+    print_findings(with_display_paths(findings, agents), to_stderr=to_stderr)

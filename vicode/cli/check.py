@@ -2,7 +2,7 @@
 
 import argparse
 
-from vicode.cli.opening import open_paths
+from vicode.cli.opening import load_projects
 from vicode.cli.printing import count_findings, print_findings
 from vicode.findings import Severity, render_json
 
@@ -16,13 +16,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Print findings; 1 when there are errors, or with --strict warnings."""
-    projects = open_paths(args.paths)
+    projects = load_projects(args.paths)
     findings = tuple(finding for project in projects for finding in project.findings)
     if args.json:
         print(render_json(findings), end="")
     else:
         print_findings(findings)
-        designs = sum(len(project.meant) + len(project.opened.broken) for project in projects)
+        designs = sum(len(project.selected_designs) + len(project.open_project.broken_files) for project in projects)
         print(f"{count_findings(findings)} in {designs} design{'s' * (designs != 1)}")
     counted = {Severity.ERROR, Severity.WARNING} if args.strict else {Severity.ERROR}
     return int(any(finding.severity in counted for finding in findings))

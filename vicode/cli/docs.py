@@ -37,36 +37,36 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Write the sites; 1 when a design or behavior cannot be read, or with --strict has findings."""
-    from vicode.cli.progress import progress
-    from vicode.cli.sites import Sites, describe
-    from vicode.cli.subjects import read_subjects
+    from vicode.cli.progress import progress_bar
+    from vicode.cli.sites import DocsBuilder, describe_build
+    from vicode.cli.subjects import load_site_inputs
 
     is_markdown = args.format == "markdown"
     if args.watch and is_markdown:
         print("vicode: --watch shows pages in HTML; mkdocs and Sphinx watch Markdown themselves", file=sys.stderr)
         return 2
     if args.watch:
-        from vicode.cli.docs_watch import watch_sites
+        from vicode.cli.docs_watch import watch_docs
 
-        sites = Sites(out=args.out, is_fresh=args.fresh, title=args.title)
-        return watch_sites(args.path, sites, port=args.port, opens=not args.no_open)
-    sites = Sites(out=args.out, is_fresh=args.fresh, is_markdown=is_markdown, title=args.title)
-    with _uncollected(), sites, progress() as step:
-        readings = read_subjects(args.path)
+        sites = DocsBuilder(out=args.out, ignores_cache=args.fresh, title=args.title)
+        return watch_docs(args.path, sites, port=args.port, open_browser=not args.no_open)
+    sites = DocsBuilder(out=args.out, ignores_cache=args.fresh, is_markdown=is_markdown, title=args.title)
+    with _gc_disabled(), sites, progress_bar() as step:
+        readings = load_site_inputs(args.path)
         for reading in readings:
-            print_findings(reading.unread, to_stderr=True)
+            print_findings(reading.read_errors, to_stderr=True)
         built = sites.build(readings, step)
     if built.foreign:
         print(f"vicode: {built.foreign} is no page of ours; choose another --out", file=sys.stderr)
         return 2
     if built.files:
-        print(describe(built, readings, args.out))
-    has_findings = any(reading.subject.findings for reading in readings if reading.subject)
-    return int(any(reading.is_broken for reading in readings) or (args.strict and has_findings))
+        print(describe_build(built, readings, args.out))
+    has_findings = any(reading.site_input.findings for reading in readings if reading.site_input)
+    return int(any(reading.is_incomplete for reading in readings) or (args.strict and has_findings))
 
 
 @contextmanager
-def _uncollected() -> Iterator[None]:
+def _gc_disabled() -> Iterator[None]:
     """Let nothing look for circles meanwhile: that takes a tenth of the time, and finds none."""
     was_on = gc.isenabled()
     gc.disable()

@@ -20,7 +20,7 @@ COMMANDS = {
     "schema": schema,
     "xabsl": xabsl,
 }
-SOUND, FOUND, FAILED, INTERRUPTED = 0, 1, 2, 130
+EXIT_OK, EXIT_FINDINGS, EXIT_FAILED, EXIT_INTERRUPTED = 0, 1, 2, 130
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -32,14 +32,14 @@ def main(arguments: Sequence[str] | None = None) -> int:
         if not sys.stdout.closed:
             sys.stdout.flush()
     except KeyboardInterrupt:
-        return INTERRUPTED
+        return EXIT_INTERRUPTED
     except BrokenPipeError:
         # Whoever read our output has gone; the interpreter's last flush must not complain either.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        return FAILED
+        return EXIT_FAILED
     except OSError as error:
         print(f"vicode: {describe_os_error(error)}", file=sys.stderr)
-        return FAILED
+        return EXIT_FAILED
     return code
 
 

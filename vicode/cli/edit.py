@@ -26,20 +26,20 @@ def _port(text: str) -> int:
 
 def run(args: argparse.Namespace) -> int:
     """Serve the editor until it is ended."""
-    from vicode.cli.opening import refuse_other_files
+    from vicode.cli.opening import require_design_file
     from vicode.editor.serve import choose_address, serve
 
     path = Path(args.path)
     path.stat()
-    refuse_other_files(path)
+    require_design_file(path)
     address = choose_address(args.host, args.port)
     if address.token:
-        _begin_again_with_the_allocator_of_the_system()
+        _reexec_with_system_malloc()
     serve(path, address, open_browser=not args.no_open, tour=not args.no_tour)
     return 0
 
 
-def _begin_again_with_the_allocator_of_the_system() -> None:
+def _reexec_with_system_malloc() -> None:
     """Be the same command, which gives memory back when people leave; done already, or chosen otherwise: go on.
 
     Python's own allocator keeps most of what many windows took. It can be chosen only before Python starts.

@@ -30,8 +30,8 @@ def run(args: argparse.Namespace) -> int:
     if design is None:
         return 1
     # Drawing loads Graphviz's and PDF's writers, which --help has no need of.
-    from vicode.diagram.export import export
-    from vicode.diagram.formats import Format, Wish
+    from vicode.diagram.export import export_design
+    from vicode.diagram.formats import ExportFormat, ExportOptions
     from vicode.output import write_atomically
 
     only = _states(args.states)
@@ -39,9 +39,9 @@ def run(args: argparse.Namespace) -> int:
     if unknown:
         print(f"vicode: {args.file} has no state {unknown[0]}", file=sys.stderr)
         return 1
-    form = Format(args.format or _format_of(args.out))
-    wish = Wish(only=only, links=not args.no_links, dark=args.dark, scale=min(max(args.scale, 0.1), 16.0))
-    content = export(design, form, wish)
+    form = ExportFormat(args.format or _format_from_suffix(args.out))
+    wish = ExportOptions(only=only, links=not args.no_links, dark=args.dark, scale=min(max(args.scale, 0.1), 16.0))
+    content = export_design(design, form, wish)
     if args.out == "-":
         sys.stdout.buffer.write(content)
         return 0
@@ -64,7 +64,7 @@ def _states(text: str | None) -> frozenset[str] | None:
     return frozenset(name.strip() for name in text.split(",") if name.strip()) if text is not None else None
 
 
-def _format_of(out: str | None) -> str:
+def _format_from_suffix(out: str | None) -> str:
     suffix = Path(out or "").suffix.lower().lstrip(".")
     names = {"mmd": "mermaid", "puml": "plantuml", "gv": "dot"}
     found = names.get(suffix, suffix)

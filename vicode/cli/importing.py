@@ -6,11 +6,11 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from vicode.cli.behaviors import load_behavior, tell
+from vicode.cli.behaviors import load_behavior, print_behavior_findings
 from vicode.cli.printing import count_findings
 
 if TYPE_CHECKING:
-    from vicode.importers import Imported
+    from vicode.importers import ImportResult
     from vicode.model.project import Project
 
 
@@ -27,18 +27,18 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(args: argparse.Namespace) -> int:
     """Write the designs; 1 when the behavior has errors, or files are there that would be lost."""
     from vicode.findings import Severity
-    from vicode.importers import import_behavior, robot_text
-    from vicode.store.documents import default_name
+    from vicode.importers import import_behavior, render_robot_class
+    from vicode.store.documents import default_project_name
     from vicode.xabsl.compiler import compile_source
 
     source = load_behavior(args.agents)
     compiled = compile_source(source)
     if compiled.program is None:
-        tell([each for each in compiled.findings if each.severity is Severity.ERROR], args.agents)
+        print_behavior_findings([each for each in compiled.findings if each.severity is Severity.ERROR], args.agents)
         print(f"nothing written: {count_findings(compiled.findings)}", file=sys.stderr)
         return 1
-    imported = import_behavior(source, compiled, args.name or default_name(args.out.resolve().name))
-    texts = _texts(replace(imported, project=_laid_out(imported.project)))
+    imported = import_behavior(source, compiled, args.name or default_project_name(args.out.resolve().name))
+    texts = _texts(replace(imported, project=_with_layout(imported.project)))
     there = [path for path in texts if (args.out / path).exists()]
     if there and not args.force:
         more = f" and {len(there) - 1} more" if len(there) > 1 else ""
@@ -48,22 +48,24 @@ def run(args: argparse.Namespace) -> int:
     robot = args.out / "robot.py"
     # It is filled in by hand, so nothing writes over it.
     if not robot.exists():
-        _write(args.out, {robot.name: robot_text(imported.project)})
+        _write(args.out, {robot.name: render_robot_class(imported.project)})
     print(_summary(imported, args.out))
     return 0
 
 
-def _laid_out(project: "Project") -> "Project":
+def _with_layout(project: "Project") -> "Project":
     """The project with a place for everything that is drawn."""
     from vicode.diagram.layout import LayoutService
-    from vicode.model.edits import move
+    from vicode.model.edits import move_nodes
 
     designs = []
     with LayoutService() as service:
         for design in project.designs:
-            places = service.lay_out(design).placement
+            places = service.compute(design).layout
             common = places.common if design.common.transitions or design.common.actions else None
-            designs.append(move(design, _rounded(places.states), _rounded(places.uses), common and _round(common)))
+            designs.append(
+                move_nodes(design, _rounded(places.states), _rounded(places.uses), common and _round(common))
+            )
     return replace(project, designs=tuple(designs))
 
 
@@ -75,14 +77,14 @@ def _round(at: "tuple[float, float]") -> "tuple[float, float]":
     return (round(at[0]), round(at[1]))
 
 
-def _texts(imported: "Imported") -> "dict[str, str]":
+def _texts(imported: "ImportResult") -> "dict[str, str]":
     """All files by path."""
-    from vicode.store import save_design, save_project_file, with_remarks
+    from vicode.store import add_comments, save_design, save_project_file
 
     project = imported.project
-    texts = {"project.yaml": with_remarks(save_project_file(project), imported.remarks, of_project=True)}
+    texts = {"project.yaml": add_comments(save_project_file(project), imported.comments, is_project_file=True)}
     for design, about in zip(project.designs, imported.designs, strict=True):
-        texts[about.path] = with_remarks(save_design(design), about.remarks)
+        texts[about.path] = add_comments(save_design(design), about.comments)
     return texts
 
 
@@ -94,9 +96,9 @@ def _write(folder: Path, texts: "dict[str, str]") -> None:
         write_atomically(folder / path, text)
 
 
-def _summary(imported: "Imported", folder: Path) -> str:
+def _summary(imported: "ImportResult", folder: Path) -> str:
     project = imported.project
-    remarks = len(imported.remarks) + sum(len(each.remarks) for each in imported.designs)
+    remarks = len(imported.comments) + sum(len(each.comments) for each in imported.designs)
     parts = [
         _count(len(project.designs), "design"),
         _count(sum(len(design.states) for design in project.designs), "state"),

@@ -5,22 +5,22 @@ from rich.live import Live
 from rich.text import Text
 from rich.tree import Tree
 
-from vicode.cli.watching import Record, describe_world
+from vicode.cli.watching import TraceRecord, describe_world
 
 _LINKS = {"root": "", "requires": "requires ", "modulates": "modulates "}
 
 
-class LiveWatcher:
+class LiveTracePrinter:
     """Draws the latest iteration some times a second."""
 
     def __init__(self, console: Console | None = None) -> None:
         """Begin to draw on a console, the terminal if left out."""
         self._console = console or Console(highlight=False)
-        self._latest: Record | None = None
+        self._latest: TraceRecord | None = None
         self._live = Live(get_renderable=self._draw, console=self._console, refresh_per_second=15)
         self._live.start()
 
-    def show_iteration(self, record: Record, changes: list[str], /) -> None:
+    def show_iteration(self, record: TraceRecord, changes: list[str], /) -> None:
         """Scroll the changes, remember the rest for the next drawing."""
         self._latest = record
         for change in changes:
@@ -40,10 +40,10 @@ class LiveWatcher:
         self._live.stop()
 
     def _draw(self) -> RenderableType:
-        return draw_iteration(self._latest) if self._latest is not None else Text("starting …", style="dim")
+        return render_iteration(self._latest) if self._latest is not None else Text("starting …", style="dim")
 
 
-def draw_iteration(record: Record) -> RenderableType:
+def render_iteration(record: TraceRecord) -> RenderableType:
     """The activation tree of an iteration and the world."""
     title = Text(f"{record['time_ns'] / 1e9:8.2f} s  iteration {record['iteration']}", style="bold")
     parts: list[RenderableType] = [title]
@@ -59,7 +59,7 @@ def draw_iteration(record: Record) -> RenderableType:
     return Group(*parts, *([Text(world, style="cyan", no_wrap=True, overflow="ellipsis")] if world else []))
 
 
-def _label(step: Record) -> Text:
+def _label(step: TraceRecord) -> Text:
     label = Text.assemble((_LINKS[step["link"]], "dim"), (step["component"], "bold" if step["worked"] else ""))
     if step["state"]:
         label.append(f"  {step['state']}", "green" if step["done"] else "yellow")

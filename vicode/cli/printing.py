@@ -8,11 +8,11 @@ from pathlib import Path
 
 from vicode.findings import Finding, Severity, render_text
 
-_MOST_BYTES = 2_000_000
+_MAX_BYTES = 2_000_000
 _COLOURS = {Severity.ERROR: "bold red", Severity.WARNING: "yellow", Severity.NOTE: "cyan"}
 
 
-def findings_text(findings: Iterable[Finding]) -> str:
+def format_findings(findings: Iterable[Finding]) -> str:
     """Findings in the order given, each with the line it is about."""
     lines_of = lru_cache(maxsize=64)(_read_lines)
 
@@ -25,7 +25,7 @@ def findings_text(findings: Iterable[Finding]) -> str:
 
 def print_findings(findings: Iterable[Finding], *, to_stderr: bool = False) -> None:
     """Print findings in the order given, worst marked by colour on a terminal."""
-    text = findings_text(findings)
+    text = format_findings(findings)
     stream = sys.stderr if to_stderr else sys.stdout
     if not text:
         return
@@ -65,7 +65,7 @@ def _read_lines(file: str) -> tuple[str, ...]:
         if not path.is_file():
             return ()
         with path.open("rb") as stream:
-            text = stream.read(_MOST_BYTES).decode(errors="replace")
+            text = stream.read(_MAX_BYTES).decode(errors="replace")
     except OSError:
         return ()
     # Lines end where the reader of designs ends them, not at every separator Unicode knows.

@@ -4,11 +4,11 @@ import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
 
-from vicode.cli.sites import Step
+from vicode.cli.sites import ProgressCallback
 
 
 @contextmanager
-def progress() -> Iterator[Step]:
+def progress_bar() -> Iterator[ProgressCallback]:
     """What shows how far a building is; where nobody looks it shows nothing."""
     if not sys.stderr.isatty():
         yield lambda _name, _done, _all: None

@@ -8,11 +8,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from vicode.bica import options
-from vicode.cli.opening import Opened, open_paths
+from vicode.cli.opening import LoadedProject, load_projects
 from vicode.cli.printing import print_findings
 
 if TYPE_CHECKING:
-    from vicode.cli.watching import Watcher
+    from vicode.cli.watching import TracePrinter
 
 _DEFAULT_SECONDS = 60.0
 
@@ -40,51 +40,51 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Generate into a private folder, start a fresh process there and show what it does."""
-    projects = open_paths([args.path])
+    projects = load_projects([args.path])
     if len(projects) > 1:
         print(f"vicode: {args.path}: there are {len(projects)} projects, name a design", file=sys.stderr)
         return 2
     opened = projects[0]
-    errors = opened.errors_in("python")
+    errors = opened.errors_for("python")
     if errors:
         print_findings(errors, to_stderr=True)
         return 1
-    component = _root_of(opened)
+    component = _root_component(opened)
     if component is None:
         print(f"vicode: {args.path}: name the design to run", file=sys.stderr)
         return 2
     with tempfile.TemporaryDirectory(prefix="vicode-run-") as folder:
         class_path = _generate(opened, component, Path(folder))
-        return _watch(_command(opened, class_path, folder, args), is_plain=args.plain)
+        return _run_process(_command(opened, class_path, folder, args), is_plain=args.plain)
 
 
-def _root_of(opened: Opened) -> str | None:
+def _root_component(opened: LoadedProject) -> str | None:
     """The component to run: the one named, else the root of the only agent, else the only design."""
-    if opened.components is not None:
-        return next(iter(opened.named), None)
-    roots = [agent.root for agent in opened.opened.project.agents] or list(opened.meant)
+    if opened.selected_components is not None:
+        return next(iter(opened.requested), None)
+    roots = [agent.root for agent in opened.open_project.project.agents] or list(opened.selected_designs)
     return roots[0] if len(roots) == 1 else None
 
 
-def _generate(opened: Opened, component: str, folder: Path) -> str:
+def _generate(opened: LoadedProject, component: str, folder: Path) -> str:
     """Write the component with all it uses; returns where its class is found."""
-    from vicode.generators import generate, python_class
-    from vicode.output import apply, compare
+    from vicode.generators import generate, python_class_path
+    from vicode.output import apply_diffs, compare_files
 
-    project = opened.opened.project
-    files = generate(project, components=[component], languages=["python"], sources=opened.sources)
-    apply(compare(files, folder), folder)
-    return python_class(project, component)
+    project = opened.open_project.project
+    files = generate(project, components=[component], languages=["python"], sources=opened.design_paths)
+    apply_diffs(compare_files(files, folder), folder)
+    return python_class_path(project, component)
 
 
-def _command(opened: Opened, class_path: str, folder: str, args: argparse.Namespace) -> list[str]:
+def _command(opened: LoadedProject, class_path: str, folder: str, args: argparse.Namespace) -> list[str]:
     # -P: what lies in the folder we happen to be in must not hide a module.
     command = [sys.executable, "-P", "-m", "vicode.bica", class_path, "--stream", "--path", str(Path(folder, "python"))]
-    command += ["--path", str(opened.opened.folder.resolve()), "--seed", str(args.seed)]
-    if opened.opened.project.world:
-        command += ["--world", opened.opened.project.world]
+    command += ["--path", str(opened.open_project.folder.resolve()), "--seed", str(args.seed)]
+    if opened.open_project.project.world:
+        command += ["--world", opened.open_project.project.world]
     else:
-        _tell_of_no_world(opened)
+        _warn_of_missing_world(opened)
     seconds = args.seconds
     if seconds is None and args.ticks is None and not args.real_time:
         seconds = _DEFAULT_SECONDS
@@ -95,17 +95,17 @@ def _command(opened: Opened, class_path: str, folder: str, args: argparse.Namesp
     return command + [name for name, is_given in flags.items() if is_given]
 
 
-def _tell_of_no_world(opened: Opened) -> None:
+def _warn_of_missing_world(opened: LoadedProject) -> None:
     """Say who will ask a world that is not there."""
-    asking = [each.component for each in opened.opened.project.components if each.implementation == "world"]
+    asking = [each.component for each in opened.open_project.project.components if each.implementation == "world"]
     if asking:
         more = f" and {len(asking) - 1} more" if len(asking) > 1 else ""
         mend = "write world: module:Class, a class with what they declare"
         print(f"vicode: project.yaml names no world, which {asking[0]}{more} will ask; {mend}", file=sys.stderr)
 
 
-def _watch(command: list[str], *, is_plain: bool) -> int:
-    from vicode.cli.watching import PlainWatcher, follow
+def _run_process(command: list[str], *, is_plain: bool) -> int:
+    from vicode.cli.watching import PlainTracePrinter, follow_process
     from vicode.simulation.environment import fresh_environment
 
     is_live = sys.stdout.isatty() and not is_plain
@@ -121,9 +121,9 @@ def _watch(command: list[str], *, is_plain: bool) -> int:
         env=fresh_environment(),
         start_new_session=True,
     )
-    watcher: Watcher = PlainWatcher()
+    watcher: TracePrinter = PlainTracePrinter()
     if is_live:
-        from vicode.cli.live import LiveWatcher
+        from vicode.cli.live import LiveTracePrinter
 
-        watcher = LiveWatcher()
-    return follow(child, watcher)
+        watcher = LiveTracePrinter()
+    return follow_process(child, watcher)

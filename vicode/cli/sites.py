@@ -7,62 +7,68 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from vicode.cli.printing import count_findings
-from vicode.cli.subjects import Reading
+from vicode.cli.subjects import LoadedSiteInput
 
 if TYPE_CHECKING:
     from vicode.docsite import PlannedFile, SiteBuilder
 
-Step = Callable[[str, int, int], None]
+ProgressCallback = Callable[[str, int, int], None]
 """Told which site is being built, how many of its files are done, and of how many."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Built:
+class DocsBuildResult:
     """What became of a command's folder: all its files and those that were touched, relative to it.
 
     `foreign` is a file of somebody else that stands in the way, "" for none.
     """
 
     files: tuple[str, ...] = ()
-    touched: tuple[str, ...] = ()
+    changed: tuple[str, ...] = ()
     foreign: str = ""
 
 
 @dataclass(slots=True)
-class Sites:
-    """The sites in a folder; `is_fresh` makes all pages anew the first time. Close it in the end.
+class DocsBuilder:
+    """The sites in a folder; `ignores_cache` makes all pages anew the first time. Close it in the end.
 
     `title` is what the whole is called: the one site, or the home of several.
     """
 
     out: Path
-    is_fresh: bool = False
+    ignores_cache: bool = False
     is_markdown: bool = False
     title: str = ""
     _builders: dict[str, "SiteBuilder"] = field(default_factory=dict)
 
-    def build(self, readings: Sequence[Reading], step: Step = lambda _name, _done, _all: None) -> Built:
+    def build(
+        self, readings: Sequence[LoadedSiteInput], step: ProgressCallback = lambda _name, _done, _all: None
+    ) -> DocsBuildResult:
         """Build the sites of all that could be read; pages of what is gone are taken away."""
-        from vicode.docsite import SiteBuilder, plan_home
+        from vicode.docsite import SiteBuilder, plan_site_index
 
-        named = {name: each for name, each in _named(readings).items() if each.subject is not None}
+        named = {name: each for name, each in _assign_folders(readings).items() if each.site_input is not None}
         plans: dict[str, tuple[PlannedFile, ...]] = {}
         for name, reading in named.items():
             step(reading.name, 0, 0)
             builder = self._builders.setdefault(name, SiteBuilder())
-            assert reading.subject is not None
-            subject = reading.subject if name else replace(reading.subject, title=self.title or reading.subject.title)
+            assert reading.site_input is not None
+            subject = (
+                reading.site_input
+                if name
+                else replace(reading.site_input, title=self.title or reading.site_input.title)
+            )
             plans[name] = builder.plan(subject, is_markdown=self.is_markdown)
         if len(readings) > 1:
-            subjects = {name: each.subject for name, each in named.items() if each.subject}
-            plans[""] = plan_home(subjects, title=self.title, is_markdown=self.is_markdown)
-        built = Built()
+            subjects = {name: each.site_input for name, each in named.items() if each.site_input}
+            plans[""] = plan_site_index(subjects, title=self.title, is_markdown=self.is_markdown)
+        built = DocsBuildResult()
         for name, plan in plans.items():
             title = named[name].name if name in named else self.out.name
-            built = _together(built, self._write(name, plan, partial(step, title)))
+            built = _merge_results(built, self._write(name, plan, partial(step, title)))
             if built.foreign:
                 return built
-        self.is_fresh = False
+        self.ignores_cache = False
         return built
 
     def close(self) -> None:
@@ -70,33 +76,33 @@ class Sites:
         for builder in self._builders.values():
             builder.close()
 
-    def __enter__(self) -> "Sites":
+    def __enter__(self) -> "DocsBuilder":
         return self
 
     def __exit__(self, *_exception: object) -> None:
         self.close()
 
-    def _write(self, name: str, plan: "Sequence[PlannedFile]", step: Callable[[int, int], None]) -> Built:
-        from vicode.docsite import Manifest, load_manifest, manifest_file, save_manifest, write_site
+    def _write(self, name: str, plan: "Sequence[PlannedFile]", step: Callable[[int, int], None]) -> DocsBuildResult:
+        from vicode.docsite import Manifest, load_manifest, manifest_path, save_manifest, write_site
 
         out = self.out / name
-        kept = manifest_file(out)
-        written = write_site(plan, out, Manifest() if self.is_fresh else load_manifest(kept), step)
+        kept = manifest_path(out)
+        written = write_site(plan, out, Manifest() if self.ignores_cache else load_manifest(kept), step)
         if written.foreign:
-            return Built(foreign=(out / written.foreign[0]).as_posix())
-        if written.touched or not kept.is_file():
+            return DocsBuildResult(foreign=(out / written.foreign[0]).as_posix())
+        if written.changed or not kept.is_file():
             save_manifest(written.manifest, kept)
         before = f"{name}/" if name else ""
-        return Built(
-            files=tuple(before + each.path for each in plan), touched=tuple(before + each for each in written.touched)
+        return DocsBuildResult(
+            files=tuple(before + each.path for each in plan), changed=tuple(before + each for each in written.changed)
         )
 
 
-def _named(readings: Sequence[Reading]) -> Mapping[str, Reading]:
+def _assign_folders(readings: Sequence[LoadedSiteInput]) -> Mapping[str, LoadedSiteInput]:
     """Each with its folder below that of the command; one alone has none. Case does not tell two apart."""
     if len(readings) == 1:
         return {"": readings[0]}
-    named: dict[str, Reading] = {}
+    named: dict[str, LoadedSiteInput] = {}
     taken: set[str] = set()
     for each in readings:
         name, number = each.name, 1
@@ -108,13 +114,13 @@ def _named(readings: Sequence[Reading]) -> Mapping[str, Reading]:
     return named
 
 
-def _together(one: Built, other: Built) -> Built:
-    return Built(files=one.files + other.files, touched=one.touched + other.touched, foreign=other.foreign)
+def _merge_results(one: DocsBuildResult, other: DocsBuildResult) -> DocsBuildResult:
+    return DocsBuildResult(files=one.files + other.files, changed=one.changed + other.changed, foreign=other.foreign)
 
 
-def describe(built: Built, readings: Sequence[Reading], out: Path) -> str:
+def describe_build(built: DocsBuildResult, readings: Sequence[LoadedSiteInput], out: Path) -> str:
     """What was written, in a line."""
-    findings = [each.finding for reading in readings if reading.subject for each in reading.subject.findings]
-    counts = f"{len(built.files)} files, {len(built.touched)} changed, {count_findings(findings)}"
+    findings = [each.finding for reading in readings if reading.site_input for each in reading.site_input.findings]
+    counts = f"{len(built.files)} files, {len(built.changed)} changed, {count_findings(findings)}"
     home = "index.md" if "index.md" in built.files else "index.html"
     return f"wrote {(out / home).as_posix()}: {counts}"

@@ -12,19 +12,19 @@ from dataclasses import dataclass
 from types import FrameType
 from typing import IO, Any, Protocol
 
-_PATIENCE_S = 5.0
-_ANSWER_S = 2.0
+_SHUTDOWN_TIMEOUT_S = 5.0
+_INTERRUPT_TIMEOUT_S = 2.0
 _FAILED = 2
 _INTERRUPTED = 130
 
-Record = Mapping[str, Any]
+TraceRecord = Mapping[str, Any]
 """One line of the stream, read from JSON."""
 
 
-class Watcher(Protocol):
+class TracePrinter(Protocol):
     """Shows a run to somebody."""
 
-    def show_iteration(self, record: Record, changes: list[str], /) -> None:
+    def show_iteration(self, record: TraceRecord, changes: list[str], /) -> None:
         """An iteration has passed; `changes` tells the changes of state in it."""
 
     def show_text(self, text: str) -> None:
@@ -37,10 +37,10 @@ class Watcher(Protocol):
         """Nothing more comes but the summary."""
 
 
-class PlainWatcher:
+class PlainTracePrinter:
     """One line a change of state."""
 
-    def show_iteration(self, _record: Record, changes: list[str], /) -> None:
+    def show_iteration(self, _record: TraceRecord, changes: list[str], /) -> None:
         """Print the changes."""
         for change in changes:
             print(change, flush=True)
@@ -57,42 +57,42 @@ class PlainWatcher:
         """Nothing to clear away."""
 
 
-def follow(child: "subprocess.Popen[str]", watcher: Watcher) -> int:
+def follow_process(child: "subprocess.Popen[str]", printer: TracePrinter) -> int:
     """Show a process until it ends, pass an interrupt on to it, print the summary; returns the exit code.
 
     The process must lead a session of its own.
     """
     assert child.stdout is not None
-    changes, ending = Changes(), _Ending()
-    interrupt = _Interrupt(child, watcher)
-    reader = _follow_errors(child.stderr, watcher) if child.stderr is not None else None
+    changes, ending = StateChangeTracker(), _RunOutcome()
+    interrupt = _InterruptForwarder(child, printer)
+    reader = _start_stderr_reader(child.stderr, printer) if child.stderr is not None else None
     try:
-        with interrupt.passed_on():
+        with interrupt.forwarding():
             for line in child.stdout:
-                _show(line, changes, watcher, ending)
+                _show_line(line, changes, printer, ending)
             child.wait()
     finally:
-        _end(child)
+        _terminate(child)
         if reader is not None:
-            reader.join(_PATIENCE_S)
-        watcher.close()
+            reader.join(_SHUTDOWN_TIMEOUT_S)
+        printer.close()
     if ending.summary is not None:
         print(describe_summary(ending.summary), end="", flush=True)
-    return _INTERRUPTED if interrupt.has_come else _judge(child.returncode, ending)
+    return _INTERRUPTED if interrupt.was_received else _exit_code(child.returncode, ending)
 
 
-class Changes:
+class StateChangeTracker:
     """Remembers the state of every component, and tells what is new."""
 
     def __init__(self) -> None:
         """Nothing is known of any component."""
         self._states: dict[str, str] = {}
 
-    def lines_of(self, record: Record) -> list[str]:
+    def describe_changes(self, record: TraceRecord) -> list[str]:
         """The changes of state in an iteration, a line each."""
-        return [line for step in record["tree"] for line in self._lines_of(step, record["time_ns"] / 1e9)]
+        return [line for step in record["tree"] for line in self._describe_step(step, record["time_ns"] / 1e9)]
 
-    def _lines_of(self, step: Record, time_s: float) -> list[str]:
+    def _describe_step(self, step: TraceRecord, time_s: float) -> list[str]:
         component, state = step["component"], step["state"]
         before = step["changed_from"] or self._states.get(component)
         self._states[component] = state
@@ -107,16 +107,16 @@ def describe_world(world: object) -> str:
     """What a world says of itself, in one line."""
     if not isinstance(world, Mapping):
         return "" if world is None else str(world)
-    return "  ".join(f"{name} {_shown(value)}" for name, value in world.items())
+    return "  ".join(f"{name} {_format_value(value)}" for name, value in world.items())
 
 
-def describe_summary(summary: Record) -> str:
+def describe_summary(summary: TraceRecord) -> str:
     """The end of a run: how it ended, what the world says, cycle times, errors."""
     passed = f"{summary['time_ns'] / 1e9:.2f} s in {summary['iterations']} iterations"
     lines = ["", f"{passed}, stopped: {summary['stopped']}, last state: {summary['state'] or '-'}"]
     if summary.get("world") is not None:
         lines.append(f"world: {describe_world(summary['world'])}")
-    times: Mapping[str, Record] = summary.get("cycle_times") or {}
+    times: Mapping[str, TraceRecord] = summary.get("cycle_times") or {}
     if times:
         width = max(len(name) for name in times)
         lines.append(f"{'component':{max(width, 9)}}    works   mean ms    max ms        Hz")
@@ -128,14 +128,14 @@ def describe_summary(summary: Record) -> str:
 
 
 @dataclass(slots=True)
-class _Ending:
+class _RunOutcome:
     """What a program said last: a summary, or that it failed. One that ends itself says neither."""
 
-    summary: Record | None = None
+    summary: TraceRecord | None = None
     has_failed: bool = False
 
 
-def _judge(code: int, ending: _Ending) -> int:
+def _exit_code(code: int, ending: _RunOutcome) -> int:
     """Turn the exit code of a program into ours; an end that nobody asked for is told."""
     if ending.has_failed:
         return _FAILED
@@ -146,7 +146,7 @@ def _judge(code: int, ending: _Ending) -> int:
     return code if code in (1, _INTERRUPTED) else int(ending.summary["errors"] > 0 or code != 0)
 
 
-def _show(line: str, changes: Changes, watcher: Watcher, ending: _Ending) -> None:
+def _show_line(line: str, changes: StateChangeTracker, watcher: TracePrinter, ending: _RunOutcome) -> None:
     """Show a line of the stream, or note that it tells the end."""
     try:
         record = json.loads(line)
@@ -157,51 +157,51 @@ def _show(line: str, changes: Changes, watcher: Watcher, ending: _Ending) -> Non
     elif isinstance(record, dict) and "failed" in record:
         ending.has_failed = True
     elif isinstance(record, dict) and "tree" in record:
-        watcher.show_iteration(record, changes.lines_of(record))
+        watcher.show_iteration(record, changes.describe_changes(record))
     else:
         # Hand-written code may print what it likes.
         watcher.show_text(line.rstrip("\n"))
 
 
-class _Interrupt:
+class _InterruptForwarder:
     """Passes Ctrl-C on to a program, which then ends its iteration and tells its summary, or is ended."""
 
-    def __init__(self, child: "subprocess.Popen[str]", watcher: Watcher) -> None:
-        self.has_come = False
+    def __init__(self, child: "subprocess.Popen[str]", watcher: TracePrinter) -> None:
+        self.was_received = False
         self._child = child
-        self._watcher = watcher
-        self._is_over = threading.Event()
+        self._printer = watcher
+        self._has_ended = threading.Event()
         self._waiter: threading.Thread | None = None
 
     @contextlib.contextmanager
-    def passed_on(self) -> Iterator[None]:
+    def forwarding(self) -> Iterator[None]:
         """While inside, Ctrl-C does not end us."""
         if threading.current_thread() is not threading.main_thread():
             yield
             return
-        before = signal.signal(signal.SIGINT, self._note)
+        before = signal.signal(signal.SIGINT, self._on_signal)
         try:
             yield
         finally:
-            self._is_over.set()
+            self._has_ended.set()
             signal.signal(signal.SIGINT, before)
             if self._waiter is not None:
-                self._waiter.join(_PATIENCE_S)
+                self._waiter.join(_SHUTDOWN_TIMEOUT_S)
 
-    def _note(self, _number: int, _frame: FrameType | None) -> None:
-        if self.has_come:
+    def _on_signal(self, _number: int, _frame: FrameType | None) -> None:
+        if self.was_received:
             _kill(self._child)
             return
-        self.has_come = True
+        self.was_received = True
         self._child.send_signal(signal.SIGINT)
         # What a signal came in the middle of may hold the lock of the very stream that we would write to.
         self._waiter = threading.Thread(target=self._wait_for_answer, daemon=True)
         self._waiter.start()
 
     def _wait_for_answer(self) -> None:
-        self._watcher.show_notice("stopping after this iteration; press Ctrl-C again to end at once")
-        if not self._is_over.wait(_ANSWER_S) and self._child.returncode is None:
-            self._watcher.show_notice("it did not stop, and was ended")
+        self._printer.show_notice("stopping after this iteration; press Ctrl-C again to end at once")
+        if not self._has_ended.wait(_INTERRUPT_TIMEOUT_S) and self._child.returncode is None:
+            self._printer.show_notice("it did not stop, and was ended")
             _kill(self._child)
 
 
@@ -212,12 +212,12 @@ def _kill(child: "subprocess.Popen[str]") -> None:
             os.killpg(child.pid, signal.SIGKILL)
 
 
-def _end(child: "subprocess.Popen[str]") -> None:
+def _terminate(child: "subprocess.Popen[str]") -> None:
     """Leave no process behind, whatever happened."""
     if child.poll() is None:
         child.terminate()
         try:
-            child.wait(_PATIENCE_S)
+            child.wait(_SHUTDOWN_TIMEOUT_S)
         except subprocess.TimeoutExpired:
             child.kill()
             child.wait()
@@ -225,7 +225,7 @@ def _end(child: "subprocess.Popen[str]") -> None:
         child.stdout.close()
 
 
-def _follow_errors(stream: IO[str], watcher: Watcher) -> threading.Thread:
+def _start_stderr_reader(stream: IO[str], watcher: TracePrinter) -> threading.Thread:
     def read() -> None:
         for line in stream:
             watcher.show_text(line.rstrip("\n"))
@@ -235,5 +235,5 @@ def _follow_errors(stream: IO[str], watcher: Watcher) -> threading.Thread:
     return thread
 
 
-def _shown(value: object) -> str:
+def _format_value(value: object) -> str:
     return f"{value:g}" if isinstance(value, float) else "-" if value is None else str(value)

@@ -5,15 +5,15 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from vicode.cli.behaviors import compiled_behavior, shown, tell
+from vicode.cli.behaviors import compile_behavior, print_behavior_findings, with_display_paths
 from vicode.cli.printing import count_findings, describe_os_error, print_findings
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
 
-    from vicode.xabsl.compiler import Compiled
+    from vicode.xabsl.compiler import CompileResult
 
-_SLIPS = {"X651", "X652"}
+_STRICT_CODES = {"X651", "X652"}
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -46,15 +46,15 @@ def _add_check(parser: argparse.ArgumentParser) -> None:
 
 def _check(args: argparse.Namespace) -> int:
     """Tell what is wrong with a behavior, all of it at once."""
-    compiled = compiled_behavior(args.agents)
+    compiled = compile_behavior(args.agents)
     if args.json:
         from vicode.findings import render_json
 
-        print(render_json(shown(compiled.findings, args.agents)), end="")
+        print(render_json(with_display_paths(compiled.findings, args.agents)), end="")
     else:
-        tell(compiled.findings, args.agents, to_stderr=False)
+        print_behavior_findings(compiled.findings, args.agents, to_stderr=False)
         print(count_findings(compiled.findings))
-    return _code_of(compiled, strict=args.strict)
+    return _exit_code(compiled, strict=args.strict)
 
 
 def _add_compile(parser: argparse.ArgumentParser) -> None:
@@ -67,14 +67,16 @@ def _compile(args: argparse.Namespace) -> int:
     """Compile a behavior to the intermediate code of the original compiler."""
     from vicode.findings import Severity
     from vicode.output import write_atomically
-    from vicode.xabsl.compiler import symbols_of
+    from vicode.xabsl.compiler import declared_symbols
     from vicode.xabsl.engine.symbols import write_symbols
     from vicode.xabsl.engine.writing import write_code
 
-    compiled = compiled_behavior(args.agents)
+    compiled = compile_behavior(args.agents)
     # Notes are what `check` is for; here they would hide what matters.
-    tell([each for each in compiled.findings if args.strict or each.severity is not Severity.NOTE], args.agents)
-    code = _code_of(compiled, strict=args.strict)
+    print_behavior_findings(
+        [each for each in compiled.findings if args.strict or each.severity is not Severity.NOTE], args.agents
+    )
+    code = _exit_code(compiled, strict=args.strict)
     if code or compiled.program is None:
         print(f"nothing written: {count_findings(compiled.findings)}", file=sys.stderr)
         return code
@@ -84,7 +86,7 @@ def _compile(args: argparse.Namespace) -> int:
     else:
         write_atomically(args.output, text)
     if args.symbols is not None:
-        write_atomically(args.symbols, write_symbols(symbols_of(compiled.table)))
+        write_atomically(args.symbols, write_symbols(declared_symbols(compiled.table)))
     return 0
 
 
@@ -104,7 +106,7 @@ def _run(args: argparse.Namespace) -> int:
     from vicode.output import write_atomically
     from vicode.xabsl.engine import CodeError, LoadError, ReplayError, SymbolListError
     from vicode.xabsl.engine.reading import read_code
-    from vicode.xabsl.engine.replaying import bench, read_rows, replay, replay_team
+    from vicode.xabsl.engine.replaying import measure_cycles_per_second, read_rows, replay, replay_team
     from vicode.xabsl.engine.symbols import read_symbols
 
     file = args.code
@@ -115,7 +117,9 @@ def _run(args: argparse.Namespace) -> int:
         file = args.inputs
         rows = read_rows(args.inputs.read_text(encoding="utf-8").splitlines())
         if args.bench:
-            print(f"{bench(program, symbols, rows, args.bench, strict=args.strict):.0f} cycles a second of CPU")
+            print(
+                f"{measure_cycles_per_second(program, symbols, rows, args.bench, strict=args.strict):.0f} cycles a second of CPU"
+            )
             return 0
         if args.team:
             lines = replay_team(program, symbols, rows, args.team, args.ticks, strict=args.strict)
@@ -158,11 +162,11 @@ def _format(args: argparse.Namespace) -> int:
             print_findings(outcome.findings, to_stderr=True)
             print(f"{path}: not formatted, as it cannot be read whole", file=sys.stderr)
             code = code or 1
-        elif outcome.text != outcome.before:
+        elif outcome.formatted != outcome.original:
             print(f"{path}: {'would change' if args.check else 'formatted'}")
             code = code or int(args.check)
             if not args.check:
-                write_atomically(path, outcome.text)
+                write_atomically(path, outcome.formatted)
     return code
 
 
@@ -177,9 +181,9 @@ def _lsp(args: argparse.Namespace) -> int:
 
         print(grammar_text(), end="")
         return 0
-    from vicode.xabsl.server.server import make_server
+    from vicode.xabsl.server.server import create_server
 
-    make_server().start_io()
+    create_server().start_io()
     return 0
 
 
@@ -190,6 +194,6 @@ def _files(paths: "Iterable[Path]") -> "list[Path]":
     return found
 
 
-def _code_of(compiled: "Compiled", *, strict: bool) -> int:
-    slips = strict and any(each.rule.code in _SLIPS for each in compiled.findings)
+def _exit_code(compiled: "CompileResult", *, strict: bool) -> int:
+    slips = strict and any(each.rule.code in _STRICT_CODES for each in compiled.findings)
     return int(compiled.program is None or slips)

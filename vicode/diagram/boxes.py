@@ -13,9 +13,9 @@ GAP = 30.0
 """Free pixels between two boxes that were placed by us."""
 
 _HEIGHT = 60.0
-NARROWEST, _WIDEST = 140.0, 280.0
-_CELL = (320.0, 120.0)
-_WIDE_LETTERS = frozenset("mwMW@%")
+MIN_WIDTH, _MAX_WIDTH = 140.0, 280.0
+_CELL_SIZE = (320.0, 120.0)
+_WIDE_CHARACTERS = frozenset("mwMW@%")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -29,28 +29,28 @@ class Size:
 COMMON_SIZE = Size(width=140.0, height=40.0)
 
 
-def size_of_state(name: str) -> Size:
+def state_size(name: str) -> Size:
     """The box of a state: wider for a long name, which the canvas shortens in the end."""
-    return Size(width=_width_for(name, 44), height=_HEIGHT)
+    return Size(width=_box_width(name, 44), height=_HEIGHT)
 
 
-def size_of_use(alias: str, component: str) -> Size:
+def use_size(alias: str, component: str) -> Size:
     """The hexagon of a used component, with its name in small letters below the alias."""
-    return Size(width=max(_width_for(alias, 64), _width_for(component, 44)), height=_HEIGHT)
+    return Size(width=max(_box_width(alias, 64), _box_width(component, 44)), height=_HEIGHT)
 
 
-def width_of(text: str) -> float:
+def estimate_text_width(text: str) -> float:
     """About how wide a text is in bold letters of 14 pixels."""
-    return sum(map(_width_of_letter, " ".join(text[:120].split())))
+    return sum(map(_character_width, " ".join(text[:120].split())))
 
 
-class Ground:
+class OccupancyGrid:
     """The boxes that stand already, in a coarse grid, so that asking does not grow with their number."""
 
     def __init__(self) -> None:
         self._cells: dict[tuple[int, int], list[tuple[Point, Size]]] = {}
 
-    def take(self, at: Point, size: Size) -> None:
+    def occupy(self, at: Point, size: Size) -> None:
         """Put a box with this centre on the ground."""
         for cell in _cells(at, size):
             self._cells.setdefault(cell, []).append((at, size))
@@ -60,18 +60,18 @@ class Ground:
         wide = Size(width=size.width + 2 * gap, height=size.height + 2 * gap)
         return not any(_overlap(at, wide, *other) for cell in _cells(at, wide) for other in self._cells.get(cell, ()))
 
-    def find_free(self, places: Iterable[Point], size: Size) -> Point:
+    def occupy_first_free(self, candidates: Iterable[Point], size: Size) -> Point:
         """The first place where such a box is free; it is taken then."""
-        at = next(place for place in places if self.is_free(place, size))
-        self.take(at, size)
+        at = next(place for place in candidates if self.is_free(place, size))
+        self.occupy(at, size)
         return at
 
 
 def _cells(at: Point, size: Size) -> Iterator[tuple[int, int]]:
     left, right = at[0] - size.width / 2, at[0] + size.width / 2
     top, bottom = at[1] - size.height / 2, at[1] + size.height / 2
-    for column in range(math.floor(left / _CELL[0]), math.floor(right / _CELL[0]) + 1):
-        for row in range(math.floor(top / _CELL[1]), math.floor(bottom / _CELL[1]) + 1):
+    for column in range(math.floor(left / _CELL_SIZE[0]), math.floor(right / _CELL_SIZE[0]) + 1):
+        for row in range(math.floor(top / _CELL_SIZE[1]), math.floor(bottom / _CELL_SIZE[1]) + 1):
             yield column, row
 
 
@@ -82,14 +82,14 @@ def _overlap(at: Point, size: Size, other: Point, other_size: Size) -> bool:
     )
 
 
-def _width_for(text: str, around: float) -> float:
-    room = math.ceil((width_of(text) + around) / 20) * 20.0
-    return min(_WIDEST, max(NARROWEST, room))
+def _box_width(text: str, around: float) -> float:
+    room = math.ceil((estimate_text_width(text) + around) / 20) * 20.0
+    return min(_MAX_WIDTH, max(MIN_WIDTH, room))
 
 
-def _width_of_letter(letter: str) -> float:
+def _character_width(letter: str) -> float:
     if ord(letter) > 0x2E80:
         return 15.0
-    if letter in _WIDE_LETTERS:
+    if letter in _WIDE_CHARACTERS:
         return 13.0
     return 10.0 if letter.isupper() else 8.5

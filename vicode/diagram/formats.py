@@ -4,7 +4,7 @@ from dataclasses import dataclass, field
 from enum import StrEnum
 
 
-class Format(StrEnum):
+class ExportFormat(StrEnum):
     """What a drawing can be written as."""
 
     SVG = "svg"
@@ -17,22 +17,22 @@ class Format(StrEnum):
     @property
     def label(self) -> str:
         """What people call it."""
-        return {Format.MERMAID: "Mermaid", Format.PLANTUML: "PlantUML"}.get(self, self.upper())
+        return {ExportFormat.MERMAID: "Mermaid", ExportFormat.PLANTUML: "PlantUML"}.get(self, self.upper())
 
     @property
     def suffix(self) -> str:
         """How the names of its files end."""
-        return {Format.MERMAID: ".mmd", Format.PLANTUML: ".puml"}.get(self, f".{self}")
+        return {ExportFormat.MERMAID: ".mmd", ExportFormat.PLANTUML: ".puml"}.get(self, f".{self}")
 
     @property
     def media_type(self) -> str:
         """How a browser is told what it is."""
-        types = {Format.SVG: "image/svg+xml", Format.PDF: "application/pdf", Format.PNG: "image/png"}
+        types = {ExportFormat.SVG: "image/svg+xml", ExportFormat.PDF: "application/pdf", ExportFormat.PNG: "image/png"}
         return types.get(self, "text/plain; charset=utf-8")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Wish:
+class ExportOptions:
     """What of a design is drawn, and how; `only` names states, None for all, with what they use if `links`."""
 
     only: frozenset[str] | None = None

@@ -4,8 +4,8 @@ from collections.abc import Collection
 
 import graphviz  # type: ignore[import-untyped]
 
-from vicode.diagram.figure import Node, figure_of
-from vicode.diagram.listing import list_lost, list_transitions
+from vicode.diagram.figure import DiagramNode, build_diagram
+from vicode.diagram.listing import describe_dangling_transitions, list_transitions
 from vicode.model.design import COMMON, Design
 
 _POINTS_PER_PIXEL = 0.75
@@ -14,18 +14,18 @@ _SHAPES = {
     "component": {"shape": "hexagon", "style": "dashed"},
     "common": {"shape": "box", "style": "rounded,dashed"},
 }
-_LINKS = {"requires": {"style": "dashed", "arrowhead": "empty"}, "modulates": {"style": "dotted"}}
+_USE_EDGES = {"requires": {"style": "dashed", "arrowhead": "empty"}, "modulates": {"style": "dotted"}}
 
 
 def write_graphviz(design: Design, *, only: Collection[str] | None = None, links: bool = True) -> str:
     """The text of the whole design, or of some states and what they use."""
-    figure = figure_of(design, only=only, links=links)
+    figure = build_diagram(design, only=only, links=links)
     ids = {node.key: f"n{index}" for index, node in enumerate(figure.nodes)}
     graph = graphviz.Digraph(
         name=_quoted(design.component), graph_attr={"rankdir": "LR"}, node_attr={"fontname": "Helvetica"}
     )
     for node in figure.nodes:
-        graph.node(ids[node.key], label=_quoted(_full_label(node)), **_attributes(node))
+        graph.node(ids[node.key], label=_quoted(_unshortened_label(node)), **_attributes(node))
         if node.initial:
             graph.node("start", label="", shape="point", width="0.15")
             graph.edge("start", ids[node.key])
@@ -33,20 +33,20 @@ def write_graphviz(design: Design, *, only: Collection[str] | None = None, links
         source = "common" if line.source == COMMON else f"s:{line.source}"
         if source in ids:
             graph.edge(ids[source], ids[f"s:{line.target}"], label=_quoted(line.label))
-    for arrow in figure.arrows:
-        if arrow.of in _LINKS:
-            graph.edge(ids[arrow.source], ids[arrow.target], **_LINKS[arrow.of])
-    lost = "".join(f"// {words}\n" for words in list_lost(design, only))
+    for arrow in figure.edges:
+        if arrow.edge_type in _USE_EDGES:
+            graph.edge(ids[arrow.source], ids[arrow.target], **_USE_EDGES[arrow.edge_type])
+    lost = "".join(f"// {words}\n" for words in describe_dangling_transitions(design, only))
     return lost + str(graph.source)
 
 
-def _attributes(node: Node) -> dict[str, str]:
-    x, y = node.at[0] * _POINTS_PER_PIXEL, -node.at[1] * _POINTS_PER_PIXEL
-    attributes = {**_SHAPES[node.of], "pos": f"{x:.1f},{y:.1f}!"}
+def _attributes(node: DiagramNode) -> dict[str, str]:
+    x, y = node.center[0] * _POINTS_PER_PIXEL, -node.center[1] * _POINTS_PER_PIXEL
+    attributes = {**_SHAPES[node.node_type], "pos": f"{x:.1f},{y:.1f}!"}
     return attributes | ({"peripheries": "2"} if node.final else {})
 
 
-def _full_label(node: Node) -> str:
+def _unshortened_label(node: DiagramNode) -> str:
     """The name itself: a drawing may have shortened it."""
     return node.key.partition(":")[2] or node.label
 

@@ -3,10 +3,10 @@
 from enum import StrEnum
 
 from vicode.model.design import Guard
-from vicode.model.walks import Located
+from vicode.model.walks import LocatedDecision
 
 
-class Kind(StrEnum):
+class GuardKind(StrEnum):
     """What decides about a transition, told by a small sign on its label."""
 
     ALWAYS = "always"
@@ -16,45 +16,45 @@ class Kind(StrEnum):
     TREE = "tree"
 
 
-_LABEL_FITS = 16
+_MAX_SHORT_LABEL = 16
 
 
-def short_label(located: Located, unit: str = "") -> str:
+def short_transition_label(located: LocatedDecision, unit: str = "") -> str:
     """The guard where it fits on an arrow; a long one gives way to a short doc."""
-    label, doc = label_of(located, unit), located.decision.doc
-    return doc if len(label) > _LABEL_FITS and 0 < len(doc) <= _LABEL_FITS + 14 else label
+    label, doc = transition_label(located, unit), located.decision.doc
+    return doc if len(label) > _MAX_SHORT_LABEL and 0 < len(doc) <= _MAX_SHORT_LABEL + 14 else label
 
 
-def label_of(located: Located, unit: str = "", *, spelled: bool = False) -> str:
+def transition_label(located: LocatedDecision, unit: str = "", *, spell_out: bool = False) -> str:
     """The guard as it stands on the arrow, with the guards of the groups around it in front.
 
-    `unit` is the unit of the design's times, "" for seconds. `spelled` is for where no sign of a clock stands beside
+    `unit` is the unit of the design's times, "" for seconds. `spell_out` is for where no sign of a clock stands beside
     it: "after 5 s".
     """
     parts = [
-        guard_label(group.guard, unit, spelled=spelled) if is_then else "else" for group, is_then in located.groups
+        guard_label(group.guard, unit, spell_out=spell_out) if is_then else "else" for group, is_then in located.groups
     ]
-    parts.append(guard_label(located.decision.guard, unit, spelled=spelled))
+    parts.append(guard_label(located.decision.guard, unit, spell_out=spell_out))
     return " › ".join(part for part in parts if part)
 
 
-def guard_label(guard: Guard, unit: str = "", *, spelled: bool = False) -> str:
+def guard_label(guard: Guard, unit: str = "", *, spell_out: bool = False) -> str:
     """A guard in a line: the expression, the timer as "5 s", code as a sign for it."""
     parts = [" ".join(guard.when.split())] if guard.when else []
     if guard.after:
-        parts.append(f"{'after ' if spelled else ''}{guard.after} {unit or 's'}")
+        parts.append(f"{'after ' if spell_out else ''}{guard.after} {unit or 's'}")
     if guard.code is not None:
         parts.append("{ code }")
     return " and ".join(parts)
 
 
-def kind_of(located: Located) -> Kind:
+def guard_kind(located: LocatedDecision) -> GuardKind:
     """The kind of the guard; below a group it is a branch of a decision tree."""
     if located.groups:
-        return Kind.TREE
+        return GuardKind.TREE
     guard = located.decision.guard
     if guard.is_empty:
-        return Kind.ALWAYS
+        return GuardKind.ALWAYS
     if guard.code is not None:
-        return Kind.CODE
-    return Kind.GUARD if guard.when else Kind.TIMER
+        return GuardKind.CODE
+    return GuardKind.GUARD if guard.when else GuardKind.TIMER

@@ -14,13 +14,13 @@ from dataclasses import asdict, dataclass
 from enum import StrEnum
 from pathlib import Path
 
-from vicode.diagram.placing import Placement
-from vicode.diagram.settling import layer, screens_of, settle
-from vicode.diagram.sketch import Sketch, sketch_of
+from vicode.diagram.placing import NodeLayout
+from vicode.diagram.settling import fit_layout, layered_positions, screens_needed
+from vicode.diagram.sketch import LayoutGraph, build_layout_graph
 from vicode.model.design import Design, Point
 
-Command = tuple[str, ...]
-WORKER: Command = (sys.executable, "-P", "-m", "vicode.diagram.worker")
+WorkerCommand = tuple[str, ...]
+WORKER_COMMAND: WorkerCommand = (sys.executable, "-P", "-m", "vicode.diagram.worker")
 """-P: a file in the folder of a project is never taken for a module of ours."""
 
 # The worker ends itself so much later than we give up, should nobody be left to kill it.
@@ -28,10 +28,10 @@ _GRACE_S = 1.0
 
 # Graphviz orders better than layers do, and is worth some room: it is given up only for a picture that must be
 # shrunk below four tenths on a screen, and so many times further than layers.
-_ROOMY_SCREENS, _FAR_LARGER = 2.5, 1.8
+_MAX_SCREENS, _MAX_GROWTH = 2.5, 1.8
 
 
-class Method(StrEnum):
+class LayoutMethod(StrEnum):
     """Who found the places."""
 
     GRAPHVIZ = "graphviz"
@@ -39,10 +39,10 @@ class Method(StrEnum):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Layout:
+class LayoutResult:
     """Where everything stands, also what was not moved; `note` is for the user, empty when all went as wished."""
 
-    placement: Placement
+    layout: NodeLayout
     method: str
     note: str = ""
 
@@ -50,25 +50,27 @@ class Layout:
 class LayoutService:
     """Keeps one worker process for one request at a time; what takes too long is killed. Close it in the end."""
 
-    def __init__(self, command: Command = WORKER) -> None:
+    def __init__(self, command: WorkerCommand = WORKER_COMMAND) -> None:
         self._command = command
         self._process: subprocess.Popen[str] | None = None
-        self._turn = threading.Lock()
+        self._lock = threading.Lock()
 
-    def lay_out(self, design: Design, *, only: Collection[str] | None = None, timeout_s: float = 5.0) -> Layout:
-        """As the function `lay_out`; a request waits for its turn, which counts as its time."""
-        sketch = sketch_of(design, only)
+    def compute(self, design: Design, *, only: Collection[str] | None = None, timeout_s: float = 5.0) -> LayoutResult:
+        """As the function `compute_layout`; a request waits for its turn, which counts as its time."""
+        sketch = build_layout_graph(design, only)
         try:
-            centres = self._ask(sketch, timeout_s) if sketch.nodes else {}
-        except _NoAnswerError as reason:
+            centres = self._request_positions(sketch, timeout_s) if sketch.nodes else {}
+        except _GraphvizFailedError as reason:
             note = f"{reason}; placed in layers instead"
-            return Layout(placement=settle(design, layer(design, only), only), method=Method.LAYERS, note=note)
-        layers = layer(design, only)
-        larger = screens_of(centres.values()) / screens_of(layers.values())
-        if screens_of(centres.values()) > _ROOMY_SCREENS and larger > _FAR_LARGER:
+            return LayoutResult(
+                layout=fit_layout(design, layered_positions(design, only), only), method=LayoutMethod.LAYERS, note=note
+            )
+        layers = layered_positions(design, only)
+        larger = screens_needed(centres.values()) / screens_needed(layers.values())
+        if screens_needed(centres.values()) > _MAX_SCREENS and larger > _MAX_GROWTH:
             note = f"Graphviz made it {larger:.1f} times as large; placed in layers instead"
-            return Layout(placement=settle(design, layers, only), method=Method.LAYERS, note=note)
-        return Layout(placement=settle(design, centres, only), method=Method.GRAPHVIZ)
+            return LayoutResult(layout=fit_layout(design, layers, only), method=LayoutMethod.LAYERS, note=note)
+        return LayoutResult(layout=fit_layout(design, centres, only), method=LayoutMethod.GRAPHVIZ)
 
     def close(self) -> None:
         """End the worker; a request under way falls back to layers at once. A later request starts a new one."""
@@ -76,8 +78,8 @@ class LayoutService:
         if process is not None:
             # Whoever waits for its answer gets none now, and gives the turn back.
             _kill(process)
-        with self._turn:
-            self._drop()
+        with self._lock:
+            self._discard_process()
 
     def __enter__(self) -> "LayoutService":
         return self
@@ -85,33 +87,33 @@ class LayoutService:
     def __exit__(self, *_exception: object) -> None:
         self.close()
 
-    def _ask(self, sketch: Sketch, timeout_s: float) -> dict[str, Point]:
+    def _request_positions(self, sketch: LayoutGraph, timeout_s: float) -> dict[str, Point]:
         """Centres by id."""
         deadline = time.monotonic() + timeout_s
         late = f"Graphviz took longer than {timeout_s:g} s"
-        if not self._turn.acquire(timeout=max(0.0, timeout_s)):
-            raise _NoAnswerError(late)
+        if not self._lock.acquire(timeout=max(0.0, timeout_s)):
+            raise _GraphvizFailedError(late)
         try:
-            line = _exchange(self._running(), _request(sketch, timeout_s), deadline - time.monotonic())
+            line = _send_request(self._running_process(), _request(sketch, timeout_s), deadline - time.monotonic())
             if not line:
-                self._drop()
+                self._discard_process()
         except TimeoutError:
-            self._drop()
-            raise _NoAnswerError(late) from None
+            self._discard_process()
+            raise _GraphvizFailedError(late) from None
         except OSError as error:
-            self._drop()
-            raise _NoAnswerError(f"Graphviz could not be run ({error.strerror or error})") from error
+            self._discard_process()
+            raise _GraphvizFailedError(f"Graphviz could not be run ({error.strerror or error})") from error
         finally:
-            self._turn.release()
+            self._lock.release()
         return _read_answer(line, sketch)
 
-    def _running(self) -> subprocess.Popen[str]:
+    def _running_process(self) -> subprocess.Popen[str]:
         if self._process is None or self._process.poll() is not None:
-            self._drop()
-            self._process = _start(self._command)
+            self._discard_process()
+            self._process = _start_worker(self._command)
         return self._process
 
-    def _drop(self) -> None:
+    def _discard_process(self) -> None:
         process, self._process = self._process, None
         if process is None:
             return
@@ -123,7 +125,7 @@ class LayoutService:
                 pipe.close()
 
 
-def lay_out(design: Design, *, only: Collection[str] | None = None, timeout_s: float = 5.0) -> Layout:
+def compute_layout(design: Design, *, only: Collection[str] | None = None, timeout_s: float = 5.0) -> LayoutResult:
     """Place a design anew with Graphviz, or in layers when that fails or takes longer than `timeout_s`.
 
     It blocks that long: never call it in the server's own thread, but by `run.io_bound` or in a thread.
@@ -134,14 +136,14 @@ def lay_out(design: Design, *, only: Collection[str] | None = None, timeout_s: f
         timeout_s: seconds for all of it, the start of the process included.
     """
     with LayoutService() as service:
-        return service.lay_out(design, only=only, timeout_s=timeout_s)
+        return service.compute(design, only=only, timeout_s=timeout_s)
 
 
-class _NoAnswerError(Exception):
+class _GraphvizFailedError(Exception):
     """Graphviz gave no places; the text says why."""
 
 
-def _start(command: Command) -> subprocess.Popen[str]:
+def _start_worker(command: WorkerCommand) -> subprocess.Popen[str]:
     # The folder that holds vicode, for a checkout that is not installed; after what the user set.
     folders = (os.environ.get("PYTHONPATH", ""), str(Path(__file__).parents[2]))
     return subprocess.Popen(
@@ -165,11 +167,11 @@ def _kill(process: subprocess.Popen[str]) -> None:
     process.wait()
 
 
-def _request(sketch: Sketch, timeout_s: float) -> str:
+def _request(sketch: LayoutGraph, timeout_s: float) -> str:
     return json.dumps({**asdict(sketch), "timeout_s": timeout_s + _GRACE_S}) + "\n"
 
 
-def _exchange(process: subprocess.Popen[str], request: str, timeout_s: float) -> str:
+def _send_request(process: subprocess.Popen[str], request: str, timeout_s: float) -> str:
     """Hand over a line and wait for one; empty when the worker died. Kills it when it is too late."""
 
     def ask() -> str:
@@ -189,13 +191,13 @@ def _exchange(process: subprocess.Popen[str], request: str, timeout_s: float) ->
             raise
 
 
-def _read_answer(line: str, sketch: Sketch) -> dict[str, Point]:
+def _read_answer(line: str, sketch: LayoutGraph) -> dict[str, Point]:
     if not line:
-        raise _NoAnswerError("Graphviz stopped unexpectedly")
+        raise _GraphvizFailedError("Graphviz stopped unexpectedly")
     answer = json.loads(line)
     if "error" in answer:
-        raise _NoAnswerError(f"Graphviz could not be run ({answer['error']})")
+        raise _GraphvizFailedError(f"Graphviz could not be run ({answer['error']})")
     centres = {id_: (float(x), float(y)) for id_, (x, y) in answer["positions"].items()}
     if centres.keys() != {node.id for node in sketch.nodes}:
-        raise _NoAnswerError("Graphviz left something out")
+        raise _GraphvizFailedError("Graphviz left something out")
     return centres

@@ -15,51 +15,51 @@ _WIDTHS = (
     260, 334, 584,
 )  # fmt: skip
 _SIGNS = {"…": 1000, "·": 278, "›": 333, "→": 1000, "≤": 549, "≥": 549, "°": 400}
-_KNOWN = {**{chr(32 + index): width for index, width in enumerate(_WIDTHS)}, **_SIGNS}
-_OTHER, _WIDE = 600, 1000
-_WIDE_FROM = 0x2E80
-_BOLDER = 1.07
+_GLYPH_WIDTHS = {**{chr(32 + index): width for index, width in enumerate(_WIDTHS)}, **_SIGNS}
+_DEFAULT_WIDTH, _WIDE_GLYPH_WIDTH = 600, 1000
+_FIRST_WIDE_CODE_POINT = 0x2E80
+_BOLD_FACTOR = 1.07
 # Nothing longer can fit into any room there is.
-_LONGEST = 120
+_MAX_LENGTH = 120
 
-FAMILIES = ("Roboto", "Segoe UI", "Helvetica Neue", "Arial", "Liberation Sans", "DejaVu Sans", "sans-serif")
+FONT_FAMILIES = ("Roboto", "Segoe UI", "Helvetica Neue", "Arial", "Liberation Sans", "DejaVu Sans", "sans-serif")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Letters:
+class Font:
     """Size in pixels and weight."""
 
     size: float
     bold: bool = False
 
 
-NAME = Letters(size=14, bold=True)
-SMALL = Letters(size=11)
-LABEL = Letters(size=12)
+NAME_FONT = Font(size=14, bold=True)
+SMALL_FONT = Font(size=11)
+LABEL_FONT = Font(size=12)
 
 
-def text_width(text: str, letters: Letters) -> float:
+def text_width(text: str, font: Font) -> float:
     """The width in pixels."""
-    return _in_pixels(_thousandths_of(text), letters)
+    return _to_pixels(_thousandths_of(text), font)
 
 
-def shorten(text: str, letters: Letters, room: float) -> str:
+def shorten(text: str, font: Font, max_width: float) -> str:
     """The text in one line when it fits, else its beginning and an ellipsis."""
     line = " ".join(text.split())
-    start = line[:_LONGEST]
-    if start == line and text_width(line, letters) <= room:
+    start = line[:_MAX_LENGTH]
+    if start == line and text_width(line, font) <= max_width:
         return line
     end, thousandths = 0, _SIGNS["…"]
     for letter in start:
         thousandths += _width_of(letter)
-        if _in_pixels(thousandths, letters) > room:
+        if _to_pixels(thousandths, font) > max_width:
             break
         end += 1
     return f"{start[:end].rstrip()}…"
 
 
-def _in_pixels(thousandths: int, letters: Letters) -> float:
-    return thousandths / 1000 * letters.size * (_BOLDER if letters.bold else 1)
+def _to_pixels(thousandths: int, letters: Font) -> float:
+    return thousandths / 1000 * letters.size * (_BOLD_FACTOR if letters.bold else 1)
 
 
 @lru_cache(maxsize=1 << 14)
@@ -68,4 +68,4 @@ def _thousandths_of(text: str) -> int:
 
 
 def _width_of(letter: str) -> int:
-    return _KNOWN.get(letter) or (_WIDE if ord(letter) >= _WIDE_FROM else _OTHER)
+    return _GLYPH_WIDTHS.get(letter) or (_WIDE_GLYPH_WIDTH if ord(letter) >= _FIRST_WIDE_CODE_POINT else _DEFAULT_WIDTH)

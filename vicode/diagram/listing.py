@@ -4,15 +4,15 @@ from collections import Counter
 from collections.abc import Collection, Iterator
 from dataclasses import dataclass
 
-from vicode.diagram.labels import label_of
+from vicode.diagram.labels import transition_label
 from vicode.model.design import COMMON, Design, Transition
-from vicode.model.walks import walk_transitions
+from vicode.model.walks import iter_transitions
 
 EVERY_STATE = "every state"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Line:
+class TextTransition:
     """One transition; `source` is a state's name or COMMON, `label` one line of any text."""
 
     source: str
@@ -20,10 +20,10 @@ class Line:
     label: str
 
 
-def list_transitions(design: Design, only: Collection[str] | None = None) -> Iterator[Line]:
+def list_transitions(design: Design, only: Collection[str] | None = None) -> Iterator[TextTransition]:
     """Every transition whose ends are there; numbered where a state has more than one."""
     names = {state.name for state in design.states if only is None or state.name in only}
-    located = [each for each in walk_transitions(design) if each.source == COMMON or each.source in names]
+    located = [each for each in iter_transitions(design) if each.source == COMMON or each.source in names]
     counts = Counter(each.source for each in located)
     orders: Counter[str] = Counter()
     for each in located:
@@ -32,14 +32,14 @@ def list_transitions(design: Design, only: Collection[str] | None = None) -> Ite
         if each.decision.to not in names:
             continue
         number = f"{orders[each.source]}. " if counts[each.source] > 1 else ""
-        label = number + label_of(each, design.time_unit, spelled=True)
-        yield Line(source=each.source, target=each.decision.to, label=label.strip())
+        label = number + transition_label(each, design.time_unit, spell_out=True)
+        yield TextTransition(source=each.source, target=each.decision.to, label=label.strip())
 
 
-def list_lost(design: Design, only: Collection[str] | None = None) -> Iterator[str]:
+def describe_dangling_transitions(design: Design, only: Collection[str] | None = None) -> Iterator[str]:
     """What is to be said of every transition that leads to no state: nothing can be drawn of it."""
     names = {state.name for state in design.states}
-    for each in walk_transitions(design):
+    for each in iter_transitions(design):
         assert isinstance(each.decision, Transition)
         is_wanted = only is None or each.source in only or each.source == COMMON
         if is_wanted and each.decision.to not in names:

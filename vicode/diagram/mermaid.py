@@ -3,8 +3,8 @@
 import re
 from collections.abc import Collection
 
-from vicode.diagram.listing import EVERY_STATE, list_lost, list_transitions
-from vicode.diagram.naming import identifiers
+from vicode.diagram.listing import EVERY_STATE, describe_dangling_transitions, list_transitions
+from vicode.diagram.naming import assign_ids
 from vicode.model.design import COMMON, Design
 
 # Words of the grammar, and names that JavaScript's objects already have.
@@ -14,14 +14,14 @@ _RESERVED = frozenset({
     "tostring", "valueof",
 })  # fmt: skip
 # All else is written as a character's number, which Mermaid decodes before it reads the line.
-_PLAIN = re.compile(r"[^\w .,()=+\-*/'!?|]")
+_UNSAFE = re.compile(r"[^\w .,()=+\-*/'!?|]")
 
 
 def write_mermaid(design: Design, *, only: Collection[str] | None = None) -> str:
     """The text of the whole design, or of some states and what goes on among them."""
     names = [state.name for state in design.states if only is None or state.name in only]
     lines = list(list_transitions(design, only))
-    ids = identifiers((*names, *([COMMON] if any(line.source == COMMON for line in lines) else ())), _RESERVED)
+    ids = assign_ids((*names, *([COMMON] if any(line.source == COMMON for line in lines) else ())), _RESERVED)
     text = ["---", f'title: "{escape(design.component)}"', "---", "stateDiagram-v2", "    direction LR"]
     shown = {name: EVERY_STATE if name == COMMON else name for name in ids}
     for name in (*names, *(name for name in ids if name == COMMON)):
@@ -32,7 +32,7 @@ def write_mermaid(design: Design, *, only: Collection[str] | None = None) -> str
     for line in lines:
         label = f" : {escape(line.label)}" if line.label else ""
         text.append(f"    {ids[line.source]} --> {ids[line.target]}{label}")
-    text += [f"    %% {words}" for words in list_lost(design, only)]
+    text += [f"    %% {words}" for words in describe_dangling_transitions(design, only)]
     text += [f"    {ids[state.name]} --> [*]" for state in design.states if state.final and state.name in ids]
     return "\n".join(text) + "\n"
 
@@ -40,4 +40,4 @@ def write_mermaid(design: Design, *, only: Collection[str] | None = None) -> str
 def escape(text: str) -> str:
     """One line that Mermaid shows as it is."""
     line = "".join(letter if letter.isprintable() else "\ufffd" for letter in " ".join(text.split()))
-    return _PLAIN.sub(lambda match: f"#{ord(match.group())};", line)
+    return _UNSAFE.sub(lambda match: f"#{ord(match.group())};", line)

@@ -2,10 +2,10 @@
 
 from collections.abc import Collection, Iterable
 
-from vicode.model.names import is_state_name
+from vicode.model.names import is_valid_state_name
 
 
-def identifiers(names: Iterable[str], reserved: Collection[str]) -> dict[str, str]:
+def assign_ids(names: Iterable[str], reserved: Collection[str]) -> dict[str, str]:
     """An id for every name; names that mean something to the form, or begin with a digit, get a prefix.
 
     Args:
@@ -13,11 +13,11 @@ def identifiers(names: Iterable[str], reserved: Collection[str]) -> dict[str, st
         reserved: Words that are no ids, in small letters.
     """
     wanted = tuple(dict.fromkeys(names))
-    plain = {name for name in wanted if _is_plain(name, reserved)}
+    plain = {name for name in wanted if _is_valid_id(name, reserved)}
     ids = {name: name for name in plain}
     taken = set(plain)
     for number, name in enumerate(name for name in wanted if name not in plain):
-        id_ = f"s_{name}" if is_state_name(name) else f"s_{number}"
+        id_ = f"s_{name}" if is_valid_state_name(name) else f"s_{number}"
         while id_ in taken:
             id_ += "_"
         ids[name] = id_
@@ -25,5 +25,5 @@ def identifiers(names: Iterable[str], reserved: Collection[str]) -> dict[str, st
     return ids
 
 
-def _is_plain(name: str, reserved: Collection[str]) -> bool:
-    return is_state_name(name) and name[0].isalpha() and name.casefold() not in reserved
+def _is_valid_id(name: str, reserved: Collection[str]) -> bool:
+    return is_valid_state_name(name) and name[0].isalpha() and name.casefold() not in reserved

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Palette:
+class ColorPalette:
     """A colour for every part; the names are those of the canvas's style sheet, with underscores."""
 
     paper: str
@@ -26,12 +26,14 @@ class Palette:
     common_fill: str
 
 
-def from_properties() -> Palette:
+def css_variable_palette() -> ColorPalette:
     """Colours left to the style sheet of the page that a drawing becomes part of."""
-    return Palette(**{name: f"var(--drawn-{name.replace('_', '-')})" for name in Palette.__dataclass_fields__})
+    return ColorPalette(
+        **{name: f"var(--drawn-{name.replace('_', '-')})" for name in ColorPalette.__dataclass_fields__}
+    )
 
 
-LIGHT = Palette(
+LIGHT = ColorPalette(
     paper="#f8fafc",
     text="#18212f",
     muted="#526075",
@@ -50,7 +52,7 @@ LIGHT = Palette(
     common="#7c3aed",
     common_fill="#f5f0ff",
 )
-DARK = Palette(
+DARK = ColorPalette(
     paper="#11161e",
     text="#e6ecf5",
     muted="#a4b1c4",

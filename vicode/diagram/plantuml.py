@@ -3,8 +3,8 @@
 import re
 from collections.abc import Collection
 
-from vicode.diagram.listing import EVERY_STATE, list_lost, list_transitions
-from vicode.diagram.naming import identifiers
+from vicode.diagram.listing import EVERY_STATE, describe_dangling_transitions, list_transitions
+from vicode.diagram.naming import assign_ids
 from vicode.model.design import COMMON, Design
 
 _RESERVED = frozenset({
@@ -13,7 +13,7 @@ _RESERVED = frozenset({
     "up",
 })  # fmt: skip
 # Signs of its markup and its preprocessor; the doubled ones only make text bold, slanted or struck.
-_MEANING = re.compile(r"[^\w .,()=+\-*/'!?|:]|([*/_\-'.])\1+|^[!']")
+_MARKUP = re.compile(r"[^\w .,()=+\-*/'!?|:]|([*/_\-'.])\1+|^[!']")
 
 
 def write_plantuml(design: Design, *, only: Collection[str] | None = None) -> str:
@@ -21,7 +21,7 @@ def write_plantuml(design: Design, *, only: Collection[str] | None = None) -> st
     names = [state.name for state in design.states if only is None or state.name in only]
     lines = list(list_transitions(design, only))
     commons = [COMMON] if any(line.source == COMMON for line in lines) else []
-    ids = identifiers((*names, *commons), _RESERVED)
+    ids = assign_ids((*names, *commons), _RESERVED)
     text = ["@startuml", f"title {escape(design.component)}", "hide empty description", "left to right direction"]
     text += [f'state "{escape(name)}" as {ids[name]}' for name in names]
     text += [f'state "{EVERY_STATE}" as {ids[name]} #line.dashed' for name in commons]
@@ -31,7 +31,7 @@ def write_plantuml(design: Design, *, only: Collection[str] | None = None) -> st
         arrow = "-[dashed]->" if line.source == COMMON else "-->"
         label = f" : {escape(line.label)}" if line.label else ""
         text.append(f"{ids[line.source]} {arrow} {ids[line.target]}{label}")
-    text += [f"' {words}" for words in list_lost(design, only)]
+    text += [f"' {words}" for words in describe_dangling_transitions(design, only)]
     text += [f"{ids[state.name]} --> [*]" for state in design.states if state.final and state.name in ids]
     return "\n".join((*text, "@enduml")) + "\n"
 
@@ -39,4 +39,4 @@ def write_plantuml(design: Design, *, only: Collection[str] | None = None) -> st
 def escape(text: str) -> str:
     """One line that PlantUML shows as it is."""
     line = "".join(letter if letter.isprintable() else "\ufffd" for letter in " ".join(text.split()))
-    return _MEANING.sub(lambda match: "".join(f"<U+{ord(letter):04X}>" for letter in match.group()), line)
+    return _MARKUP.sub(lambda match: "".join(f"<U+{ord(letter):04X}>" for letter in match.group()), line)

@@ -15,8 +15,8 @@ from typing import Any, TextIO
 
 import graphviz  # type: ignore[import-untyped]
 
-from vicode.diagram.dot import POINTS_PER_INCH, Direction, Effort, write_dot
-from vicode.diagram.sketch import Edge, Node, Sketch
+from vicode.diagram.dot import POINTS_PER_INCH, LayoutEffort, RankDirection, write_layout_dot
+from vicode.diagram.sketch import LayoutEdge, LayoutGraph, LayoutNode
 
 try:
     import pygraphviz
@@ -24,30 +24,36 @@ except ImportError:
     # No wheel for this machine: an installed `dot` will do.
     pygraphviz = None
 
-Positions = dict[str, tuple[float, float]]
+PositionsById = dict[str, tuple[float, float]]
 
 _SCREEN_RATIO = 1.6
-_SMALL, _MIDDLE = 150, 500
+_MAX_FULL_EFFORT, _MAX_BOUNDED_EFFORT = 150, 500
 # Graphviz recurses once a box: 3000 states overflow the usual 8 MB. Memory that is not touched costs nothing.
 _STACK_BYTES = 512 * 1024 * 1024
 
 
 def main() -> None:
     """Answer requests until there are no more."""
-    with _private_answers() as answers:
+    with _private_stdout() as answers:
         threading.stack_size(_STACK_BYTES)
         thread = threading.Thread(target=_serve, args=(sys.stdin, answers))
         thread.start()
         thread.join()
 
 
-def positions_of(sketch: Sketch, run: Callable[[str], str]) -> Positions:
+def compute_positions(sketch: LayoutGraph, run: Callable[[str], str]) -> PositionsById:
     """Centres in pixels by id, x to the right and y downwards; of both directions the one that fits a screen better."""
     size = len(sketch.nodes)
-    effort = Effort.FULL if size <= _SMALL else Effort.BOUNDED if size <= _MIDDLE else Effort.QUICK
-    directions = tuple(Direction) if size <= _SMALL else (Direction.RIGHT,)
-    pictures = (_read_plain(run(write_dot(sketch, direction, effort))) for direction in directions)
-    return min(pictures, key=lambda picture: _screens(picture[0]))[1]
+    effort = (
+        LayoutEffort.FULL
+        if size <= _MAX_FULL_EFFORT
+        else LayoutEffort.BOUNDED
+        if size <= _MAX_BOUNDED_EFFORT
+        else LayoutEffort.QUICK
+    )
+    directions = tuple(RankDirection) if size <= _MAX_FULL_EFFORT else (RankDirection.RIGHT,)
+    pictures = (_read_plain(run(write_layout_dot(sketch, direction, effort))) for direction in directions)
+    return min(pictures, key=lambda picture: _screen_extent(picture[0]))[1]
 
 
 def _serve(requests: TextIO, answers: TextIO) -> None:
@@ -57,16 +63,17 @@ def _serve(requests: TextIO, answers: TextIO) -> None:
 
 
 def _answer(request: dict[str, Any]) -> dict[str, Any]:
-    sketch = Sketch(
-        nodes=tuple(Node(**node) for node in request["nodes"]), edges=tuple(Edge(**edge) for edge in request["edges"])
+    sketch = LayoutGraph(
+        nodes=tuple(LayoutNode(**node) for node in request["nodes"]),
+        edges=tuple(LayoutEdge(**edge) for edge in request["edges"]),
     )
-    _end_after(request["timeout_s"])
+    _limit_run_time(request["timeout_s"])
     try:
-        return {"positions": positions_of(sketch, _run_library if pygraphviz else _run_program)}
+        return {"positions": compute_positions(sketch, _run_library if pygraphviz else _run_program)}
     except (OSError, ValueError, subprocess.SubprocessError, graphviz.ExecutableNotFound) as error:
         return {"error": str(error)}
     finally:
-        _end_after(0)
+        _limit_run_time(0)
 
 
 def _run_library(text: str) -> str:
@@ -81,10 +88,10 @@ def _run_program(text: str) -> str:
     return str(graphviz.Source(text).pipe(format="plain", encoding="utf-8", quiet=True))
 
 
-def _read_plain(text: str) -> tuple[tuple[float, float], Positions]:
+def _read_plain(text: str) -> tuple[tuple[float, float], PositionsById]:
     """The size and the centres in Graphviz's plain format: inches, y upwards."""
     width = height = 0.0
-    positions: Positions = {}
+    positions: PositionsById = {}
     for line in text.splitlines():
         match line.split():
             case ["graph", _scale, wide, high]:
@@ -94,19 +101,19 @@ def _read_plain(text: str) -> tuple[tuple[float, float], Positions]:
     return (width, height), positions
 
 
-def _screens(size: tuple[float, float]) -> float:
+def _screen_extent(size: tuple[float, float]) -> float:
     """How many times wider, or higher, than a screen of height 1 a picture is."""
     return max(size[0] / _SCREEN_RATIO, size[1])
 
 
-def _end_after(seconds: float) -> None:
+def _limit_run_time(seconds: float) -> None:
     """Let the system end this process then, even inside Graphviz and when nobody is left to kill it; 0: never."""
     if hasattr(signal, "setitimer"):
         signal.setitimer(signal.ITIMER_REAL, seconds)
 
 
 @contextlib.contextmanager
-def _private_answers() -> Iterator[TextIO]:
+def _private_stdout() -> Iterator[TextIO]:
     """The real standard output; what C code prints to it goes to standard error instead."""
     with os.fdopen(os.dup(1), "w", encoding="utf-8") as answers:
         os.dup2(2, 1)

@@ -1,35 +1,35 @@
 """The documentation site of a project: a page a component, with drawings, cross links and a search; plain files."""
 
-from vicode.docsite.addresses import Addresses, state_anchor
-from vicode.docsite.homes import plan_home
-from vicode.docsite.missing import missing_page
+from vicode.docsite.addresses import SiteUrls, state_anchor
+from vicode.docsite.homes import plan_site_index
+from vicode.docsite.missing import not_found_page
 from vicode.docsite.site import SiteBuilder, build_site
-from vicode.docsite.subject import OwnFinding, SourceText, Subject, described_paths, subject_of
+from vicode.docsite.subject import ComponentFinding, SiteInput, SourceText, iter_documented_paths, make_site_input
 from vicode.docsite.writing import (
     Manifest,
     PlannedFile,
     load_manifest,
-    manifest_file,
+    manifest_path,
     save_manifest,
     write_site,
 )
 
 __all__ = [
-    "Addresses",
+    "ComponentFinding",
     "Manifest",
-    "OwnFinding",
     "PlannedFile",
     "SiteBuilder",
+    "SiteInput",
+    "SiteUrls",
     "SourceText",
-    "Subject",
     "build_site",
-    "described_paths",
+    "iter_documented_paths",
     "load_manifest",
-    "manifest_file",
-    "missing_page",
-    "plan_home",
+    "make_site_input",
+    "manifest_path",
+    "not_found_page",
+    "plan_site_index",
     "save_manifest",
     "state_anchor",
-    "subject_of",
     "write_site",
 ]

@@ -3,30 +3,30 @@
 import re
 from collections.abc import Iterable
 
-from vicode.findings import Path
+from vicode.findings import DesignPath
 from vicode.model.design import COMMON
 from vicode.model.project import Project
 
 HOME, AGENTS, INTERFACES = "index.html", "agents.html", "interfaces.html"
-SYMBOLS, TYPES, EVERYTHING = "symbols.html", "types.html", "all.html"
-_LONGEST = 60
+SYMBOLS, TYPES, NAME_INDEX = "symbols.html", "types.html", "all.html"
+_MAX_SLUG_LENGTH = 60
 _SINGULAR = {"parameters": "parameter", "outputs": "output", "variables": "variable"}
 
 
 def slug(name: str) -> str:
     """A name as a part of an address."""
-    return re.sub(r"[^A-Za-z0-9_-]+", "-", name)[:_LONGEST].strip("-") or "x"
+    return re.sub(r"[^A-Za-z0-9_-]+", "-", name)[:_MAX_SLUG_LENGTH].strip("-") or "x"
 
 
-def anchor_of(path: Path) -> str:
+def path_anchor(path: DesignPath) -> str:
     """The place on a component's page of the thing that a path of its design leads to; "" for the page itself."""
     match path:
         case ("states", str(name), "transitions", int(), *_):
-            return f"{state_anchor(name)}-{_steps(path[3:])}"
+            return f"{state_anchor(name)}-{_decision_steps(path[3:])}"
         case ("states", str(name), *_):
             return state_anchor(name)
         case ("common", "transitions", int(), *_):
-            return f"common-{_steps(path[2:])}"
+            return f"common-{_decision_steps(path[2:])}"
         case ("common", *_):
             return "common"
         case (str(section), str(name), *_) if section in _SINGULAR:
@@ -40,7 +40,7 @@ def state_anchor(name: str) -> str:
     return "common" if name == COMMON else f"state-{slug(name)}"
 
 
-def _steps(path: Path) -> str:
+def _decision_steps(path: DesignPath) -> str:
     """The numbers and branches that lead to a decision, without what is inside it."""
     steps = []
     for step in path:
@@ -50,7 +50,7 @@ def _steps(path: Path) -> str:
     return "-".join(steps)
 
 
-class Addresses:
+class SiteUrls:
     """The addresses of a project's things; file systems that do not tell cases apart keep all pages."""
 
     def __init__(self, project: Project) -> None:
@@ -58,7 +58,7 @@ class Addresses:
         self._stems = _stems(design.component for design in project.designs)
         self._interfaces = _stems(each.component for each in project.components)
         self._agents = _stems(each.name for each in project.agents)
-        self.names = (
+        self.key = (
             tuple(self._stems),
             tuple(self._interfaces),
             tuple(each.name for each in project.enumerations),
@@ -76,9 +76,9 @@ class Addresses:
         """Whether a component is a state machine."""
         return name in self._stems
 
-    def thing(self, component: str, path: Path) -> str:
+    def design_path(self, component: str, path: DesignPath) -> str:
         """Where a thing of a design is described."""
-        anchor = anchor_of(path)
+        anchor = path_anchor(path)
         return self.component(component) + (f"#{anchor}" if anchor else "")
 
     def member(self, component: str, section: str, name: str) -> str:
@@ -90,9 +90,9 @@ class Addresses:
         """Where the symbols of a component are listed with all others."""
         return f"{SYMBOLS}#symbols-{(self._stems | self._interfaces)[component]}"
 
-    def code(self, component: str, form: str) -> str:
-        """The page with a text of a component: `form` is source or a language."""
-        return f"{form}-{self._stems[component]}.html" if component else f"{form}.html"
+    def code(self, component: str, variant: str) -> str:
+        """The page with a text of a component: `variant` is source or a language."""
+        return f"{variant}-{self._stems[component]}.html" if component else f"{variant}.html"
 
     def enumeration(self, name: str, element: str = "") -> str:
         """Where a type, or one of its elements, is described; "" for an unknown one."""

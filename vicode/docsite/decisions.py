@@ -4,134 +4,138 @@ from collections import Counter
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
 
-from vicode.docsite.addresses import Addresses, anchor_of
-from vicode.docsite.docs import line_html_of, summary_of
-from vicode.docsite.linking import Linker
-from vicode.docsite.listings import TITLES, block_of
-from vicode.docsite.views import CodeBlock, Line, Part, PseudoLine, TransitionRow
-from vicode.findings import Path
-from vicode.model.design import COMMON, Code, Decision, Design, Group, Guard, Transition
-from vicode.model.enabling import disabled_states, is_working
-from vicode.model.walks import Located, always_holds, walk_decisions
+from vicode.docsite.addresses import SiteUrls, path_anchor
+from vicode.docsite.docs import render_inline_doc, summarize
+from vicode.docsite.linking import NameLinker
+from vicode.docsite.listings import LANGUAGE_TITLES, highlight_block
+from vicode.docsite.views import CodeBlock, PseudocodeLine, RichText, TextSpan, TransitionRow
+from vicode.findings import DesignPath
+from vicode.model.design import COMMON, Code, Decision, DecisionGroup, Design, Guard, Transition
+from vicode.model.enabling import disabled_states, is_enabled
+from vicode.model.walks import LocatedDecision, is_exhaustive, iter_decisions
 
-Places = Mapping[Path, tuple[Part, ...]]
+CodeLinks = Mapping[DesignPath, tuple[TextSpan, ...]]
 """Where a thing stands in the texts of its component."""
 
-_AND = Part(text=" and ", kind="k")
+_AND = TextSpan(text=" and ", css_class="k")
 
 
-def blocks_of(code: Code) -> tuple[CodeBlock, ...]:
+def code_blocks(code: Code) -> tuple[CodeBlock, ...]:
     """Code in all its languages."""
     return tuple(
-        CodeBlock(language=TITLES.get(language, language), html=block_of(text, language))
+        CodeBlock(language=LANGUAGE_TITLES.get(language, language), html=highlight_block(text, language))
         for language, text in code.texts
     )
 
 
-def guard_line(guard: Guard, linker: Linker) -> Line:
+def guard_text(guard: Guard, linker: NameLinker) -> RichText:
     """A guard in words, "" for one that always holds."""
-    parts: list[Part] = []
+    parts: list[TextSpan] = []
     if guard.when:
         parts += linker.expression(guard.when)
     if guard.after:
         parts += [_AND] if parts else []
-        parts += [Part(text="after ", kind="k"), *linker.time(guard.after)]
+        parts += [TextSpan(text="after ", css_class="k"), *linker.duration(guard.after)]
     if guard.code is not None:
         parts += [_AND] if parts else []
-        parts.append(Part(text="code holds", kind="code-sign", title="A condition written as code"))
+        parts.append(TextSpan(text="code holds", css_class="code-guard", title="A condition written as code"))
     return tuple(parts)
 
 
-def transition_rows(design: Design, linker: Linker, addresses: Addresses) -> Iterator[TransitionRow]:
+def transition_rows(design: Design, linker: NameLinker, addresses: SiteUrls) -> Iterator[TransitionRow]:
     """Every transition and every stay, in the order in which they are tested."""
     orders: Counter[str] = Counter()
     off = disabled_states(design)
-    for located in walk_decisions(design):
-        if isinstance(located.decision, Group):
+    for located in iter_decisions(design):
+        if isinstance(located.decision, DecisionGroup):
             continue
         orders[located.source] += 1
         is_common = located.source == COMMON
-        common = Part(text="every state", href=addresses.thing(design.component, ("common",)))
+        common = TextSpan(text="every state", href=addresses.design_path(design.component, ("common",)))
         source = common if is_common else linker.state(located.source)
         guard = located.decision.guard
-        timer = linker.time(guard.after) if guard.after else ()
+        timer = linker.duration(guard.after) if guard.after else ()
         yield TransitionRow(
-            order=Part(text=str(orders[located.source]), href=f"#{anchor_of(located.path)}"),
+            order=TextSpan(text=str(orders[located.source]), href=f"#{path_anchor(located.path)}"),
             source=source,
-            guards=tuple(_guards(located, linker)),
+            guards=tuple(_guard_texts(located, linker)),
             timer=timer,
             target=_target(located.decision, linker),
-            doc_html=line_html_of(located.decision.doc),
-            is_off=not is_working(located, off),
+            doc_html=render_inline_doc(located.decision.doc),
+            is_disabled=not is_enabled(located, off),
         )
 
 
-def pseudo_lines(items: tuple[Decision, ...], linker: Linker, path: Path, places: Places) -> tuple[PseudoLine, ...]:
+def pseudocode_lines(
+    items: tuple[Decision, ...], linker: NameLinker, path: DesignPath, places: CodeLinks
+) -> tuple[PseudocodeLine, ...]:
     """The decisions as code to read; `path` leads to them. Nothing where nothing is decided."""
     lines = tuple(
-        replace(line, anchor=anchor_of(of), places=places.get(of, ())) if of else line
-        for of, line in _pseudo(items, linker, path, 0)
+        replace(line, anchor=path_anchor(of), code_links=places.get(of, ())) if of else line
+        for of, line in _pseudocode(items, linker, path, 0)
     )
-    if not items or any(always_holds(item) for item in items):
+    if not items or any(is_exhaustive(item) for item in items):
         return lines
     is_common = path[0] == "common"
     last = "what the state itself decides" if is_common else "stay"
-    before = "else " if _ends(items[-1]) else ""
-    return (*lines, PseudoLine(depth=0, parts=(Part(text=before + last, kind="k"),)))
+    before = "else " if _ends_evaluation(items[-1]) else ""
+    return (*lines, PseudocodeLine(depth=0, parts=(TextSpan(text=before + last, css_class="k"),)))
 
 
-def _guards(located: Located, linker: Linker) -> Iterator[Line]:
+def _guard_texts(located: LocatedDecision, linker: NameLinker) -> Iterator[RichText]:
     for group, is_then in located.groups:
-        line = guard_line(group.guard, linker)
+        line = guard_text(group.guard, linker)
         if line and is_then:
             yield line
         elif line:
-            yield (Part(text="not ", kind="k"), Part(text="("), *line, Part(text=")"))
+            yield (TextSpan(text="not ", css_class="k"), TextSpan(text="("), *line, TextSpan(text=")"))
     own = located.decision.guard
     rest = Guard(when=own.when, code=own.code)
     if not rest.is_empty:
-        yield guard_line(rest, linker)
+        yield guard_text(rest, linker)
 
 
-def _target(decision: Decision, linker: Linker) -> Part:
-    return linker.state(decision.to) if isinstance(decision, Transition) else Part(text="stays", kind="muted")
+def _target(decision: Decision, linker: NameLinker) -> TextSpan:
+    return linker.state(decision.to) if isinstance(decision, Transition) else TextSpan(text="stays", css_class="muted")
 
 
-def _pseudo(items: tuple[Decision, ...], linker: Linker, path: Path, depth: int) -> Iterator[tuple[Path, PseudoLine]]:
+def _pseudocode(
+    items: tuple[Decision, ...], linker: NameLinker, path: DesignPath, depth: int
+) -> Iterator[tuple[DesignPath, PseudocodeLine]]:
     """Lines, each with the path of the decision that begins there, () for none."""
     for index, item in enumerate(items):
         here = (*path, index)
-        guard = guard_line(item.guard, linker)
-        blocks = blocks_of(item.guard.code) if item.guard.code else ()
+        guard = guard_text(item.guard, linker)
+        blocks = code_blocks(item.guard.code) if item.guard.code else ()
         doc = " ".join(item.doc.split())
-        is_group = isinstance(item, Group)
+        is_group = isinstance(item, DecisionGroup)
         deeper = depth + (bool(guard) or is_group)
-        before = "else " if index and _ends(items[index - 1]) else ""
+        before = "else " if index and _ends_evaluation(items[index - 1]) else ""
         if guard or is_group:
-            test = (Part(text=f"{before}if ", kind="k"), *guard)
-            parts = test if guard else (Part(text="always", kind="k"),)
-            yield here, PseudoLine(depth=depth, parts=parts, doc=doc, is_off=item.disabled, blocks=blocks)
-        if isinstance(item, Group):
-            yield from _pseudo(item.then, linker, (*here, "then"), deeper)
+            test = (TextSpan(text=f"{before}if ", css_class="k"), *guard)
+            parts = test if guard else (TextSpan(text="always", css_class="k"),)
+            yield here, PseudocodeLine(depth=depth, parts=parts, doc=doc, is_disabled=item.disabled, blocks=blocks)
+        if isinstance(item, DecisionGroup):
+            yield from _pseudocode(item.then, linker, (*here, "then"), deeper)
             if item.otherwise and guard:
-                parts = (Part(text="else", kind="k"),)
-                yield (), PseudoLine(depth=depth, parts=parts, is_off=item.disabled)
-                yield from _pseudo(item.otherwise, linker, (*here, "else"), deeper)
+                parts = (TextSpan(text="else", css_class="k"),)
+                yield (), PseudocodeLine(depth=depth, parts=parts, is_disabled=item.disabled)
+                yield from _pseudocode(item.otherwise, linker, (*here, "else"), deeper)
         else:
-            parts, doc = _outcome(item, linker, "" if guard else before), "" if guard else summary_of(doc)
-            yield () if guard else here, PseudoLine(depth=deeper, parts=parts, doc=doc, is_off=item.disabled)
+            parts, doc = _outcome(item, linker, "" if guard else before), "" if guard else summarize(doc)
+            yield () if guard else here, PseudocodeLine(depth=deeper, parts=parts, doc=doc, is_disabled=item.disabled)
 
 
-def _ends(item: Decision) -> bool:
+def _ends_evaluation(item: Decision) -> bool:
     """Whether nothing after a decision is tested when its guard holds."""
     if item.disabled:
         return False
-    if isinstance(item, Group):
-        return not item.otherwise and any(always_holds(each) for each in item.then)
+    if isinstance(item, DecisionGroup):
+        return not item.otherwise and any(is_exhaustive(each) for each in item.then)
     return True
 
 
-def _outcome(decision: Decision, linker: Linker, before: str) -> Line:
+def _outcome(decision: Decision, linker: NameLinker, before: str) -> RichText:
     if isinstance(decision, Transition):
-        return (Part(text=f"{before}go to ", kind="k"), linker.state(decision.to))
-    return (Part(text=f"{before}stay", kind="k"),)
+        return (TextSpan(text=f"{before}go to ", css_class="k"), linker.state(decision.to))
+    return (TextSpan(text=f"{before}stay", css_class="k"),)

@@ -3,9 +3,9 @@
 from collections.abc import Iterable, Iterator
 
 from vicode.docsite.addresses import slug
-from vicode.docsite.docs import line_html_of
-from vicode.docsite.linking import Linker
-from vicode.docsite.views import DeclarationRow, DeclarationTable, Line, Part
+from vicode.docsite.docs import render_inline_doc
+from vicode.docsite.linking import NameLinker
+from vicode.docsite.views import DeclarationRow, DeclarationTable, RichText, TextSpan
 from vicode.model.design import Declaration, Design
 from vicode.model.project import Interface
 
@@ -17,43 +17,43 @@ _TITLES = {
 _COLUMNS = ("type", "initial", "unit", "range", "doc_html", "arguments", "read_in", "set_in")
 
 
-def tables_of(owner: Design | Interface, linker: Linker, prefix: str = "") -> Iterator[DeclarationTable]:
+def declaration_tables(owner: Design | Interface, linker: NameLinker, prefix: str = "") -> Iterator[DeclarationTable]:
     """The tables of a component; `prefix` stands before the anchors."""
     for section, (title, initial) in _TITLES.items():
         declarations = getattr(owner, section)
         if declarations:
-            rows = tuple(rows_of(declarations, linker, prefix + section.removesuffix("s") + "-"))
-            yield table_of(title, initial, rows)
+            rows = tuple(declaration_rows(declarations, linker, prefix + section.removesuffix("s") + "-"))
+            yield make_declaration_table(title, initial, rows)
 
 
-def table_of(title: str, initial: str, rows: tuple[DeclarationRow, ...]) -> DeclarationTable:
+def make_declaration_table(title: str, initial: str, rows: tuple[DeclarationRow, ...]) -> DeclarationTable:
     """A table without empty columns."""
-    return DeclarationTable(title=title, initial=initial, rows=rows, columns=columns_of(rows))
+    return DeclarationTable(title=title, initial_heading=initial, rows=rows, columns=used_columns(rows))
 
 
-def columns_of(rows: Iterable[DeclarationRow]) -> frozenset[str]:
+def used_columns(rows: Iterable[DeclarationRow]) -> frozenset[str]:
     """The columns that at least one row has something for."""
     return frozenset(name for row in rows for name in _COLUMNS if getattr(row, name))
 
 
-def rows_of(declarations: Iterable[Declaration], linker: Linker, prefix: str) -> Iterator[DeclarationRow]:
+def declaration_rows(declarations: Iterable[Declaration], linker: NameLinker, prefix: str) -> Iterator[DeclarationRow]:
     """A row for each."""
     for each in declarations:
         yield DeclarationRow(
             anchor=prefix + slug(each.name),
             name=each.name,
             arguments=tuple(_argument(argument, linker) for argument in each.arguments or ()),
-            type=linker.type_of(each),
+            type=linker.declared_type(each),
             initial=linker.expression(each.initial),
             unit=each.unit,
             range=f"{each.range[0]:g} … {each.range[1]:g}" if each.range else "",
-            doc_html=line_html_of(each.doc),
+            doc_html=render_inline_doc(each.doc),
         )
 
 
-def _argument(argument: Declaration, linker: Linker) -> Line:
+def _argument(argument: Declaration, linker: NameLinker) -> RichText:
     words = [argument.unit, f"{argument.range[0]:g} … {argument.range[1]:g}" if argument.range else "", argument.doc]
     about = ", ".join(word for word in words if word)
-    type_ = linker.type_of(argument)
-    line = (Part(text=argument.name, kind="code"), *((Part(text=" "), *type_) if type_ else ()))
-    return (*line, Part(text=f" · {about}")) if about else line
+    type_ = linker.declared_type(argument)
+    line = (TextSpan(text=argument.name, css_class="code"), *((TextSpan(text=" "), *type_) if type_ else ()))
+    return (*line, TextSpan(text=f" · {about}")) if about else line

@@ -10,23 +10,23 @@ _ALLOWED = re.compile(r"(?i)(https?://|mailto:)")
 _MARKUP = re.compile(r"[*_`\[\\&<]")
 
 
-def html_of(text: str, below: int = 1) -> str:
+def render_doc(text: str, parent_level: int = 1) -> str:
     """A doc of paragraphs, lists and the like; its highest headings stand one level below that of what it is about."""
     tokens = _markdown().parse(text)
     headings = [token for token in tokens if token.type in ("heading_open", "heading_close")]
     highest = min((int(token.tag[1]) for token in headings), default=1)
     for token in headings:
-        token.tag = f"h{min(6, int(token.tag[1]) - highest + below + 1)}"
+        token.tag = f"h{min(6, int(token.tag[1]) - highest + parent_level + 1)}"
     rendered: str = _markdown().renderer.render(tokens, _markdown().options, {})
     return rendered
 
 
-def line_html_of(text: str) -> str:
+def render_inline_doc(text: str) -> str:
     """A doc within a line or a cell."""
     return str(_markdown().renderInline(text))
 
 
-def summary_of(text: str) -> str:
+def summarize(text: str) -> str:
     """The first sentence, as plain words."""
     paragraph = " ".join(text.strip().split("\n\n")[0].split())
     if _MARKUP.search(paragraph):

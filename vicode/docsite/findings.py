@@ -2,18 +2,18 @@
 
 from collections.abc import Iterable
 
-from vicode.docsite.addresses import Addresses
-from vicode.docsite.subject import OwnFinding, SourceText, Subject
-from vicode.docsite.views import FindingGroup, FindingRow, Part
-from vicode.findings import Path, Severity
+from vicode.docsite.addresses import SiteUrls
+from vicode.docsite.subject import ComponentFinding, SiteInput, SourceText
+from vicode.docsite.views import FindingGroup, FindingRow, TextSpan
+from vicode.findings import DesignPath, Severity
 
 
-def finding_rows(subject: Subject, addresses: Addresses, component: str | None = None) -> tuple[FindingRow, ...]:
+def finding_rows(subject: SiteInput, addresses: SiteUrls, component: str | None = None) -> tuple[FindingRow, ...]:
     """The findings of a component, or all of them, the worst first."""
     wanted = [each for each in subject.findings if component is None or each.component == component]
     ranks = list(Severity)
     wanted.sort(key=lambda each: ranks.index(each.finding.severity))
-    return tuple(row_of(each, subject, addresses) for each in wanted)
+    return tuple(finding_row(each, subject, addresses) for each in wanted)
 
 
 def finding_groups(rows: Iterable[FindingRow]) -> tuple[FindingGroup, ...]:
@@ -27,31 +27,33 @@ def finding_groups(rows: Iterable[FindingRow]) -> tuple[FindingGroup, ...]:
     )
 
 
-def row_of(own: OwnFinding, subject: Subject, addresses: Addresses) -> FindingRow:
+def finding_row(component_finding: ComponentFinding, subject: SiteInput, addresses: SiteUrls) -> FindingRow:
     """One finding; where it has no line, the one of the thing it is about."""
-    finding = own.finding
-    name = own.component or subject.name
-    path = finding.thing.path if finding.thing else ()
-    href = addresses.thing(own.component, path) if own.component else ""
-    place = Part(text="")
-    source = subject.sources.get(own.component)
-    line = own.line or (_line_of(source, path) if source else 0)
-    if own.file:
-        place = Part(text=f"{own.file}:{line}")
+    finding = component_finding.finding
+    name = component_finding.component or subject.name
+    path = finding.subject.path if finding.subject else ()
+    href = addresses.design_path(component_finding.component, path) if component_finding.component else ""
+    place = TextSpan(text="")
+    source = subject.sources.get(component_finding.component)
+    line = component_finding.line or (_nearest_line(source, path) if source else 0)
+    if component_finding.file:
+        place = TextSpan(text=f"{component_finding.file}:{line}")
     elif source and line:
-        page = addresses.code(own.component, "source")
-        place = Part(text=f"{source.path}:{line}", href=f"{page}#L{line}")
+        page = addresses.code(component_finding.component, "source")
+        place = TextSpan(text=f"{source.path}:{line}", href=f"{page}#L{line}")
     return FindingRow(
         severity=str(finding.severity),
         code=finding.rule.code,
         name=finding.rule.name,
         message=finding.message,
-        mend=finding.mend,
-        component=Part(text=name, href=href),
-        place=place,
+        fix=finding.fix,
+        component=TextSpan(text=name, href=href),
+        location=place,
     )
 
 
-def _line_of(source: SourceText, path: Path) -> int:
+def _nearest_line(source: SourceText, path: DesignPath) -> int:
     """The line of the nearest thing around a path that has one, 0 for none."""
-    return next((source.lines[path[:end]] for end in range(len(path), 0, -1) if path[:end] in source.lines), 0)
+    return next(
+        (source.line_numbers[path[:end]] for end in range(len(path), 0, -1) if path[:end] in source.line_numbers), 0
+    )

@@ -4,141 +4,147 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import partial
 
-from vicode.docsite.addresses import Addresses
-from vicode.docsite.languages import Unsaid, faulty_in
-from vicode.docsite.listings import TITLES, code_row, lines_of
-from vicode.docsite.memory import Memory, digest_of
-from vicode.docsite.parts import outside_of
-from vicode.docsite.subject import Subject
-from vicode.docsite.views import CodeView, Part
-from vicode.findings import Path
-from vicode.generators import GENERATORS, ComponentText, Origin, component_texts
+from vicode.docsite.addresses import SiteUrls
+from vicode.docsite.languages import GenerationErrors, find_components_with_errors
+from vicode.docsite.listings import LANGUAGE_TITLES, code_row, highlight_lines
+from vicode.docsite.memory import BuildCache, compute_digest
+from vicode.docsite.parts import strip_to_interfaces
+from vicode.docsite.subject import SiteInput
+from vicode.docsite.views import CodeView, TextSpan
+from vicode.findings import DesignPath
+from vicode.generators import GENERATORS, ComponentCode, Origin, component_generator
 from vicode.model.design import Design
 
-_LINKED = ("states", "common", "parameters", "outputs", "variables")
+_LINKED_SECTIONS = ("states", "common", "parameters", "outputs", "variables")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Text:
-    """A text of a component: `form` is "source" or a language; `lines` are where the things in it begin."""
+class CodeFile:
+    """A text of a component: `variant` is "source" or a language; `line_numbers` are where the things in it begin."""
 
     component: str
-    form: str
+    variant: str
     path: str
     text: str
     language: str
-    lines: Mapping[Path, int]
+    line_numbers: Mapping[DesignPath, int]
 
     @property
     def title(self) -> str:
         """What links call it."""
-        return "Source" if self.form == "source" else TITLES.get(self.form, self.form)
+        return "Source" if self.variant == "source" else LANGUAGE_TITLES.get(self.variant, self.variant)
 
 
-class Texts:
+class CodeFiles:
     """All texts by component: what somebody wrote, and what is generated where nothing stands in the way.
 
     Those of a component are made when they are asked for, which takes longer than all the rest of its page.
     """
 
-    def __init__(self, subject: Subject, unsaid: Unsaid, memory: Memory) -> None:
+    def __init__(self, subject: SiteInput, unsaid: GenerationErrors, memory: BuildCache) -> None:
         project = subject.project
-        self._subject, self._memory = subject, memory
-        self._outside = digest_of(outside_of(project))
+        self._site_input, self._cache = subject, memory
+        self._interfaces_digest = compute_digest(strip_to_interfaces(project))
         self._sources = {name: source.path for name, source in subject.sources.items() if name}
-        self._faulty = {language: faulty_in(subject, language, unsaid) for language in GENERATORS}
-        self._write = {language: component_texts(project, language, self._sources) for language in GENERATORS}
-        self._made: dict[str, tuple[Text, ...]] = {}
-        self.names = tuple(dict.fromkeys([*subject.sources, *(design.component for design in project.designs)]))
+        self._components_with_errors = {
+            language: find_components_with_errors(subject, language, unsaid) for language in GENERATORS
+        }
+        self._generators = {language: component_generator(project, language, self._sources) for language in GENERATORS}
+        self._loaded: dict[str, tuple[CodeFile, ...]] = {}
+        self.component_names = tuple(
+            dict.fromkeys([*subject.sources, *(design.component for design in project.designs)])
+        )
 
-    def of(self, name: str) -> tuple[Text, ...]:
+    def files_of(self, name: str) -> tuple[CodeFile, ...]:
         """The texts of a component, "" for those of the project."""
-        if name not in self._made:
-            self._made[name] = (*self._source(name), *self._generated(self._subject.project.design(name)))
-        return self._made[name]
+        if name not in self._loaded:
+            self._loaded[name] = (*self._source(name), *self._generated(self._site_input.project.design(name)))
+        return self._loaded[name]
 
-    def _source(self, name: str) -> Iterator[Text]:
-        source = self._subject.sources.get(name)
+    def _source(self, name: str) -> Iterator[CodeFile]:
+        source = self._site_input.sources.get(name)
         if source:
-            yield Text(
+            yield CodeFile(
                 component=name,
-                form="source",
+                variant="source",
                 path=source.path,
                 text=source.text,
                 language=source.language,
-                lines=source.lines,
+                line_numbers=source.line_numbers,
             )
 
-    def _generated(self, design: Design | None) -> Iterator[Text]:
+    def _generated(self, design: Design | None) -> Iterator[CodeFile]:
         """The text in each language in which nothing is wrong with it."""
         for language in GENERATORS:
-            if design is None or design.component in self._faulty[language]:
+            if design is None or design.component in self._components_with_errors[language]:
                 continue
-            used = tuple(self._subject.project.interface(use.component) for use in design.uses)
-            key = (language, design, used, self._sources.get(design.component, ""), self._outside)
-            written = self._memory.recall("text", key, partial(self._write[language], design))
+            used = tuple(self._site_input.project.interface(use.component) for use in design.uses)
+            key = (language, design, used, self._sources.get(design.component, ""), self._interfaces_digest)
+            written = self._cache.get_or_create("text", key, partial(self._generators[language], design))
             if written is not None:
-                yield _text_of(design.component, language, written)
+                yield _generated_file(design.component, language, written)
 
 
-def places_in(texts: tuple[Text, ...], addresses: Addresses) -> dict[Path, tuple[Part, ...]]:
+def code_links_by_path(texts: tuple[CodeFile, ...], addresses: SiteUrls) -> dict[DesignPath, tuple[TextSpan, ...]]:
     """Where each thing of a component stands in its texts."""
-    places: dict[Path, tuple[Part, ...]] = {}
+    places: dict[DesignPath, tuple[TextSpan, ...]] = {}
     for text in texts:
-        page = addresses.code(text.component, text.form)
-        for path, line in text.lines.items():
-            part = Part(text=f"{text.title} {line}", href=f"{page}#L{line}", title=f"{text.path}, line {line}")
+        page = addresses.code(text.component, text.variant)
+        for path, line in text.line_numbers.items():
+            part = TextSpan(text=f"{text.title} {line}", href=f"{page}#L{line}", title=f"{text.path}, line {line}")
             places[path] = (*places.get(path, ()), part)
     return places
 
 
-def title_of(text: Text) -> str:
+def code_page_title(text: CodeFile) -> str:
     """What the page of a text is called."""
     return f"{text.component or 'Project'}: {text.title}"
 
 
-def code_view(text: Text, links: tuple[Part, ...], addresses: Addresses, component: Part) -> CodeView:
+def code_view(text: CodeFile, links: tuple[TextSpan, ...], addresses: SiteUrls, component: TextSpan) -> CodeView:
     """The page of a text; `links` lead to all texts of its component."""
-    begins: dict[int, Path] = {}
-    for path, line in text.lines.items():
+    begins: dict[int, DesignPath] = {}
+    for path, line in text.line_numbers.items():
         begins.setdefault(line, path)
-    lines_html = lines_of(text.text, text.language)
+    lines_html = highlight_lines(text.text, text.language)
     rows = []
     for number, html in enumerate(lines_html, start=1):
         path = begins.get(number, ())
-        href = addresses.thing(text.component, path) if path and text.component else ""
-        rows.append(code_row(number, html, href, _name_of(path)))
+        href = addresses.design_path(text.component, path) if path and text.component else ""
+        rows.append(code_row(number, html, href, _path_label(path)))
     return CodeView(
-        title=title_of(text),
+        title=code_page_title(text),
         path=text.path,
         component=component,
-        texts=links,
+        code_pages=links,
         lines_html=lines_html,
         rows_html="\n".join(rows),
     )
 
 
-def text_links(texts: tuple[Text, ...], addresses: Addresses) -> tuple[Part, ...]:
+def code_page_links(texts: tuple[CodeFile, ...], addresses: SiteUrls) -> tuple[TextSpan, ...]:
     """The pages of a component's texts."""
     return tuple(
-        Part(text=each.title, href=addresses.code(each.component, each.form), title=each.path) for each in texts
+        TextSpan(text=each.title, href=addresses.code(each.component, each.variant), title=each.path) for each in texts
     )
 
 
-def _text_of(component: str, language: str, written: ComponentText) -> Text:
-    file, lines = written.file, _lines_of(written.origins)
-    return Text(component=component, form=language, path=file.path, text=file.text, language=language, lines=lines)
+def _generated_file(component: str, language: str, written: ComponentCode) -> CodeFile:
+    file, lines = written.file, _line_numbers(written.origins)
+    return CodeFile(
+        component=component, variant=language, path=file.path, text=file.text, language=language, line_numbers=lines
+    )
 
 
-def _lines_of(origins: Iterable[Origin]) -> dict[Path, int]:
-    lines: dict[Path, int] = {}
+def _line_numbers(origins: Iterable[Origin]) -> dict[DesignPath, int]:
+    lines: dict[DesignPath, int] = {}
     for origin in origins:
-        if origin.path and origin.path[0] in _LINKED and origin.path[-1] != "code":
+        if origin.path and origin.path[0] in _LINKED_SECTIONS and origin.path[-1] != "code":
             lines.setdefault(origin.path, origin.first)
     return lines
 
 
-def _name_of(path: Path) -> str:
+def _path_label(path: DesignPath) -> str:
     match path:
         case ("states", str(name), "transitions", *_):
             return f"a decision of {name}"

@@ -3,14 +3,14 @@
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 
-from vicode.docsite.addresses import Addresses, slug
-from vicode.docsite.declarations import columns_of, rows_of, table_of, tables_of
-from vicode.docsite.docs import html_of, line_html_of, summary_of
+from vicode.docsite.addresses import SiteUrls, slug
+from vicode.docsite.declarations import declaration_rows, declaration_tables, make_declaration_table, used_columns
+from vicode.docsite.docs import render_doc, render_inline_doc, summarize
 from vicode.docsite.findings import finding_rows
-from vicode.docsite.linking import Linker, listed, plain
-from vicode.docsite.ordering import by_name, sorted_designs
-from vicode.docsite.references import READ, SET, References, references_of
-from vicode.docsite.subject import Subject
+from vicode.docsite.linking import NameLinker, join_spans, plain_text
+from vicode.docsite.ordering import natural_sort_key, sorted_designs
+from vicode.docsite.references import READ, SET, SymbolReferences, find_symbol_references
+from vicode.docsite.subject import SiteInput
 from vicode.docsite.uses import user_rows
 from vicode.docsite.views import (
     DeclarationRow,
@@ -18,204 +18,206 @@ from vicode.docsite.views import (
     EnumerationView,
     InterfaceRow,
     InterfaceView,
-    Line,
-    Part,
+    RichText,
     SymbolGroup,
+    TextSpan,
 )
 from vicode.model.design import COMMON, Declaration, Design
 from vicode.model.project import INTERNAL, Enumeration, Interface, Project
-from vicode.model.xabsl.names import is_behavior, symbols_of_design
+from vicode.model.xabsl.names import is_basic_behavior, symbol_declarations
 
-BEHAVIOR = "basic behavior"
+BASIC_BEHAVIOR = "basic behavior"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Known:
+class InterfaceInputs:
     """What these pages are made with."""
 
-    subject: Subject
-    addresses: Addresses
-    references: References
+    site_input: SiteInput
+    urls: SiteUrls
+    references: SymbolReferences
 
     @property
     def project(self) -> Project:
         """The project."""
-        return self.subject.project
+        return self.site_input.project
 
 
-def known_of(subject: Subject, addresses: Addresses) -> Known:
+def make_interface_inputs(subject: SiteInput, addresses: SiteUrls) -> InterfaceInputs:
     """With all references, which are looked for once."""
-    return Known(subject=subject, addresses=addresses, references=references_of(subject.project))
+    return InterfaceInputs(site_input=subject, urls=addresses, references=find_symbol_references(subject.project))
 
 
-def interface_views(known: Known) -> Iterator[InterfaceView]:
+def interface_views(known: InterfaceInputs) -> Iterator[InterfaceView]:
     """A page a component that has no design, by name."""
-    project, addresses = known.project, known.addresses
-    linker = Linker(project, addresses)
+    project, addresses = known.project, known.urls
+    linker = NameLinker(project, addresses)
     for each in _sorted_interfaces(project):
-        tables = (_with_users(table, each.component, known) for table in tables_of(each, linker))
+        tables = (_add_references_to_table(table, each.component, known) for table in declaration_tables(each, linker))
         yield InterfaceView(
             file=addresses.component(each.component),
             name=each.component,
-            kind=BEHAVIOR if is_behavior(each) else "interface",
+            kind=BASIC_BEHAVIOR if is_basic_behavior(each) else "interface",
             title=each.title,
-            doc_html=html_of(each.doc),
+            doc_html=render_doc(each.doc),
             facts=tuple(_facts(each)),
             tables=tuple(tables),
             used_by=tuple(user_rows(project, each.component, addresses)),
-            findings=finding_rows(known.subject, addresses, each.component),
+            findings=finding_rows(known.site_input, addresses, each.component),
         )
 
 
-def interface_rows(known: Known) -> tuple[tuple[InterfaceRow, ...], tuple[InterfaceRow, ...]]:
+def interface_rows(known: InterfaceInputs) -> tuple[tuple[InterfaceRow, ...], tuple[InterfaceRow, ...]]:
     """The basic behaviors, and all others."""
     behaviors: list[InterfaceRow] = []
     others: list[InterfaceRow] = []
     for each in _sorted_interfaces(known.project):
-        (behaviors if is_behavior(each) else others).append(_row(each, known))
+        (behaviors if is_basic_behavior(each) else others).append(_row(each, known))
     return tuple(behaviors), tuple(others)
 
 
-def symbol_groups(known: Known) -> Iterator[SymbolGroup]:
+def symbol_groups(known: InterfaceInputs) -> Iterator[SymbolGroup]:
     """What is read and set across components: first what comes from and goes to the robot, then what designs offer."""
-    project, addresses = known.project, known.addresses
+    project, addresses = known.project, known.urls
     owners: list[Interface | Design] = [each for each in _sorted_interfaces(project) if each.readable]
-    owners += [design for design in sorted_designs(project) if symbols_of_design(design)]
+    owners += [design for design in sorted_designs(project) if symbol_declarations(design)]
     for owner in owners:
-        linker = Linker(project, addresses, owner if isinstance(owner, Design) else None)
+        linker = NameLinker(project, addresses, owner if isinstance(owner, Design) else None)
         name = owner.component
-        symbols = (row for kind, section in _kinds(owner) for row in _symbol_rows(owner, section, kind, linker))
-        rows = tuple(_with_user(row, name, known, addresses) for row in symbols)
+        symbols = (row for kind, section in _symbol_kinds(owner) for row in _symbol_rows(owner, section, kind, linker))
+        rows = tuple(_add_references_to_row(row, name, known, addresses) for row in symbols)
         yield SymbolGroup(
             anchor=addresses.symbols(name).partition("#")[2],
             component=linker.component(name),
             title=owner.title if isinstance(owner, Interface) else "",
             rows=rows,
-            columns=columns_of(rows),
+            columns=used_columns(rows),
         )
 
 
 def symbol_count(project: Project) -> int:
     """How many symbols there are."""
     declared = sum(len(each.readable) for each in project.components)
-    return declared + sum(len(symbols_of_design(design)) for design in project.designs)
+    return declared + sum(len(symbol_declarations(design)) for design in project.designs)
 
 
-def enumeration_views(known: Known) -> Iterator[EnumerationView]:
+def enumeration_views(known: InterfaceInputs) -> Iterator[EnumerationView]:
     """The types, each with what is of it."""
     for each in known.project.enumerations:
         anchor = f"enum-{slug(each.name)}"
         yield EnumerationView(
             anchor=anchor,
             name=each.name,
-            doc_html=html_of(each.doc, below=2),
-            elements=tuple((f"{anchor}-{slug(name)}", name, line_html_of(doc)) for name, doc in each.elements),
+            doc_html=render_doc(each.doc, parent_level=2),
+            elements=tuple((f"{anchor}-{slug(name)}", name, render_inline_doc(doc)) for name, doc in each.elements),
             facts=tuple(_facts_of_type(each)),
-            declares=listed(_declared_of(each.name, known)),
-            used_by=users_line(known.references.to(READ, "", each.name), known),
+            declarations=join_spans(_declarations_of_type(each.name, known)),
+            used_by=user_links(known.references.users(READ, "", each.name), known),
         )
 
 
-def constant_table(known: Known) -> DeclarationTable:
+def constant_table(known: InterfaceInputs) -> DeclarationTable:
     """The constants."""
-    linker = Linker(known.project, known.addresses)
+    linker = NameLinker(known.project, known.urls)
     rows = (
-        replace(row, read_in=users_line(known.references.to(READ, "", row.name), known))
-        for row in rows_of(known.project.constants, linker, "constant-")
+        replace(row, read_in=user_links(known.references.users(READ, "", row.name), known))
+        for row in declaration_rows(known.project.constants, linker, "constant-")
     )
-    return table_of("Constants", "Value", tuple(rows))
+    return make_declaration_table("Constants", "Value", tuple(rows))
 
 
-def users_line(users: Mapping[str, tuple[str, ...]], known: Known) -> Line:
+def user_links(users: Mapping[str, tuple[str, ...]], known: InterfaceInputs) -> RichText:
     """The designs that say something, each with its states as a tip; one state alone is led to at once."""
     parts = []
-    for name in sorted(users, key=by_name):
+    for name in sorted(users, key=natural_sort_key):
         states = [state for state in users[name] if state]
         words = ["every state" if state == COMMON else state for state in states]
-        href = known.addresses.component(name)
+        href = known.urls.component(name)
         if len(states) == 1:
             path = ("common",) if states[0] == COMMON else ("states", states[0])
-            href = known.addresses.thing(name, path)
-        parts.append(Part(text=name, href=href, title=f"in {', '.join(words)}" if words else ""))
-    return listed(parts)
+            href = known.urls.design_path(name, path)
+        parts.append(TextSpan(text=name, href=href, title=f"in {', '.join(words)}" if words else ""))
+    return join_spans(parts)
 
 
 def _sorted_interfaces(project: Project) -> list[Interface]:
-    return sorted(project.components, key=lambda each: by_name(each.component))
+    return sorted(project.components, key=lambda each: natural_sort_key(each.component))
 
 
-def _row(interface: Interface, known: Known) -> InterfaceRow:
-    addresses, name = known.addresses, interface.component
+def _row(interface: Interface, known: InterfaceInputs) -> InterfaceRow:
+    addresses, name = known.urls, interface.component
     count = len(interface.readable)
     parameters = (
-        Part(text=each.name, href=addresses.member(name, "parameters", each.name), title=each.doc)
+        TextSpan(text=each.name, href=addresses.member(name, "parameters", each.name), title=each.doc)
         for each in interface.parameters
     )
     return InterfaceRow(
-        component=Part(text=name, href=addresses.component(name), title=interface.title),
-        parameters=listed(parameters),
-        tells=Part(text=str(count), href=addresses.symbols(name)) if count else Part(text="–"),
-        users=sum(1 for design in known.project.designs if any(use.component == name for use in design.uses)),
-        summary=summary_of(interface.doc) or interface.title,
+        component=TextSpan(text=name, href=addresses.component(name), title=interface.title),
+        parameters=join_spans(parameters),
+        symbol_count=TextSpan(text=str(count), href=addresses.symbols(name)) if count else TextSpan(text="–"),
+        user_count=sum(1 for design in known.project.designs if any(use.component == name for use in design.uses)),
+        summary=summarize(interface.doc) or interface.title,
     )
 
 
-def _with_users(table: DeclarationTable, component: str, known: Known) -> DeclarationTable:
+def _add_references_to_table(table: DeclarationTable, component: str, known: InterfaceInputs) -> DeclarationTable:
     is_parameter = table.title == "Parameters"
     rows = (
-        replace(row, set_in=users_line(known.references.to(SET, component, f"{row.name}()"), known))
+        replace(row, set_in=user_links(known.references.users(SET, component, f"{row.name}()"), known))
         if is_parameter
-        else _with_user(row, component, known)
+        else _add_references_to_row(row, component, known)
         for row in table.rows
     )
-    return table_of(table.title, table.initial, tuple(rows))
+    return make_declaration_table(table.title, table.initial_heading, tuple(rows))
 
 
-def _with_user(row: DeclarationRow, component: str, known: Known, addresses: Addresses | None = None) -> DeclarationRow:
-    read, set_ = (users_line(known.references.to(how, component, row.name), known) for how in (READ, SET))
+def _add_references_to_row(
+    row: DeclarationRow, component: str, known: InterfaceInputs, addresses: SiteUrls | None = None
+) -> DeclarationRow:
+    read, set_ = (user_links(known.references.users(how, component, row.name), known) for how in (READ, SET))
     section = "variables" if row.anchor.startswith("variable-") else "outputs"
     href = addresses.member(component, section, row.name) if addresses else ""
     return replace(row, read_in=read, set_in=set_, href=href)
 
 
-def _kinds(owner: Interface | Design) -> tuple[tuple[str, str], ...]:
+def _symbol_kinds(owner: Interface | Design) -> tuple[tuple[str, str], ...]:
     """What the outputs and the variables of a component are for the robot."""
     is_kept = isinstance(owner, Design) or owner.implementation == INTERNAL
     return ((("internal" if is_kept else "input"), "outputs"), (("internal" if is_kept else "output"), "variables"))
 
 
-def _symbol_rows(owner: Interface | Design, section: str, kind: str, linker: Linker) -> Iterator[DeclarationRow]:
+def _symbol_rows(owner: Interface | Design, section: str, kind: str, linker: NameLinker) -> Iterator[DeclarationRow]:
     declarations: tuple[Declaration, ...] = getattr(owner, section)
-    for row in rows_of(declarations, linker, f"{section.removesuffix('s')}-"):
+    for row in declaration_rows(declarations, linker, f"{section.removesuffix('s')}-"):
         yield replace(row, kind=kind)
 
 
-def _declared_of(enumeration: str, known: Known) -> Iterator[Part]:
+def _declarations_of_type(enumeration: str, known: InterfaceInputs) -> Iterator[TextSpan]:
     """All that is of a type."""
     owners: list[Interface | Design] = [*_sorted_interfaces(known.project), *sorted_designs(known.project)]
     for owner in owners:
         for section in ("parameters", "outputs", "variables"):
             for each in getattr(owner, section):
                 if each.type == enumeration:
-                    href = known.addresses.member(owner.component, section, each.name)
-                    yield Part(text=f"{owner.component}.{each.name}", href=href, title=summary_of(each.doc))
+                    href = known.urls.member(owner.component, section, each.name)
+                    yield TextSpan(text=f"{owner.component}.{each.name}", href=href, title=summarize(each.doc))
 
 
-def _facts_of_type(enumeration: Enumeration) -> Iterator[Line]:
+def _facts_of_type(enumeration: Enumeration) -> Iterator[RichText]:
     count = len(enumeration.elements)
-    yield plain(f"{count} element{'s' * (count != 1)}")
+    yield plain_text(f"{count} element{'s' * (count != 1)}")
     if enumeration.internal:
-        yield plain("kept by vicode")
+        yield plain_text("kept by vicode")
     if enumeration.xabsl_name:
-        yield (Part(text="in XABSL "), Part(text=enumeration.xabsl_name, kind="code"))
+        yield (TextSpan(text="in XABSL "), TextSpan(text=enumeration.xabsl_name, css_class="code"))
 
 
-def _facts(interface: Interface) -> Iterator[Line]:
-    if interface.is_handed_on:
-        yield plain("handed on to the world" if interface.implementation == "world" else "kept by vicode")
+def _facts(interface: Interface) -> Iterator[RichText]:
+    if interface.is_generated:
+        yield plain_text("handed on to the world" if interface.implementation == "world" else "kept by vicode")
     elif interface.implementation:
-        yield (Part(text="implemented by "), Part(text=interface.implementation, kind="code"))
+        yield (TextSpan(text="implemented by "), TextSpan(text=interface.implementation, css_class="code"))
     if interface.frequency_hz is not None:
-        yield plain(f"works {interface.frequency_hz:g} times a second")
+        yield plain_text(f"works {interface.frequency_hz:g} times a second")
     if interface.xabsl_name:
-        yield (Part(text="in XABSL "), Part(text=interface.xabsl_name, kind="code"))
+        yield (TextSpan(text="in XABSL "), TextSpan(text=interface.xabsl_name, css_class="code"))

@@ -5,19 +5,19 @@ from collections.abc import Iterator, Mapping
 from dataclasses import replace
 
 from vicode.check import check_project
-from vicode.docsite.addresses import Addresses
-from vicode.docsite.findings import row_of
-from vicode.docsite.listings import TITLES
-from vicode.docsite.subject import OwnFinding, Subject
+from vicode.docsite.addresses import SiteUrls
+from vicode.docsite.findings import finding_row
+from vicode.docsite.listings import LANGUAGE_TITLES
+from vicode.docsite.subject import ComponentFinding, SiteInput
 from vicode.docsite.views import LanguageView
 from vicode.findings import Finding, Severity
 from vicode.generators import GENERATORS
 
-Unsaid = Mapping[str, Mapping[str, tuple[Finding, ...]]]
+GenerationErrors = Mapping[str, Mapping[str, tuple[Finding, ...]]]
 """By language and component, "" for the project: the errors because of which nothing is generated."""
 
 
-def unsaid_in(subject: Subject) -> Unsaid:
+def find_generation_errors(subject: SiteInput) -> GenerationErrors:
     """What stands in the way of each language that vicode writes, whether the project asked for it or not."""
     chosen = set(subject.project.languages)
     found = [each.finding for each in subject.findings]
@@ -29,34 +29,36 @@ def unsaid_in(subject: Subject) -> Unsaid:
     for finding in found:
         if finding.severity is Severity.ERROR:
             for language in GENERATORS:
-                if finding.concerns(language):
-                    unsaid[language][finding.thing.component if finding.thing else ""].append(finding)
+                if finding.applies_to(language):
+                    unsaid[language][finding.subject.component if finding.subject else ""].append(finding)
     return {
         language: {component: tuple(findings) for component, findings in by_component.items()}
         for language, by_component in unsaid.items()
     }
 
 
-def faulty_in(subject: Subject, language: str, unsaid: Unsaid) -> frozenset[str]:
+def find_components_with_errors(subject: SiteInput, language: str, unsaid: GenerationErrors) -> frozenset[str]:
     """The components that have no text in a language; mistakes of the project make all of them so."""
-    guilty = subject.faulty.get(language, frozenset()) | frozenset(unsaid[language])
+    guilty = subject.components_with_errors.get(language, frozenset()) | frozenset(unsaid[language])
     return frozenset(design.component for design in subject.project.designs) if "" in guilty else guilty
 
 
 def language_views(
-    subject: Subject, component: str, written: Mapping[str, str], unsaid: Unsaid, addresses: Addresses
+    subject: SiteInput, component: str, written: Mapping[str, str], unsaid: GenerationErrors, addresses: SiteUrls
 ) -> Iterator[LanguageView]:
     """A row a language; `written` are the paths of the texts that there are, by language."""
     for language in GENERATORS:
         reasons = (*unsaid[language].get(component, ()), *unsaid[language].get("", ()))
         rows = (
-            row_of(OwnFinding(component=component if each.thing else "", line=0, finding=each), subject, addresses)
+            finding_row(
+                ComponentFinding(component=component if each.subject else "", line=0, finding=each), subject, addresses
+            )
             for each in dict.fromkeys(reasons)
         )
         yield LanguageView(
-            title=TITLES.get(language, language),
+            title=LANGUAGE_TITLES.get(language, language),
             href=addresses.code(component, language) if language in written else "",
             path=written.get(language, ""),
-            is_chosen=language in subject.project.languages,
+            is_enabled=language in subject.project.languages,
             reasons=() if language in written else tuple(rows),
         )

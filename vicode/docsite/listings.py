@@ -11,8 +11,8 @@ from pygments.token import Comment, Keyword, Name, Number, Operator, String
 from vicode.xabsl.tokens import KEYWORDS
 
 # A longer text is not coloured: it would be read by nobody, and cost minutes.
-_MOST_LETTERS = 400_000
-TITLES = {"python": "Python", "cpp": "C++", "xabsl": "XABSL", "yaml": "YAML"}
+_MAX_HIGHLIGHTED_CHARS = 400_000
+LANGUAGE_TITLES = {"python": "Python", "cpp": "C++", "xabsl": "XABSL", "yaml": "YAML"}
 
 # Classes of the style sheet: keywords, strings, numbers (m), comments, what is defined (f).
 _CLASSES = (
@@ -47,11 +47,11 @@ _EXPRESSIONS = {"python": _PYTHON, "xabsl": _XABSL}
 _LEXERS = {"cpp": CppLexer, "yaml": YamlLexer}
 
 
-def lines_of(text: str, language: str) -> tuple[str, ...]:
+def highlight_lines(text: str, language: str) -> tuple[str, ...]:
     """The lines of a text, each as HTML of its own."""
     plain = text.replace("\r\n", "\n").replace("\r", "\n").removesuffix("\n")
-    pieces = _pieces_of(plain, language) if len(plain) <= _MOST_LETTERS else [("", plain)]
-    return tuple("".join(map(_html_of, pieces)).split("\n"))
+    pieces = _tokens(plain, language) if len(plain) <= _MAX_HIGHLIGHTED_CHARS else [("", plain)]
+    return tuple("".join(map(_token_html, pieces)).split("\n"))
 
 
 def code_row(number: int, html: str, href: str, title: str) -> str:
@@ -65,12 +65,12 @@ def code_row(number: int, html: str, href: str, title: str) -> str:
     )
 
 
-def block_of(text: str, language: str) -> str:
+def highlight_block(text: str, language: str) -> str:
     """A piece of code as HTML."""
-    return "\n".join(lines_of(text.strip("\n"), language))
+    return "\n".join(highlight_lines(text.strip("\n"), language))
 
 
-def _html_of(piece: tuple[str, str]) -> str:
+def _token_html(piece: tuple[str, str]) -> str:
     """A coloured piece of several lines is one in each of them."""
     name, text = piece
     html = escape(text, quote=False)
@@ -79,11 +79,11 @@ def _html_of(piece: tuple[str, str]) -> str:
     return "\n".join(f'<span class="{name}">{line}</span>' if line else "" for line in html.split("\n"))
 
 
-def _pieces_of(text: str, language: str) -> Iterator[tuple[str, str]]:
+def _tokens(text: str, language: str) -> Iterator[tuple[str, str]]:
     """The text in pieces with the class of each, "" for none."""
     expression = _EXPRESSIONS.get(language)
     if expression is None:
-        yield from _lexed(text, language)
+        yield from _pygments_tokens(text, language)
         return
     done = 0
     for match in expression.finditer(text):
@@ -94,7 +94,7 @@ def _pieces_of(text: str, language: str) -> Iterator[tuple[str, str]]:
     yield "", text[done:]
 
 
-def _lexed(text: str, language: str) -> Iterator[tuple[str, str]]:
+def _pygments_tokens(text: str, language: str) -> Iterator[tuple[str, str]]:
     lexer = _LEXERS.get(language)
     if lexer is None:
         yield "", text

@@ -7,9 +7,9 @@ from dataclasses import dataclass, field
 
 from vicode.diagram.palettes import LIGHT
 from vicode.docsite import markdown_text
-from vicode.docsite.markdown_text import escaped, fence, link, plain_of
-from vicode.docsite.views import CodeBlock, CodeView, Part
-from vicode.docsite.views import Page as Head
+from vicode.docsite.markdown_text import escape_text, fence, link, strip_tags
+from vicode.docsite.views import CodeBlock, CodeView, TextSpan
+from vicode.docsite.views import PageHead as Head
 from vicode.output import OutputFile
 from vicode.templating import render
 
@@ -27,7 +27,7 @@ _SECTIONS = {
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Content:
+class PageContent:
     """A page before it has a form: its template, and what that sees once it is asked for."""
 
     head: Head
@@ -36,73 +36,73 @@ class Content:
     views: Callable[[], Mapping[str, object]]
 
 
-def markdown_files(contents: Iterable[Content]) -> tuple[OutputFile, ...]:
+def markdown_files(contents: Iterable[PageContent]) -> tuple[OutputFile, ...]:
     """All pages with their pictures, and the order of pages for mkdocs and for Sphinx."""
     pages, files = list(contents), []
     for page in pages:
-        marker = Marker(stem=page.head.file.removesuffix(".html"))
+        marker = MarkdownFormatter(stem=page.head.file.removesuffix(".html"))
         text = _page(page.template, marker, {"site": page.site, **page.views()})
         files.append(OutputFile(path=f"{marker.stem}.md", text=text))
-        files += [OutputFile(path=name, text=svg) for name, svg in marker.pictures.items()]
+        files += [OutputFile(path=name, text=svg) for name, svg in marker.images.items()]
     files.append(OutputFile(path="nav.yml", text="\n".join(_nav(pages)) + "\n"))
     files.append(OutputFile(path="contents.rst", text="\n".join(_contents(pages)) + "\n"))
     return tuple(sorted(files, key=lambda file: file.path))
 
 
-def page_in_markdown(template: str, **views: object) -> str:
+def render_markdown_page(template: str, **views: object) -> str:
     """A page without pictures."""
-    return _page(template, Marker(stem="index"), views)
+    return _page(template, MarkdownFormatter(stem="index"), views)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Marker:
+class MarkdownFormatter:
     """What the templates of one page turn words into Markdown with; it keeps the page's pictures."""
 
     stem: str
-    pictures: dict[str, str] = field(default_factory=dict)
+    images: dict[str, str] = field(default_factory=dict)
 
-    text = staticmethod(markdown_text.escaped)
-    code = staticmethod(markdown_text.code)
-    line = staticmethod(markdown_text.line)
-    expression = staticmethod(markdown_text.expression)
-    doc = staticmethod(markdown_text.of_html)
+    text = staticmethod(markdown_text.escape_text)
+    code = staticmethod(markdown_text.inline_code)
+    rich_text = staticmethod(markdown_text.rich_text)
+    expression = staticmethod(markdown_text.inline_expression)
+    doc = staticmethod(markdown_text.markdown_from_html)
 
-    def part(self, part: Part) -> str:
+    def span(self, part: TextSpan) -> str:
         """A piece of a line."""
-        return markdown_text.line((part,))
+        return markdown_text.rich_text((part,))
 
     def link(self, name: str, href: str) -> str:
         """A name that leads somewhere."""
-        return link(escaped(name), href)
+        return link(escape_text(name), href)
 
-    def words(self, html: str) -> str:
+    def cell(self, html: str) -> str:
         """A doc in a cell."""
-        return " ".join(markdown_text.of_html(html).split())
+        return " ".join(markdown_text.markdown_from_html(html).split())
 
-    def block(self, block: CodeBlock) -> str:
+    def code_block(self, block: CodeBlock) -> str:
         """Code of a design."""
-        return fence(plain_of(block.html), _LANGUAGES.get(block.language, ""))
+        return fence(strip_tags(block.html), _LANGUAGES.get(block.language, ""))
 
     def listing(self, view: CodeView) -> str:
         """A whole text."""
-        return fence("\n".join(map(plain_of, view.lines_html)))
+        return fence("\n".join(map(strip_tags, view.lines_html)))
 
-    def picture(self, name: str, about: str, svg: str) -> str:
+    def image(self, name: str, about: str, svg: str) -> str:
         """A drawing in a file of its own, which a click shows in its full size; nothing for none."""
         if not svg:
             return ""
         file = f"{self.stem}-{name}.svg" if name else f"{self.stem}.svg"
-        self.pictures[file] = standing_alone(svg)
-        return f"[![{escaped(about)}]({file})]({file})"
+        self.images[file] = standalone_svg(svg)
+        return f"[![{escape_text(about)}]({file})]({file})"
 
 
-def standing_alone(svg: str) -> str:
+def standalone_svg(svg: str) -> str:
     """A drawing of a page as a picture: with colours of its own, and without links, which pictures cannot follow."""
     coloured = _COLOUR.sub(lambda found: f'{found[1]}="{getattr(LIGHT, found[2].replace("-", "_"))}"', svg)
     return "<!-- vicode docs -->\n" + _LINK.sub(r"<g \1>", coloured).replace("</a>", "</g>")
 
 
-def _page(template: str, marker: Marker, views: Mapping[str, object]) -> str:
+def _page(template: str, marker: MarkdownFormatter, views: Mapping[str, object]) -> str:
     text = render(f"docsite/markdown/{template}.md.jinja", md=marker, **views)
     return "\n".join(_single_spaced(text))
 
@@ -126,7 +126,7 @@ def _single_spaced(text: str) -> Iterator[str]:
     yield ""
 
 
-def _nav(pages: Iterable[Content]) -> Iterator[str]:
+def _nav(pages: Iterable[PageContent]) -> Iterator[str]:
     """The order of pages as mkdocs reads it, which knows a subset of YAML that JSON's strings belong to."""
     yield "# vicode docs: the order of the pages; in mkdocs.yml: INHERIT: <this file>"
     yield "nav:"
@@ -141,17 +141,17 @@ def _nav(pages: Iterable[Content]) -> Iterator[str]:
         yield f"{indent}- {json.dumps(page.head.title)}: {json.dumps(_stem(page) + '.md')}"
 
 
-def _contents(pages: Iterable[Content]) -> Iterator[str]:
+def _contents(pages: Iterable[PageContent]) -> Iterator[str]:
     """The order of pages as Sphinx reads it."""
     yield from (".. vicode docs", "", "Contents", "========", "", ".. toctree::", "   :maxdepth: 1", "")
     yield from (f"   {_stem(page)}" for page in _in_order(pages))
 
 
-def _in_order(pages: Iterable[Content]) -> list[Content]:
+def _in_order(pages: Iterable[PageContent]) -> list[PageContent]:
     """Home first, texts last, what stands below a heading together."""
     order = ["home", "agents", "agent", "component", "symbols", "types", "interfaces", "interface", "all", "code"]
     return sorted(pages, key=lambda page: order.index(page.template))
 
 
-def _stem(page: Content) -> str:
+def _stem(page: PageContent) -> str:
     return page.head.file.removesuffix(".html")

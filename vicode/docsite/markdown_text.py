@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from html import unescape
 from html.parser import HTMLParser
 
-from vicode.docsite.views import Line, Part
+from vicode.docsite.views import RichText, TextSpan
 
 # What CommonMark and Python-Markdown both let a backslash take the meaning from.
 _ESCAPED = re.compile(r"([\\`*_{}\[\]#])")
@@ -31,14 +31,14 @@ _CODE_UNSAFE = re.compile(r"[`|\n]")
 _ADDRESS_UNSAFE = re.compile(r"[\s()<>\\\"'{}|`]")
 
 
-def escaped(text: str) -> str:
+def escape_text(text: str) -> str:
     """Words in one line."""
     line = " ".join(text.split())
     line = _ENTITY.sub(lambda found: _ENTITIES[found[0]], _ESCAPED.sub(r"\\\1", line))
     return _LEADING.sub(_leading, line)
 
 
-def code(text: str) -> str:
+def inline_code(text: str) -> str:
     """Code in one line."""
     line = " ".join(text.split())
     if not line:
@@ -57,10 +57,10 @@ def fence(text: str, language: str = "") -> str:
 
 def link(text: str, href: str) -> str:
     """A link whose text is Markdown already."""
-    return f"[{text}]({address(href)})" if href else text
+    return f"[{text}]({markdown_href(href)})" if href else text
 
 
-def address(href: str) -> str:
+def markdown_href(href: str) -> str:
     """An address: pages of ours by their Markdown files, without lines of code, which have no place there."""
     safe = _ADDRESS_UNSAFE.sub(lambda found: "".join(f"%{byte:02X}" for byte in found[0].encode()), href)
     if re.match(r"[a-z]+:", safe):
@@ -68,14 +68,14 @@ def address(href: str) -> str:
     return re.sub(r"#L\d+$", "", re.sub(r"\.html(?=#|$)", ".md", safe))
 
 
-def line(parts: Line) -> str:
+def rich_text(parts: RichText) -> str:
     """Words with links."""
     return "".join(_part(part) for part in parts)
 
 
-def expression(parts: Line) -> str:
+def inline_expression(parts: RichText) -> str:
     """Code with links: what has none stands together."""
-    groups: list[list[Part]] = []
+    groups: list[list[TextSpan]] = []
     for part in parts:
         if groups and not part.href and not groups[-1][-1].href:
             groups[-1].append(part)
@@ -84,15 +84,15 @@ def expression(parts: Line) -> str:
     return "".join(_code_group(group) for group in groups)
 
 
-def of_html(html: str) -> str:
+def markdown_from_html(html: str) -> str:
     """Paragraphs, lists and the like as Markdown."""
-    reader = _Reader()
+    reader = _MarkdownConverter()
     reader.feed(html)
     reader.close()
     return reader.markdown()
 
 
-def plain_of(html: str) -> str:
+def strip_tags(html: str) -> str:
     """The text of coloured code."""
     return unescape(re.sub(r"<[^>]*>", "", html))
 
@@ -106,17 +106,17 @@ def _as_entity(letter: str) -> str:
     return letter if letter.isalnum() or letter in " .,=+-/%:;?'" else f"&#{ord(letter)};"
 
 
-def _part(part: Part) -> str:
+def _part(part: TextSpan) -> str:
     text = part.text
-    inner = code(text) if part.kind == "code" else escaped(text)
+    inner = inline_code(text) if part.css_class == "code" else escape_text(text)
     before, after = " " * text[:1].isspace(), " " * (len(text) > 1 and text[-1:].isspace())
     return before + link(inner, part.href) + after
 
 
-def _code_group(group: list[Part]) -> str:
+def _code_group(group: list[TextSpan]) -> str:
     text = "".join(part.text for part in group)
     before, after = " " * text[:1].isspace(), " " * (bool(text.strip()) and text[-1:].isspace())
-    return before + link(code(text), group[0].href) + after
+    return before + link(inline_code(text), group[0].href) + after
 
 
 @dataclass
@@ -128,7 +128,7 @@ class _Block:
     inline: str = ""
 
 
-class _Reader(HTMLParser):
+class _MarkdownConverter(HTMLParser):
     """Reads HTML that was rendered from Markdown, with nothing else in it than that can give."""
 
     def __init__(self) -> None:
@@ -173,12 +173,12 @@ class _Reader(HTMLParser):
                 self.blocks[-1].lines.append(fence(self.raw or ""))
                 self.raw = None
             case "code" if self.is_code:
-                written, self.raw, self.is_code = code(self.raw or ""), None, False
+                written, self.raw, self.is_code = inline_code(self.raw or ""), None, False
                 self._add(written)
             case "em" | "strong" | "s":
                 self._add({"em": "*", "strong": "**", "s": ""}[tag])
             case "a":
-                self._add(f"]({address(self.hrefs.pop())})")
+                self._add(f"]({markdown_href(self.hrefs.pop())})")
             case "p":
                 self._end_line()
             case "h1" | "h2" | "h3" | "h4" | "h5" | "h6":
@@ -195,7 +195,7 @@ class _Reader(HTMLParser):
             self.raw += data
         elif data.strip() or self.blocks[-1].inline:
             before, after = " " * data[:1].isspace(), " " * data[-1:].isspace()
-            words = escaped(data) if not self.blocks[-1].inline else escaped(f"x{data}")[1:].strip()
+            words = escape_text(data) if not self.blocks[-1].inline else escape_text(f"x{data}")[1:].strip()
             self._add(f"{before}{words}{after}" if data.strip() else " ")
 
     def _add(self, text: str) -> None:

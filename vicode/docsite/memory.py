@@ -4,10 +4,10 @@ from collections.abc import Callable, Hashable
 from hashlib import sha256
 from typing import TypeVar, cast
 
-Made = TypeVar("Made")
+CachedValue = TypeVar("CachedValue")
 
 
-class _Key:
+class _HashedKey:
     """A value whose hash is found once: that of a design takes long."""
 
     __slots__ = ("_hash", "_value")
@@ -19,28 +19,28 @@ class _Key:
         return self._hash
 
     def __eq__(self, other: object) -> bool:
-        return isinstance(other, _Key) and self._hash == other._hash and self._value == other._value
+        return isinstance(other, _HashedKey) and self._hash == other._hash and self._value == other._value
 
 
-class Memory:
+class BuildCache:
     """Keeps what the latest building asked for; what it did not ask for is forgotten at its end."""
 
     def __init__(self) -> None:
-        self._kept: dict[_Key, object] = {}
-        self._asked: dict[_Key, object] = {}
+        self._previous: dict[_HashedKey, object] = {}
+        self._current: dict[_HashedKey, object] = {}
 
-    def recall(self, kind: str, key: Hashable, make: Callable[[], Made]) -> Made:
+    def get_or_create(self, kind: str, key: Hashable, make: Callable[[], CachedValue]) -> CachedValue:
         """What was made of a key before, or is made now. The key says everything that the making looks at."""
-        whole = _Key((kind, key))
-        if whole not in self._asked:
-            self._asked[whole] = self._kept[whole] if whole in self._kept else make()
-        return cast("Made", self._asked[whole])
+        whole = _HashedKey((kind, key))
+        if whole not in self._current:
+            self._current[whole] = self._previous[whole] if whole in self._previous else make()
+        return cast("CachedValue", self._current[whole])
 
-    def forget_unasked(self) -> None:
+    def evict_unused(self) -> None:
         """End a building."""
-        self._kept, self._asked = self._asked, {}
+        self._previous, self._current = self._current, {}
 
 
-def digest_of(*values: object) -> str:
+def compute_digest(*values: object) -> str:
     """A name for frozen values: equal values have one name, different values another, in every process."""
     return sha256("\n".join(map(repr, values)).encode("utf-8", "surrogatepass")).hexdigest()[:32]

@@ -4,6 +4,6 @@ from vicode.docsite.addresses import HOME
 from vicode.templating import render
 
 
-def missing_page(folder: str = "", *, name: str = "") -> str:
-    """The page for an address without one; `folder` is where the site's home is, `name` what the site is about."""
-    return render("docsite/missing.html.jinja", folder=folder, home=folder + HOME, name=name)
+def not_found_page(base_url: str = "", *, site_name: str = "") -> str:
+    """The page for an address without one; `base_url` is where the site's home is, `site_name` what the site is about."""
+    return render("docsite/not_found.html.jinja", folder=base_url, home=base_url + HOME, name=site_name)

@@ -6,7 +6,7 @@ from vicode.model.design import Design
 from vicode.model.project import Project
 
 
-def by_name(name: str) -> tuple[list[str | int], str]:
+def natural_sort_key(name: str) -> tuple[list[str | int], str]:
     """What to sort by."""
     parts = re.split(r"([0-9]+)", name.casefold())
     return ([int(part) if index % 2 else part for index, part in enumerate(parts)], name)
@@ -14,4 +14,4 @@ def by_name(name: str) -> tuple[list[str | int], str]:
 
 def sorted_designs(project: Project) -> list[Design]:
     """The designs by name."""
-    return sorted(project.designs, key=lambda design: by_name(design.component))
+    return sorted(project.designs, key=lambda design: natural_sort_key(design.component))

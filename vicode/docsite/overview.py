@@ -3,87 +3,87 @@
 from collections.abc import Iterator
 from dataclasses import replace
 
-from vicode.diagram.usage import leaves_out
-from vicode.docsite.addresses import AGENTS, EVERYTHING, INTERFACES, SYMBOLS, TYPES, Addresses
-from vicode.docsite.docs import html_of, line_html_of, summary_of
-from vicode.docsite.drawings import draw_uses
+from vicode.diagram.usage import has_omitted_uses
+from vicode.docsite.addresses import AGENTS, INTERFACES, NAME_INDEX, SYMBOLS, TYPES, SiteUrls
+from vicode.docsite.docs import render_doc, render_inline_doc, summarize
+from vicode.docsite.drawings import draw_dependencies
 from vicode.docsite.findings import finding_groups, finding_rows
 from vicode.docsite.interfaces import symbol_count
-from vicode.docsite.linking import Linker, listed
-from vicode.docsite.ordering import by_name, sorted_designs
-from vicode.docsite.subject import Subject
-from vicode.docsite.views import AgentRow, AgentView, ComponentRow, HomeView, Part, ReachedRow
+from vicode.docsite.linking import NameLinker, join_spans
+from vicode.docsite.ordering import natural_sort_key, sorted_designs
+from vicode.docsite.subject import SiteInput
+from vicode.docsite.views import AgentRow, AgentView, ComponentRow, HomeView, ReachableComponentRow, TextSpan
 from vicode.generators import collect_components
 from vicode.model.design import Design
 from vicode.model.project import Agent, Project
-from vicode.model.walks import walk_transitions
+from vicode.model.walks import iter_transitions
 
 
-def home_view(subject: Subject, addresses: Addresses, svg: str = "") -> HomeView:
+def home_view(subject: SiteInput, addresses: SiteUrls, svg: str = "") -> HomeView:
     """The first page, with the map of who uses whom."""
     project = subject.project
-    linker = Linker(project, addresses)
+    linker = NameLinker(project, addresses)
     return HomeView(
-        doc_html=html_of(project.doc),
-        numbers=tuple(_number(count, word, href) for count, word, href in _numbers(subject) if count),
+        doc_html=render_doc(project.doc),
+        counts=tuple(_number(count, word, href) for count, word, href in _numbers(subject) if count),
         svg=svg,
-        is_sparse=leaves_out(project) and symbol_count(project) > 0,
+        is_partial=has_omitted_uses(project) and symbol_count(project) > 0,
         agents=tuple(agent_rows(project, addresses)),
         components=tuple(_component_row(design, subject, linker) for design in sorted_designs(project)),
         findings=finding_groups(finding_rows(subject, addresses)),
     )
 
 
-def agent_rows(project: Project, addresses: Addresses) -> Iterator[AgentRow]:
+def agent_rows(project: Project, addresses: SiteUrls) -> Iterator[AgentRow]:
     """The agents as a list."""
-    linker = Linker(project, addresses)
+    linker = NameLinker(project, addresses)
     for agent in project.agents:
         yield AgentRow(
-            agent=Part(text=agent.title or agent.name, href=addresses.agent(agent.name)),
+            agent=TextSpan(text=agent.title or agent.name, href=addresses.agent(agent.name)),
             name=agent.name,
             root=linker.component(agent.root),
-            machines=len(_reached(project, agent)),
-            doc_html=line_html_of(agent.doc),
+            state_machine_count=len(_reachable_designs(project, agent)),
+            doc_html=render_inline_doc(agent.doc),
         )
 
 
-def agent_view(project: Project, agent: Agent, addresses: Addresses) -> AgentView:
+def agent_view(project: Project, agent: Agent, addresses: SiteUrls) -> AgentView:
     """An agent with what it may activate."""
-    linker = Linker(project, addresses)
+    linker = NameLinker(project, addresses)
     # A drawing of its own: among the places of the whole it would be lost.
-    part = replace(project, agents=(agent,), designs=_reached(project, agent))
+    part = replace(project, agents=(agent,), designs=_reachable_designs(project, agent))
     names = {design.component for design in part.designs}
     used = {use.component for design in part.designs for use in design.uses} | {agent.root}
     return AgentView(
         name=agent.name,
         title=agent.title,
-        doc_html=html_of(agent.doc),
+        doc_html=render_doc(agent.doc),
         root=linker.component(agent.root),
-        machines=tuple(
-            ReachedRow(
-                component=linker.component(design.component), summary=summary_of(design.doc), states=len(design.states)
+        state_machines=tuple(
+            ReachableComponentRow(
+                component=linker.component(design.component), summary=summarize(design.doc), states=len(design.states)
             )
             for design in sorted_designs(part)
         ),
-        others=listed(linker.component(name) for name in sorted(used - names, key=by_name)),
-        svg=draw_uses(part, addresses, f"What {agent.name} may activate"),
-        is_sparse=leaves_out(part) and symbol_count(project) > 0,
+        hand_written=join_spans(linker.component(name) for name in sorted(used - names, key=natural_sort_key)),
+        svg=draw_dependencies(part, addresses, f"What {agent.name} may activate"),
+        is_partial=has_omitted_uses(part) and symbol_count(project) > 0,
     )
 
 
-def _reached(project: Project, agent: Agent) -> tuple[Design, ...]:
+def _reachable_designs(project: Project, agent: Agent) -> tuple[Design, ...]:
     names = collect_components(project, (agent.root,)) if project.design(agent.root) else frozenset()
     return tuple(each for each in project.designs if each.component in names)
 
 
-def _numbers(subject: Subject) -> Iterator[tuple[int, str, str]]:
+def _numbers(subject: SiteInput) -> Iterator[tuple[int, str, str]]:
     project, designs = subject.project, subject.project.designs
     states = sum(len(design.states) for design in designs)
-    transitions = sum(1 for design in designs for _each in walk_transitions(design))
+    transitions = sum(1 for design in designs for _each in iter_transitions(design))
     yield len(project.agents), "agent", AGENTS
     yield len(designs), "state machine", "#components"
-    yield states, "state", EVERYTHING
-    yield transitions, "transition", EVERYTHING
+    yield states, "state", NAME_INDEX
+    yield transitions, "transition", NAME_INDEX
     yield len(project.components), "interface", INTERFACES
     yield symbol_count(project), "symbol", SYMBOLS
     yield len(project.enumerations), "type", TYPES
@@ -91,15 +91,15 @@ def _numbers(subject: Subject) -> Iterator[tuple[int, str, str]]:
     yield len(subject.findings), "finding", "#findings"
 
 
-def _number(count: int, word: str, href: str) -> tuple[int, Part]:
-    return count, Part(text=word + "s" * (count != 1), href=href)
+def _number(count: int, word: str, href: str) -> tuple[int, TextSpan]:
+    return count, TextSpan(text=word + "s" * (count != 1), href=href)
 
 
-def _component_row(design: Design, subject: Subject, linker: Linker) -> ComponentRow:
+def _component_row(design: Design, subject: SiteInput, linker: NameLinker) -> ComponentRow:
     return ComponentRow(
         component=linker.component(design.component),
-        summary=summary_of(design.doc),
+        summary=summarize(design.doc),
         states=len(design.states),
-        transitions=sum(1 for _each in walk_transitions(design)),
+        transitions=sum(1 for _each in iter_transitions(design)),
         findings=sum(1 for each in subject.findings if each.component == design.component),
     )

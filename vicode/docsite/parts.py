@@ -3,12 +3,12 @@
 from collections.abc import Iterable
 from dataclasses import replace
 
-from vicode.docsite.subject import Subject
-from vicode.model.design import Action, Call, Code, Common, Design, State
+from vicode.docsite.subject import SiteInput
+from vicode.model.design import Action, Call, Code, CommonSection, Design, State
 from vicode.model.project import Project
 
 
-def part_around(subject: Subject, design: Design) -> Subject:
+def restrict_to_component(subject: SiteInput, design: Design) -> SiteInput:
     """What the page of a design shows: the design, those that use it, and the interfaces of what it uses."""
     project, name = subject.project, design.component
     designs = tuple(
@@ -20,24 +20,24 @@ def part_around(subject: Subject, design: Design) -> Subject:
     part = replace(project, designs=designs, components=tuple(each for each in interfaces if each is not None))
     sources = {each: replace(source, text="") for each, source in subject.sources.items() if each in ("", name)}
     findings = tuple(each for each in subject.findings if each.component in ("", name))
-    return Subject(project=part, findings=findings, sources=sources, title=subject.title)
+    return SiteInput(project=part, findings=findings, sources=sources, title=subject.title)
 
 
-def skeleton_of(project: Project) -> Project:
+def strip_to_usage(project: Project) -> Project:
     """What maps of a project show: who uses whom and how, without what anything decides or says."""
-    return replace(project, designs=tuple(map(_bones_of, project.designs)))
+    return replace(project, designs=tuple(map(_usage_only, project.designs)))
 
 
-def outside_of(project: Project) -> Project:
+def strip_to_interfaces(project: Project) -> Project:
     """What the texts of other components see of each design: names and declarations."""
-    return replace(project, designs=tuple(_outside_of_design(design) for design in project.designs))
+    return replace(project, designs=tuple(_interface_only(design) for design in project.designs))
 
 
-def _bones_of(design: Design) -> Design:
+def _usage_only(design: Design) -> Design:
     states = tuple(
         State(name=state.name, requires=state.requires, actions=_calls(state.all_actions)) for state in design.states
     )
-    common = Common(actions=_calls(design.common.actions))
+    common = CommonSection(actions=_calls(design.common.actions))
     return Design(component=design.component, doc=design.doc, uses=design.uses, common=common, states=states)
 
 
@@ -45,5 +45,5 @@ def _calls(actions: Iterable[Action]) -> tuple[Call, ...]:
     return tuple(Call(alias=action.alias) for action in actions if isinstance(action, Call))
 
 
-def _outside_of_design(design: Design) -> Design:
-    return replace(design, doc="", states=(), common=Common(), module=Code(), members=Code())
+def _interface_only(design: Design) -> Design:
+    return replace(design, doc="", states=(), common=CommonSection(), module=Code(), members=Code())

@@ -6,51 +6,53 @@ from dataclasses import dataclass
 
 from vicode.model.design import COMMON, Assign, Call, Design
 from vicode.model.project import Project
-from vicode.model.texts import PlacedText, TextKind, walk_texts
-from vicode.model.walks import walk_actions
+from vicode.model.texts import LocatedText, TextKind, iter_texts
+from vicode.model.walks import iter_actions
 from vicode.model.xabsl.names import list_symbols
 
 READ, SET = "read", "set"
 _NAME = re.compile(r"(?<![\w.])(?:(?:self\.|self->|this->)_?)?([A-Za-z_]\w*)(?:(?:\.|->)([A-Za-z_]\w*))?(\s*=(?!=))?")
 _SYMBOL = re.compile(r"@?[A-Za-z_][\w.]*(\s*=(?!=))?")
 
-Key = tuple[str, str, str]
+ReferenceKey = tuple[str, str, str]
 """How (read or set), the component ("" for the project), and the name; a parameter ends with `()`."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class References:
+class SymbolReferences:
     """By what is meant: the designs that say it, each with the states where they do; "" is outside of all states."""
 
-    found: Mapping[Key, Mapping[str, tuple[str, ...]]]
+    users_by_key: Mapping[ReferenceKey, Mapping[str, tuple[str, ...]]]
 
-    def to(self, how: str, component: str, name: str) -> Mapping[str, tuple[str, ...]]:
+    def users(self, how: str, component: str, name: str) -> Mapping[str, tuple[str, ...]]:
         """The designs with their states."""
-        return self.found.get((how, component, name), {})
+        return self.users_by_key.get((how, component, name), {})
 
 
-def references_of(project: Project) -> References:
+def find_symbol_references(project: Project) -> SymbolReferences:
     """All references of all designs."""
-    found: dict[Key, dict[str, dict[str, None]]] = {}
+    found: dict[ReferenceKey, dict[str, dict[str, None]]] = {}
     symbols = dict(_symbols(project))
     for design in project.designs:
-        for key, state in _references(project, design, symbols):
+        for key, state in _design_references(project, design, symbols):
             found.setdefault(key, {}).setdefault(design.component, {})[state] = None
-    return References(
-        found={key: {component: tuple(states) for component, states in by.items()} for key, by in found.items()}
+    return SymbolReferences(
+        users_by_key={key: {component: tuple(states) for component, states in by.items()} for key, by in found.items()}
     )
 
 
-def _references(project: Project, design: Design, symbols: Mapping[str, tuple[str, str]]) -> Iterator[tuple[Key, str]]:
+def _design_references(
+    project: Project, design: Design, symbols: Mapping[str, tuple[str, str]]
+) -> Iterator[tuple[ReferenceKey, str]]:
     aliases = {use.alias: use.component for use in design.uses}
     own = {declaration.name for _section, declaration in design.declarations()}
     shared = ({each.name for each in project.constants} | {each.name for each in project.enumerations}) - own
-    for placed in walk_texts(design):
+    for placed in iter_texts(design):
         if placed.kind is TextKind.DOC:
             continue
-        state = _state_of(placed)
+        state = _state_name(placed)
         if placed.language == "xabsl":
-            yield from ((key, state) for key in _in_xabsl(placed.text, symbols))
+            yield from ((key, state) for key in _xabsl_references(placed.text, symbols))
             continue
         for match in _NAME.finditer(placed.text):
             first, member, sets = match.groups()
@@ -63,12 +65,12 @@ def _references(project: Project, design: Design, symbols: Mapping[str, tuple[st
                 yield (READ, design.component, first), state
             elif first in shared and not sets:
                 yield (READ, "", first), state
-    yield from _changes(design, aliases)
+    yield from _writes(design, aliases)
 
 
-def _changes(design: Design, aliases: Mapping[str, str]) -> Iterator[tuple[Key, str]]:
+def _writes(design: Design, aliases: Mapping[str, str]) -> Iterator[tuple[ReferenceKey, str]]:
     """What actions set: variables by their names, parameters by calls."""
-    for placed in walk_actions(design):
+    for placed in iter_actions(design):
         match placed.action:
             case Assign(values=values):
                 for name, _text in values:
@@ -81,7 +83,7 @@ def _changes(design: Design, aliases: Mapping[str, str]) -> Iterator[tuple[Key, 
                     yield (SET, aliases[alias], f"{name}()"), placed.state
 
 
-def _in_xabsl(text: str, symbols: Mapping[str, tuple[str, str]]) -> Iterator[Key]:
+def _xabsl_references(text: str, symbols: Mapping[str, tuple[str, str]]) -> Iterator[ReferenceKey]:
     for match in _SYMBOL.finditer(text):
         sets = match.group(1)
         name = match.group().removesuffix(sets or "").strip()
@@ -95,7 +97,7 @@ def _symbols(project: Project) -> Iterator[tuple[str, tuple[str, str]]]:
         yield each.name, (str(owner), each.declaration.name)
 
 
-def _state_of(placed: PlacedText) -> str:
+def _state_name(placed: LocatedText) -> str:
     match placed.path:
         case ("states", str(name), *_):
             return name

@@ -14,11 +14,11 @@ from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
 from urllib.parse import parse_qs, unquote, urlsplit
 
-from vicode.docsite.missing import missing_page
-from vicode.templating import text_of
+from vicode.docsite.missing import not_found_page
+from vicode.templating import read_asset
 
 HOST = "127.0.0.1"
-_OWN = "/-/"
+_INTERNAL_PREFIX = "/-/"
 _TYPES = {
     ".html": "text/html; charset=utf-8",
     ".css": "text/css; charset=utf-8",
@@ -29,71 +29,71 @@ _PING_S = 15.0
 
 
 @dataclass(slots=True)
-class News:
+class ReloadBroadcaster:
     """What happened to a site, told to all browsers: which files changed when, and what stands in the way now."""
 
     errors: str = ""
-    _name: str = field(default_factory=lambda: secrets.token_hex(4))
-    _number: int = 0
+    _server_id: str = field(default_factory=lambda: secrets.token_hex(4))
+    _build_number: int = 0
     _changed: dict[str, int] = field(default_factory=dict)
-    _told: threading.Condition = field(default_factory=threading.Condition)
-    _is_over: bool = False
+    _condition: threading.Condition = field(default_factory=threading.Condition)
+    _is_closed: bool = False
 
     @property
-    def build(self) -> str:
+    def build_id(self) -> str:
         """What a page that is sent now has been built by."""
-        return f"{self._name}.{self._number}"
+        return f"{self._server_id}.{self._build_number}"
 
-    def tell(self, changed: Iterable[str], errors: str) -> None:
+    def publish(self, changed: Iterable[str], errors: str) -> None:
         """The files that changed, by their addresses, and all that is wrong."""
-        with self._told:
-            self._number += 1
-            self._changed |= dict.fromkeys(changed, self._number)
+        with self._condition:
+            self._build_number += 1
+            self._changed |= dict.fromkeys(changed, self._build_number)
             self.errors = errors
-            self._told.notify_all()
+            self._condition.notify_all()
 
-    def end(self) -> None:
+    def close(self) -> None:
         """Let everybody who waits go."""
-        with self._told:
-            self._is_over = True
-            self._told.notify_all()
+        with self._condition:
+            self._is_closed = True
+            self._condition.notify_all()
 
-    def since(self, build: str) -> str:
+    def message_since(self, build: str) -> str:
         """What a page of a build has to know, as JSON; of a build of another time all has changed."""
         name, _dot, number = build.partition(".")
-        is_known = name == self._name and number.isdecimal()
+        is_known = name == self._server_id and number.isdecimal()
         changed = [path for path, at in self._changed.items() if at > int(number)] if is_known else ["*"]
         return json.dumps({"changed": sorted(changed), "errors": self.errors})
 
     def wait(self, number: int) -> int | None:
         """The number of the latest news, as soon as it is another, or a while is over; None at the end."""
-        with self._told:
-            self._told.wait_for(lambda: self._is_over or self._number != number, timeout=_PING_S)
-            return None if self._is_over else self._number
+        with self._condition:
+            self._condition.wait_for(lambda: self._is_closed or self._build_number != number, timeout=_PING_S)
+            return None if self._is_closed else self._build_number
 
 
 class SiteServer:
     """Serves a folder to this machine alone, from threads of its own. Close it in the end."""
 
-    def __init__(self, folder: Path, news: News, port: int = 0) -> None:
+    def __init__(self, folder: Path, broadcaster: ReloadBroadcaster, port: int = 0) -> None:
         """Listen on a port, a free one if left out.
 
         Raises:
             OSError: The port is taken.
         """
-        self._news = news
-        self._server = _Server(folder.resolve(), news, port)
+        self._broadcaster = broadcaster
+        self._server = _HttpServer(folder.resolve(), broadcaster, port)
         self._thread = threading.Thread(target=self._server.serve_forever, daemon=True)
         self._thread.start()
 
     @property
-    def address(self) -> str:
+    def url(self) -> str:
         """Where the site is seen."""
         return f"http://{HOST}:{self._server.server_port}/"
 
     def close(self) -> None:
         """Stop listening."""
-        self._news.end()
+        self._broadcaster.close()
         self._server.shutdown()
         self._server.server_close()
         self._thread.join()
@@ -105,60 +105,60 @@ class SiteServer:
         self.close()
 
 
-def live_page(html: str, build: str) -> str:
+def add_reload_script(html: str, build_id: str) -> str:
     """A page with what makes it reload."""
-    style = f'<link rel="stylesheet" href="{_OWN}live.css">'
-    script = f'<script src="{_OWN}live.js" data-build="{build}" defer></script>'
+    style = f'<link rel="stylesheet" href="{_INTERNAL_PREFIX}live_reload.css">'
+    script = f'<script src="{_INTERNAL_PREFIX}live_reload.js" data-build="{build_id}" defer></script>'
     return html.replace("</head>", f"{style}\n{script}\n</head>", 1)
 
 
-class _Server(ThreadingHTTPServer):
+class _HttpServer(ThreadingHTTPServer):
     daemon_threads = True
 
-    def __init__(self, folder: Path, news: News, port: int) -> None:
-        self.folder, self.news = folder, news
-        super().__init__((HOST, port), _Handler)
+    def __init__(self, folder: Path, news: ReloadBroadcaster, port: int) -> None:
+        self.folder, self.broadcaster = folder, news
+        super().__init__((HOST, port), _RequestHandler)
 
 
-class _Handler(BaseHTTPRequestHandler):
+class _RequestHandler(BaseHTTPRequestHandler):
     """Answers one browser."""
 
     protocol_version = "HTTP/1.1"
-    server: _Server
+    server: _HttpServer
 
     def do_GET(self) -> None:
         """Send a file of the site, or the news."""
         address = urlsplit(self.path)
-        if not self._is_from_here():
+        if not self._has_local_host():
             self._send(HTTPStatus.FORBIDDEN, b"This server answers to 127.0.0.1 and localhost alone.\n", "text/plain")
-        elif address.path == f"{_OWN}news":
-            self._send_news(parse_qs(address.query).get("since", [""])[0])
-        elif address.path.startswith(_OWN):
-            self._send_own(address.path.removeprefix(_OWN))
+        elif address.path == f"{_INTERNAL_PREFIX}events":
+            self._send_events(parse_qs(address.query).get("since", [""])[0])
+        elif address.path.startswith(_INTERNAL_PREFIX):
+            self._send_internal(address.path.removeprefix(_INTERNAL_PREFIX))
         else:
             self._send_file(unquote(address.path))
 
-    def _is_from_here(self) -> bool:
+    def _has_local_host(self) -> bool:
         """A page of a stranger whose name leads here has that name as its host."""
         port = self.server.server_port
         return self.headers.get("Host") in (f"{HOST}:{port}", f"localhost:{port}")
 
-    def _send_own(self, name: str) -> None:
-        if name not in ("live.js", "live.css"):
+    def _send_internal(self, name: str) -> None:
+        if name not in ("live_reload.js", "live_reload.css"):
             self._send(HTTPStatus.NOT_FOUND, b"", "text/plain")
             return
-        self._send(HTTPStatus.OK, text_of(f"docsite/{name}").encode(), _TYPES[Path(name).suffix])
+        self._send(HTTPStatus.OK, read_asset(f"docsite/{name}").encode(), _TYPES[Path(name).suffix])
 
     def _send_file(self, path: str) -> None:
-        content = _content_of(self.server.folder, path)
+        content = _read_site_file(self.server.folder, path)
         status = HTTPStatus.NOT_FOUND if content is None else HTTPStatus.OK
         kind = _TYPES.get(posixpath.splitext(path)[1], _TYPES[".html"])
         if content is None or kind == _TYPES[".html"]:
-            html = missing_page("/") if content is None else content.decode("utf-8", "replace")
-            content, kind = live_page(html, self.server.news.build).encode(), _TYPES[".html"]
+            html = not_found_page("/") if content is None else content.decode("utf-8", "replace")
+            content, kind = add_reload_script(html, self.server.broadcaster.build_id).encode(), _TYPES[".html"]
         self._send(status, content, kind)
 
-    def _send_news(self, build: str) -> None:
+    def _send_events(self, build: str) -> None:
         self.send_response(HTTPStatus.OK)
         self.send_header("Content-Type", "text/event-stream")
         self.send_header("Cache-Control", "no-store")
@@ -168,10 +168,10 @@ class _Handler(BaseHTTPRequestHandler):
         number: int | None = None
         try:
             while True:
-                text = f"data: {self.server.news.since(build)}\n\n"
+                text = f"data: {self.server.broadcaster.message_since(build)}\n\n"
                 self.wfile.write(text.encode())
                 self.wfile.flush()
-                number = self.server.news.wait(-1 if number is None else number)
+                number = self.server.broadcaster.wait(-1 if number is None else number)
                 if number is None:
                     return
         except OSError:
@@ -191,7 +191,7 @@ class _Handler(BaseHTTPRequestHandler):
         """Nobody reads it."""
 
 
-def _content_of(folder: Path, path: str) -> bytes | None:
+def _read_site_file(folder: Path, path: str) -> bytes | None:
     """A file of the site by its address; nothing outside of the folder, and nothing else that lies in it."""
     name = path.removeprefix("/")
     if not name or name.endswith("/"):

@@ -2,16 +2,16 @@
 
 from collections.abc import Iterator
 
-from vicode.docsite.addresses import Addresses
-from vicode.docsite.docs import line_html_of, summary_of
-from vicode.docsite.linking import Linker, listed
-from vicode.docsite.views import Line, Part, UseRow
+from vicode.docsite.addresses import SiteUrls
+from vicode.docsite.docs import render_inline_doc, summarize
+from vicode.docsite.linking import NameLinker, join_spans
+from vicode.docsite.views import RichText, TextSpan, UseRow
 from vicode.model.design import COMMON, Call, Design
 from vicode.model.project import Project
-from vicode.model.walks import walk_actions
+from vicode.model.walks import iter_actions
 
 
-def use_rows(design: Design, linker: Linker) -> Iterator[UseRow]:
+def use_rows(design: Design, linker: NameLinker) -> Iterator[UseRow]:
     """What a design uses, and in which states."""
     for use in design.uses:
         component = linker.component(use.component)
@@ -20,21 +20,21 @@ def use_rows(design: Design, linker: Linker) -> Iterator[UseRow]:
             alias=use.alias,
             required_in=required_in(design, use.alias, linker),
             modulated_in=modulated_in(design, use.alias, linker),
-            doc_html=line_html_of(component.title),
+            doc_html=render_inline_doc(component.title),
         )
 
 
-def user_rows(project: Project, component: str, addresses: Addresses) -> Iterator[UseRow]:
+def user_rows(project: Project, component: str, addresses: SiteUrls) -> Iterator[UseRow]:
     """Who uses a component, and in which states."""
     for design in project.designs:
-        linker = Linker(project, addresses, design)
+        linker = NameLinker(project, addresses, design)
         for use in design.uses:
             if use.component == component:
                 yield UseRow(
-                    component=Part(
+                    component=TextSpan(
                         text=design.component,
                         href=addresses.component(design.component),
-                        title=summary_of(design.doc),
+                        title=summarize(design.doc),
                     ),
                     alias=use.alias,
                     required_in=required_in(design, use.alias, linker),
@@ -43,14 +43,14 @@ def user_rows(project: Project, component: str, addresses: Addresses) -> Iterato
                 )
 
 
-def required_in(design: Design, alias: str, linker: Linker) -> Line:
+def required_in(design: Design, alias: str, linker: NameLinker) -> RichText:
     """The states that require it."""
-    return listed(linker.state(state.name) for state in design.states if alias in state.requires)
+    return join_spans(linker.state(state.name) for state in design.states if alias in state.requires)
 
 
-def modulated_in(design: Design, alias: str, linker: Linker) -> Line:
+def modulated_in(design: Design, alias: str, linker: NameLinker) -> RichText:
     """The states that call it."""
     calls = (
-        each.state for each in walk_actions(design) if isinstance(each.action, Call) and each.action.alias == alias
+        each.state for each in iter_actions(design) if isinstance(each.action, Call) and each.action.alias == alias
     )
-    return listed(linker.state(name, "every state" if name == COMMON else "") for name in dict.fromkeys(calls))
+    return join_spans(linker.state(name, "every state" if name == COMMON else "") for name in dict.fromkeys(calls))

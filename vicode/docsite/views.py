@@ -4,16 +4,16 @@ from dataclasses import dataclass, field
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Part:
-    """A piece of a line: with `href` a link, `title` its tip, `kind` a class of the style sheet."""
+class TextSpan:
+    """A piece of a line: with `href` a link, `title` its tip, `css_class` a class of the style sheet."""
 
     text: str
     href: str = ""
     title: str = ""
-    kind: str = ""
+    css_class: str = ""
 
 
-Line = tuple[Part, ...]
+RichText = tuple[TextSpan, ...]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -26,23 +26,23 @@ class CodeBlock:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class DeclarationRow:
-    """A parameter, output, variable or constant; `kind` says which, where a table has several.
+    """A parameter, output, variable or constant; `css_class` says which, where a table has several.
 
     `read_in` and `set_in` are the components that do so, with the states as tips.
     """
 
     anchor: str
     name: str
-    arguments: tuple[Line, ...]
-    type: Line
-    initial: Line
+    arguments: tuple[RichText, ...]
+    type: RichText
+    initial: RichText
     unit: str
     range: str
     doc_html: str
     href: str = ""
     kind: str = ""
-    read_in: Line = ()
-    set_in: Line = ()
+    read_in: RichText = ()
+    set_in: RichText = ()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -50,7 +50,7 @@ class DeclarationTable:
     """All declarations of one section; `columns` are those that say something."""
 
     title: str
-    initial: str
+    initial_heading: str
     rows: tuple[DeclarationRow, ...]
     columns: frozenset[str]
 
@@ -59,25 +59,25 @@ class DeclarationTable:
 class TransitionRow:
     """A row of the transition table: all guards of `guards` must hold; `order` leads to the line of pseudo code."""
 
-    order: Part
-    source: Part
-    guards: tuple[Line, ...]
-    timer: Line
-    target: Part
+    order: TextSpan
+    source: TextSpan
+    guards: tuple[RichText, ...]
+    timer: RichText
+    target: TextSpan
     doc_html: str
-    is_off: bool
+    is_disabled: bool
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class PseudoLine:
-    """A line of pseudo code; `blocks` is the code of its guard, `places` where its decision stands in other texts."""
+class PseudocodeLine:
+    """A line of pseudo code; `blocks` is the code of its guard, `code_links` where its decision stands in other texts."""
 
     depth: int
-    parts: Line
+    parts: RichText
     doc: str = ""
     anchor: str = ""
-    is_off: bool = False
-    places: tuple[Part, ...] = ()
+    is_disabled: bool = False
+    code_links: tuple[TextSpan, ...] = ()
     blocks: tuple[CodeBlock, ...] = ()
 
 
@@ -85,12 +85,12 @@ class PseudoLine:
 class ActionView:
     """One action: a line, or code."""
 
-    line: Line = ()
+    text: RichText = ()
     blocks: tuple[CodeBlock, ...] = ()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Phase:
+class ActionPhaseView:
     """What a state does at one occasion."""
 
     title: str
@@ -99,20 +99,20 @@ class Phase:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class StateView:
-    """A state, or what is common to all; `comes_from` are the states that lead here.
+    """A state, or what is common to all; `predecessors` are the states that lead here.
 
     `is_folded` says that the tree shows only a part of the decisions.
     """
 
     anchor: str
     name: str
-    words: tuple[str, ...]
+    badges: tuple[str, ...]
     doc_html: str
-    requires: Line
-    phases: tuple[Phase, ...]
-    pseudo: tuple[PseudoLine, ...]
-    comes_from: Line
-    places: tuple[Part, ...]
+    requires: RichText
+    phases: tuple[ActionPhaseView, ...]
+    pseudocode: tuple[PseudocodeLine, ...]
+    predecessors: RichText
+    code_links: tuple[TextSpan, ...]
     tree_svg: str = ""
     is_folded: bool = False
 
@@ -121,10 +121,10 @@ class StateView:
 class UseRow:
     """A used component, or one that uses this one: the states that require and that modulate it."""
 
-    component: Part
+    component: TextSpan
     alias: str
-    required_in: Line
-    modulated_in: Line
+    required_in: RichText
+    modulated_in: RichText
     doc_html: str
 
 
@@ -136,9 +136,9 @@ class FindingRow:
     code: str
     name: str
     message: str
-    mend: str
-    component: Part
-    place: Part
+    fix: str
+    component: TextSpan
+    location: TextSpan
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -158,49 +158,49 @@ class FindingGroup:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LanguageView:
-    """What a language makes of a component: a page, or reasons why not; `is_chosen`: the project asks for it."""
+    """What a language makes of a component: a page, or reasons why not; `is_enabled`: the project asks for it."""
 
     title: str
     href: str
     path: str
-    is_chosen: bool
+    is_enabled: bool
     reasons: tuple[FindingRow, ...]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class ComponentView:
+class ComponentPageView:
     """The page of a design; `transitions` are by source, `columns` those of them that say something."""
 
     name: str
     doc_html: str
-    facts: tuple[Line, ...]
+    facts: tuple[RichText, ...]
     svg: str
-    legend: tuple[Part, ...]
+    legend: tuple[TextSpan, ...]
     transitions: tuple[tuple[TransitionRow, ...], ...]
     columns: frozenset[str]
     common: StateView | None
     states: tuple[StateView, ...]
-    around_svg: str
+    neighbourhood_svg: str
     uses: tuple[UseRow, ...]
     used_by: tuple[UseRow, ...]
-    agents: Line
+    agents: RichText
     tables: tuple[DeclarationTable, ...]
-    shared_code: tuple[tuple[str, tuple[CodeBlock, ...]], ...]
+    custom_code: tuple[tuple[str, tuple[CodeBlock, ...]], ...]
     findings: tuple[FindingRow, ...]
-    texts: tuple[Part, ...]
+    code_pages: tuple[TextSpan, ...]
     languages: tuple[LanguageView, ...]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class InterfaceView:
-    """The page of a component that has no design; `file` is its address, `kind` what it is."""
+    """The page of a component that has no design; `file` is its address, `css_class` what it is."""
 
     file: str
     name: str
     kind: str
     title: str
     doc_html: str
-    facts: tuple[Line, ...]
+    facts: tuple[RichText, ...]
     tables: tuple[DeclarationTable, ...]
     used_by: tuple[UseRow, ...]
     findings: tuple[FindingRow, ...]
@@ -208,12 +208,12 @@ class InterfaceView:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class InterfaceRow:
-    """A line of the list of interfaces: `tells` counts what can be read or set, `users` who uses it."""
+    """A line of the list of interfaces: `symbol_count` counts what can be read or set, `user_count` who uses it."""
 
-    component: Part
-    parameters: Line
-    tells: Part
-    users: int
+    component: TextSpan
+    parameters: RichText
+    symbol_count: TextSpan
+    user_count: int
     summary: str
 
 
@@ -222,7 +222,7 @@ class SymbolGroup:
     """The symbols of one component."""
 
     anchor: str
-    component: Part
+    component: TextSpan
     title: str
     rows: tuple[DeclarationRow, ...]
     columns: frozenset[str]
@@ -230,51 +230,51 @@ class SymbolGroup:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class EnumerationView:
-    """A type: its elements are anchor, name and doc; `declares` are all things of it, `used_by` who says its name."""
+    """A type: its elements are anchor, name and doc; `declarations` are all things of it, `used_by` who says its name."""
 
     anchor: str
     name: str
     doc_html: str
     elements: tuple[tuple[str, str, str], ...]
-    facts: tuple[Line, ...]
-    declares: Line
-    used_by: Line
+    facts: tuple[RichText, ...]
+    declarations: RichText
+    used_by: RichText
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class ReachedRow:
+class ReachableComponentRow:
     """A state machine that an agent may activate."""
 
-    component: Part
+    component: TextSpan
     summary: str
     states: int
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class AgentView:
-    """The page of an agent: all that it may activate, drawn and as lists; `others` are written by hand.
+    """The page of an agent: all that it may activate, drawn and as lists; `hand_written` are written by hand.
 
-    `is_sparse` says that something is not drawn.
+    `is_partial` says that something is not drawn.
     """
 
     name: str
     title: str
     doc_html: str
-    root: Part
-    machines: tuple[ReachedRow, ...]
-    others: Line
+    root: TextSpan
+    state_machines: tuple[ReachableComponentRow, ...]
+    hand_written: RichText
     svg: str
-    is_sparse: bool
+    is_partial: bool
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class AgentRow:
     """A line of the list of agents."""
 
-    agent: Part
+    agent: TextSpan
     name: str
-    root: Part
-    machines: int
+    root: TextSpan
+    state_machine_count: int
     doc_html: str
 
 
@@ -282,7 +282,7 @@ class AgentRow:
 class ComponentRow:
     """A line of the list of components."""
 
-    component: Part
+    component: TextSpan
     summary: str
     states: int
     transitions: int
@@ -291,22 +291,22 @@ class ComponentRow:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class HomeView:
-    """The first page; `numbers` are how many of what, `is_sparse` says that something is not drawn."""
+    """The first page; `counts` are how many of what, `is_partial` says that something is not drawn."""
 
     doc_html: str
-    numbers: tuple[tuple[int, Part], ...]
+    counts: tuple[tuple[int, TextSpan], ...]
     svg: str
-    is_sparse: bool
+    is_partial: bool
     agents: tuple[AgentRow, ...]
     components: tuple[ComponentRow, ...]
     findings: tuple[FindingGroup, ...]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class HomeRow:
+class ProjectCard:
     """A site among others; `folder` is where it lies."""
 
-    site: Part
+    link: TextSpan
     folder: str
     doc_html: str
     facts: tuple[str, ...]
@@ -314,33 +314,33 @@ class HomeRow:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CodeView:
-    """A page of code; `texts` are all texts of the same component, `rows_html` is a row of the table for each line."""
+    """A page of code; `code_pages` are all texts of the same component, `rows_html` is a row of the table for each line."""
 
     title: str
     path: str
-    component: Part
-    texts: tuple[Part, ...]
+    component: TextSpan
+    code_pages: tuple[TextSpan, ...]
     lines_html: tuple[str, ...]
     rows_html: str
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Entry:
-    """Something that can be found: `words` are looked through as well."""
+class SiteEntry:
+    """Something that can be found: `badges` are looked through as well."""
 
     name: str
     kind: str
-    where: str
+    context: str
     href: str
     doc: str = ""
-    words: str = ""
+    search_text: str = ""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Page:
-    """What every page has; `here` is the address of its entry in the menu."""
+class PageHead:
+    """What every page has; `menu_href` is the address of its entry in the menu."""
 
     title: str
     file: str
-    here: str
-    crumbs: tuple[Part, ...] = field(default=())
+    menu_href: str
+    breadcrumbs: tuple[TextSpan, ...] = field(default=())

@@ -13,7 +13,7 @@ import vicode
 from vicode.output import write_atomically
 from vicode.templating import template_files
 
-MARKS = (
+GENERATED_HEADERS = (
     b'<!doctype html>\n<html lang="en">\n<head>\n<meta charset="utf-8">\n<meta name="generator" content="vicode docs">',
     b"<!-- vicode docs -->",
     b"/* vicode docs: ",
@@ -22,7 +22,7 @@ MARKS = (
 )
 """How files of a site begin. Pages of others may well speak of `vicode docs`."""
 
-CACHE = "VICODE_CACHE"
+CACHE_VARIABLE = "VICODE_CACHE"
 _PAGES = (".css", ".html", ".js", ".md", ".rst", ".svg", ".yml")
 # What else says how a page looks.
 _LIBRARIES = ("jinja2", "markdown-it-py", "markupsafe", "pygments")
@@ -34,7 +34,7 @@ class PlannedFile:
 
     path: str
     key: str
-    make: Callable[[], str]
+    render: Callable[[], str]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -46,27 +46,27 @@ class Manifest:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Written:
-    """What became of a folder: `touched` are the files that were written or taken away, `foreign` those of others.
+class SiteWriteResult:
+    """What became of a folder: `changed` are the files that were written or taken away, `foreign` those of others.
 
     Where there are foreign ones nothing was written.
     """
 
     manifest: Manifest
-    touched: tuple[str, ...] = ()
+    changed: tuple[str, ...] = ()
     foreign: tuple[str, ...] = ()
 
 
 def write_site(
-    planned: Iterable[PlannedFile], out: Path, manifest: Manifest, step: Callable[[int, int], None]
-) -> Written:
-    """Write what is new, take away the pages of what is gone; `step` hears how many of how many files are done."""
+    planned: Iterable[PlannedFile], out: Path, manifest: Manifest, on_progress: Callable[[int, int], None]
+) -> SiteWriteResult:
+    """Write what is new, take away the pages of what is gone; `on_progress` hears how many of how many files are done."""
     wanted = {each.path: each for each in planned}
-    there = {path: _look_at(out / path) for path in wanted}
-    stale = {path: _look_at(out / path) for path in _pages_in(out) if path not in wanted}
-    foreign = tuple(path for path, old in there.items() if old is not None and not old.is_ours)
+    there = {path: _find_existing(out / path) for path in wanted}
+    stale = {path: _find_existing(out / path) for path in _pages_in(out) if path not in wanted}
+    foreign = tuple(path for path, old in there.items() if old is not None and not old.is_generated)
     if foreign:
-        return Written(manifest=manifest, foreign=foreign)
+        return SiteWriteResult(manifest=manifest, foreign=foreign)
     known = manifest.files if manifest.tool == tool_digest() else {}
     files, touched = dict[str, tuple[str, str]](), []
     out.mkdir(parents=True, exist_ok=True)
@@ -74,24 +74,24 @@ def write_site(
         old = there[path]
         digest = old.digest if old else ""
         if known.get(path) != (each.key, digest):
-            text = each.make()
+            text = each.render()
             made = _digest(text.encode())
             if digest != made:
-                write_atomically(out / path, text, is_kept=False)
+                write_atomically(out / path, text, is_durable=False)
                 touched.append(path)
             digest = made
         files[path] = (each.key, digest)
-        step(len(files), len(wanted))
+        on_progress(len(files), len(wanted))
     for path, old in stale.items():
-        if old is not None and old.is_ours:
+        if old is not None and old.is_generated:
             (out / path).unlink()
             touched.append(path)
-    return Written(manifest=Manifest(tool=tool_digest(), files=files), touched=tuple(touched))
+    return SiteWriteResult(manifest=Manifest(tool=tool_digest(), files=files), changed=tuple(touched))
 
 
-def manifest_file(out: Path, environment: Mapping[str, str] = os.environ) -> Path:
+def manifest_path(out: Path, environment: Mapping[str, str] = os.environ) -> Path:
     """Where the manifest of a folder is kept: beside no site, since it says nothing to a reader."""
-    given, home = environment.get(CACHE), environment.get("XDG_CACHE_HOME")
+    given, home = environment.get(CACHE_VARIABLE), environment.get("XDG_CACHE_HOME")
     folder = Path(given) if given else (Path(home) if home else Path.home() / ".cache") / "vicode"
     name = sha256(str(out.resolve()).encode("utf-8", "surrogateescape")).hexdigest()[:16]
     return folder / "docs" / f"{name}.json"
@@ -142,25 +142,27 @@ def _pages_in(out: Path) -> list[str]:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class _Seen:
+class _ExistingFile:
     """A file that is there."""
 
     digest: str
-    is_ours: bool
+    is_generated: bool
 
 
-def _look_at(path: Path) -> _Seen | None:
+def _find_existing(path: Path) -> _ExistingFile | None:
     try:
         status = path.stat()
-        return _seen(path, status.st_mtime_ns, status.st_size, status.st_ino)
+        return _read_existing(path, status.st_mtime_ns, status.st_size, status.st_ino)
     except (FileNotFoundError, NotADirectoryError):
         return None
 
 
 @lru_cache(maxsize=1 << 14)
-def _seen(path: Path, _changed_ns: int, _size: int, _number: int) -> _Seen:
+def _read_existing(path: Path, _changed_ns: int, _size: int, _number: int) -> _ExistingFile:
     content = path.read_bytes()
-    return _Seen(digest=_digest(content), is_ours=content[:200].replace(b"\r\n", b"\n").startswith(MARKS))
+    return _ExistingFile(
+        digest=_digest(content), is_generated=content[:200].replace(b"\r\n", b"\n").startswith(GENERATED_HEADERS)
+    )
 
 
 def _digest(content: bytes) -> str:

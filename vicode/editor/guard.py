@@ -11,8 +11,8 @@ from urllib.parse import parse_qs, quote, urlencode, urlsplit
 
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
-COOKIE = "vicode_token"
-MAXIMUM_BODY = 8_000_000
+TOKEN_COOKIE = "vicode_token"
+MAX_BODY_BYTES = 8_000_000
 _HEADERS = (
     (b"x-content-type-options", b"nosniff"),
     (b"x-frame-options", b"DENY"),
@@ -21,12 +21,12 @@ _HEADERS = (
 )
 
 
-class TooLargeError(Exception):
+class RequestTooLargeError(Exception):
     """A request's body grew beyond what any page of ours sends."""
 
 
 @dataclass(eq=False)
-class Guard:
+class AccessMiddleware:
     """ASGI middleware. `hosts` are the names the server answers to; None: any, but then a `token` is asked for.
 
     Browsers give a host's cookies to all of its ports, so that two editors on one need a `cookie` each.
@@ -35,7 +35,7 @@ class Guard:
     app: ASGIApp
     hosts: Collection[str] | None
     token: str = ""
-    cookie: str = COOKIE
+    cookie: str = TOKEN_COOKIE
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Let a request through, or answer 403 (413 for a body that is too large)."""
@@ -44,16 +44,16 @@ class Guard:
             return
         headers = {name.lower(): value.decode("latin-1") for name, value in scope["headers"]}
         given = self._token_in_query(scope)
-        if not self._is_welcome(scope, headers) or not (self._has_token(headers) or given):
+        if not self._is_allowed(scope, headers) or not (self._has_token(headers) or given):
             await _refuse(scope, send, 403)
-        elif _declared_length(headers) > MAXIMUM_BODY:
+        elif _declared_length(headers) > MAX_BODY_BYTES:
             await _refuse(scope, send, 413)
         elif given and scope["type"] == "http" and scope["method"] == "GET":
             await self._remember_token(scope, send)
         else:
-            await self._pass_on(scope, receive, send)
+            await self._forward(scope, receive, send)
 
-    def _is_welcome(self, scope: Scope, headers: dict[bytes, str]) -> bool:
+    def _is_allowed(self, scope: Scope, headers: dict[bytes, str]) -> bool:
         host = headers.get(b"host", "")
         if self.hosts is not None and _parts(f"//{host}")[0] not in self.hosts:
             return False
@@ -91,15 +91,15 @@ class Guard:
         await send({"type": "http.response.start", "status": 303, "headers": headers})
         await send({"type": "http.response.body", "body": b""})
 
-    async def _pass_on(self, scope: Scope, receive: Receive, send: Send) -> None:
+    async def _forward(self, scope: Scope, receive: Receive, send: Send) -> None:
         counted = 0
 
         async def receive_counted() -> Message:
             nonlocal counted
             message = await receive()
             counted += len(message.get("body", b""))
-            if scope["type"] == "http" and counted > MAXIMUM_BODY:
-                raise TooLargeError
+            if scope["type"] == "http" and counted > MAX_BODY_BYTES:
+                raise RequestTooLargeError
             return message
 
         started = False
@@ -113,7 +113,7 @@ class Guard:
 
         try:
             await self.app(scope, receive_counted, send_with_headers)
-        except TooLargeError:
+        except RequestTooLargeError:
             if not started:
                 await _refuse(scope, send, 413)
 

@@ -16,25 +16,25 @@ from nicegui import App, core
 # A collection that takes longer is felt by who is at work.
 _SLOW_S = 0.05
 # Windows that are closed one after the other go together.
-_GONE_S = 5.0
+_RELEASE_DELAY_S = 5.0
 
 
-class Memory:
-    """Looks after the memory of a server: `set_aside` when all is imported, then by itself."""
+class GcPolicy:
+    """Looks after the memory of a server: `freeze_gc` when all is imported, then by itself."""
 
     def __init__(self, app: App) -> None:
         """Hear of windows that go, and of collections."""
-        self._is_due: set[Callable[[], None]] = set()
+        self._scheduled: set[Callable[[], None]] = set()
         self._begun_s = 0.0
-        app.on_delete(lambda: self._later(_GONE_S, self.give_back))
-        gc.callbacks.append(self._watch)
+        app.on_delete(lambda: self._schedule(_RELEASE_DELAY_S, self.release_memory))
+        gc.callbacks.append(self._on_collection)
 
-    def set_aside(self) -> None:
+    def freeze_gc(self) -> None:
         """Leave all that is there now out of collections: it is imported, or belongs to an open window."""
         gc.collect(1)
         gc.freeze()
 
-    def give_back(self) -> None:
+    def release_memory(self) -> None:
         """Free what belonged to closed windows, and return its pages to the system."""
         gc.unfreeze()
         gc.collect()
@@ -43,7 +43,7 @@ class Memory:
             # Only glibc keeps freed pages until it is asked.
             ctypes.CDLL(None).malloc_trim(0)
 
-    def _watch(self, phase: str, info: Mapping[str, int]) -> None:
+    def _on_collection(self, phase: str, info: Mapping[str, int]) -> None:
         """Hear that a collection begins or ends, in whatever thread."""
         if phase == "start":
             self._begun_s = time.perf_counter()
@@ -52,13 +52,13 @@ class Memory:
                 # A loop that was closed takes nothing any more, and needs nothing.
                 core.loop.call_soon_threadsafe(gc.freeze)
 
-    def _later(self, pause_s: float, act: Callable[[], None]) -> None:
-        if act in self._is_due or core.loop is None:
+    def _schedule(self, pause_s: float, act: Callable[[], None]) -> None:
+        if act in self._scheduled or core.loop is None:
             return
-        self._is_due.add(act)
+        self._scheduled.add(act)
 
         def do() -> None:
-            self._is_due.discard(act)
+            self._scheduled.discard(act)
             act()
 
         core.loop.call_later(pause_s, do)

@@ -16,11 +16,11 @@ if TYPE_CHECKING:
 
     from vicode.editor.session import Library
 
-STORAGE = "NICEGUI_STORAGE_PATH"
+STORAGE_VARIABLE = "NICEGUI_STORAGE_PATH"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Address:
+class ServerAddress:
     """Where the editor listens; `token` is asked for when others can reach it."""
 
     host: str
@@ -35,15 +35,15 @@ class Address:
     @property
     def url(self) -> str:
         """The home of what is served."""
-        return self.url_of("/")
+        return self.page_url("/")
 
-    def url_of(self, path: str) -> str:
+    def page_url(self, path: str) -> str:
         """What to open in a browser to see a page."""
         shown = f"[{self.local_host}]" if ":" in self.local_host else self.local_host
         return f"http://{shown}:{self.port}{path}" + (f"?token={self.token}" if self.token else "")
 
 
-def choose_address(host: str, port: int | None) -> Address:
+def choose_address(host: str, port: int | None) -> ServerAddress:
     """Where to listen: `port`, or a free one for None and 0.
 
     There is a token unless only this machine can connect.
@@ -53,10 +53,10 @@ def choose_address(host: str, port: int | None) -> Address:
     """
     is_local = host in ("127.0.0.1", "localhost", "::1")
     token = "" if is_local else secrets.token_urlsafe(24)
-    return Address(host=host, port=_free_port(host, port), token=token)
+    return ServerAddress(host=host, port=_free_port(host, port), token=token)
 
 
-def serve(path: Path, address: Address, *, open_browser: bool = True, tour: bool = True) -> None:
+def serve(path: Path, address: ServerAddress, *, open_browser: bool = True, tour: bool = True) -> None:
     """Serve the editor on the projects at `path` until it is ended.
 
     Raises:
@@ -65,29 +65,29 @@ def serve(path: Path, address: Address, *, open_browser: bool = True, tour: bool
     # All that is imported stays: looking through it again and again for what could be freed takes a tenth of the start.
     gc.disable()
     # NiceGUI would make its folder in the working directory, which is the user's project.
-    os.environ.setdefault(STORAGE, str(Path(tempfile.gettempdir()) / f"vicode-{os.getuid()}"))
+    os.environ.setdefault(STORAGE_VARIABLE, str(Path(tempfile.gettempdir()) / f"vicode-{os.getuid()}"))
     from nicegui import app, background_tasks, ui
     from starlette.middleware.gzip import GZipMiddleware
 
-    from vicode.editor.memory import Memory
-    from vicode.editor.pages.add import add_pages
+    from vicode.editor.memory import GcPolicy
+    from vicode.editor.pages.add import register_pages
     from vicode.editor.session import Library
-    from vicode.editor.session.keeper import Keeper
-    from vicode.editor.session.recovery import open_recovery
-    from vicode.model.parsing import take_turns
+    from vicode.editor.session.keeper import AutosaveService
+    from vicode.editor.session.recovery import open_recovery_store
+    from vicode.model.parsing import serialize_calls
 
     # NiceGUI reads the quoted values of props by it, while code is parsed beside.
-    ast.literal_eval = take_turns(ast.literal_eval)
+    ast.literal_eval = serialize_calls(ast.literal_eval)
     library = Library(path)
-    add_pages(library, Keeper(library, open_recovery()), tour=tour)
-    _add_guard(app, address)
-    start = address.url_of(_first_page(library))
+    register_pages(library, AutosaveService(library, open_recovery_store()), tour=tour)
+    _add_access_control(app, address)
+    start = address.page_url(_first_page(library))
     words = _greeting(path, address, start)
     # Quasar's bar for requests under way is a landmark without a name, and says nothing here: all is one socket.
     app.config.quasar_config["loadingBar"] = {"skipHijack": True}
     app.config.quasar_config["ripple"] = False
     app.on_startup(lambda: background_tasks.create(_announce(words, address), name="announce"))
-    Memory(app).set_aside()
+    GcPolicy(app).freeze_gc()
     gc.enable()
     ui.run(
         host=address.host,
@@ -108,14 +108,14 @@ def serve(path: Path, address: Address, *, open_browser: bool = True, tour: bool
     )
 
 
-def _add_guard(app: "App", address: Address) -> None:
-    from vicode.editor.guard import COOKIE, Guard
+def _add_access_control(app: "App", address: ServerAddress) -> None:
+    from vicode.editor.guard import TOKEN_COOKIE, AccessMiddleware
 
     hosts = ("127.0.0.1", "localhost", "::1") if not address.token else None
-    app.add_middleware(Guard, hosts=hosts, token=address.token, cookie=f"{COOKIE}_{address.port}")
+    app.add_middleware(AccessMiddleware, hosts=hosts, token=address.token, cookie=f"{TOKEN_COOKIE}_{address.port}")
 
 
-def _greeting(path: Path, address: Address, start: str) -> str:
+def _greeting(path: Path, address: ServerAddress, start: str) -> str:
     if path.is_dir() and start != address.url:
         return f"vicode edits {path} at {address.url}  (Ctrl-C ends it)\n  begin with {start}"
     return f"vicode edits {path} at {start}  (Ctrl-C ends it)"
@@ -123,13 +123,13 @@ def _greeting(path: Path, address: Address, start: str) -> str:
 
 def _first_page(library: "Library") -> str:
     """What people come to work on: the design of the file, the first agent's root; home where nothing is."""
-    from vicode.editor.view.address import design_address
+    from vicode.editor.view.address import design_url
 
-    first = library.first
-    return design_address(first[0].key, first[1]) if first else "/"
+    first = library.initial_design
+    return design_url(first[0].key, first[1]) if first else "/"
 
 
-async def _announce(words: str, address: Address) -> None:
+async def _announce(words: str, address: ServerAddress) -> None:
     """Print the addresses once the server answers there: it is told that it starts before it listens."""
     for _attempt in range(500):
         try:

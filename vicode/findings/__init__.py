@@ -1,26 +1,35 @@
 """What vicode says to its users: rules, findings about things, and their rendering as text and JSON."""
 
-from vicode.findings.catalogue import RULES, Rule, Severity, rule
-from vicode.findings.finding import Finding, Note, Path, Place, Span, Thing, sort_findings, worst_severity
-from vicode.findings.nearest import did_you_mean, meant_by, nearest
+from vicode.findings.catalogue import RULES, Rule, Severity, get_rule
+from vicode.findings.finding import (
+    DesignPath,
+    Finding,
+    FindingSubject,
+    Note,
+    SourceLocation,
+    Span,
+    sort_findings,
+    worst_severity,
+)
+from vicode.findings.nearest import did_you_mean, nearest_name, suggested_name
 from vicode.findings.render import render_json, render_text
 
 __all__ = [
     "RULES",
+    "DesignPath",
     "Finding",
+    "FindingSubject",
     "Note",
-    "Path",
-    "Place",
     "Rule",
     "Severity",
+    "SourceLocation",
     "Span",
-    "Thing",
     "did_you_mean",
-    "meant_by",
-    "nearest",
+    "get_rule",
+    "nearest_name",
     "render_json",
     "render_text",
-    "rule",
     "sort_findings",
+    "suggested_name",
     "worst_severity",
 ]

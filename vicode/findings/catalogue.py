@@ -22,7 +22,7 @@ class Rule:
     summary: str
 
 
-def rule(code: str) -> Rule:
+def get_rule(code: str) -> Rule:
     """The rule with this code; KeyError is a bug of ours."""
     return RULES[code]
 
@@ -142,7 +142,7 @@ _NOTES = {
 }
 
 
-def _catalogue() -> dict[str, Rule]:
+def _build_catalogue() -> dict[str, Rule]:
     tables = ((Severity.ERROR, _ERRORS), (Severity.WARNING, _WARNINGS), (Severity.NOTE, _NOTES))
     return {
         code: Rule(code=code, name=name, severity=severity, summary=summary)
@@ -151,4 +151,4 @@ def _catalogue() -> dict[str, Rule]:
     }
 
 
-RULES = _catalogue()
+RULES = _build_catalogue()

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 from vicode.findings.catalogue import Rule, Severity
 
-Path = tuple[str | int, ...]
+DesignPath = tuple[str | int, ...]
 """Way to a thing inside a design in the words of its file: ("states", "Kick", "transitions", 0, "when")."""
 
 Span = tuple[int, int]
@@ -13,7 +13,7 @@ Span = tuple[int, int]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Place:
+class SourceLocation:
     """Where in a file, counted from 1; `length` characters are underlined."""
 
     file: str
@@ -23,13 +23,13 @@ class Place:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Thing:
+class FindingSubject:
     """What is meant: a path inside the design of `component`; an empty component means the project file."""
 
     component: str = ""
-    path: Path = ()
+    path: DesignPath = ()
     span: Span | None = None
-    of_key: bool = False
+    is_key: bool = False
     """The name itself is meant (a state's key), not what it holds."""
 
 
@@ -38,27 +38,27 @@ class Note:
     """A second place that explains a finding."""
 
     message: str
-    thing: Thing | None = None
-    place: Place | None = None
+    subject: FindingSubject | None = None
+    location: SourceLocation | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Finding:
     """A rule broken by one thing.
 
-    `message` says what is wrong, `mend` how to put it right, both in the user's words. With `languages` it stands in
+    `message` says what is wrong, `fix` how to put it right, both in the user's words. With `languages` it stands in
     the way of generating those alone.
     """
 
     rule: Rule
     message: str
-    mend: str = ""
-    thing: Thing | None = None
-    place: Place | None = None
+    fix: str = ""
+    subject: FindingSubject | None = None
+    location: SourceLocation | None = None
     notes: tuple[Note, ...] = ()
     languages: tuple[str, ...] = ()
 
-    def concerns(self, language: str) -> bool:
+    def applies_to(self, language: str) -> bool:
         """Whether it says something of what is generated in a language."""
         return not self.languages or language in self.languages
 
@@ -72,7 +72,7 @@ def sort_findings(findings: Iterable[Finding]) -> tuple[Finding, ...]:
     """Order by file, line, column and code, each finding once."""
 
     def key(finding: Finding) -> tuple[str, int, int, str, str]:
-        place = finding.place or Place(file="", line=0, column=0)
+        place = finding.location or SourceLocation(file="", line=0, column=0)
         return (place.file, place.line, place.column, finding.rule.code, finding.message)
 
     return tuple(sorted(dict.fromkeys(findings), key=key))

@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 from functools import cache
 
 from vicode.generators import xabsl
-from vicode.generators.origins import ComponentText, Origin, in_whole_design
+from vicode.generators.origins import ComponentCode, Origin, map_to_full_design
 from vicode.generators.plan import (
     ComponentPlan,
     ProjectPlan,
@@ -30,15 +30,15 @@ from vicode.output import OutputFile
 
 __all__ = [
     "GENERATORS",
-    "ComponentText",
+    "ComponentCode",
     "Origin",
     "UnsoundDesignError",
     "collect_components",
-    "component_texts",
+    "component_generator",
     "generate",
+    "list_origins",
     "list_outputs",
-    "origins_of",
-    "python_class",
+    "python_class_path",
     "python_probes",
 ]
 
@@ -54,7 +54,7 @@ class Generator:
     write: Callable[..., tuple[OutputFile, ...]]
     list_paths: Callable[..., tuple[str, ...]]
     reserved_modules: frozenset[str]
-    component_writer: Callable[[ProjectPlan], Callable[[ComponentPlan], ComponentText]]
+    component_writer: Callable[[ProjectPlan], Callable[[ComponentPlan], ComponentCode]]
     find_origins: Callable[[ComponentPlan, str], tuple[Origin, ...]]
 
 
@@ -80,7 +80,7 @@ def generate(
     project: Project,
     *,
     components: Collection[str] | None = None,
-    leave_out: Collection[str] = (),
+    exclude: Collection[str] = (),
     languages: Collection[str] | None = None,
     standalone: bool = False,
     sources: Mapping[str, str] | None = None,
@@ -99,37 +99,37 @@ def generate(
         UnsoundDesignError: A design has mistakes; `vicode.check` tells which.
     """
     files: list[OutputFile] = []
-    for generator in _choose(project, languages):
-        wanted = collect_components(project, components) - set(leave_out)
+    for generator in _select_generators(project, languages):
+        wanted = collect_components(project, components) - set(exclude)
         plan = plan_project(project, wanted, sources or {}, generator.reserved_modules)
         files += generator.write(plan, standalone=standalone)
     return tuple(sorted(files, key=lambda file: file.path))
 
 
-def component_texts(
+def component_generator(
     project: Project, language: str, sources: Mapping[str, str]
-) -> Callable[[Design], ComponentText | None]:
+) -> Callable[[Design], ComponentCode | None]:
     """What writes the file of one design after the other as `generate` does; None for one that cannot be said."""
     generator = GENERATORS[language]
 
     @cache
-    def begun() -> tuple[ProjectPlan, Callable[[ComponentPlan], ComponentText]]:
+    def begun() -> tuple[ProjectPlan, Callable[[ComponentPlan], ComponentCode]]:
         plan = plan_project(project, (), sources, generator.reserved_modules)
         return plan, generator.component_writer(plan)
 
-    def write(design: Design) -> ComponentText | None:
+    def write(design: Design) -> ComponentCode | None:
         try:
             plan, write_component = begun()
             source = sources.get(design.component, "")
             written = write_component(plan_component(project, design, plan.package.modules, source))
         except UnsoundDesignError:
             return None
-        return replace(written, origins=in_whole_design(design, written.origins))
+        return replace(written, origins=map_to_full_design(design, written.origins))
 
     return write
 
 
-def origins_of(project: Project, component: str, language: str, text: str) -> tuple[Origin, ...]:
+def list_origins(project: Project, component: str, language: str, text: str) -> tuple[Origin, ...]:
     """Which lines of a text that `generate` wrote for a component come from which thing of its design.
 
     Raises:
@@ -139,7 +139,7 @@ def origins_of(project: Project, component: str, language: str, text: str) -> tu
     if design is None:
         return ()
     (plan,) = plan_project(project, {component}, {}, generator.reserved_modules).components
-    return in_whole_design(design, generator.find_origins(plan, text))
+    return map_to_full_design(design, generator.find_origins(plan, text))
 
 
 def list_outputs(
@@ -147,12 +147,12 @@ def list_outputs(
 ) -> tuple[str, ...]:
     """Every path that `generate` may write for a project, sound or not: what else carries our header there is stale."""
     paths: list[str] = []
-    for generator in _choose(project, languages):
+    for generator in _select_generators(project, languages):
         paths += generator.list_paths(plan_package(project, generator.reserved_modules), standalone=standalone)
     return tuple(sorted(paths))
 
 
-def python_class(project: Project, component: str) -> str:
+def python_class_path(project: Project, component: str) -> str:
     """Where the class of a component is found in Python: "package.module:Class".
 
     Raises:
@@ -161,7 +161,7 @@ def python_class(project: Project, component: str) -> str:
     interface = project.interface(component)
     if interface is None:
         raise UnsoundDesignError(f"nothing declares the component '{component}'")
-    if project.design(component) is None and not interface.is_handed_on:
+    if project.design(component) is None and not interface.is_generated:
         return interface.implementation
     return class_path(plan_package(project, RESERVED_MODULES), component)
 
@@ -176,6 +176,6 @@ def python_probes(project: Project, component: str) -> OutputFile:
     return generate_probes(plan, plan.components[0])
 
 
-def _choose(project: Project, languages: Collection[str] | None) -> list[Generator]:
+def _select_generators(project: Project, languages: Collection[str] | None) -> list[Generator]:
     wanted = project.languages if languages is None else languages
     return [generator for language, generator in GENERATORS.items() if language in wanted]

@@ -3,10 +3,10 @@
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
 
-from vicode.findings import Path
+from vicode.findings import DesignPath
 from vicode.model.design import Design
-from vicode.model.enabling import disabled_states, enabled_part, is_working
-from vicode.model.walks import walk_decisions
+from vicode.model.enabling import disabled_states, is_enabled, strip_disabled
+from vicode.model.walks import iter_decisions
 from vicode.output import OutputFile
 
 
@@ -16,27 +16,27 @@ class Origin:
 
     first: int
     last: int
-    path: Path
+    path: DesignPath
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class ComponentText:
+class ComponentCode:
     """The file of one component, and which of its lines come from what."""
 
     file: OutputFile
     origins: tuple[Origin, ...]
 
 
-def in_whole_design(design: Design, origins: Iterable[Origin]) -> tuple[Origin, ...]:
+def map_to_full_design(design: Design, origins: Iterable[Origin]) -> tuple[Origin, ...]:
     """The origins with the paths of the whole design, in place of those of what is enabled in it."""
     off = disabled_states(design)
-    whole = (located.path for located in walk_decisions(design) if is_working(located, off))
-    enabled = (located.path for located in walk_decisions(enabled_part(design)))
+    whole = (located.path for located in iter_decisions(design) if is_enabled(located, off))
+    enabled = (located.path for located in iter_decisions(strip_disabled(design)))
     paths = dict(zip(enabled, whole, strict=True))
-    return tuple(replace(origin, path=_path_in(paths, origin.path)) for origin in origins)
+    return tuple(replace(origin, path=_full_path(paths, origin.path)) for origin in origins)
 
 
-def _path_in(paths: dict[Path, Path], path: Path) -> Path:
+def _full_path(paths: dict[DesignPath, DesignPath], path: DesignPath) -> DesignPath:
     """A decision's path, with what follows it, by the longest part that is a decision."""
     for length in range(len(path), 0, -1):
         if path[:length] in paths:

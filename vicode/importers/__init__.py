@@ -4,19 +4,19 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-from vicode.importers.comments import Anchor, place_remarks
-from vicode.importers.names import Names, other_name
+from vicode.importers.comments import Anchor, place_comments
+from vicode.importers.names import DesignNames, xabsl_name_or_empty
 from vicode.importers.options import OptionImporter
-from vicode.importers.robot import robot_text
-from vicode.importers.vocabulary import Remark, Vocabulary, learn
+from vicode.importers.robot import render_robot_class
+from vicode.importers.vocabulary import ImportedDeclarations, PlacedComment, import_declarations
 from vicode.model.project import Agent, Project
 from vicode.xabsl import tree
-from vicode.xabsl.compiler import Compiled
-from vicode.xabsl.sources import Source
+from vicode.xabsl.compiler import CompileResult
+from vicode.xabsl.sources import ProgramSource
 
-__all__ = ["ROBOT", "Imported", "ImportedDesign", "import_behavior", "robot_text"]
+__all__ = ["ROBOT_WORLD", "ImportResult", "ImportedDesign", "import_behavior", "render_robot_class"]
 
-ROBOT = "robot:Robot"
+ROBOT_WORLD = "robot:Robot"
 """The world of an imported project, which `robot_text` is the beginning of."""
 
 
@@ -29,21 +29,21 @@ class ImportedDesign:
 
     component: str
     path: str
-    remarks: tuple[Remark, ...]
+    comments: tuple[PlacedComment, ...]
     file: Path
     anchors: tuple[Anchor, ...]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Imported:
-    """A project with its designs; `remarks` belong to project.yaml."""
+class ImportResult:
+    """A project with its designs; `comments` belong to project.yaml."""
 
     project: Project
     designs: tuple[ImportedDesign, ...]
-    remarks: tuple[Remark, ...]
+    comments: tuple[PlacedComment, ...]
 
 
-def import_behavior(source: Source, compiled: Compiled, name: str) -> Imported:
+def import_behavior(source: ProgramSource, compiled: CompileResult, name: str) -> ImportResult:
     """Turn a behavior that was compiled without errors into a project.
 
     Args:
@@ -51,80 +51,82 @@ def import_behavior(source: Source, compiled: Compiled, name: str) -> Imported:
         compiled: what the compiler found out about them.
         name: the project's name.
     """
-    vocabulary = learn(source, compiled.table)
-    meanings = {(id(tokens), at): declared for tokens, at, declared in compiled.uses}
+    vocabulary = import_declarations(source, compiled.table)
+    meanings = {(id(tokens), at): declared for tokens, at, declared in compiled.references}
     designs, placed = [], []
     options = {id(each.node): each for each in compiled.table.options.values()}
-    remarks = list(vocabulary.remarks)
+    remarks = list(vocabulary.comments)
     for path, parsed in source.files.items():
         for item in parsed.file.body:
             if id(item) not in options:
                 continue
             importer = OptionImporter(vocabulary, meanings, parsed, options[id(item)])
-            design, found = importer.design()
+            design, found = importer.import_design()
             designs.append(design)
             placed.append(
                 ImportedDesign(
                     component=design.component,
                     path=_path(source, path),
-                    remarks=tuple(found),
+                    comments=tuple(found),
                     file=path,
                     anchors=tuple(importer.anchors),
                 )
             )
     agents = tuple(_agents(source, compiled, vocabulary))
     for path, parsed in source.files.items():
-        if not any(isinstance(item, tree.Option) for item in parsed.file.body):
-            remarks += _remarks_of(parsed.file, vocabulary, is_main=path == source.main)
+        if not any(isinstance(item, tree.OptionNode) for item in parsed.file.body):
+            remarks += _place_file_comments(parsed.file, vocabulary, is_main=path == source.main)
     project = Project(
         name=name,
         doc=_doc(source),
         languages=("python", "xabsl"),
-        world=ROBOT,
+        world=ROBOT_WORLD,
         enumerations=tuple(vocabulary.enumerations),
         constants=tuple(vocabulary.constants),
         components=tuple(vocabulary.interfaces),
         agents=agents,
         designs=tuple(designs),
     )
-    return Imported(project=project, designs=tuple(placed), remarks=tuple(remarks))
+    return ImportResult(project=project, designs=tuple(placed), comments=tuple(remarks))
 
 
-def _path(source: Source, file: Path) -> str:
+def _path(source: ProgramSource, file: Path) -> str:
     """Where the design of a file goes: where the file stands beside the one with the agents."""
     folder = source.main.parent
     shown = file.relative_to(folder) if file.is_relative_to(folder) else Path(file.name)
     return shown.with_suffix(".yaml").as_posix()
 
 
-def _doc(source: Source) -> str:
+def _doc(source: ProgramSource) -> str:
     """What the first comment of a behavior says, its title first."""
-    lines = [line.strip() for line in source.files[source.main].file.initial.splitlines()]
+    lines = [line.strip() for line in source.files[source.main].file.header.splitlines()]
     others = [line for line in lines if line and line.partition(":")[0].strip() != "Title"]
     return "\n".join([*([source.title] if source.title else []), *others])
 
 
-def _agents(source: Source, compiled: Compiled, vocabulary: Vocabulary) -> Iterator[Agent]:
-    names = Names()
+def _agents(source: ProgramSource, compiled: CompileResult, vocabulary: ImportedDeclarations) -> Iterator[Agent]:
+    names = DesignNames()
     for each in source.files[source.main].file.body:
-        if isinstance(each, tree.Agent):
-            name = names.give(each.name.text)
+        if isinstance(each, tree.AgentNode):
+            name = names.allocate(each.name.text)
             vocabulary.paths[id(each)] = ("agents", name)
             yield Agent(
                 name=name,
                 root=vocabulary.components[compiled.table.options[each.root.text]],
                 title=each.title if each.title != name else "",
                 doc=each.doc,
-                xabsl_name=other_name(name, each.name.text),
+                xabsl_name=xabsl_name_or_empty(name, each.name.text),
             )
 
 
-def _remarks_of(file: tree.File, vocabulary: Vocabulary, *, is_main: bool) -> Iterator[Remark]:
+def _place_file_comments(
+    file: tree.FileNode, vocabulary: ImportedDeclarations, *, is_main: bool
+) -> Iterator[PlacedComment]:
     """Comments of a file that declares symbols or agents."""
     anchors: list[Anchor] = []
     for item in file.body:
-        inside = item.declarations if isinstance(item, tree.Namespace) else [item]
-        anchors += [(each.at, vocabulary.paths[id(each)]) for each in inside if id(each) in vocabulary.paths]
-    if file.initial and not is_main:
-        yield (anchors[0][1] if anchors else (), file.initial)
-    yield from place_remarks(file.comments, anchors)
+        inside = item.declarations if isinstance(item, tree.NamespaceNode) else [item]
+        anchors += [(each.first_token, vocabulary.paths[id(each)]) for each in inside if id(each) in vocabulary.paths]
+    if file.header and not is_main:
+        yield (anchors[0][1] if anchors else (), file.header)
+    yield from place_comments(file.comments, anchors)

@@ -4,25 +4,25 @@ import textwrap
 from bisect import bisect_left
 from collections.abc import Iterable, Iterator, Sequence
 
-from vicode.findings import Path
-from vicode.importers.vocabulary import Remark
+from vicode.findings import DesignPath
+from vicode.importers.vocabulary import PlacedComment
 from vicode.xabsl.lexer import Comment
 
-Anchor = tuple[int, Path]
+Anchor = tuple[int, DesignPath]
 """The number of a token, and the path of the thing that begins with it."""
 
 
-def words_of(comments: Iterable[Comment]) -> str:
+def comment_text(comments: Iterable[Comment]) -> str:
     """What comments say, without their signs."""
     return "\n".join(_plain(each.text) for each in comments).strip()
 
 
-def is_code(text: str) -> bool:
+def looks_like_code(text: str) -> bool:
     """Whether a comment holds code that was set aside rather than words."""
     return any(sign in text for sign in ";{}") or "goto " in text
 
 
-def place_remarks(comments: dict[int, list[Comment]], anchors: Sequence[Anchor]) -> Iterator[Remark]:
+def place_comments(comments: dict[int, list[Comment]], anchors: Sequence[Anchor]) -> Iterator[PlacedComment]:
     """Where each comment belongs: at what follows it, or behind what stands before it in its line."""
     ordered = sorted(anchors, key=lambda anchor: anchor[0])
     starts = [token for token, _path in ordered]

@@ -3,59 +3,60 @@
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from vicode.importers.names import plain_number
+from vicode.importers.names import to_design_number
 from vicode.xabsl import tree
-from vicode.xabsl.declared import Declared
+from vicode.xabsl.declared import Definition
 from vicode.xabsl.lexer import Tokens
 
 _OPERATORS = {"&&": "and", "||": "or"}
-_WORDS = {"true": "True", "false": "False", "option_time": "component_time"}
+_KEYWORDS = {"true": "True", "false": "False", "option_time": "component_time"}
 
 
 @dataclass(frozen=True, slots=True)
-class Wording:
-    """Spells the expressions of one file; `meaning` tells what a word there means, `name` how a design says it."""
+class ExpressionTranslator:
+    """Spells the expressions of one file; `resolve` tells what a word there means, `design_name` how a design says it."""
 
     tokens: Tokens
-    meaning: Callable[[Tokens, int], Declared]
-    name: Callable[[Declared], str]
+    resolve: Callable[[Tokens, int], Definition]
+    design_name: Callable[[Definition], str]
 
-    def spell(self, expression: tree.Expression) -> str:
+    def translate(self, expression: tree.ExpressionNode) -> str:
         """An expression as a design's text."""
         match expression:
-            case tree.Number(text=text):
-                return plain_number(text)
-            case tree.Word(text=text):
-                return _WORDS.get(text, text)
-            case tree.Ref():
-                return self.name(self.meaning(self.tokens, expression.at))
-            case tree.Function():
+            case tree.NumberNode(text=text):
+                return to_design_number(text)
+            case tree.KeywordNode(text=text):
+                return _KEYWORDS.get(text, text)
+            case tree.ReferenceNode():
+                return self.design_name(self.resolve(self.tokens, expression.first_token))
+            case tree.FunctionCallNode():
                 return self._function(expression)
-            case tree.Parentheses(inner=inner):
-                return f"({self.spell(inner)})"
-            case tree.Unary(operator=operator, operand=operand):
+            case tree.ParenthesizedNode(inner=inner):
+                return f"({self.translate(inner)})"
+            case tree.UnaryNode(operator=operator, operand=operand):
                 sign = "not " if operator == "!" else "-"
                 return sign + self._operand(operand)
-            case tree.Binary(operator=operator, left=left, right=right):
+            case tree.BinaryNode(operator=operator, left=left, right=right):
                 word = _OPERATORS.get(operator, operator)
                 return f"{self._operand(left)} {word} {self._operand(right)}"
-            case tree.Conditional(condition=condition, yes=yes, no=no):
+            case tree.ConditionalNode(condition=condition, yes=yes, no=no):
                 return f"{self._operand(yes)} if {self._operand(condition)} else {self._operand(no)}"
 
-    def arguments(self, given: tree.Arguments) -> tuple[tuple[str, str], ...]:
+    def translate_arguments(self, given: tree.ArgumentListNode) -> tuple[tuple[str, str], ...]:
         """Parameters by the names of designs, with their values, as written."""
         return tuple(
-            (self.name(self.meaning(self.tokens, each.name.at)), self.spell(each.value)) for each in given.given
+            (self.design_name(self.resolve(self.tokens, each.name.first_token)), self.translate(each.value))
+            for each in given.items
         )
 
-    def _operand(self, expression: tree.Expression) -> str:
+    def _operand(self, expression: tree.ExpressionNode) -> str:
         """Python reads a condition the other way round, so one inside another expression is set in parentheses."""
-        text = self.spell(expression)
-        return f"({text})" if isinstance(expression, tree.Conditional) else text
+        text = self.translate(expression)
+        return f"({text})" if isinstance(expression, tree.ConditionalNode) else text
 
-    def _function(self, function: tree.Function) -> str:
-        declared = self.meaning(self.tokens, function.name.at)
-        if not isinstance(declared.node, tree.Symbol) or declared.node.parameters is None:
-            return self.name(declared)
-        given = ", ".join(f"{name}={value}" for name, value in self.arguments(function.arguments))
-        return f"{self.name(declared)}({given})"
+    def _function(self, function: tree.FunctionCallNode) -> str:
+        declared = self.resolve(self.tokens, function.name.first_token)
+        if not isinstance(declared.node, tree.SymbolNode) or declared.node.parameters is None:
+            return self.design_name(declared)
+        given = ", ".join(f"{name}={value}" for name, value in self.translate_arguments(function.arguments))
+        return f"{self.design_name(declared)}({given})"

@@ -5,12 +5,12 @@ import re
 
 from vicode.bica import RESERVED_NAMES
 from vicode.model.expressions import FUNCTIONS
-from vicode.model.names import is_name
+from vicode.model.names import is_valid_name
 from vicode.xabsl.tokens import KEYWORDS
 
-_LONGEST = 70
-_LARGEST = 2**53
-_TAKEN = frozenset(
+_MAX_LENGTH = 70
+_MAX_INTEGER = 2**53
+_RESERVED = frozenset(
     {
         *keyword.kwlist,
         *RESERVED_NAMES,
@@ -22,16 +22,16 @@ _TAKEN = frozenset(
 """Words that mean something else in designs or in what is generated from them."""
 
 
-class Names:
+class DesignNames:
     """Gives names out, none twice; case does not tell two apart, as it does not in some file systems."""
 
     def __init__(self, taken: frozenset[str] = frozenset()) -> None:
         """Begin with names that nobody gets."""
         self._taken = {name.casefold() for name in taken}
 
-    def give(self, wanted: str) -> str:
+    def allocate(self, wanted: str) -> str:
         """A free name like the one of XABSL."""
-        stem = plain_name(wanted)
+        stem = to_design_name(wanted)
         name, number = stem, 1
         while name.casefold() in self._taken:
             number += 1
@@ -40,21 +40,21 @@ class Names:
         return name
 
 
-def plain_name(text: str) -> str:
+def to_design_name(text: str) -> str:
     """The nearest name that a design may have."""
-    stem = re.sub(r"[^A-Za-z0-9_]", "_", text).strip("_")[:_LONGEST] or "x"
-    if not is_name(stem):
+    stem = re.sub(r"[^A-Za-z0-9_]", "_", text).strip("_")[:_MAX_LENGTH] or "x"
+    if not is_valid_name(stem):
         stem = f"x_{stem}"
-    return f"{stem}_" if stem in _TAKEN else stem
+    return f"{stem}_" if stem in _RESERVED else stem
 
 
-def plain_number(text: str) -> str:
+def to_design_number(text: str) -> str:
     """A number as a design may have it; whole ones that not every language holds exactly are decimals."""
     if text.endswith("."):
         return f"{text}0"
-    return f"{text}.0" if "." not in text and abs(int(text)) > _LARGEST else text
+    return f"{text}.0" if "." not in text and abs(int(text)) > _MAX_INTEGER else text
 
 
-def other_name(name: str, written: str) -> str:
+def xabsl_name_or_empty(name: str, written: str) -> str:
     """The name in XABSL where it is another one, else nothing."""
     return "" if name == written else written

@@ -4,9 +4,9 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
 from vicode.model.design import Declaration
-from vicode.model.names import attribute_name, snake_case
+from vicode.model.names import python_attribute_name, snake_case
 from vicode.model.project import WORLD, Interface, Project
-from vicode.model.xabsl.names import element_name, is_behavior
+from vicode.model.xabsl.names import element_name, is_basic_behavior
 from vicode.templating import render
 
 _ZEROS = {"bool": "False", "float": "0.0", "int": "0"}
@@ -15,7 +15,7 @@ _ZEROS = {"bool": "False", "float": "0.0", "int": "0"}
 @dataclass(frozen=True, slots=True, kw_only=True)
 class _Value:
     name: str
-    first: str
+    default: str
     doc: tuple[str, ...]
 
 
@@ -37,18 +37,18 @@ class _Section:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class _View:
+class _RobotView:
     sections: tuple[_Section, ...]
 
 
-def robot_text(project: Project) -> str:
+def render_robot_class(project: Project) -> str:
     """A Python module with the class `Robot`, which has all that components of the world ask for."""
     asked = [each for each in project.components if each.implementation == WORLD]
     symbols = [_symbols(project, each) for each in asked if each.readable]
-    acts = tuple(_act(project, each) for each in asked if is_behavior(each))
+    acts = tuple(_behavior_method(project, each) for each in asked if is_basic_behavior(each))
     if acts:
         symbols.append(_Section(title="What it does", doc=(), values=(), functions=acts))
-    return render("importers/robot.py.jinja", view=_View(sections=tuple(symbols)))
+    return render("importers/robot.py.jinja", view=_RobotView(sections=tuple(symbols)))
 
 
 def _symbols(project: Project, interface: Interface) -> _Section:
@@ -65,7 +65,9 @@ def _symbols(project: Project, interface: Interface) -> _Section:
 
 def _value(project: Project, declaration: Declaration) -> _Value:
     return _Value(
-        name=_name(declaration), first=_first(project, declaration), doc=tuple(_lines(_described(project, declaration)))
+        name=_name(declaration),
+        default=_default(project, declaration),
+        doc=tuple(_lines(_description(project, declaration))),
     )
 
 
@@ -74,14 +76,14 @@ def _function(project: Project, declaration: Declaration) -> _Function:
         name=_name(declaration),
         parameters=_parameters(project, declaration.arguments or ()),
         result=_type(declaration),
-        body=f"return {_first(project, declaration)}",
-        doc=tuple(_lines(_described(project, declaration))),
+        body=f"return {_default(project, declaration)}",
+        doc=tuple(_lines(_description(project, declaration))),
     )
 
 
-def _act(project: Project, interface: Interface) -> _Function:
+def _behavior_method(project: Project, interface: Interface) -> _Function:
     return _Function(
-        name=attribute_name(interface.xabsl_name or snake_case(interface.component)),
+        name=python_attribute_name(interface.xabsl_name or snake_case(interface.component)),
         parameters=_parameters(project, interface.parameters),
         result="None",
         body="return",
@@ -90,26 +92,26 @@ def _act(project: Project, interface: Interface) -> _Function:
 
 
 def _parameters(project: Project, declarations: Iterable[Declaration]) -> str:
-    given = [f"{_name(each)}: {_type(each)} = {_first(project, each)}" for each in declarations]
+    given = [f"{_name(each)}: {_type(each)} = {_default(project, each)}" for each in declarations]
     return f", *, {', '.join(given)}" if given else ""
 
 
 def _name(declaration: Declaration) -> str:
-    return attribute_name(declaration.xabsl_name or declaration.name)
+    return python_attribute_name(declaration.xabsl_name or declaration.name)
 
 
 def _type(declaration: Declaration) -> str:
     return declaration.type if declaration.type in _ZEROS else "str"
 
 
-def _first(project: Project, declaration: Declaration) -> str:
+def _default(project: Project, declaration: Declaration) -> str:
     enumeration = project.enumeration(declaration.type)
     if enumeration is None:
         return _ZEROS.get(declaration.type, "0.0")
     return f'"{element_name(enumeration, enumeration.element_names[0])}"'
 
 
-def _described(project: Project, declaration: Declaration) -> str:
+def _description(project: Project, declaration: Declaration) -> str:
     enumeration = project.enumeration(declaration.type)
     facts = [f"in {declaration.unit}"] if declaration.unit else []
     if declaration.range:

@@ -3,42 +3,42 @@
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field, replace
 
-from vicode.findings import Path
-from vicode.importers.names import Names, other_name, plain_number
+from vicode.findings import DesignPath
+from vicode.importers.names import DesignNames, to_design_number, xabsl_name_or_empty
 from vicode.model.design import Declaration
 from vicode.model.project import INTERNAL, WORLD, Enumeration, Interface
 from vicode.model.xabsl.names import symbol_name
 from vicode.xabsl import tree
-from vicode.xabsl.declared import BOOLEAN, DECIMAL, ENUM, Declared, Table
-from vicode.xabsl.ranges import range_of
-from vicode.xabsl.sources import Source
+from vicode.xabsl.declared import BOOLEAN, DECIMAL, ENUM, Definition, SymbolTable
+from vicode.xabsl.ranges import parse_range
+from vicode.xabsl.sources import ProgramSource
 
 _TYPES = {BOOLEAN: "bool", DECIMAL: "float"}
 
-Remark = tuple[Path, str]
+PlacedComment = tuple[DesignPath, str]
 """A comment above the thing that a path leads to."""
 
 
 @dataclass(slots=True)
-class Vocabulary:
+class ImportedDeclarations:
     """What names mean, and how designs say them.
 
     `components` are names of components by option and basic behavior, `symbols` pairs of a component and a name in it,
-    `plain` the names of constants, enumerations, and of parameters inside calls.
+    `names` the names of constants, enumerations, and of parameters inside calls.
     """
 
     enumerations: list[Enumeration] = field(default_factory=list)
     constants: list[Declaration] = field(default_factory=list)
     interfaces: list[Interface] = field(default_factory=list)
-    remarks: list[Remark] = field(default_factory=list)
-    components: dict[Declared, str] = field(default_factory=dict)
-    symbols: dict[Declared, tuple[str, str]] = field(default_factory=dict)
-    plain: dict[Declared, str] = field(default_factory=dict)
+    comments: list[PlacedComment] = field(default_factory=list)
+    components: dict[Definition, str] = field(default_factory=dict)
+    symbols: dict[Definition, tuple[str, str]] = field(default_factory=dict)
+    names: dict[Definition, str] = field(default_factory=dict)
     enums: dict[str, Enumeration] = field(default_factory=dict)
     """Enumerations by their names in XABSL."""
-    paths: dict[int, Path] = field(default_factory=dict)
+    paths: dict[int, DesignPath] = field(default_factory=dict)
     """Where in the project file a declaration went, by the identity of its node."""
-    shared: Names = field(default_factory=Names)
+    shared: DesignNames = field(default_factory=DesignNames)
     """Names that every design knows: those of constants and enumerations."""
 
     @property
@@ -47,27 +47,30 @@ class Vocabulary:
         return frozenset([each.name for each in self.constants] + [each.name for each in self.enumerations])
 
 
-def learn(source: Source, table: Table) -> Vocabulary:
+def import_declarations(source: ProgramSource, table: SymbolTable) -> ImportedDeclarations:
     """Name all that a behavior declares, in the order of its files."""
-    return _Learner(table).learn(source)
+    return _DeclarationImporter(table).run(source)
 
 
-class _Learner:
+class _DeclarationImporter:
     """Gives names and collects declarations."""
 
-    def __init__(self, table: Table) -> None:
+    def __init__(self, table: SymbolTable) -> None:
         self.table = table
-        self.made = Vocabulary()
+        self.result = ImportedDeclarations()
         # Components and enumerations become classes side by side.
-        self.classes = Names()
+        self.class_names = DesignNames()
         everything = [*(each for found in table.readable.values() for each in found)]
         everything += [*table.enums.values(), *table.options.values(), *table.behaviors.values()]
         self.by_node = {id(each.node): each for each in everything}
 
-    def learn(self, source: Source) -> Vocabulary:
+    def run(self, source: ProgramSource) -> ImportedDeclarations:
         """All declarations."""
         namespaces = [
-            item for parsed in source.files.values() for item in parsed.file.body if isinstance(item, tree.Namespace)
+            item
+            for parsed in source.files.values()
+            for item in parsed.file.body
+            if isinstance(item, tree.NamespaceNode)
         ]
         for each in self.table.enums.values():
             self._enumeration(each)
@@ -77,23 +80,23 @@ class _Learner:
             self._component(behavior)
         for namespace in namespaces:
             self._namespace(namespace)
-        return self.made
+        return self.result
 
-    def _component(self, declared: Declared) -> None:
-        self.made.components[declared] = self.classes.give(declared.name)
+    def _component(self, declared: Definition) -> None:
+        self.result.components[declared] = self.class_names.allocate(declared.name)
         if declared.role == "behavior":
-            names = Names()
+            names = DesignNames()
             for each in declared.parameters.values():
-                self.made.plain[each] = names.give(each.name)
+                self.result.names[each] = names.allocate(each.name)
 
-    def _enumeration(self, declared: Declared) -> None:
-        assert isinstance(declared.node, tree.Enumeration)
-        name = self.made.shared.give(self.classes.give(declared.name))
-        self.made.plain[declared] = name
-        names, elements, others = Names(), [], []
+    def _enumeration(self, declared: Definition) -> None:
+        assert isinstance(declared.node, tree.EnumerationNode)
+        name = self.result.shared.allocate(self.class_names.allocate(declared.name))
+        self.result.names[declared] = name
+        names, elements, others = DesignNames(), [], []
         for each in declared.elements.values():
-            element = names.give(each.name)
-            self.made.plain[each] = f"{name}.{element}"
+            element = names.allocate(each.name)
+            self.result.names[each] = f"{name}.{element}"
             elements.append((element, ""))
             if element != each.name:
                 others.append((element, each.name))
@@ -102,114 +105,116 @@ class _Learner:
             elements=tuple(elements),
             doc=declared.node.doc,
             internal=declared.node.is_internal,
-            xabsl_name=other_name(name, declared.name),
+            xabsl_name=xabsl_name_or_empty(name, declared.name),
             xabsl_elements=tuple(others),
         )
-        self.made.enumerations.append(made)
-        self.made.enums[declared.name] = made
-        self.made.paths[id(declared.node)] = ("enumerations", name)
+        self.result.enumerations.append(made)
+        self.result.enums[declared.name] = made
+        self.result.paths[id(declared.node)] = ("enumerations", name)
 
-    def _namespace(self, item: tree.Namespace) -> None:
+    def _namespace(self, item: tree.NamespaceNode) -> None:
         """A component of the world for what the robot's program has, one more for what the engine keeps."""
-        kept: list[Declared] = []
-        given: list[Declared] = []
-        first: Path | None = None
+        kept: list[Definition] = []
+        given: list[Definition] = []
+        first: DesignPath | None = None
         for each in item.declarations:
             declared = self.by_node.get(id(each))
             if declared is None:
                 continue
-            if isinstance(each, tree.Behavior):
+            if isinstance(each, tree.BehaviorNode):
                 self._behavior(each, declared)
-            elif isinstance(each, tree.Constant):
+            elif isinstance(each, tree.ConstantNode):
                 self._constant(each, declared)
-            elif isinstance(each, tree.Symbol):
+            elif isinstance(each, tree.SymbolNode):
                 (kept if declared.role == "internal" else given).append(declared)
-            first = first or self.made.paths.get(id(each))
+            first = first or self.result.paths.get(id(each))
         if given:
-            self._offer(item, "", WORLD, given)
+            self._add_interface(item, "", WORLD, given)
         if kept:
-            self._offer(item, "_internal" if given else "", INTERNAL, kept)
+            self._add_interface(item, "_internal" if given else "", INTERNAL, kept)
         if first is not None and not given and not kept:
             words = [f"namespace {item.name.text}", item.title, item.doc]
-            self.made.remarks.append((first, ": ".join(word for word in words if word)))
+            self.result.comments.append((first, ": ".join(word for word in words if word)))
 
-    def _offer(self, item: tree.Namespace, suffix: str, implementation: str, symbols: Iterable[Declared]) -> None:
-        component = self.classes.give(item.name.text + suffix)
-        names = Names()
+    def _add_interface(
+        self, item: tree.NamespaceNode, suffix: str, implementation: str, symbols: Iterable[Definition]
+    ) -> None:
+        component = self.class_names.allocate(item.name.text + suffix)
+        names = DesignNames()
         outputs: list[Declaration] = []
         variables: list[Declaration] = []
         for each in symbols:
-            assert isinstance(each.node, tree.Symbol)
-            name = names.give(each.name)
-            self.made.symbols[each] = (component, name)
+            assert isinstance(each.node, tree.SymbolNode)
+            name = names.allocate(each.name)
+            self.result.symbols[each] = (component, name)
             made = _with_symbol_name(component, self._declaration(each.node, each, name), each.name)
             (outputs if each.role == "input" else variables).append(made)
             section = "outputs" if each.role == "input" else "variables"
-            self.made.paths[id(each.node)] = ("components", component, section, name)
-        self.made.interfaces.append(
+            self.result.paths[id(each.node)] = ("components", component, section, name)
+        self.result.interfaces.append(
             Interface(
                 component=component,
                 title=item.title if item.title != component else "",
                 doc=item.doc,
-                xabsl_name=other_name(component, item.name.text + suffix),
+                xabsl_name=xabsl_name_or_empty(component, item.name.text + suffix),
                 implementation=implementation,
                 outputs=tuple(outputs),
                 variables=tuple(variables),
             )
         )
 
-    def _behavior(self, item: tree.Behavior, declared: Declared) -> Interface:
-        component = self.made.components[declared]
+    def _behavior(self, item: tree.BehaviorNode, declared: Definition) -> Interface:
+        component = self.result.components[declared]
         made = Interface(
             component=component,
             doc=item.doc,
-            xabsl_name=other_name(component, declared.name),
+            xabsl_name=xabsl_name_or_empty(component, declared.name),
             implementation=WORLD,
             parameters=tuple(self._parameters(declared)),
         )
-        self.made.interfaces.append(made)
-        self.made.paths[id(item)] = ("components", component)
+        self.result.interfaces.append(made)
+        self.result.paths[id(item)] = ("components", component)
         return made
 
-    def _constant(self, item: tree.Constant, declared: Declared) -> Declaration:
-        name = self.made.shared.give(declared.name)
-        self.made.plain[declared] = name
+    def _constant(self, item: tree.ConstantNode, declared: Definition) -> Declaration:
+        name = self.result.shared.allocate(declared.name)
+        self.result.names[declared] = name
         made = Declaration(
             name=name,
             type="float",
-            initial=plain_number(item.number),
+            initial=to_design_number(item.number),
             unit=item.unit,
             doc=item.doc,
-            xabsl_name=other_name(name, declared.name),
+            xabsl_name=xabsl_name_or_empty(name, declared.name),
         )
-        self.made.constants.append(made)
-        self.made.paths[id(item)] = ("constants", name)
+        self.result.constants.append(made)
+        self.result.paths[id(item)] = ("constants", name)
         return made
 
-    def _parameters(self, owner: Declared) -> Iterator[Declaration]:
+    def _parameters(self, owner: Definition) -> Iterator[Declaration]:
         for each in owner.parameters.values():
-            assert isinstance(each.node, tree.Parameter)
-            yield self._declaration(each.node, each, self.made.plain[each])
+            assert isinstance(each.node, tree.ParameterNode)
+            yield self._declaration(each.node, each, self.result.names[each])
 
-    def _declaration(self, item: tree.Symbol | tree.Parameter, declared: Declared, name: str) -> Declaration:
+    def _declaration(self, item: tree.SymbolNode | tree.ParameterNode, declared: Definition, name: str) -> Declaration:
         arguments: tuple[Declaration, ...] | None = None
-        if isinstance(item, tree.Symbol) and item.parameters is not None:
-            names = Names()
+        if isinstance(item, tree.SymbolNode) and item.parameters is not None:
+            names = DesignNames()
             for each in declared.parameters.values():
-                self.made.plain[each] = names.give(each.name)
-            arguments = tuple(_with_default(each, self.made.enumerations) for each in self._parameters(declared))
-        return declaration_of(item, declared, name, self.made, arguments)
+                self.result.names[each] = names.allocate(each.name)
+            arguments = tuple(_with_default(each, self.result.enumerations) for each in self._parameters(declared))
+        return convert_declaration(item, declared, name, self.result, arguments)
 
 
-def declaration_of(
-    item: tree.Symbol | tree.Parameter,
-    declared: Declared,
+def convert_declaration(
+    item: tree.SymbolNode | tree.ParameterNode,
+    declared: Definition,
     name: str,
-    vocabulary: Vocabulary,
+    vocabulary: ImportedDeclarations,
     arguments: tuple[Declaration, ...] | None = None,
 ) -> Declaration:
     """A symbol or parameter as a design declares it; a range that is no pair of numbers goes to the words about it."""
-    ends = range_of(item.range) if declared.kind == DECIMAL else None
+    ends = parse_range(item.range) if declared.kind == DECIMAL else None
     docs = [item.doc, "" if ends or not item.range else f"[{item.range}]"]
     return Declaration(
         name=name,
@@ -217,7 +222,7 @@ def declaration_of(
         unit=item.unit,
         range=ends,
         doc=" ".join(doc for doc in docs if doc),
-        xabsl_name=other_name(name, declared.name),
+        xabsl_name=xabsl_name_or_empty(name, declared.name),
         arguments=arguments,
     )
 

@@ -8,33 +8,33 @@ from vicode.bica import arithmetic
 from vicode.model.design import Declaration
 from vicode.model.expressions import (
     UNKNOWN,
-    Apply,
     Binary,
-    Choice,
+    Boolean,
     Comparison,
-    Element,
+    EnumElement,
+    Expr,
+    FunctionCall,
     Logic,
     Minus,
-    Node,
     Not,
     Number,
     Scope,
-    Truth,
+    Ternary,
     Variable,
+    build_scope,
     parse_expression,
-    scope_of,
 )
 from vicode.model.project import Enumeration, Project
 
-Value = bool | float | str
+ConstantValue = bool | float | str
 """A truth, a number, or the name of an element."""
 
-_SAME_NAME = (
+_ARITHMETIC_FUNCTIONS = (
     *("clamp", "sign", "floor", "ceil", "sqrt", "exp", "log", "is_nan", "sin", "cos", "tan", "asin", "acos", "atan"),
     *("atan2", "hypot", "degrees", "radians"),
 )
 _FUNCTIONS: Mapping[str, Callable[..., float]] = {
-    **{name: getattr(arithmetic, name) for name in _SAME_NAME},
+    **{name: getattr(arithmetic, name) for name in _ARITHMETIC_FUNCTIONS},
     "abs": abs,
     "float": float,
     "min": arithmetic.minimum,
@@ -50,7 +50,7 @@ _ARITHMETIC: Mapping[str, Callable[[float, float], float]] = {
     "//": arithmetic.floor_divide,
     "%": arithmetic.modulo,
 }
-_ORDER: Mapping[str, Callable[[float, float], bool]] = {
+_COMPARISONS: Mapping[str, Callable[[float, float], bool]] = {
     "<": lambda a, b: a < b,
     "<=": lambda a, b: a <= b,
     ">": lambda a, b: a > b,
@@ -60,83 +60,89 @@ _ORDER: Mapping[str, Callable[[float, float], bool]] = {
 }
 
 
-def constant_values(project: Project) -> Mapping[str, Value]:
+def evaluate_constants(project: Project) -> Mapping[str, ConstantValue]:
     """The value of each constant, which may be made from those before it; those with mistakes are left out."""
-    return _values(project.constants, project.enumerations)
+    return _evaluate_declarations(project.constants, project.enumerations)
 
 
 # Every edit asks for them, and hardly ever do they change.
 @lru_cache(maxsize=64)
-def _values(constants: tuple[Declaration, ...], enumerations: tuple[Enumeration, ...]) -> Mapping[str, Value]:
-    values: dict[str, Value] = {}
+def _evaluate_declarations(
+    constants: tuple[Declaration, ...], enumerations: tuple[Enumeration, ...]
+) -> Mapping[str, ConstantValue]:
+    values: dict[str, ConstantValue] = {}
     for index, constant in enumerate(constants):
-        scope = scope_of(Project(name="", constants=constants[:index], enumerations=enumerations), None)
-        value = first_value(constant.initial, scope.type_of(constant), scope, values)
+        scope = build_scope(Project(name="", constants=constants[:index], enumerations=enumerations), None)
+        value = evaluate_initial_value(constant.initial, scope.type_of(constant), scope, values)
         if value is not None:
             values[constant.name] = value
     return MappingProxyType(values)
 
 
-def first_value(text: str, type_: str, scope: Scope, constants: Mapping[str, Value]) -> Value | None:
+def evaluate_initial_value(
+    text: str, type_: str, scope: Scope, constants: Mapping[str, ConstantValue]
+) -> ConstantValue | None:
     """The value of an expression; of an empty one false, 0 or the first element; None where it is not known."""
     if not text:
-        return zero_of(type_, scope)
+        return zero_value(type_, scope)
     parsed = parse_expression(text, scope, type_)
-    return None if parsed.tree is None or parsed.mistakes else value_of(parsed.tree, constants)
+    return None if parsed.tree is None or parsed.diagnostics else evaluate(parsed.tree, constants)
 
 
-def zero_of(type_: str, scope: Scope) -> Value | None:
+def zero_value(type_: str, scope: Scope) -> ConstantValue | None:
     """What a value of a type is where nothing was said: false, 0 or the first element."""
     if type_ in scope.enumerations:
         return next(iter(scope.enumerations[type_]), None)
     return None if type_ == UNKNOWN else False if type_ == "bool" else 0.0
 
 
-def value_of(node: Node, constants: Mapping[str, Value]) -> Value | None:
+def evaluate(node: Expr, constants: Mapping[str, ConstantValue]) -> ConstantValue | None:
     """What a tree of literals and constants comes to, None where that is known only when it runs."""
     match node:
-        case Number(value=value) | Truth(value=value):
+        case Number(value=value) | Boolean(value=value):
             return value
-        case Element(element=element):
+        case EnumElement(element=element):
             return element
         case Variable(name=name, kind="constant"):
             return constants.get(name)
-        case Choice(test=test, then=then, otherwise=otherwise):
-            chosen = value_of(test, constants)
-            return None if chosen is None else value_of(then if chosen else otherwise, constants)
+        case Ternary(test=test, then=then, otherwise=otherwise):
+            chosen = evaluate(test, constants)
+            return None if chosen is None else evaluate(then if chosen else otherwise, constants)
         case _:
-            return _compute(node, constants)
+            return _evaluate_operation(node, constants)
 
 
-def _compute(node: Node, constants: Mapping[str, Value]) -> Value | None:
+def _evaluate_operation(node: Expr, constants: Mapping[str, ConstantValue]) -> ConstantValue | None:
     """The value of an operation on values."""
     match node:
         case Not(operand=operand):
-            value = value_of(operand, constants)
+            value = evaluate(operand, constants)
             return None if value is None else not value
         case Minus(operand=operand):
-            value = value_of(operand, constants)
+            value = evaluate(operand, constants)
             return None if value is None or isinstance(value, str) else -value
         case Binary(operator=operator, left=left, right=right):
             return _apply(_ARITHMETIC[operator], (left, right), constants)
-        case Apply(function=function, arguments=arguments):
+        case FunctionCall(function=function, arguments=arguments):
             return _apply(_FUNCTIONS[function], arguments, constants)
         case Comparison(operators=operators, operands=operands):
             pairs = zip(operators, operands, operands[1:], strict=False)
-            return _all_hold([_apply(_ORDER[operator], (a, b), constants) for operator, a, b in pairs])
+            return _all_true([_apply(_COMPARISONS[operator], (a, b), constants) for operator, a, b in pairs])
         case Logic(operator=operator, operands=operands):
-            values = [value_of(operand, constants) for operand in operands]
+            values = [evaluate(operand, constants) for operand in operands]
             return None if None in values else all(values) if operator == "and" else any(values)
         case _:
             return None
 
 
-def _all_hold(values: list[Value | None]) -> bool | None:
+def _all_true(values: list[ConstantValue | None]) -> bool | None:
     return None if None in values else all(values)
 
 
-def _apply(function: Callable[..., float], operands: tuple[Node, ...], constants: Mapping[str, Value]) -> Value | None:
-    values = [value_of(operand, constants) for operand in operands]
+def _apply(
+    function: Callable[..., float], operands: tuple[Expr, ...], constants: Mapping[str, ConstantValue]
+) -> ConstantValue | None:
+    values = [evaluate(operand, constants) for operand in operands]
     if None in values:
         return None
     try:

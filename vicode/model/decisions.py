@@ -3,7 +3,7 @@
 from collections.abc import Collection, Mapping
 from dataclasses import replace
 
-from vicode.model.design import Decision, Group, Transition
+from vicode.model.design import Decision, DecisionGroup, Transition
 
 
 def retarget(items: tuple[Decision, ...], old: str, new: str) -> tuple[Decision, ...]:
@@ -11,28 +11,28 @@ def retarget(items: tuple[Decision, ...], old: str, new: str) -> tuple[Decision,
     return retarget_all(items, {old: new})
 
 
-def retarget_all(items: tuple[Decision, ...], names: Mapping[str, str]) -> tuple[Decision, ...]:
+def retarget_all(items: tuple[Decision, ...], new_targets: Mapping[str, str]) -> tuple[Decision, ...]:
     """The same decisions, leading to new names where they led to old ones."""
 
     def renamed(item: Decision) -> Decision:
-        if isinstance(item, Group):
-            then, otherwise = retarget_all(item.then, names), retarget_all(item.otherwise, names)
+        if isinstance(item, DecisionGroup):
+            then, otherwise = retarget_all(item.then, new_targets), retarget_all(item.otherwise, new_targets)
             return replace(item, then=then, otherwise=otherwise)
-        if isinstance(item, Transition) and item.to in names:
-            return replace(item, to=names[item.to])
+        if isinstance(item, Transition) and item.to in new_targets:
+            return replace(item, to=new_targets[item.to])
         return item
 
     return tuple(renamed(item) for item in items)
 
 
-def drop_targets(items: tuple[Decision, ...], names: Collection[str]) -> tuple[Decision, ...]:
-    """The decisions without transitions to `names`; a group that this leaves empty goes too."""
+def drop_targets(items: tuple[Decision, ...], targets: Collection[str]) -> tuple[Decision, ...]:
+    """The decisions without transitions to `new_targets`; a group that this leaves empty goes too."""
     kept: list[Decision] = []
     for item in items:
-        if isinstance(item, Transition) and item.to in names:
+        if isinstance(item, Transition) and item.to in targets:
             continue
-        if isinstance(item, Group):
-            then, otherwise = drop_targets(item.then, names), drop_targets(item.otherwise, names)
+        if isinstance(item, DecisionGroup):
+            then, otherwise = drop_targets(item.then, targets), drop_targets(item.otherwise, targets)
             if not then and not otherwise:
                 continue
             kept.append(replace(item, then=then, otherwise=otherwise))

@@ -94,7 +94,7 @@ class Stay:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Group:
+class DecisionGroup:
     """A node of a decision tree: `then` is tested when the guard holds, else `otherwise`.
 
     When all of them are exhausted the next item after the group is tested.
@@ -108,7 +108,7 @@ class Group:
     disabled: bool = False
 
 
-Decision = Transition | Stay | Group
+Decision = Transition | Stay | DecisionGroup
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -169,7 +169,7 @@ class State:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Common:
+class CommonSection:
     """Tested before and done before those of every state."""
 
     doc: str = ""
@@ -196,7 +196,7 @@ class Design:
     initial: str = ""
     module: Code = field(default_factory=Code)
     members: Code = field(default_factory=Code)
-    common: Common = field(default_factory=Common)
+    common: CommonSection = field(default_factory=CommonSection)
     states: tuple[State, ...] = ()
 
     def state(self, name: str) -> State | None:

@@ -6,15 +6,15 @@ A thing that is not there leaves the design as it was.
 from collections.abc import Callable, Collection, Mapping
 from dataclasses import replace
 
-from vicode.findings import Path
+from vicode.findings import DesignPath
 from vicode.model.decisions import drop_targets, retarget
 from vicode.model.design import (
     Action,
     Call,
     Decision,
+    DecisionGroup,
     Declaration,
     Design,
-    Group,
     Guard,
     Point,
     State,
@@ -23,10 +23,10 @@ from vicode.model.design import (
 )
 from vicode.model.names import snake_case
 from vicode.model.renaming import rename_alias
-from vicode.model.walks import has_code, walk_decisions
+from vicode.model.walks import has_code, iter_decisions
 
 
-def free_name(wanted: str, taken: Collection[str]) -> str:
+def unique_name(wanted: str, taken: Collection[str]) -> str:
     """`wanted`, or the first of `wanted2`, `wanted3`, … that is not taken."""
     number = 2
     name = wanted
@@ -88,7 +88,7 @@ def reorder_state(design: Design, name: str, to_index: int) -> Design:
     return replace(design, states=tuple(rest))
 
 
-def move(
+def move_nodes(
     design: Design, states: Mapping[str, Point], uses: Mapping[str, Point] | None = None, common: Point | None = None
 ) -> Design:
     """Give states, used components and the badge of common transitions new centres."""
@@ -101,51 +101,53 @@ def move(
 def add_transition(design: Design, source: str, to: str, guard: Guard | None = None) -> Design:
     """Add a transition at the end of a state's (or with COMMON the common) ones."""
     transition = Transition(to=to, guard=guard or Guard())
-    return update_items(design, items_path(design, source), lambda items: (*items, transition))
+    return update_decisions(design, decisions_path(design, source), lambda items: (*items, transition))
 
 
-def give_id(design: Design, path: Path) -> Design:
+def assign_id(design: Design, path: DesignPath) -> Design:
     """Give a decision an id, by which the marks of its code find it again after every other edit."""
-    located = next((each for each in walk_decisions(design) if each.path == path), None)
+    located = next((each for each in iter_decisions(design) if each.path == path), None)
     if located is None or located.decision.id:
         return design
     to = located.decision.to if isinstance(located.decision, Transition) else "decision"
-    id_ = free_name(snake_case(f"{located.source.lstrip('@')}_to_{to}"), _ids(design))
+    id_ = unique_name(snake_case(f"{located.source.lstrip('@')}_to_{to}"), _ids(design))
     return replace_decision(design, path, replace(located.decision, id=id_))
 
 
-def items_path(design: Design, source: str) -> Path:
+def decisions_path(design: Design, source: str) -> DesignPath:
     """The path of the list that holds the decisions of a source."""
     return ("states", source, "transitions") if design.state(source) else ("common", "transitions")
 
 
-def replace_decision(design: Design, path: Path, decision: Decision) -> Design:
+def replace_decision(design: Design, path: DesignPath, decision: Decision) -> Design:
     """Put another decision in the place of one."""
     index = path[-1]
-    return update_items(
+    return update_decisions(
         design, path[:-1], lambda items: tuple(decision if at == index else item for at, item in enumerate(items))
     )
 
 
-def remove_decisions(design: Design, paths: Collection[Path]) -> Design:
+def remove_decisions(design: Design, paths: Collection[DesignPath]) -> Design:
     """Remove decisions; a group goes with all it holds."""
-    there = {located.path for located in walk_decisions(design)}
+    there = {located.path for located in iter_decisions(design)}
     # From the back, so that the paths still to come keep their meaning.
-    for path in sorted(there.intersection(paths), key=_position, reverse=True):
+    for path in sorted(there.intersection(paths), key=_path_sort_key, reverse=True):
         design = _remove_decision(design, path)
     return design
 
 
-def _position(path: Path) -> tuple[tuple[int, str], ...]:
+def _path_sort_key(path: DesignPath) -> tuple[tuple[int, str], ...]:
     return tuple((part, "") if isinstance(part, int) else (-1, part) for part in path)
 
 
-def _remove_decision(design: Design, path: Path) -> Design:
+def _remove_decision(design: Design, path: DesignPath) -> Design:
     index = path[-1]
-    return update_items(design, path[:-1], lambda items: tuple(item for at, item in enumerate(items) if at != index))
+    return update_decisions(
+        design, path[:-1], lambda items: tuple(item for at, item in enumerate(items) if at != index)
+    )
 
 
-def reorder_decision(design: Design, path: Path, to_index: int) -> Design:
+def reorder_decision(design: Design, path: DesignPath, to_index: int) -> Design:
     """Move a decision within its list, so that it is tested earlier or later."""
     index = path[-1]
 
@@ -156,10 +158,12 @@ def reorder_decision(design: Design, path: Path, to_index: int) -> Design:
         rest.insert(max(0, min(to_index, len(rest))), items[index])
         return tuple(rest)
 
-    return update_items(design, path[:-1], moved)
+    return update_decisions(design, path[:-1], moved)
 
 
-def update_items(design: Design, path: Path, change: Callable[[tuple[Decision, ...]], tuple[Decision, ...]]) -> Design:
+def update_decisions(
+    design: Design, path: DesignPath, change: Callable[[tuple[Decision, ...]], tuple[Decision, ...]]
+) -> Design:
     """Replace the list of decisions a path leads to by what `change` makes of it."""
     if path[:2] == ("common", "transitions"):
         items = _update_nested(design.common.transitions, path[2:], change)
@@ -173,14 +177,14 @@ def update_items(design: Design, path: Path, change: Callable[[tuple[Decision, .
 
 
 def _update_nested(
-    items: tuple[Decision, ...], path: Path, change: Callable[[tuple[Decision, ...]], tuple[Decision, ...]]
+    items: tuple[Decision, ...], path: DesignPath, change: Callable[[tuple[Decision, ...]], tuple[Decision, ...]]
 ) -> tuple[Decision, ...]:
     if not path:
         return change(items)
     index, side, rest = path[0], path[1], path[2:]
 
     def inside(item: Decision) -> Decision:
-        if not isinstance(item, Group):
+        if not isinstance(item, DecisionGroup):
             return item
         if side == "then":
             return replace(item, then=_update_nested(item.then, rest, change))
@@ -189,7 +193,9 @@ def _update_nested(
     return tuple(inside(item) if at == index else item for at, item in enumerate(items))
 
 
-def update_actions(design: Design, path: Path, change: Callable[[tuple[Action, ...]], tuple[Action, ...]]) -> Design:
+def update_actions(
+    design: Design, path: DesignPath, change: Callable[[tuple[Action, ...]], tuple[Action, ...]]
+) -> Design:
     """Replace the actions a path leads to: ("common", "actions") or ("states", name, enter | actions | leave)."""
     if path[0] == "common":
         return replace(design, common=replace(design.common, actions=change(design.common.actions)))
@@ -207,7 +213,7 @@ def update_actions(design: Design, path: Path, change: Callable[[tuple[Action, .
     return update_state(design, str(path[1]), changed)
 
 
-def replace_action(design: Design, path: Path, *actions: Action) -> Design:
+def replace_action(design: Design, path: DesignPath, *actions: Action) -> Design:
     """Put other actions, or none, in the place of the one that a path ending in its number leads to."""
     index = path[-1]
 
@@ -219,7 +225,7 @@ def replace_action(design: Design, path: Path, *actions: Action) -> Design:
 
 def add_use(design: Design, component: str, at: Point | None = None) -> Design:
     """Use a component under a free alias made of its name."""
-    alias = free_name(snake_case(component), {use.alias for use in design.uses})
+    alias = unique_name(snake_case(component), {use.alias for use in design.uses})
     return replace(design, uses=(*design.uses, Use(alias=alias, component=component, at=at)))
 
 
@@ -263,7 +269,7 @@ def rename_use(design: Design, old: str, new: str) -> Design:
     return rename_alias(replace(design, uses=uses), old, new)
 
 
-def require(design: Design, state: str, alias: str) -> Design:
+def add_requirement(design: Design, state: str, alias: str) -> Design:
     """Let a state require a used component."""
     return update_state(
         design,
@@ -272,7 +278,7 @@ def require(design: Design, state: str, alias: str) -> Design:
     )
 
 
-def modulate(design: Design, state: str, alias: str) -> Design:
+def add_modulation(design: Design, state: str, alias: str) -> Design:
     """Let a state modulate a used component, with its default parameters."""
 
     def with_call(old: State) -> State:
@@ -282,7 +288,7 @@ def modulate(design: Design, state: str, alias: str) -> Design:
     return update_state(design, state, with_call)
 
 
-def unlink(design: Design, state: str, alias: str, *, modulates: bool) -> Design:
+def remove_link(design: Design, state: str, alias: str, *, modulates: bool) -> Design:
     """Take a requirement, or the modulations and calls, of a component out of a state."""
 
     def without(old: State) -> State:
@@ -295,4 +301,4 @@ def unlink(design: Design, state: str, alias: str, *, modulates: bool) -> Design
 
 
 def _ids(design: Design) -> set[str]:
-    return {located.decision.id for located in walk_decisions(design)} | {state.id for state in design.states}
+    return {located.decision.id for located in iter_decisions(design)} | {state.id for state in design.states}

@@ -13,7 +13,7 @@ from threading import RLock
 from typing import Any
 
 # Of the same thread it may be asked again: what the garbage collector ends may parse as well.
-_ONE_AT_A_TIME = RLock()
+_PARSER_LOCK = RLock()
 
 
 def parse_module(source: str) -> ast.Module:
@@ -22,31 +22,31 @@ def parse_module(source: str) -> ast.Module:
     Raises:
         SyntaxError, ValueError, RecursionError, MemoryError: It is no module, or too deep a one.
     """
-    with _ONE_AT_A_TIME, warnings.catch_warnings():
+    with _PARSER_LOCK, warnings.catch_warnings():
         warnings.simplefilter("ignore")
         return ast.parse(source)
 
 
 def parse_single_expression(source: str) -> ast.expr:
     """The tree of one expression; raises as `parse_module` does."""
-    with _ONE_AT_A_TIME, warnings.catch_warnings():
+    with _PARSER_LOCK, warnings.catch_warnings():
         warnings.simplefilter("ignore")
         return ast.parse(source, mode="eval").body
 
 
-def compile_check(tree: ast.Module) -> None:
+def check_compiles(tree: ast.Module) -> None:
     """Find what only Python's compiler refuses, such as `return` outside of a function; raises as `parse_module`."""
-    with _ONE_AT_A_TIME, warnings.catch_warnings():
+    with _PARSER_LOCK, warnings.catch_warnings():
         warnings.simplefilter("ignore")
         compile(tree, "<code>", "exec", dont_inherit=True)
 
 
-def take_turns(parse: Callable[..., Any]) -> Callable[..., Any]:
+def serialize_calls(parse: Callable[..., Any]) -> Callable[..., Any]:
     """Another way to the same parser, that waits for its turn."""
 
     @wraps(parse)
     def waits(*args: Any, **kwargs: Any) -> Any:
-        with _ONE_AT_A_TIME:
+        with _PARSER_LOCK:
             return parse(*args, **kwargs)
 
     return waits

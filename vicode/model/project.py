@@ -50,7 +50,7 @@ class Interface:
     variables: tuple[Declaration, ...] = ()
 
     @property
-    def is_handed_on(self) -> bool:
+    def is_generated(self) -> bool:
         """Whether its class is written by vicode, for the world or to keep variables."""
         return self.implementation in (WORLD, INTERNAL)
 
@@ -87,7 +87,7 @@ class Agent:
 class Project:
     """All that one folder of designs declares.
 
-    `world` is "module:Class", `generated` the output folder, relative to the project's folder. `unread` are components
+    `world` is "module:Class", `generated` the output folder, relative to the project's folder. `unreadable` are components
     whose designs are there and cannot be read, each with its file.
     """
 
@@ -101,13 +101,13 @@ class Project:
     components: tuple[Interface, ...] = ()
     agents: tuple[Agent, ...] = ()
     designs: tuple[Design, ...] = ()
-    unread: tuple[tuple[str, str], ...] = ()
-    _index: dict[str, "Interface"] = field(default_factory=dict, init=False, repr=False, compare=False)
+    unreadable: tuple[tuple[str, str], ...] = ()
+    _interfaces: dict[str, "Interface"] = field(default_factory=dict, init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
         """Index the interfaces once; the first of two with one name wins, and a check reports the second."""
-        for interface in (*self.components, *(interface_of(design) for design in self.designs)):
-            self._index.setdefault(interface.component, interface)
+        for interface in (*self.components, *(derive_interface(design) for design in self.designs)):
+            self._interfaces.setdefault(interface.component, interface)
 
     def design(self, component: str) -> Design | None:
         """The design of a component, None when it is hand-written or unknown."""
@@ -115,18 +115,18 @@ class Project:
 
     def interface(self, component: str) -> Interface | None:
         """What a component shows to others, None when nothing declares it."""
-        return self._index.get(component)
+        return self._interfaces.get(component)
 
     def interfaces(self) -> Mapping[str, Interface]:
         """Every known component by name."""
-        return self._index
+        return self._interfaces
 
     def enumeration(self, name: str) -> Enumeration | None:
         """The enumeration of this name."""
         return next((enumeration for enumeration in self.enumerations if enumeration.name == name), None)
 
 
-def interface_of(design: Design) -> Interface:
+def derive_interface(design: Design) -> Interface:
     """What a design shows to the components that use it."""
     return Interface(
         component=design.component,

@@ -5,20 +5,20 @@ from dataclasses import dataclass, replace
 from enum import StrEnum
 from typing import Any
 
-from vicode.findings import Path
+from vicode.findings import DesignPath
 from vicode.model.design import (
     Assign,
     Call,
     Code,
+    DecisionGroup,
     Declaration,
     Design,
-    Group,
     RunCode,
     State,
     Stay,
     Transition,
 )
-from vicode.model.walks import walk_code, walk_decisions, walk_expressions
+from vicode.model.walks import iter_code, iter_decisions, iter_expressions
 
 Rewrite = Callable[[str], str]
 
@@ -32,55 +32,55 @@ class TextKind(StrEnum):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class PlacedText:
+class LocatedText:
     """A text at its place; `language` of code, "" of anything else."""
 
-    path: Path
+    path: DesignPath
     kind: TextKind
     text: str
     language: str = ""
 
 
-def walk_texts(design: Design) -> Iterator[PlacedText]:
+def iter_texts(design: Design) -> Iterator[LocatedText]:
     """Every text that a person may want to search: docs, expressions, code in all its languages."""
-    for path, doc in _docs(design):
+    for path, doc in _iter_docs(design):
         if doc:
-            yield PlacedText(path=path, kind=TextKind.DOC, text=doc)
-    for expression in walk_expressions(design):
-        yield PlacedText(path=expression.path, kind=TextKind.EXPRESSION, text=expression.text)
-    for placed in walk_code(design):
+            yield LocatedText(path=path, kind=TextKind.DOC, text=doc)
+    for expression in iter_expressions(design):
+        yield LocatedText(path=expression.path, kind=TextKind.EXPRESSION, text=expression.text)
+    for placed in iter_code(design):
         for language, text in placed.code.texts:
-            yield PlacedText(path=(*placed.path, language), kind=TextKind.CODE, text=text, language=language)
+            yield LocatedText(path=(*placed.path, language), kind=TextKind.CODE, text=text, language=language)
 
 
-def rewrite_text(design: Design, path: Path, rewrite: Rewrite) -> Design:
-    """The design with another text where a path of `walk_texts` leads; a path to nothing changes nothing."""
+def rewrite_text(design: Design, path: DesignPath, rewrite: Rewrite) -> Design:
+    """The design with another text where a path of `iter_texts` leads; a path to nothing changes nothing."""
     changed: Design = _rewrite(design, path, rewrite)
     return changed
 
 
-def _docs(design: Design) -> Iterator[tuple[Path, str]]:
+def _iter_docs(design: Design) -> Iterator[tuple[DesignPath, str]]:
     yield ("doc",), design.doc
     for section, declaration in design.declarations():
         yield (section, declaration.name, "doc"), declaration.doc
     yield ("common", "doc"), design.common.doc
     for state in design.states:
         yield ("states", state.name, "doc"), state.doc
-    for located in walk_decisions(design):
+    for located in iter_decisions(design):
         yield (*located.path, "doc"), located.decision.doc
 
 
 # Where the words of a path are not the names of the attributes.
-_NAMED: Mapping[type, Mapping[str, str]] = {
-    Group: {"else": "otherwise"},
+_ATTRIBUTE_BY_KEY: Mapping[type, Mapping[str, str]] = {
+    DecisionGroup: {"else": "otherwise"},
     Call: {"with": "arguments"},
     Assign: {"set": "values"},
     Declaration: {"default": "initial"},
 }
-_BELOW_GUARD = ("when", "after", "code")
+_GUARD_KEYS = ("when", "after", "code")
 
 
-def _rewrite(value: Any, path: Path, rewrite: Rewrite) -> Any:
+def _rewrite(value: Any, path: DesignPath, rewrite: Rewrite) -> Any:
     """The value with the text below it rewritten, itself if the path leads nowhere."""
     if not path:
         return rewrite(value) if isinstance(value, str) else value
@@ -90,15 +90,15 @@ def _rewrite(value: Any, path: Path, rewrite: Rewrite) -> Any:
             return tuple(_rewrite_item(item, at, path, rewrite) for at, item in enumerate(value))
         case Code(texts=texts):
             return replace(value, texts=tuple((name, rewrite(text) if name == key else text) for name, text in texts))
-        case Transition() | Stay() | Group() if key in _BELOW_GUARD:
+        case Transition() | Stay() | DecisionGroup() if key in _GUARD_KEYS:
             return replace(value, guard=_rewrite(value.guard, path, rewrite))
-    attribute = _NAMED.get(type(value), {}).get(str(key), str(key))
+    attribute = _ATTRIBUTE_BY_KEY.get(type(value), {}).get(str(key), str(key))
     if not hasattr(value, attribute):
         return value
     return replace(value, **{attribute: _rewrite(getattr(value, attribute), rest, rewrite)})
 
 
-def _rewrite_item(item: Any, at: int, path: Path, rewrite: Rewrite) -> Any:
+def _rewrite_item(item: Any, at: int, path: DesignPath, rewrite: Rewrite) -> Any:
     """An item of a list is found by its number or by its name."""
     key, rest = path[0], path[1:]
     match item:
@@ -109,7 +109,7 @@ def _rewrite_item(item: Any, at: int, path: Path, rewrite: Rewrite) -> Any:
             return replace(item, arguments=_rewrite(arguments, rest, rewrite)) if alias == key else item
         case (str(name), str(text)):
             return (name, rewrite(text)) if name == key and not rest else item
-        case Transition() | Stay() | Group() | Assign() | Call() | RunCode() if at == key:
+        case Transition() | Stay() | DecisionGroup() | Assign() | Call() | RunCode() if at == key:
             return _rewrite(item, rest, rewrite)
         case _:
             return item

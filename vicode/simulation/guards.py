@@ -7,29 +7,29 @@ from types import ModuleType
 from typing import Any
 
 from vicode.bica import Component
-from vicode.bica.observer import to_plain
+from vicode.bica.observer import to_json_value
 
 _COMMON = "@common"
 
 
-class NotAskedError(Exception):
+class NotCalledError(Exception):
     """A function of a hand-written component was not called with these arguments in this iteration."""
 
 
-class Answers:
+class CachedFunction:
     """Remembers what a function returned in this iteration, so that a guard can be tested without calling it again."""
 
-    def __init__(self, function: Callable[..., Any], watch: GuardWatch) -> None:
+    def __init__(self, function: Callable[..., Any], watch: GuardEvaluator) -> None:
         self._function, self._watch = function, watch
         self._given: dict[str, Any] = {}
 
     def __call__(self, *positional: Any, **named: Any) -> Any:
         """Call the function, or while the guards are looked at answer as it did."""
         key = repr((positional, sorted(named.items())))
-        if not self._watch.is_looking:
+        if not self._watch.is_evaluating:
             self._given[key] = self._function(*positional, **named)
         elif key not in self._given:
-            raise NotAskedError
+            raise NotCalledError
         return self._given[key]
 
     @property
@@ -37,12 +37,12 @@ class Answers:
         """What it returned last in this iteration, None if it was not called."""
         return next(reversed(self._given.values()), None) if self._given else None
 
-    def forget(self) -> None:
+    def clear(self) -> None:
         """Begin a new iteration."""
         self._given.clear()
 
 
-class GuardWatch:
+class GuardEvaluator:
     """Tests the guards of one component by its probes.
 
     Args:
@@ -54,11 +54,11 @@ class GuardWatch:
     def __init__(
         self, component: Component, probes: ModuleType, functions: Iterable[tuple[str, tuple[str, ...]]]
     ) -> None:
-        self.is_looking = False
+        self.is_evaluating = False
         self._component = component
         self._guards: Mapping[str, Mapping[str, list[Any]]] = probes.GUARDS
         self._reads: Mapping[str, Mapping[str, Callable[[Component], Any]]] = probes.READS
-        self._answers = [
+        self._functions = [
             self._remember(getattr(component, alias), name) for alias, names in functions for name in names
         ]
         named = (each for guards in self._guards.values() for parts in guards.values() for each in parts)
@@ -66,40 +66,40 @@ class GuardWatch:
             name: self._remember(component, name) for name in {each for each in named if isinstance(each, str)}
         }
 
-    def begin(self) -> None:
+    def begin_iteration(self) -> None:
         """Forget the answers of the iteration before."""
-        for answers in (*self._answers, *self._predicates.values()):
-            answers.forget()
+        for answers in (*self._functions, *self._predicates.values()):
+            answers.clear()
 
-    def look(self) -> dict[str, dict[str, Any]]:
+    def evaluate(self) -> dict[str, dict[str, Any]]:
         """Test the common guards and those of the active state, by decision."""
-        self.is_looking = True
+        self.is_evaluating = True
         try:
             sources = (self._guards.get(name, {}) for name in (_COMMON, self._component.state))
-            return {key: self._test(key, parts) for guards in sources for key, parts in guards.items()}
+            return {key: self._evaluate_guard(key, parts) for guards in sources for key, parts in guards.items()}
         finally:
-            self.is_looking = False
+            self.is_evaluating = False
 
-    def _remember(self, owner: Component, name: str) -> Answers:
+    def _remember(self, owner: Component, name: str) -> CachedFunction:
         known = vars(owner).get(name)
-        if isinstance(known, Answers):
+        if isinstance(known, CachedFunction):
             return known
-        answers = Answers(getattr(owner, name), self)
+        answers = CachedFunction(getattr(owner, name), self)
         vars(owner)[name] = answers
         return answers
 
-    def _test(self, key: str, parts: list[Any]) -> dict[str, Any]:
-        held = [self._hold(part) for part in parts]
+    def _evaluate_guard(self, key: str, parts: list[Any]) -> dict[str, Any]:
+        held = [self._evaluate_part(part) for part in parts]
         holds = False if False in held else None if None in held else True
-        reads = {name: self._ask(read) for name, read in self._reads.get(key, {}).items()}
+        reads = {name: self._read_or_none(read) for name, read in self._reads.get(key, {}).items()}
         return {"holds": holds, "parts": held, "reads": reads}
 
-    def _hold(self, part: Any) -> bool | None:
-        answer = self._predicates[part].latest if isinstance(part, str) else self._ask(part)
+    def _evaluate_part(self, part: Any) -> bool | None:
+        answer = self._predicates[part].latest if isinstance(part, str) else self._read_or_none(part)
         return answer if answer is None else bool(answer)
 
-    def _ask(self, read: Callable[[Component], Any]) -> Any:
+    def _read_or_none(self, read: Callable[[Component], Any]) -> Any:
         try:
-            return to_plain(read(self._component))
+            return to_json_value(read(self._component))
         except Exception:
             return None

@@ -10,8 +10,8 @@ from contextlib import contextmanager
 from types import FrameType
 from typing import NoReturn
 
-MOST_LINES = 200
-LONGEST_LINE = 2_000
+MAX_LINES = 200
+MAX_LINE_LENGTH = 2_000
 
 
 class TimeLimitError(BaseException):
@@ -46,7 +46,7 @@ def _interrupt(_number: int, _frame: FrameType | None) -> NoReturn:
     raise TimeLimitError
 
 
-class Prints(io.TextIOBase):
+class CapturedOutput(io.TextIOBase):
     """Stands for standard output: keeps the first lines since it was last emptied, and counts the rest."""
 
     def __init__(self) -> None:
@@ -61,17 +61,17 @@ class Prints(io.TextIOBase):
 
     def write(self, text: str) -> int:
         """Take text, whole lines or parts of them."""
-        if len(self._lines) >= MOST_LINES:
+        if len(self._lines) >= MAX_LINES:
             self._left_out += text.count("\n")
             return len(text)
         *lines, rest = (self._begun + text).split("\n")
-        room = MOST_LINES - len(self._lines)
-        self._lines += [line[:LONGEST_LINE] for line in lines[:room]]
+        room = MAX_LINES - len(self._lines)
+        self._lines += [line[:MAX_LINE_LENGTH] for line in lines[:room]]
         self._left_out += len(lines[room:])
-        self._begun = rest[:LONGEST_LINE]
+        self._begun = rest[:MAX_LINE_LENGTH]
         return len(text)
 
-    def take(self) -> tuple[list[str], int]:
+    def drain(self) -> tuple[list[str], int]:
         """The lines since the last time, and how many more there were."""
         lines = [*self._lines, self._begun] if self._begun else self._lines
         left_out = self._left_out

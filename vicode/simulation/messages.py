@@ -13,7 +13,7 @@ from typing import Any, Literal
 Inputs = Mapping[str, Mapping[str, Any]]
 """Values by component and output; component "" stands for the parameters of the root component."""
 
-LONGEST_LINE = 4_000_000
+MAX_MESSAGE_BYTES = 4_000_000
 
 
 class ProtocolError(ValueError):
@@ -21,7 +21,7 @@ class ProtocolError(ValueError):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class StandInOutput:
+class StubOutput:
     """An output of a stand-in; `type` is bool, int, float or an enumeration's name, `value` what it begins with."""
 
     name: str
@@ -31,11 +31,11 @@ class StandInOutput:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class StandIn:
+class Stub:
     """A component whose outputs somebody sets by hand."""
 
     component: str
-    outputs: tuple[StandInOutput, ...] = ()
+    outputs: tuple[StubOutput, ...] = ()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -48,7 +48,7 @@ class Setup:
     component: str
     probes: str
     path: tuple[str, ...]
-    stand_ins: tuple[StandIn, ...] = ()
+    stubs: tuple[Stub, ...] = ()
     functions: tuple[tuple[str, tuple[str, ...]], ...] = ()
     parameter_types: tuple[tuple[str, str], ...] = ()
     folder: str = ""
@@ -60,7 +60,7 @@ class Setup:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Stops:
+class StopConditions:
     """Where to rest before all steps are made: on entering states, on transitions, on any change, on errors."""
 
     states: tuple[str, ...] = ()
@@ -73,14 +73,14 @@ class Stops:
 class Request:
     """`run` makes up to `count` iterations, `look` only tests the guards; both take over inputs first.
 
-    A `quiet` run tells its last moment alone.
+    A `suppress_events` run tells its last moment alone.
     """
 
-    do: Literal["run", "look"]
+    kind: Literal["run", "inspect"]
     inputs: Inputs = field(default_factory=dict)
     count: int = 1
-    stops: Stops = field(default_factory=Stops)
-    quiet: bool = False
+    stops: StopConditions = field(default_factory=StopConditions)
+    suppress_events: bool = False
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -91,17 +91,17 @@ class Ready:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Moment:
+class IterationResult:
     """What happened in one iteration.
 
     `finished` says the world. `guards` are those of the active state by decision: `holds` is true, false or unknown
-    (None), `parts` the same of each condition, `reads` the values of names. `asked` are calls of stand-ins' functions.
+    (None), `parts` the same of each condition, `reads` the values of names. `calls` are calls of stand-ins' functions.
     """
 
     iteration: int
     time_ns: int
     state: str
-    came_from: str | None = None
+    changed_from: str | None = None
     transition: str | None = None
     worked: bool = True
     done: bool = False
@@ -109,27 +109,27 @@ class Moment:
     tree: list[dict[str, Any]] = field(default_factory=list)
     guards: dict[str, dict[str, Any]] = field(default_factory=dict)
     prints: list[str] = field(default_factory=list)
-    unprinted: int = 0
+    omitted_lines: int = 0
     errors: list[dict[str, Any]] = field(default_factory=list)
-    asked: list[dict[str, Any]] = field(default_factory=list)
+    calls: list[dict[str, Any]] = field(default_factory=list)
     world: Any = None
-    kind: Literal["moment"] = "moment"
+    kind: Literal["iteration"] = "iteration"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Looked:
+class Inspected:
     """The guards as they are now, without a step."""
 
     guards: dict[str, dict[str, Any]]
-    kind: Literal["looked"] = "looked"
+    kind: Literal["inspected"] = "inspected"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Rested:
+class Stopped:
     """A run came to rest: all steps made, or one of state, transition, change, error, done, finished came before."""
 
     reason: str
-    kind: Literal["rested"] = "rested"
+    kind: Literal["stopped"] = "stopped"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -142,19 +142,19 @@ class Failed:
     kind: Literal["failed"] = "failed"
 
 
-Answer = Ready | Moment | Looked | Rested | Failed
-_ANSWERS: dict[str, type[Answer]] = {
+Response = Ready | IterationResult | Inspected | Stopped | Failed
+_RESPONSES: dict[str, type[Response]] = {
     "ready": Ready,
-    "moment": Moment,
-    "looked": Looked,
-    "rested": Rested,
+    "iteration": IterationResult,
+    "inspected": Inspected,
+    "stopped": Stopped,
     "failed": Failed,
 }
-_SHAPES: dict[str, type | tuple[type, ...]] = {
+_FIELD_TYPES: dict[str, type | tuple[type, ...]] = {
     "iteration": int,
     "time_ns": int,
     "state": str,
-    "came_from": (str, type(None)),
+    "changed_from": (str, type(None)),
     "transition": (str, type(None)),
     "worked": bool,
     "done": bool,
@@ -162,9 +162,9 @@ _SHAPES: dict[str, type | tuple[type, ...]] = {
     "tree": list,
     "guards": dict,
     "prints": list,
-    "unprinted": int,
+    "omitted_lines": int,
     "errors": list,
-    "asked": list,
+    "calls": list,
     "reason": str,
     "message": str,
     "error": (dict, type(None)),
@@ -185,13 +185,13 @@ def decode_setup(line: bytes) -> Setup:
     plain = _parse(line)
     try:
         stand_ins = tuple(
-            StandIn(component=each["component"], outputs=tuple(StandInOutput(**output) for output in each["outputs"]))
-            for each in plain.pop("stand_ins")
+            Stub(component=each["component"], outputs=tuple(StubOutput(**output) for output in each["outputs"]))
+            for each in plain.pop("stubs")
         )
         functions = tuple((alias, tuple(names)) for alias, names in plain.pop("functions"))
         types = tuple((name, type_) for name, type_ in plain.pop("parameter_types"))
         path = tuple(plain.pop("path"))
-        return Setup(stand_ins=stand_ins, functions=functions, parameter_types=types, path=path, **plain)
+        return Setup(stubs=stand_ins, functions=functions, parameter_types=types, path=path, **plain)
     except (KeyError, TypeError, ValueError) as error:
         raise ProtocolError(f"no setup: {error}") from error
 
@@ -211,38 +211,40 @@ def decode_request(line: bytes) -> Request:
     try:
         stops = plain.pop("stops")
         places: dict[str, Any] = {name: tuple(stops.pop(name)) for name in ("states", "transitions")}
-        return Request(stops=Stops(**places, **stops), **plain)
+        return Request(stops=StopConditions(**places, **stops), **plain)
     except (KeyError, TypeError, AttributeError) as error:
         raise ProtocolError(f"no request: {error}") from error
 
 
-def encode_answer(answer: Answer) -> bytes:
+def encode_response(answer: Response) -> bytes:
     """The line of an answer; a moment with too much to tell leaves the values out."""
     line = _line(asdict(answer))
-    if len(line) <= LONGEST_LINE or not isinstance(answer, Moment):
-        return line[:LONGEST_LINE]
-    few = Moment(
+    if len(line) <= MAX_MESSAGE_BYTES or not isinstance(answer, IterationResult):
+        return line[:MAX_MESSAGE_BYTES]
+    few = IterationResult(
         iteration=answer.iteration,
         time_ns=answer.time_ns,
         state=answer.state,
-        came_from=answer.came_from,
+        changed_from=answer.changed_from,
         transition=answer.transition,
         prints=["(the values of this iteration are too large to be shown)"],
     )
     return _line(asdict(few))
 
 
-def decode_answer(line: bytes) -> Answer:
+def decode_response(line: bytes) -> Response:
     """Read an answer; what user code may have slipped in between is refused.
 
     Raises:
         ProtocolError: It is none.
     """
     plain = _parse(line)
-    make = _ANSWERS.get(str(plain.get("kind")))
+    make = _RESPONSES.get(str(plain.get("kind")))
     if make is None:
         raise ProtocolError(f"no answer: {line[:80]!r}")
-    wrong = [name for name, value in plain.items() if name in _SHAPES and not isinstance(value, _SHAPES[name])]
+    wrong = [
+        name for name, value in plain.items() if name in _FIELD_TYPES and not isinstance(value, _FIELD_TYPES[name])
+    ]
     if wrong:
         raise ProtocolError(f"not of its type: {wrong[0]}")
     try:

@@ -17,44 +17,44 @@ from typing import BinaryIO
 
 from vicode.bica import Component, CyclicUseError
 from vicode.bica.errors import describe_exception, make_error_record
-from vicode.bica.loading import UserCodeError, telling
-from vicode.simulation.engine import Engine
-from vicode.simulation.limits import Prints, TimeLimitError, limit_memory, time_limit
+from vicode.bica.loading import UserCodeError, wrap_user_errors
+from vicode.simulation.engine import RunHost
+from vicode.simulation.limits import CapturedOutput, TimeLimitError, limit_memory, time_limit
 from vicode.simulation.messages import (
-    Answer,
     Failed,
-    Looked,
-    Moment,
+    Inspected,
+    IterationResult,
     Ready,
     Request,
-    Rested,
+    Response,
     Setup,
+    Stopped,
     decode_request,
     decode_setup,
-    encode_answer,
+    encode_response,
 )
-from vicode.simulation.resting import COUNT, reason_to_rest
+from vicode.simulation.resting import COUNT_REACHED, stop_reason
 
 START_LIMIT_S = 60.0
 
 
 def main() -> int:
     """Serve until the other side hangs up; returns 1 after a failure."""
-    requests, answers = _take_pipes()
+    requests, answers = _claim_pipes()
     first = requests.readline()
     if not first:
         return 0
     setup = decode_setup(first)
     try:
-        return _Worker(setup, answers).serve(_listen(requests, setup.folder))
+        return _Worker(setup, answers).serve(_start_reader(requests, setup.folder))
     except BrokenPipeError:
         # The other side has gone, which the listening thread may not have heard yet.
         return 0
     finally:
-        _clear(setup.folder)
+        _remove_folder(setup.folder)
 
 
-def _take_pipes() -> tuple[BinaryIO, BinaryIO]:
+def _claim_pipes() -> tuple[BinaryIO, BinaryIO]:
     """Keep the pipes for ourselves: user code reads nothing, and what it writes past Python goes to standard error."""
     requests = os.fdopen(os.dup(0), "rb")
     answers = os.fdopen(os.dup(1), "wb")
@@ -65,7 +65,7 @@ def _take_pipes() -> tuple[BinaryIO, BinaryIO]:
     return requests, answers
 
 
-def _listen(requests: BinaryIO, folder: str) -> queue.SimpleQueue[bytes]:
+def _start_reader(requests: BinaryIO, folder: str) -> queue.SimpleQueue[bytes]:
     """Read in a thread of its own, which ends the process when the other side has gone, whatever user code does."""
     lines: queue.SimpleQueue[bytes] = queue.SimpleQueue()
 
@@ -74,93 +74,93 @@ def _listen(requests: BinaryIO, folder: str) -> queue.SimpleQueue[bytes]:
         signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGABRT})
         for line in requests:
             lines.put(line)
-        _clear(folder)
+        _remove_folder(folder)
         os._exit(0)
 
     threading.Thread(target=read, daemon=True).start()
     return lines
 
 
-def _clear(folder: str) -> None:
+def _remove_folder(folder: str) -> None:
     if folder:
         shutil.rmtree(folder, ignore_errors=True)
 
 
 class _Worker:
     def __init__(self, setup: Setup, answers: BinaryIO) -> None:
-        self._setup, self._answers = setup, answers
-        self._prints = Prints()
-        self._engine: Engine | None = None
-        self._moment: Moment
+        self._setup, self._output = setup, answers
+        self._prints = CapturedOutput()
+        self._host: RunHost | None = None
+        self._result: IterationResult
         self._was_done = False
 
     def serve(self, lines: queue.SimpleQueue[bytes]) -> int:
-        self._settle()
-        failed = self._guarded(START_LIMIT_S, self._start)
+        self._configure_process()
+        failed = self._run_limited(START_LIMIT_S, self._start)
         while failed is None:
             request = decode_request(lines.get())
-            failed = self._answer(request)
-        self._say(failed)
+            failed = self._handle(request)
+        self._send(failed)
         return 1
 
-    def _settle(self) -> None:
+    def _configure_process(self) -> None:
         sys.stdout = sys.stderr = self._prints
         logging.basicConfig(level=logging.INFO, stream=self._prints, format="%(levelname)s %(name)s: %(message)s")
         sys.path[:0] = list(self._setup.path)
         limit_memory(self._setup.memory_bytes)
 
     def _start(self) -> None:
-        self._engine = Engine(self._setup, self._prints)
-        self._say(Ready())
+        self._host = RunHost(self._setup, self._prints)
+        self._send(Ready())
 
-    def _answer(self, request: Request) -> Failed | None:
-        failed = self._guarded(self._setup.limit_s, lambda: self._take_inputs(request))
-        return failed if request.do == "look" or failed is not None else self._run(request)
+    def _handle(self, request: Request) -> Failed | None:
+        failed = self._run_limited(self._setup.limit_s, lambda: self._apply_inputs(request))
+        return failed if request.kind == "inspect" or failed is not None else self._run(request)
 
     def _run(self, request: Request) -> Failed | None:
-        reason = COUNT
-        moment: Moment | None = None
+        reason = COUNT_REACHED
+        moment: IterationResult | None = None
         for _step in range(request.count):
-            failed = self._guarded(self._setup.limit_s, self._step)
+            failed = self._run_limited(self._setup.limit_s, self._step)
             if failed is not None:
                 return failed
-            moment = self._moment
-            stop = reason_to_rest(moment, request.stops, was_done=self._was_done)
+            moment = self._result
+            stop = stop_reason(moment, request.stops, was_done=self._was_done)
             self._was_done = moment.done
-            if request.quiet:
+            if request.suppress_events:
                 continue
-            self._say(moment)
+            self._send(moment)
             if stop:
                 reason = stop
                 break
-        if request.quiet and moment is not None:
-            self._say(moment)
-        self._say(Rested(reason=reason))
+        if request.suppress_events and moment is not None:
+            self._send(moment)
+        self._send(Stopped(reason=reason))
         return None
 
     def _step(self) -> None:
-        self._moment = self._running.step()
+        self._result = self._running.step()
 
     @property
-    def _running(self) -> Engine:
-        assert self._engine is not None
-        return self._engine
+    def _running(self) -> RunHost:
+        assert self._host is not None
+        return self._host
 
-    def _take_inputs(self, request: Request) -> None:
+    def _apply_inputs(self, request: Request) -> None:
         self._running.set_inputs(request.inputs)
-        if request.do == "look":
-            self._say(Looked(guards=self._running.look()))
+        if request.kind == "inspect":
+            self._send(Inspected(guards=self._running.evaluate_guards()))
 
-    def _guarded(self, limit_s: float, do: Callable[[], None]) -> Failed | None:
+    def _run_limited(self, limit_s: float, do: Callable[[], None]) -> Failed | None:
         """Run what may call user code; returns what went wrong with it."""
         try:
-            with time_limit(limit_s), telling("the world failed", only_users=True):
+            with time_limit(limit_s), wrap_user_errors("the world failed", only_user_code=True):
                 do()
         except TimeLimitError as error:
             words = f"did not come to an end within {limit_s:g} s; it may run in a circle"
             return self._failed(error, words)
         except (UserCodeError, CyclicUseError) as error:
-            return Failed(message=str(error), prints=self._prints.take()[0])
+            return Failed(message=str(error), prints=self._prints.drain()[0])
         except SystemExit as error:
             return self._failed(error, f"left the program by {describe_exception(error)}")
         except (KeyboardInterrupt, MemoryError, RecursionError) as error:
@@ -169,17 +169,19 @@ class _Worker:
 
     def _failed(self, error: BaseException, words: str) -> Failed:
         """Say it with the place in the design, if a component was at work."""
-        lines, _left_out = self._prints.take()
+        lines, _left_out = self._prints.drain()
         component = _find_component(error)
         if component is None:
-            return Failed(message=f"the code outside of all components {words}{_place(error)}", prints=lines)
+            return Failed(
+                message=f"the code outside of all components {words}{_user_code_location(error)}", prints=lines
+            )
         # Only the type says Exception; a record is made of its traceback.
         record = make_error_record(component, error)  # type: ignore[arg-type]
         return Failed(message=words, error={**asdict(record), "message": words}, prints=lines)
 
-    def _say(self, answer: Answer) -> None:
-        self._answers.write(encode_answer(answer))
-        self._answers.flush()
+    def _send(self, answer: Response) -> None:
+        self._output.write(encode_response(answer))
+        self._output.flush()
 
 
 def _find_component(error: BaseException) -> Component | None:
@@ -194,7 +196,7 @@ def _find_component(error: BaseException) -> Component | None:
     return found
 
 
-def _place(error: BaseException) -> str:
+def _user_code_location(error: BaseException) -> str:
     """File and line of the deepest code that is not ours, in brackets."""
     place = ""
     traceback = error.__traceback__

@@ -1,34 +1,34 @@
 """The only room that knows YAML: reads designs and projects with all mistakes at once, and patches texts on save."""
 
-from vicode.store.documents import ReadDesign, ReadProject, read_design, read_project_file
-from vicode.store.locating import faulty_components, locate, owners_of, place_of
-from vicode.store.projects import OpenProject, design_files, find_projects, open_project, project_file_in
-from vicode.store.remarks import with_remarks
+from vicode.store.documents import DesignReadResult, ProjectReadResult, read_design, read_project_file
+from vicode.store.locating import find_faulty_components, find_location, iter_owning_components, locate_findings
+from vicode.store.projects import OpenProject, find_design_files, find_project_file, find_projects, open_project
+from vicode.store.remarks import add_comments
 from vicode.store.saving import save_design, save_project_file
 from vicode.store.schema import design_schema, project_schema
 from vicode.store.sources import SourceMap
 from vicode.store.writing import is_read_only, write_text
 
 __all__ = [
+    "DesignReadResult",
     "OpenProject",
-    "ReadDesign",
-    "ReadProject",
+    "ProjectReadResult",
     "SourceMap",
-    "design_files",
+    "add_comments",
     "design_schema",
-    "faulty_components",
+    "find_design_files",
+    "find_faulty_components",
+    "find_location",
+    "find_project_file",
     "find_projects",
     "is_read_only",
-    "locate",
+    "iter_owning_components",
+    "locate_findings",
     "open_project",
-    "owners_of",
-    "place_of",
-    "project_file_in",
     "project_schema",
     "read_design",
     "read_project_file",
     "save_design",
     "save_project_file",
-    "with_remarks",
     "write_text",
 ]

@@ -7,11 +7,11 @@ from vicode.model.design import (
     Assign,
     Call,
     Code,
-    Common,
+    CommonSection,
     Decision,
+    DecisionGroup,
     Declaration,
     Design,
-    Group,
     Guard,
     RunCode,
     State,
@@ -20,23 +20,23 @@ from vicode.model.design import (
     Use,
 )
 from vicode.model.project import Agent, Enumeration, Interface, Project
-from vicode.store.shapes import Data
+from vicode.store.shapes import FormatValue
 
 
-class Fields:
+class RecordFields:
     """A record's value, asked key by key; a missing key has the value that its absence means."""
 
-    def __init__(self, data: Data) -> None:
+    def __init__(self, data: FormatValue) -> None:
         """Wrap pairs of name and value."""
-        self.values = dict(cast("tuple[tuple[str, Data], ...]", data))
+        self.values = dict(cast("tuple[tuple[str, FormatValue], ...]", data))
 
     def has(self, name: str) -> bool:
         """Whether the key is there."""
         return name in self.values
 
-    def text(self, name: str, missing: str = "") -> str:
+    def text(self, name: str, default: str = "") -> str:
         """A text."""
-        return cast("str", self.values.get(name, missing))
+        return cast("str", self.values.get(name, default))
 
     def number(self, name: str) -> float | None:
         """A number."""
@@ -50,36 +50,36 @@ class Fields:
         """Two numbers."""
         return cast("tuple[float, float] | None", self.values.get(name))
 
-    def words(self, name: str) -> tuple[str, ...]:
+    def text_list(self, name: str) -> tuple[str, ...]:
         """A list of texts."""
         return cast("tuple[str, ...]", self.values.get(name, ()))
 
-    def texts(self, name: str) -> tuple[tuple[str, str], ...]:
+    def text_map(self, name: str) -> tuple[tuple[str, str], ...]:
         """A table of texts."""
         return cast("tuple[tuple[str, str], ...]", self.values.get(name, ()))
 
-    def pairs(self, name: str) -> tuple[tuple[str, Data], ...]:
+    def value_map(self, name: str) -> tuple[tuple[str, FormatValue], ...]:
         """A table of other things."""
-        return cast("tuple[tuple[str, Data], ...]", self.values.get(name, ()))
+        return cast("tuple[tuple[str, FormatValue], ...]", self.values.get(name, ()))
 
-    def table(self, name: str) -> "list[tuple[str, Fields]]":
+    def record_map(self, name: str) -> "list[tuple[str, RecordFields]]":
         """A table of records."""
-        return [(key, Fields(value)) for key, value in self.pairs(name)]
+        return [(key, RecordFields(value)) for key, value in self.value_map(name)]
 
-    def items(self, name: str) -> "list[Fields]":
+    def record_list(self, name: str) -> "list[RecordFields]":
         """A list of records."""
-        return [Fields(value) for value in cast("tuple[Data, ...]", self.values.get(name, ()))]
+        return [RecordFields(value) for value in cast("tuple[FormatValue, ...]", self.values.get(name, ()))]
 
     def code(self, name: str) -> Code | None:
         """Code, None when the key is missing."""
-        return Code(texts=self.texts(name)) if name in self.values else None
+        return Code(texts=self.text_map(name)) if name in self.values else None
 
 
-def build_design(data: Data, otherwise: str) -> Design:
-    """A design; `otherwise` names its component when the file does not."""
-    fields = Fields(data)
+def decode_design(data: FormatValue, default_name: str) -> Design:
+    """A design; `default_name` names its component when the file does not."""
+    fields = RecordFields(data)
     return Design(
-        component=fields.text("component", otherwise),
+        component=fields.text("component", default_name),
         doc=fields.text("doc"),
         xabsl_name=fields.text("xabsl_name"),
         frequency_hz=fields.number("frequency"),
@@ -87,7 +87,8 @@ def build_design(data: Data, otherwise: str) -> Design:
         arithmetic=fields.text("arithmetic"),
         time_unit=fields.text("time_unit"),
         uses=tuple(
-            Use(alias=alias, component=use.text("component"), at=use.pair("at")) for alias, use in fields.table("uses")
+            Use(alias=alias, component=use.text("component"), at=use.pair("at"))
+            for alias, use in fields.record_map("uses")
         ),
         parameters=_declarations(fields, "parameters", "default"),
         outputs=_declarations(fields, "outputs", "initial"),
@@ -95,33 +96,33 @@ def build_design(data: Data, otherwise: str) -> Design:
         initial=fields.text("initial"),
         module=fields.code("module") or Code(),
         members=fields.code("members") or Code(),
-        common=_common(Fields(fields.pairs("common"))),
-        states=tuple(_state(name, state) for name, state in fields.table("states")),
+        common=_common(RecordFields(fields.value_map("common"))),
+        states=tuple(_state(name, state) for name, state in fields.record_map("states")),
     )
 
 
-def build_project(data: Data, otherwise: str) -> Project:
-    """A project without its designs; `otherwise` names it when the file does not."""
-    fields = Fields(data)
+def decode_project(data: FormatValue, default_name: str) -> Project:
+    """A project without its designs; `default_name` names it when the file does not."""
+    fields = RecordFields(data)
     return Project(
-        name=fields.text("project", otherwise),
+        name=fields.text("project", default_name),
         doc=fields.text("doc"),
-        languages=fields.words("languages") if fields.has("languages") else ("python",),
+        languages=fields.text_list("languages") if fields.has("languages") else ("python",),
         world=fields.text("world"),
         generated=fields.text("generated", "generated"),
         enumerations=tuple(
             Enumeration(
                 name=name,
                 doc=each.text("doc"),
-                elements=each.texts("elements"),
+                elements=each.text_map("elements"),
                 internal=each.flag("internal"),
                 xabsl_name=each.text("xabsl_name"),
-                xabsl_elements=each.texts("xabsl_elements"),
+                xabsl_elements=each.text_map("xabsl_elements"),
             )
-            for name, each in fields.table("enumerations")
+            for name, each in fields.record_map("enumerations")
         ),
         constants=_declarations(fields, "constants", "value"),
-        components=tuple(_interface(name, each) for name, each in fields.table("components")),
+        components=tuple(_interface(name, each) for name, each in fields.record_map("components")),
         agents=tuple(
             Agent(
                 name=name,
@@ -130,12 +131,12 @@ def build_project(data: Data, otherwise: str) -> Project:
                 doc=agent.text("doc"),
                 xabsl_name=agent.text("xabsl_name"),
             )
-            for name, agent in fields.table("agents")
+            for name, agent in fields.record_map("agents")
         ),
     )
 
 
-def _declarations(fields: Fields, section: str, value_key: str) -> tuple[Declaration, ...]:
+def _declarations(fields: RecordFields, section: str, value_key: str) -> tuple[Declaration, ...]:
     return tuple(
         Declaration(
             name=name,
@@ -147,11 +148,11 @@ def _declarations(fields: Fields, section: str, value_key: str) -> tuple[Declara
             xabsl_name=each.text("xabsl_name"),
             arguments=_declarations(each, "arguments", "default") if each.has("arguments") else None,
         )
-        for name, each in fields.table(section)
+        for name, each in fields.record_map(section)
     )
 
 
-def _interface(name: str, fields: Fields) -> Interface:
+def _interface(name: str, fields: RecordFields) -> Interface:
     return Interface(
         component=name,
         title=fields.text("title"),
@@ -165,8 +166,8 @@ def _interface(name: str, fields: Fields) -> Interface:
     )
 
 
-def _common(fields: Fields) -> Common:
-    return Common(
+def _common(fields: RecordFields) -> CommonSection:
+    return CommonSection(
         doc=fields.text("doc"),
         at=fields.pair("at"),
         actions=_actions(fields, "actions"),
@@ -174,7 +175,7 @@ def _common(fields: Fields) -> Common:
     )
 
 
-def _state(name: str, fields: Fields) -> State:
+def _state(name: str, fields: RecordFields) -> State:
     return State(
         name=name,
         id=fields.text("id"),
@@ -185,10 +186,10 @@ def _state(name: str, fields: Fields) -> State:
         capacity=fields.number("capacity"),
         synchronized=fields.number("synchronized"),
         disabled=fields.flag("disabled"),
-        requires=fields.words("requires"),
+        requires=fields.text_list("requires"),
         modulates=tuple(
             Call(alias=alias, arguments=cast("tuple[tuple[str, str], ...]", arguments))
-            for alias, arguments in fields.pairs("modulates")
+            for alias, arguments in fields.value_map("modulates")
         ),
         enter=_actions(fields, "enter"),
         actions=_actions(fields, "actions"),
@@ -197,23 +198,23 @@ def _state(name: str, fields: Fields) -> State:
     )
 
 
-def _actions(fields: Fields, name: str) -> tuple[Action, ...]:
-    return tuple(_action(action) for action in fields.items(name))
+def _actions(fields: RecordFields, name: str) -> tuple[Action, ...]:
+    return tuple(_action(action) for action in fields.record_list(name))
 
 
-def _action(fields: Fields) -> Action:
+def _action(fields: RecordFields) -> Action:
     if fields.has("set"):
-        return Assign(values=fields.texts("set"))
+        return Assign(values=fields.text_map("set"))
     if fields.has("call"):
-        return Call(alias=fields.text("call"), arguments=fields.texts("with"))
+        return Call(alias=fields.text("call"), arguments=fields.text_map("with"))
     return RunCode(code=fields.code("code") or Code(), id=fields.text("id"))
 
 
-def _decisions(fields: Fields, name: str) -> tuple[Decision, ...]:
-    return tuple(_decision(decision) for decision in fields.items(name))
+def _decisions(fields: RecordFields, name: str) -> tuple[Decision, ...]:
+    return tuple(_decision(decision) for decision in fields.record_list(name))
 
 
-def _decision(fields: Fields) -> Decision:
+def _decision(fields: RecordFields) -> Decision:
     guard = Guard(when=fields.text("when"), after=fields.text("after"), code=fields.code("code"))
     doc, id_, disabled = fields.text("doc"), fields.text("id"), fields.flag("disabled")
     if fields.has("to"):
@@ -222,4 +223,4 @@ def _decision(fields: Fields) -> Decision:
     if fields.has("stay"):
         return Stay(guard=guard, doc=doc, id=id_, disabled=disabled)
     then, otherwise = _decisions(fields, "then"), _decisions(fields, "else")
-    return Group(guard=guard, then=then, otherwise=otherwise, doc=doc, id=id_, disabled=disabled)
+    return DecisionGroup(guard=guard, then=then, otherwise=otherwise, doc=doc, id=id_, disabled=disabled)

@@ -3,44 +3,46 @@
 import re
 from dataclasses import dataclass
 
-from vicode.store.nodes import Mapping, Node, Scalar, Sequence
-from vicode.store.wishes import Member, Members, Wish, Word, is_long
+from vicode.store.nodes import YamlMapping, YamlNode, YamlScalar, YamlSequence
+from vicode.store.wishes import TargetCollection, TargetMember, TargetNode, TargetScalar, has_multiline_text
 
 _PLAIN = re.compile(r"[^\s\-?:,\[\]{}#&*!|>'\"%@`=~]|[-?:][^\s,\[\]{}:#]")
 _UNPRINTABLE = re.compile("[^ -~\xa0-\ud7ff\ue000-\ufefe\uff00-\ufffd\U00010000-\U0010ffff]|[\u2028\u2029]")
 _NOT_IN_BLOCK = re.compile("[^\t\n -~\xa0-\ud7ff\ue000-\ufefe\uff00-\ufffd\U00010000-\U0010ffff]|[\u2028\u2029]")
 _ESCAPES = {"\\": "\\\\", '"': '\\"', "\n": "\\n", "\t": "\\t", "\r": "\\r", "\0": "\\0"}
-_FOLD = 100
+_FOLD_WIDTH = 100
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Layout:
-    """How a file is indented: `step` columns a mapping, `dash` columns the dashes under a key."""
+class YamlStyle:
+    """How a file is indented: `indent_width` columns a mapping, `dash_indent` columns the dashes under a key."""
 
-    step: int = 2
-    dash: int = 2
+    indent_width: int = 2
+    dash_indent: int = 2
 
 
-def layout_of(root: Node | None, text: str) -> Layout:
+def detect_style(root: YamlNode | None, text: str) -> YamlStyle:
     """The layout of an old text, from its first mapping in a mapping and its first list."""
     step, dash = 0, -1
-    stack: list[tuple[Node, int]] = [(root, 0)] if isinstance(root, Mapping) else []
+    stack: list[tuple[YamlNode, int]] = [(root, 0)] if isinstance(root, YamlMapping) else []
     while stack and (not step or dash < 0):
         node, column = stack.pop()
-        inner = [value for _key, value in node.pairs] if isinstance(node, Mapping) else list(getattr(node, "items", ()))
+        inner = (
+            [value for _key, value in node.pairs] if isinstance(node, YamlMapping) else list(getattr(node, "items", ()))
+        )
         for child in inner:
-            if isinstance(child, Scalar) or child.flow:
+            if isinstance(child, YamlScalar) or child.is_flow:
                 continue
             offset = child.start - text.rfind("\n", 0, child.start) - 1
-            if isinstance(node, Mapping) and isinstance(child, Mapping) and not step:
+            if isinstance(node, YamlMapping) and isinstance(child, YamlMapping) and not step:
                 step = offset - column
-            if isinstance(node, Mapping) and isinstance(child, Sequence) and dash < 0:
+            if isinstance(node, YamlMapping) and isinstance(child, YamlSequence) and dash < 0:
                 dash = offset - column
             stack.append((child, offset))
-    return Layout(step=step if 0 < step <= 8 else 2, dash=dash if 0 <= dash <= 8 else 2)
+    return YamlStyle(indent_width=step if 0 < step <= 8 else 2, dash_indent=dash if 0 <= dash <= 8 else 2)
 
 
-def text_in_line(text: str, *, in_flow: bool = False, quote: str = "") -> str:
+def format_inline_text(text: str, *, in_flow: bool = False, quote: str = "") -> str:
     """A text in one line; `quote` is the one to use if it must or should have quotes."""
     if not quote and _is_plain(text, in_flow=in_flow):
         return text
@@ -51,7 +53,7 @@ def text_in_line(text: str, *, in_flow: bool = False, quote: str = "") -> str:
     return "'" + text.replace("'", "''") + "'"
 
 
-def block_text(text: str, indent: int, *, folded: bool = False) -> str | None:
+def format_block_text(text: str, indent: int, *, folded: bool = False) -> str | None:
     """A text as a block: '|' and its lines, or '>' if it can be folded; None when no block can hold it."""
     body = text.rstrip("\n")
     ends = len(text) - len(body)
@@ -69,7 +71,7 @@ def block_text(text: str, indent: int, *, folded: bool = False) -> str | None:
     return "\n".join([f"{style}{number}{chomping}", *written, *[""] * max(0, ends - 1)])
 
 
-def value_text(wish: Wish, column: int, used: int, layout: Layout, *, after_dash: bool = False) -> str:
+def format_value(wish: TargetNode, column: int, used: int, layout: YamlStyle, *, after_dash: bool = False) -> str:
     """What follows 'key:' or '-', without the last line break.
 
     Args:
@@ -79,70 +81,72 @@ def value_text(wish: Wish, column: int, used: int, layout: Layout, *, after_dash
         layout: How the file is indented.
         after_dash: It follows a dash, not a key.
     """
-    if isinstance(wish, Word):
-        return " " + _word_text(wish, column, layout)
-    assert isinstance(wish, Members), "what is kept is not written"
+    if isinstance(wish, TargetScalar):
+        return " " + _format_scalar(wish, column, layout)
+    assert isinstance(wish, TargetCollection), "what is kept is not written"
     if _fits_line(wish, used):
-        return " " + flow_text(wish)
+        return " " + format_flow(wish)
     if wish.is_mapping and after_dash:
         return " " + "\n".join(_pair_lines(wish, column + 2, layout)).lstrip()
     if wish.is_mapping:
-        return "\n" + "\n".join(_pair_lines(wish, column + layout.step, layout))
-    dash = column + (2 if after_dash else layout.dash)
-    return "\n" + "\n".join(member_text(member, dash, layout) for member in wish.members)
+        return "\n" + "\n".join(_pair_lines(wish, column + layout.indent_width, layout))
+    dash = column + (2 if after_dash else layout.dash_indent)
+    return "\n" + "\n".join(format_member(member, dash, layout) for member in wish.members)
 
 
-def member_text(member: Member, column: int, layout: Layout) -> str:
+def format_member(member: TargetMember, column: int, layout: YamlStyle) -> str:
     """A whole pair or item from its first column, without the last line break."""
     lead = " " * column
     if member.key is None:
-        return lead + "-" + value_text(member.value, column, column + 2, layout, after_dash=True)
-    key = text_in_line(member.key)
-    return f"{lead}{key}:" + value_text(member.value, column, column + len(key) + 2, layout)
+        return lead + "-" + format_value(member.value, column, column + 2, layout, after_dash=True)
+    key = format_inline_text(member.key)
+    return f"{lead}{key}:" + format_value(member.value, column, column + len(key) + 2, layout)
 
 
-def document_text(wish: Wish, layout: Layout) -> str:
+def format_document(wish: TargetNode, layout: YamlStyle) -> str:
     """A whole file."""
-    assert isinstance(wish, Members)
+    assert isinstance(wish, TargetCollection)
     return "\n".join(_pair_lines(wish, 0, layout)) + "\n"
 
 
-def flow_text(wish: Wish) -> str:
+def format_flow(wish: TargetNode) -> str:
     """A value in one line, collections in brackets."""
-    if isinstance(wish, Word):
-        return wish.text if wish.bare else text_in_line(wish.text, in_flow=True)
-    assert isinstance(wish, Members), "what is kept is not written"
-    parts = [flow_member(member) for member in wish.members]
+    if isinstance(wish, TargetScalar):
+        return wish.text if wish.is_plain else format_inline_text(wish.text, in_flow=True)
+    assert isinstance(wish, TargetCollection), "what is kept is not written"
+    parts = [format_flow_member(member) for member in wish.members]
     return "{" + ", ".join(parts) + "}" if wish.is_mapping else "[" + ", ".join(parts) + "]"
 
 
-def flow_member(member: Member) -> str:
+def format_flow_member(member: TargetMember) -> str:
     """A pair or item inside brackets."""
-    value = flow_text(member.value)
-    return value if member.key is None else f"{text_in_line(member.key, in_flow=True)}: {value}"
+    value = format_flow(member.value)
+    return value if member.key is None else f"{format_inline_text(member.key, in_flow=True)}: {value}"
 
 
-def _pair_lines(wish: Members, column: int, layout: Layout) -> list[str]:
-    return [member_text(member, column, layout) for member in wish.members]
+def _pair_lines(wish: TargetCollection, column: int, layout: YamlStyle) -> list[str]:
+    return [format_member(member, column, layout) for member in wish.members]
 
 
-def _fits_line(wish: Members, used: int) -> bool:
+def _fits_line(wish: TargetCollection, used: int) -> bool:
     if not wish.members:
         return True
-    return _may_be_flow(wish) and not is_long(wish) and used + len(flow_text(wish)) <= wish.width
+    return _may_be_flow(wish) and not has_multiline_text(wish) and used + len(format_flow(wish)) <= wish.flow_width
 
 
-def _may_be_flow(wish: Members) -> bool:
-    inner = (member.value for member in wish.members if isinstance(member.value, Members) and member.value.members)
-    return wish.width > 0 and all(_may_be_flow(each) for each in inner)
+def _may_be_flow(wish: TargetCollection) -> bool:
+    inner = (
+        member.value for member in wish.members if isinstance(member.value, TargetCollection) and member.value.members
+    )
+    return wish.flow_width > 0 and all(_may_be_flow(each) for each in inner)
 
 
-def _word_text(word: Word, column: int, layout: Layout) -> str:
-    if word.bare:
+def _format_scalar(word: TargetScalar, column: int, layout: YamlStyle) -> str:
+    if word.is_plain:
         return word.text
-    block = block_text(word.text, layout.step, folded=False) if "\n" in word.text else None
+    block = format_block_text(word.text, layout.indent_width, folded=False) if "\n" in word.text else None
     if block is None:
-        return text_in_line(word.text)
+        return format_inline_text(word.text)
     head, *lines = block.split("\n")
     return "\n".join([head, *(" " * column + line if line else "" for line in lines)])
 
@@ -175,7 +179,7 @@ def _folded_lines(body: str, indent: int) -> list[str] | None:
         return None
     lines = [words[0]]
     for word in words[1:]:
-        if len(lines[-1]) + len(word) + indent < _FOLD:
+        if len(lines[-1]) + len(word) + indent < _FOLD_WIDTH:
             lines[-1] += f" {word}"
         else:
             lines.append(word)

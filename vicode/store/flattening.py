@@ -35,12 +35,12 @@ from vicode.store.format import (
     VARIABLE,
     VERSION,
 )
-from vicode.store.shapes import Data, Record, gather
+from vicode.store.shapes import FormatValue, RecordSchema, build_record_value
 
 
-def flatten_design(design: Design) -> Data:
+def encode_design(design: Design) -> FormatValue:
     """A design as the format's value."""
-    return gather(
+    return build_record_value(
         DESIGN,
         {
             "vicode": VERSION,
@@ -58,7 +58,7 @@ def flatten_design(design: Design) -> Data:
             "initial": design.initial,
             "module": design.module.texts,
             "members": design.members.texts,
-            "common": gather(
+            "common": build_record_value(
                 COMMON,
                 {
                     "doc": design.common.doc,
@@ -72,9 +72,9 @@ def flatten_design(design: Design) -> Data:
     )
 
 
-def flatten_project(project: Project) -> Data:
+def encode_project(project: Project) -> FormatValue:
     """What project.yaml says of a project, as the format's value."""
-    return gather(
+    return build_record_value(
         PROJECT,
         {
             "vicode": VERSION,
@@ -91,16 +91,18 @@ def flatten_project(project: Project) -> Data:
     )
 
 
-def _use(use: Use) -> Data:
-    return gather(USE, {"component": use.component, "at": use.at})
+def _use(use: Use) -> FormatValue:
+    return build_record_value(USE, {"component": use.component, "at": use.at})
 
 
-def _agent(agent: Agent) -> Data:
-    return gather(AGENT, {"root": agent.root, "title": agent.title, "doc": agent.doc, "xabsl_name": agent.xabsl_name})
+def _agent(agent: Agent) -> FormatValue:
+    return build_record_value(
+        AGENT, {"root": agent.root, "title": agent.title, "doc": agent.doc, "xabsl_name": agent.xabsl_name}
+    )
 
 
-def _enumeration(enumeration: Enumeration) -> Data:
-    return gather(
+def _enumeration(enumeration: Enumeration) -> FormatValue:
+    return build_record_value(
         ENUMERATION,
         {
             "doc": enumeration.doc,
@@ -112,8 +114,8 @@ def _enumeration(enumeration: Enumeration) -> Data:
     )
 
 
-def _interface(interface: Interface) -> Data:
-    return gather(
+def _interface(interface: Interface) -> FormatValue:
+    return build_record_value(
         INTERFACE,
         {
             "implementation": interface.implementation,
@@ -128,13 +130,13 @@ def _interface(interface: Interface) -> Data:
     )
 
 
-def _declarations(record: Record, value_key: str, declarations: Iterable[Declaration]) -> Data:
+def _declarations(record: RecordSchema, value_key: str, declarations: Iterable[Declaration]) -> FormatValue:
     return tuple((each.name, _declaration(record, value_key, each)) for each in declarations)
 
 
-def _declaration(record: Record, value_key: str, declaration: Declaration) -> Data:
+def _declaration(record: RecordSchema, value_key: str, declaration: Declaration) -> FormatValue:
     arguments = declaration.arguments
-    values: dict[str, Data | None] = {
+    values: dict[str, FormatValue | None] = {
         "type": declaration.type,
         value_key: declaration.initial,
         "unit": declaration.unit,
@@ -143,11 +145,11 @@ def _declaration(record: Record, value_key: str, declaration: Declaration) -> Da
         "xabsl_name": declaration.xabsl_name,
         "arguments": None if arguments is None else _declarations(PARAMETER, "default", arguments),
     }
-    return gather(record, values)
+    return build_record_value(record, values)
 
 
-def _state(state: State) -> Data:
-    return gather(
+def _state(state: State) -> FormatValue:
+    return build_record_value(
         STATE,
         {
             "id": state.id,
@@ -168,25 +170,25 @@ def _state(state: State) -> Data:
     )
 
 
-def _actions(actions: Iterable[Action]) -> Data:
+def _actions(actions: Iterable[Action]) -> FormatValue:
     return tuple(_action(action) for action in actions)
 
 
-def _action(action: Action) -> Data:
+def _action(action: Action) -> FormatValue:
     match action:
         case Assign(values=values):
-            return gather(ACTION, {"set": values})
+            return build_record_value(ACTION, {"set": values})
         case Call(alias=alias, arguments=arguments):
-            return gather(ACTION, {"call": alias, "with": arguments})
+            return build_record_value(ACTION, {"call": alias, "with": arguments})
         case RunCode(code=code, id=id_):
-            return gather(ACTION, {"code": code.texts, "id": id_})
+            return build_record_value(ACTION, {"code": code.texts, "id": id_})
 
 
-def _decisions(decisions: Iterable[Decision]) -> Data:
+def _decisions(decisions: Iterable[Decision]) -> FormatValue:
     return tuple(_decision(decision) for decision in decisions)
 
 
-def _decision(decision: Decision) -> Data:
+def _decision(decision: Decision) -> FormatValue:
     values = _guard(decision.guard) | {"doc": decision.doc, "id": decision.id, "disabled": decision.disabled}
     match decision:
         case Transition(to=to, label_at=label_at):
@@ -197,9 +199,9 @@ def _decision(decision: Decision) -> Data:
         case _:
             values["then"] = _decisions(decision.then)
             values["else"] = _decisions(decision.otherwise)
-    return gather(DECISION, values)
+    return build_record_value(DECISION, values)
 
 
-def _guard(guard: Guard) -> dict[str, Data | None]:
+def _guard(guard: Guard) -> dict[str, FormatValue | None]:
     code: Code | None = guard.code
     return {"when": guard.when, "after": guard.after, "code": None if code is None else code.texts}

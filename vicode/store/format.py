@@ -4,48 +4,64 @@ Reader, writer, JSON Schema and the tables of docs/design-format.md all come fro
 """
 
 from vicode.model.project import LANGUAGES
-from vicode.store.shapes import Key, Kind, Leaf, Listing, Pair, Record, Table
+from vicode.store.shapes import KeySchema, ListSchema, MapSchema, PairSchema, RecordSchema, ScalarSchema, ScalarType
 
 VERSION = "1"
-LINE = 110
+FLOW_WIDTH = 110
 """Lists and mappings are written in brackets when they fit into a line of this length."""
 
-TEXT = Leaf(kind=Kind.TEXT)
-NAME = Leaf(kind=Kind.NAME)
-EXPRESSION = Leaf(kind=Kind.EXPRESSION)
-FREQUENCY = Leaf(kind=Kind.NUMBER)
-COUNT = Leaf(kind=Kind.COUNT)
-FLAG = Leaf(kind=Kind.FLAG)
-POSITION = Pair(what="a position [x, y]")
-LABEL_POSITION = Pair(what="a position [part, beside]")
-NAMES = Listing(what="a list of names", item=lambda: NAME, width=LINE)
-ASSIGNMENTS = Table(what="a mapping of names to expressions", value=EXPRESSION, width=LINE)
-ARGUMENTS = Table(what="a mapping of parameters to expressions", value=EXPRESSION, width=LINE)
-CODE = Table(what="code, or a mapping of languages to code", value=TEXT, short="python", keys=LANGUAGES)
-
-_VERSION = Key(
-    name="vicode", shape=Leaf(kind=Kind.VERSION), required=True, meaning="version of the format; this one is 1"
+TEXT = ScalarSchema(scalar_type=ScalarType.TEXT)
+NAME = ScalarSchema(scalar_type=ScalarType.NAME)
+EXPRESSION = ScalarSchema(scalar_type=ScalarType.EXPRESSION)
+FREQUENCY = ScalarSchema(scalar_type=ScalarType.NUMBER)
+COUNT = ScalarSchema(scalar_type=ScalarType.COUNT)
+FLAG = ScalarSchema(scalar_type=ScalarType.BOOLEAN)
+POSITION = PairSchema(description="a position [x, y]")
+LABEL_POSITION = PairSchema(description="a position [part, beside]")
+NAMES = ListSchema(description="a list of names", item_schema=lambda: NAME, flow_width=FLOW_WIDTH)
+ASSIGNMENTS = MapSchema(description="a mapping of names to expressions", value_schema=EXPRESSION, flow_width=FLOW_WIDTH)
+ARGUMENTS = MapSchema(
+    description="a mapping of parameters to expressions", value_schema=EXPRESSION, flow_width=FLOW_WIDTH
 )
-_DOC = Key(name="doc", shape=TEXT, meaning="a sentence for people; it becomes the docstring of what is generated")
-_XABSL_NAME = Key(name="xabsl_name", shape=TEXT, meaning="its name in XABSL")
-_TITLE = Key(name="title", shape=TEXT, meaning="a short heading")
-_ID = Key(name="id", shape=NAME, meaning="a name that stays through edits; written by the editor")
+CODE = MapSchema(
+    description="code, or a mapping of languages to code",
+    value_schema=TEXT,
+    shorthand_key="python",
+    allowed_keys=LANGUAGES,
+)
+
+_VERSION = KeySchema(
+    name="vicode",
+    schema=ScalarSchema(scalar_type=ScalarType.VERSION),
+    required=True,
+    description="version of the format; this one is 1",
+)
+_DOC = KeySchema(
+    name="doc", schema=TEXT, description="a sentence for people; it becomes the docstring of what is generated"
+)
+_XABSL_NAME = KeySchema(name="xabsl_name", schema=TEXT, description="its name in XABSL")
+_TITLE = KeySchema(name="title", schema=TEXT, description="a short heading")
+_ID = KeySchema(name="id", schema=NAME, description="a name that stays through edits; written by the editor")
 
 
-def _declaration(name: str, value_key: str, meaning: str, *more: Key) -> Record:
+def _declaration(name: str, value_key: str, meaning: str, *more: KeySchema) -> RecordSchema:
     wrong = {word: value_key for word in ("default", "initial", "value") if word != value_key}
-    return Record(
+    return RecordSchema(
         name=name,
-        what=f"a declaration, or just its {value_key} value",
-        short=value_key,
-        width=LINE,
-        meant=wrong,
+        description=f"a declaration, or just its {value_key} value",
+        shorthand_key=value_key,
+        flow_width=FLOW_WIDTH,
+        synonyms=wrong,
         keys=(
-            Key(name="type", shape=NAME, meaning="bool, int, float or an enumeration; left out: as the value"),
-            Key(name=value_key, shape=EXPRESSION, meaning=meaning),
-            Key(name="unit", shape=TEXT, meaning="unit of the value, such as mm"),
-            Key(
-                name="range", shape=Pair(what="a range [low, high]"), meaning="lowest and highest value, both included"
+            KeySchema(
+                name="type", schema=NAME, description="bool, int, float or an enumeration; left out: as the value"
+            ),
+            KeySchema(name=value_key, schema=EXPRESSION, description=meaning),
+            KeySchema(name="unit", schema=TEXT, description="unit of the value, such as mm"),
+            KeySchema(
+                name="range",
+                schema=PairSchema(description="a range [low, high]"),
+                description="lowest and highest value, both included",
             ),
             _DOC,
             _XABSL_NAME,
@@ -62,126 +78,135 @@ OUTPUT = _declaration(
     "output",
     "initial",
     "first value",
-    Key(
+    KeySchema(
         name="arguments",
-        shape=Table(what="a mapping of names to declarations", value=ARGUMENT, width=LINE),
+        schema=MapSchema(
+            description="a mapping of names to declarations", value_schema=ARGUMENT, flow_width=FLOW_WIDTH
+        ),
         keeps_empty=True,
-        meaning="given (even empty), the output is a function of these",
+        description="given (even empty), the output is a function of these",
     ),
 )
 
-USE = Record(
+USE = RecordSchema(
     name="use",
-    what="the name of a component",
-    short="component",
-    width=LINE,
+    description="the name of a component",
+    shorthand_key="component",
+    flow_width=FLOW_WIDTH,
     keys=(
-        Key(name="component", shape=NAME, required=True, meaning="name of the component"),
-        Key(name="at", shape=POSITION, meaning="centre on the canvas"),
+        KeySchema(name="component", schema=NAME, required=True, description="name of the component"),
+        KeySchema(name="at", schema=POSITION, description="centre on the canvas"),
     ),
 )
-ACTION = Record(
+ACTION = RecordSchema(
     name="action",
-    what="an action ('set', 'call' or 'code')",
+    description="an action ('set', 'call' or 'code')",
     is_item=True,
     one_of=("set", "call", "code"),
-    missing=("an action that does nothing", "give it 'set', 'call' or 'code'"),
-    needs=(("with", "call"), ("id", "code")),
+    missing_message=("an action that does nothing", "give it 'set', 'call' or 'code'"),
+    dependent_keys=(("with", "call"), ("id", "code")),
     keys=(
-        Key(
+        KeySchema(
             name="set",
-            shape=ASSIGNMENTS,
+            schema=ASSIGNMENTS,
             keeps_empty=True,
-            meaning="own variables and outputs, or `used.variable`, each with its new value",
+            description="own variables and outputs, or `used.variable`, each with its new value",
         ),
-        Key(name="call", shape=NAME, meaning="the used component to step here"),
-        Key(name="with", shape=ARGUMENTS, meaning="its parameters; those left out take their defaults"),
-        Key(name="code", shape=CODE, keeps_empty=True, meaning="code to run"),
+        KeySchema(name="call", schema=NAME, description="the used component to step here"),
+        KeySchema(name="with", schema=ARGUMENTS, description="its parameters; those left out take their defaults"),
+        KeySchema(name="code", schema=CODE, keeps_empty=True, description="code to run"),
         _ID,
     ),
 )
-ACTIONS = Listing(what="code, or a list of actions", item=lambda: ACTION, lone="code")
-DECISIONS = Listing(what="a list of transitions", item=lambda: DECISION)
-DECISION: Record = Record(
+ACTIONS = ListSchema(description="code, or a list of actions", item_schema=lambda: ACTION, single_item_key="code")
+DECISIONS = ListSchema(description="a list of transitions", item_schema=lambda: DECISION)
+DECISION: RecordSchema = RecordSchema(
     name="transition",
-    what="a transition ('to', 'stay' or 'then')",
-    width=LINE,
+    description="a transition ('to', 'stay' or 'then')",
+    flow_width=FLOW_WIDTH,
     is_item=True,
     one_of=("to", "stay", "then"),
-    missing=("transition has no target", "add 'to: <state>'"),
-    needs=(("else", "then"), ("label_at", "to")),
-    meant={
+    missing_message=("transition has no target", "add 'to: <state>'"),
+    dependent_keys=(("else", "then"), ("label_at", "to")),
+    synonyms={
         "target": "to", "goto": "to", "next": "to", "if": "when", "guard": "when", "condition": "when",
         "timeout": "after", "description": "doc",
     },
     keys=(
-        Key(name="to", shape=NAME, meaning="the state to change to; the state itself: stay"),
-        Key(name="stay", shape=Leaf(kind=Kind.TRUE), meaning="`true`: ends the decision, changes nothing"),
-        Key(name="when", shape=EXPRESSION, meaning="condition that must hold"),
-        Key(name="after", shape=EXPRESSION, meaning="seconds that must have passed in the state"),
+        KeySchema(name="to", schema=NAME, description="the state to change to; the state itself: stay"),
+        KeySchema(name="stay", schema=ScalarSchema(scalar_type=ScalarType.TRUE), description="`true`: ends the decision, changes nothing"),
+        KeySchema(name="when", schema=EXPRESSION, description="condition that must hold"),
+        KeySchema(name="after", schema=EXPRESSION, description="seconds that must have passed in the state"),
         _DOC,
         _ID,
-        Key(
+        KeySchema(
             name="label_at",
-            shape=LABEL_POSITION,
-            meaning="where its label is: part of the way (0 to 1), pixels beside it; left out: where there is room",
+            schema=LABEL_POSITION,
+            description="where its label is: part of the way (0 to 1), pixels beside it; left out: where there is room",
         ),
-        Key(name="code", shape=CODE, keeps_empty=True, meaning="body of a function whose bool result must hold"),
-        Key(name="then", shape=DECISIONS, keeps_empty=True, meaning="a group: tested in order when the guard holds"),
-        Key(name="else", shape=DECISIONS, meaning="of a group: tested in order when the guard does not hold"),
-        Key(name="disabled", shape=FLAG, implied=False, meaning="kept, but as if it were not there"),
+        KeySchema(name="code", schema=CODE, keeps_empty=True, description="body of a function whose bool result must hold"),
+        KeySchema(name="then", schema=DECISIONS, keeps_empty=True, description="a group: tested in order when the guard holds"),
+        KeySchema(name="else", schema=DECISIONS, description="of a group: tested in order when the guard does not hold"),
+        KeySchema(name="disabled", schema=FLAG, default=False, description="kept, but as if it were not there"),
     ),
 )  # fmt: skip
 _ACTIONS_KEYS = (
-    Key(name="actions", shape=ACTIONS, meaning="done at each iteration in the state, in order"),
-    Key(name="code", shape=CODE, stands_for="actions", meaning="short for `actions` with only this code"),
+    KeySchema(name="actions", schema=ACTIONS, description="done at each iteration in the state, in order"),
+    KeySchema(name="code", schema=CODE, shorthand_for="actions", description="short for `actions` with only this code"),
 )
-_TRANSITIONS = Key(name="transitions", shape=DECISIONS, meaning="tested in order; the first that holds is taken")
-STATE = Record(
+_TRANSITIONS = KeySchema(
+    name="transitions", schema=DECISIONS, description="tested in order; the first that holds is taken"
+)
+STATE = RecordSchema(
     name="state",
-    what="a state",
-    width=40,
-    meant={
+    description="a state",
+    flow_width=40,
+    synonyms={
         "on_enter": "enter", "on_entry": "enter", "entry": "enter", "on_exit": "leave", "exit": "leave",
         "on_leave": "leave", "do": "actions", "action": "actions", "transition": "transitions",
         "require": "requires", "modulate": "modulates", "position": "at", "description": "doc",
     },
     keys=(
         _DOC,
-        Key(name="at", shape=POSITION, meaning="centre on the canvas"),
-        Key(name="final", shape=FLAG, implied=False, meaning="a target state: the component reports that it is done"),
-        Key(name="capacity", shape=COUNT, keeps_empty=True, meaning="so many robots of a team may be in it at once"),
-        Key(name="synchronized", shape=COUNT, keeps_empty=True, meaning="so many robots of a team enter it at once"),
-        Key(name="disabled", shape=FLAG, implied=False, meaning="kept, but neither it nor a way to it is there"),
+        KeySchema(name="at", schema=POSITION, description="centre on the canvas"),
+        KeySchema(name="final", schema=FLAG, default=False, description="a target state: the component reports that it is done"),
+        KeySchema(name="capacity", schema=COUNT, keeps_empty=True, description="so many robots of a team may be in it at once"),
+        KeySchema(name="synchronized", schema=COUNT, keeps_empty=True, description="so many robots of a team enter it at once"),
+        KeySchema(name="disabled", schema=FLAG, default=False, description="kept, but neither it nor a way to it is there"),
         _ID,
         _XABSL_NAME,
-        Key(name="requires", shape=NAMES, meaning="used components stepped before the state's own work"),
-        Key(
+        KeySchema(name="requires", schema=NAMES, description="used components stepped before the state's own work"),
+        KeySchema(
             name="modulates",
-            shape=Table(what="a mapping of used components to parameters", value=ARGUMENTS, names=True, width=LINE),
-            meaning="short for calls at the end of `actions`: used component to parameters",
+            schema=MapSchema(description="a mapping of used components to parameters", value_schema=ARGUMENTS, allows_name_list=True, flow_width=FLOW_WIDTH),
+            description="short for calls at the end of `actions`: used component to parameters",
         ),
-        Key(name="enter", shape=ACTIONS, meaning="done when the state is entered"),
+        KeySchema(name="enter", schema=ACTIONS, description="done when the state is entered"),
         *_ACTIONS_KEYS,
-        Key(name="leave", shape=ACTIONS, meaning="done when the state is left"),
+        KeySchema(name="leave", schema=ACTIONS, description="done when the state is left"),
         _TRANSITIONS,
     ),
 )  # fmt: skip
-COMMON = Record(
+COMMON = RecordSchema(
     name="common",
-    what="what all states share",
-    keys=(_DOC, Key(name="at", shape=POSITION, meaning="centre on the canvas"), *_ACTIONS_KEYS, _TRANSITIONS),
+    description="what all states share",
+    keys=(
+        _DOC,
+        KeySchema(name="at", schema=POSITION, description="centre on the canvas"),
+        *_ACTIONS_KEYS,
+        _TRANSITIONS,
+    ),
 )
 
 
-def _declarations(record: Record) -> Table:
-    return Table(what="a mapping of names to declarations", value=record)
+def _declarations(record: RecordSchema) -> MapSchema:
+    return MapSchema(description="a mapping of names to declarations", value_schema=record)
 
 
-DESIGN = Record(
+DESIGN = RecordSchema(
     name="design",
-    what="a design",
-    meant={
+    description="a design",
+    synonyms={
         "name": "component",
         "start": "initial",
         "initial_state": "initial",
@@ -190,133 +215,144 @@ DESIGN = Record(
     },
     keys=(
         _VERSION,
-        Key(name="component", shape=NAME, required=True, meaning="name of the component, one in the project"),
+        KeySchema(
+            name="component", schema=NAME, required=True, description="name of the component, one in the project"
+        ),
         _DOC,
         _XABSL_NAME,
-        Key(name="frequency", shape=FREQUENCY, meaning="Hz; left out: works at every step it is given"),
-        Key(name="resume", shape=FLAG, implied=False, meaning="`true`: goes on where it was when it is stepped again"),
-        Key(
+        KeySchema(name="frequency", schema=FREQUENCY, description="Hz; left out: works at every step it is given"),
+        KeySchema(
+            name="resume",
+            schema=FLAG,
+            default=False,
+            description="`true`: goes on where it was when it is stepped again",
+        ),
+        KeySchema(
             name="arithmetic",
-            shape=Leaf(kind=Kind.NAME, choices=("xabsl",)),
-            meaning="`xabsl`: calculates and restarts as XABSL does; left out: as docs/semantics.md says",
+            schema=ScalarSchema(scalar_type=ScalarType.NAME, choices=("xabsl",)),
+            description="`xabsl`: calculates and restarts as XABSL does; left out: as docs/semantics.md says",
         ),
-        Key(
+        KeySchema(
             name="time_unit",
-            shape=Leaf(kind=Kind.NAME, choices=("s", "ms")),
-            meaning="unit of the times in expressions: `s` or `ms`; left out: seconds",
+            schema=ScalarSchema(scalar_type=ScalarType.NAME, choices=("s", "ms")),
+            description="unit of the times in expressions: `s` or `ms`; left out: seconds",
         ),
-        Key(
+        KeySchema(
             name="uses",
-            shape=Table(what="a mapping of names to components", value=USE),
-            meaning="components under the names that code, guards and links use",
+            schema=MapSchema(description="a mapping of names to components", value_schema=USE),
+            description="components under the names that code, guards and links use",
         ),
-        Key(name="parameters", shape=_declarations(PARAMETER), meaning="what others may modulate in it"),
-        Key(name="outputs", shape=_declarations(OUTPUT), meaning="what others may read from it, and it may set"),
-        Key(name="variables", shape=_declarations(VARIABLE), meaning="its own memory"),
-        Key(name="initial", shape=NAME, meaning="name of the first state"),
-        Key(name="module", shape=CODE, meaning="code for the top of the generated file"),
-        Key(name="members", shape=CODE, meaning="code for the inside of the generated class"),
-        Key(name="common", shape=COMMON, meaning="done and tested before what every state does and tests"),
-        Key(
+        KeySchema(name="parameters", schema=_declarations(PARAMETER), description="what others may modulate in it"),
+        KeySchema(
+            name="outputs", schema=_declarations(OUTPUT), description="what others may read from it, and it may set"
+        ),
+        KeySchema(name="variables", schema=_declarations(VARIABLE), description="its own memory"),
+        KeySchema(name="initial", schema=NAME, description="name of the first state"),
+        KeySchema(name="module", schema=CODE, description="code for the top of the generated file"),
+        KeySchema(name="members", schema=CODE, description="code for the inside of the generated class"),
+        KeySchema(name="common", schema=COMMON, description="done and tested before what every state does and tests"),
+        KeySchema(
             name="states",
-            shape=Table(what="a mapping of names to states", value=STATE),
-            meaning="the states by name, in the order they are shown",
+            schema=MapSchema(description="a mapping of names to states", value_schema=STATE),
+            description="the states by name, in the order they are shown",
         ),
     ),
 )
 
-ENUMERATION = Record(
+ENUMERATION = RecordSchema(
     name="enumeration",
-    what="a list of elements, or a mapping of elements to what they mean",
-    short="elements",
-    width=LINE,
+    description="a list of elements, or a mapping of elements to what they mean",
+    shorthand_key="elements",
+    flow_width=FLOW_WIDTH,
     keys=(
         _DOC,
-        Key(
+        KeySchema(
             name="elements",
-            shape=Table(what="elements", value=TEXT, names=True, width=LINE),
+            schema=MapSchema(description="elements", value_schema=TEXT, allows_name_list=True, flow_width=FLOW_WIDTH),
             required=True,
-            meaning="its elements, as a list or with a sentence each",
+            description="its elements, as a list or with a sentence each",
         ),
-        Key(name="internal", shape=FLAG, implied=False, meaning="XABSL: the engine numbers them, not the robot"),
+        KeySchema(
+            name="internal", schema=FLAG, default=False, description="XABSL: the engine numbers them, not the robot"
+        ),
         _XABSL_NAME,
-        Key(
+        KeySchema(
             name="xabsl_elements",
-            shape=Table(what="a mapping of elements to names", value=TEXT, width=LINE),
-            meaning="names of elements in XABSL, where they are others",
+            schema=MapSchema(description="a mapping of elements to names", value_schema=TEXT, flow_width=FLOW_WIDTH),
+            description="names of elements in XABSL, where they are others",
         ),
     ),
 )
-INTERFACE = Record(
+INTERFACE = RecordSchema(
     name="component",
-    what="the declaration of a hand-written component",
+    description="the declaration of a hand-written component",
     keys=(
-        Key(
+        KeySchema(
             name="implementation",
-            shape=TEXT,
-            meaning="the class, written module:Class; `world` or `internal`: vicode writes it",
+            schema=TEXT,
+            description="the class, written module:Class; `world` or `internal`: vicode writes it",
         ),
         _TITLE,
-        Key(name="frequency", shape=FREQUENCY, meaning="Hz; left out: works at every step it is given"),
+        KeySchema(name="frequency", schema=FREQUENCY, description="Hz; left out: works at every step it is given"),
         _DOC,
         _XABSL_NAME,
-        Key(name="parameters", shape=_declarations(PARAMETER), meaning="what others may modulate in it"),
-        Key(name="outputs", shape=_declarations(OUTPUT), meaning="what others may read from it"),
-        Key(name="variables", shape=_declarations(VARIABLE), meaning="what others may read and set"),
+        KeySchema(name="parameters", schema=_declarations(PARAMETER), description="what others may modulate in it"),
+        KeySchema(name="outputs", schema=_declarations(OUTPUT), description="what others may read from it"),
+        KeySchema(name="variables", schema=_declarations(VARIABLE), description="what others may read and set"),
     ),
 )
-AGENT = Record(
+AGENT = RecordSchema(
     name="agent",
-    what="the name of a root component",
-    short="root",
-    width=LINE,
+    description="the name of a root component",
+    shorthand_key="root",
+    flow_width=FLOW_WIDTH,
     keys=(
-        Key(name="root", shape=NAME, required=True, meaning="component that is stepped"),
+        KeySchema(name="root", schema=NAME, required=True, description="component that is stepped"),
         _TITLE,
         _DOC,
         _XABSL_NAME,
     ),
 )
-PROJECT = Record(
+PROJECT = RecordSchema(
     name="project",
-    what="a project",
-    meant={"name": "project", "description": "doc", "output": "generated", "enums": "enumerations"},
+    description="a project",
+    synonyms={"name": "project", "description": "doc", "output": "generated", "enums": "enumerations"},
     keys=(
         _VERSION,
-        Key(name="project", shape=NAME, required=True, meaning="name of the project"),
+        KeySchema(name="project", schema=NAME, required=True, description="name of the project"),
         _DOC,
-        Key(
+        KeySchema(
             name="languages",
-            shape=NAMES,
-            implied=("python",),
+            schema=NAMES,
+            default=("python",),
             keeps_empty=True,
-            meaning="languages to generate; left out: python",
+            description="languages to generate; left out: python",
         ),
-        Key(name="world", shape=TEXT, meaning="the simulated world to run in, written module:Class"),
-        Key(
+        KeySchema(name="world", schema=TEXT, description="the simulated world to run in, written module:Class"),
+        KeySchema(
             name="generated",
-            shape=TEXT,
-            implied="generated",
+            schema=TEXT,
+            default="generated",
             keeps_empty=True,
-            meaning="folder of generated files, relative to this file; left out: `generated`",
+            description="folder of generated files, relative to this file; left out: `generated`",
         ),
-        Key(
+        KeySchema(
             name="enumerations",
-            shape=Table(what="a mapping of names to enumerations", value=ENUMERATION),
-            meaning="types whose values are named; a value is written `Side.left`",
+            schema=MapSchema(description="a mapping of names to enumerations", value_schema=ENUMERATION),
+            description="types whose values are named; a value is written `Side.left`",
         ),
-        Key(name="constants", shape=_declarations(CONSTANT), meaning="values that all designs may use"),
-        Key(
+        KeySchema(name="constants", schema=_declarations(CONSTANT), description="values that all designs may use"),
+        KeySchema(
             name="components",
-            shape=Table(what="a mapping of names to hand-written components", value=INTERFACE),
-            meaning="hand-written components and what they offer",
+            schema=MapSchema(description="a mapping of names to hand-written components", value_schema=INTERFACE),
+            description="hand-written components and what they offer",
         ),
-        Key(
+        KeySchema(
             name="agents",
-            shape=Table(what="a mapping of names to root components", value=AGENT),
-            meaning="names for running the project from one root component each",
+            schema=MapSchema(description="a mapping of names to root components", value_schema=AGENT),
+            description="names for running the project from one root component each",
         ),
     ),
 )
-RECORDS = (DESIGN, STATE, COMMON, DECISION, ACTION, USE, PARAMETER, OUTPUT, VARIABLE, ARGUMENT)
+DESIGN_RECORDS = (DESIGN, STATE, COMMON, DECISION, ACTION, USE, PARAMETER, OUTPUT, VARIABLE, ARGUMENT)
 PROJECT_RECORDS = (PROJECT, ENUMERATION, CONSTANT, INTERFACE, PARAMETER, OUTPUT, VARIABLE, ARGUMENT, AGENT)

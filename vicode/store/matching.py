@@ -4,23 +4,23 @@ from collections.abc import Iterable, Sequence
 from difflib import SequenceMatcher
 from typing import cast
 
-from vicode.store.shapes import Data
+from vicode.store.shapes import FormatValue
 
-_ENOUGH = 0.5
-_MOST_COMPARISONS = 20_000
+_MIN_SIMILARITY = 0.5
+_MAX_COMPARISONS = 20_000
 
 
-def match_names(old: Sequence[tuple[str, Data]], new: Sequence[tuple[str, Data]]) -> list[int | None]:
+def match_names(old: Sequence[tuple[str, FormatValue]], new: Sequence[tuple[str, FormatValue]]) -> list[int | None]:
     """For every new pair the number of the old one: the same name, else a renamed one of like content."""
     numbers = {name: number for number, (name, _value) in enumerate(old)}
     matches = [numbers.get(name) for name, _value in new]
     old_values, new_values = [value for _name, value in old], [value for _name, value in new]
     _match_equal(old_values, new_values, matches)
-    _match_like(old_values, new_values, matches)
+    _match_similar(old_values, new_values, matches)
     return matches
 
 
-def match_items(old: Sequence[Data], new: Sequence[Data]) -> list[int | None]:
+def match_items(old: Sequence[FormatValue], new: Sequence[FormatValue]) -> list[int | None]:
     """For every new item the number of the old one: equal in order, equal but moved, changed in its place, or alike."""
     matches: list[int | None] = [None] * len(new)
     for block in SequenceMatcher(None, old, new, autojunk=False).get_matching_blocks():
@@ -29,11 +29,11 @@ def match_items(old: Sequence[Data], new: Sequence[Data]) -> list[int | None]:
     _match_equal(old, new, matches)
     _match_ids(old, new, matches)
     _match_gaps(len(old), matches)
-    _match_like(old, new, matches)
+    _match_similar(old, new, matches)
     return matches
 
 
-def rising(numbers: Iterable[int]) -> set[int]:
+def longest_increasing_subsequence(numbers: Iterable[int]) -> set[int]:
     """The longest rising selection of distinct numbers: those that can stay while the others move."""
     best: list[list[int]] = []
     for number in numbers:
@@ -45,7 +45,7 @@ def rising(numbers: Iterable[int]) -> set[int]:
     return set(best[-1]) if best else set()
 
 
-def likeness(old: Data, new: Data) -> float:
+def similarity(old: FormatValue, new: FormatValue) -> float:
     """How much of two values is the same, from 0 to 1."""
     if old == new:
         return 1.0
@@ -57,27 +57,27 @@ def likeness(old: Data, new: Data) -> float:
     if _is_pairs(old) and _is_pairs(new):
         before, after = _as_dict(old), _as_dict(new)
         names = {*before, *after}
-        return sum(likeness(before.get(name, ""), after.get(name, "")) for name in names) / len(names)
-    return sum(map(likeness, old, new)) / max(len(old), len(new))
+        return sum(similarity(before.get(name, ""), after.get(name, "")) for name in names) / len(names)
+    return sum(map(similarity, old, new)) / max(len(old), len(new))
 
 
-def _is_pairs(value: tuple[Data, ...]) -> bool:
+def _is_pairs(value: tuple[FormatValue, ...]) -> bool:
     return all(isinstance(each, tuple) and len(each) == 2 and isinstance(each[0], str) for each in value)
 
 
-def _as_dict(value: Data) -> dict[str, Data]:
-    return dict(cast("tuple[tuple[str, Data], ...]", value))
+def _as_dict(value: FormatValue) -> dict[str, FormatValue]:
+    return dict(cast("tuple[tuple[str, FormatValue], ...]", value))
 
 
-def _left(count: int, matches: list[int | None]) -> tuple[list[int], list[int]]:
+def _unmatched(count: int, matches: list[int | None]) -> tuple[list[int], list[int]]:
     taken = set(matches)
     old_left = [number for number in range(count) if number not in taken]
     return old_left, [number for number, match in enumerate(matches) if match is None]
 
 
-def _match_equal(old: Sequence[Data], new: Sequence[Data], matches: list[int | None]) -> None:
-    old_left, new_left = _left(len(old), matches)
-    waiting: dict[Data, list[int]] = {}
+def _match_equal(old: Sequence[FormatValue], new: Sequence[FormatValue], matches: list[int | None]) -> None:
+    old_left, new_left = _unmatched(len(old), matches)
+    waiting: dict[FormatValue, list[int]] = {}
     for number in reversed(old_left):
         waiting.setdefault(old[number], []).append(number)
     for number in new_left:
@@ -85,16 +85,16 @@ def _match_equal(old: Sequence[Data], new: Sequence[Data], matches: list[int | N
             matches[number] = waiting[new[number]].pop()
 
 
-def _match_ids(old: Sequence[Data], new: Sequence[Data], matches: list[int | None]) -> None:
-    old_left, new_left = _left(len(old), matches)
-    by_id = {_id_of(old[number]): number for number in reversed(old_left)}
+def _match_ids(old: Sequence[FormatValue], new: Sequence[FormatValue], matches: list[int | None]) -> None:
+    old_left, new_left = _unmatched(len(old), matches)
+    by_id = {_get_id(old[number]): number for number in reversed(old_left)}
     for number in new_left:
-        id_ = _id_of(new[number])
+        id_ = _get_id(new[number])
         if id_ is not None and id_ in by_id:
             matches[number] = by_id.pop(id_)
 
 
-def _id_of(value: Data) -> Data | None:
+def _get_id(value: FormatValue) -> FormatValue | None:
     return _as_dict(value).get("id") if isinstance(value, tuple) and _is_pairs(value) else None
 
 
@@ -126,17 +126,17 @@ def _gaps(matches: list[int | None]) -> list[tuple[int, int]]:
     return gaps
 
 
-def _match_like(old: Sequence[Data], new: Sequence[Data], matches: list[int | None]) -> None:
-    old_left, new_left = _left(len(old), matches)
-    if len(old_left) * len(new_left) > _MOST_COMPARISONS:
+def _match_similar(old: Sequence[FormatValue], new: Sequence[FormatValue], matches: list[int | None]) -> None:
+    old_left, new_left = _unmatched(len(old), matches)
+    if len(old_left) * len(new_left) > _MAX_COMPARISONS:
         return
     scored = [
-        (-likeness(old[before], new[after]), abs(before - after), before, after)
+        (-similarity(old[before], new[after]), abs(before - after), before, after)
         for before in old_left
         for after in new_left
     ]
     taken: set[int] = set()
     for score, _distance, before, after in sorted(scored):
-        if -score >= _ENOUGH and before not in taken and matches[after] is None:
+        if -score >= _MIN_SIMILARITY and before not in taken and matches[after] is None:
             matches[after] = before
             taken.add(before)

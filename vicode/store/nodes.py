@@ -8,27 +8,27 @@ from dataclasses import dataclass
 
 import yaml
 
-from vicode.store.lines import Report
-from vicode.store.syntax import explain
+from vicode.store.lines import ReadReport
+from vicode.store.syntax import explain_yaml_error
 
-MAXIMUM_BYTES = 2_000_000
-MAXIMUM_NODES = 250_000
-MAXIMUM_DEPTH = 40
+MAX_BYTES = 2_000_000
+MAX_NODES = 250_000
+MAX_DEPTH = 40
 
 _LOADER = yaml.CSafeLoader if yaml.__with_libyaml__ else yaml.SafeLoader
 _LINE_END = re.compile(r"[\r\n]")
-_UNREADABLE = re.compile("[^\t\n\r -~\x85\xa0-\ud7ff\ue000-\ufefe\uff00-\ufffd\U00010000-\U0010ffff]")
+_INVALID_CHARACTER = re.compile("[^\t\n\r -~\x85\xa0-\ud7ff\ue000-\ufefe\uff00-\ufffd\U00010000-\U0010ffff]")
 
 
 @dataclass(frozen=True, slots=True)
-class Scalar:
-    """A text; `style` is empty for plain, else its indicator: ' " | or >. `refused` stands for an alias."""
+class YamlScalar:
+    """A text; `style` is empty for plain, else its indicator: ' " | or >. `is_rejected` stands for an alias."""
 
     text: str
     style: str
     start: int
     end: int
-    refused: bool = False
+    is_rejected: bool = False
 
     @property
     def is_empty(self) -> bool:
@@ -37,147 +37,147 @@ class Scalar:
 
 
 @dataclass(frozen=True, slots=True)
-class Mapping:
+class YamlMapping:
     """Pairs of key and value in the order they are written."""
 
-    pairs: "tuple[tuple[Node, Node], ...]"
-    flow: bool
+    pairs: "tuple[tuple[YamlNode, YamlNode], ...]"
+    is_flow: bool
     start: int
     end: int
 
 
 @dataclass(frozen=True, slots=True)
-class Sequence:
+class YamlSequence:
     """Items in the order they are written."""
 
-    items: "tuple[Node, ...]"
-    flow: bool
+    items: "tuple[YamlNode, ...]"
+    is_flow: bool
     start: int
     end: int
 
 
-Node = Scalar | Mapping | Sequence
+YamlNode = YamlScalar | YamlMapping | YamlSequence
 _NodeEvent = yaml.ScalarEvent | yaml.MappingStartEvent | yaml.SequenceStartEvent
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Tree:
-    """The root, None when there is none; not `is_whole` when the parser gave up on the way.
+class YamlTree:
+    """The root, None when there is none; not `is_complete` when the parser gave up on the way.
 
-    `unfinished` is where the collections begin whose ends were not met.
+    `unclosed` is where the collections begin whose ends were not met.
     """
 
-    root: Node | None
-    is_whole: bool
-    unfinished: tuple[int, ...] = ()
+    root: YamlNode | None
+    is_complete: bool
+    unclosed: tuple[int, ...] = ()
 
 
 @dataclass(slots=True)
-class _Open:
+class _OpenCollection:
     """A collection whose end has not been met."""
 
     is_mapping: bool
-    flow: bool
+    is_flow: bool
     start: int
-    children: list[Node]
+    children: list[YamlNode]
 
 
-class _GiveUp(Exception):  # noqa: N818 - control flow, not an error of its own
+class _ParseAborted(Exception):  # noqa: N818 - control flow, not an error of its own
     """Reading further makes no sense."""
 
 
-def parse_tree(text: str, report: Report) -> Tree:
+def parse_yaml(text: str, report: ReadReport) -> YamlTree:
     """The tree of a text; mistakes go to the report."""
     # A byte order mark is skipped here, not by the parser: its offsets would differ from build to build.
     skipped = 1 if text.startswith("\ufeff") else 0
-    if not _is_acceptable(text, skipped, report):
-        return Tree(root=None, is_whole=False)
-    builder = _Builder(text, skipped, report)
+    if not _has_valid_characters(text, skipped, report):
+        return YamlTree(root=None, is_complete=False)
+    builder = _TreeBuilder(text, skipped, report)
     try:
         for event in yaml.parse(text[skipped:], Loader=_LOADER):
-            builder.take(event)
+            builder.handle_event(event)
     except yaml.YAMLError as error:
         _report_syntax(error, skipped, report)
         unfinished = tuple(each.start for each in builder.open)
-        return Tree(root=builder.close(), is_whole=False, unfinished=unfinished)
-    except _GiveUp:
-        return Tree(root=None, is_whole=False)
-    return Tree(root=builder.root, is_whole=True)
+        return YamlTree(root=builder.close_all(), is_complete=False, unclosed=unfinished)
+    except _ParseAborted:
+        return YamlTree(root=None, is_complete=False)
+    return YamlTree(root=builder.root, is_complete=True)
 
 
-def _is_acceptable(text: str, skipped: int, report: Report) -> bool:
-    match = _UNREADABLE.search(text, skipped)
+def _has_valid_characters(text: str, skipped: int, report: ReadReport) -> bool:
+    match = _INVALID_CHARACTER.search(text, skipped)
     if match:
         message = f"the character U+{ord(match.group()):04X} cannot stand in a text file"
         mend = f'take it away, or write "\\u{ord(match.group()):04X}" in double quotes'
-        report.add("Y110", message, match.span(), mend=mend)
+        report.add("Y110", message, match.span(), fix=mend)
     return match is None
 
 
-def _report_syntax(error: yaml.YAMLError, skipped: int, report: Report) -> None:
-    text = report.lines.text
+def _report_syntax(error: yaml.YAMLError, skipped: int, report: ReadReport) -> None:
+    text = report.line_index.text
     problem = getattr(error, "problem_mark", None)
     offset = min(skipped + problem.index, max(0, len(text) - 1)) if problem else 0
-    message, mend, tells_opening = explain(error, text[offset : offset + 1])
+    message, mend, tells_opening = explain_yaml_error(error, text[offset : offset + 1])
     opening = getattr(error, "context_mark", None)
     if opening and tells_opening and not text[offset:].strip():
         # At the end of the file there is nothing to look at.
         offset = skipped + opening.index
     is_elsewhere = opening and tells_opening and skipped + opening.index != offset
     note = ("it begins here", skipped + opening.index) if opening and is_elsewhere else None
-    report.add("Y101", message, (offset, offset + 1), mend=mend, note=note)
+    report.add("Y101", message, (offset, offset + 1), fix=mend, note=note)
 
 
-class _Builder:
+class _TreeBuilder:
     """Takes events one by one."""
 
-    def __init__(self, text: str, skipped: int, report: Report) -> None:
+    def __init__(self, text: str, skipped: int, report: ReadReport) -> None:
         self.text = text
         self.skipped = skipped
         self.report = report
-        self.root: Node | None = None
+        self.root: YamlNode | None = None
         self.documents = 0
         self.nodes = 0
-        self.open: list[_Open] = []
+        self.open: list[_OpenCollection] = []
 
-    def take(self, event: yaml.Event) -> None:
+    def handle_event(self, event: yaml.Event) -> None:
         """Add what an event says."""
         match event:
             case yaml.ScalarEvent():
-                self._refuse_marks(event)
+                self._reject_anchor_and_tag(event)
                 self._add(self._scalar(event))
             case yaml.MappingStartEvent() | yaml.SequenceStartEvent():
-                self._refuse_marks(event)
-                self._begin(event)
+                self._reject_anchor_and_tag(event)
+                self._open_collection(event)
             case yaml.MappingEndEvent() | yaml.SequenceEndEvent():
-                self._end(self._span(event)[1])
+                self._close_collection(self._span(event)[1])
             case yaml.AliasEvent():
                 span = self._span(event)
                 self._report("Y107", "an alias is not read", span, "write the value out")
-                self._add(Scalar("", "", *span, refused=True))
+                self._add(YamlScalar("", "", *span, is_rejected=True))
             case yaml.DocumentStartEvent():
-                self._begin_document(event)
+                self._check_single_document(event)
 
-    def close(self) -> Node | None:
+    def close_all(self) -> YamlNode | None:
         """What was read before the parser gave up."""
         while self.open:
-            self._end(len(self.text))
+            self._close_collection(len(self.text))
         return self.root
 
-    def _begin_document(self, event: yaml.Event) -> None:
+    def _check_single_document(self, event: yaml.Event) -> None:
         self.documents += 1
         if self.documents > 1:
             start = self._span(event)[0]
             message = "a second document begins here"
-            self.report.add("Y112", message, (start, start + 3), mend="one file holds one design: take '---' away")
-            raise _GiveUp
+            self.report.add("Y112", message, (start, start + 3), fix="one file holds one design: take '---' away")
+            raise _ParseAborted
 
     def _span(self, event: yaml.Event) -> tuple[int, int]:
         assert event.start_mark is not None
         assert event.end_mark is not None
         return event.start_mark.index + self.skipped, event.end_mark.index + self.skipped
 
-    def _refuse_marks(self, event: _NodeEvent) -> None:
+    def _reject_anchor_and_tag(self, event: _NodeEvent) -> None:
         start, end = self._span(event)
         if event.anchor is not None:
             end = min(end, start + len(event.anchor) + 1)
@@ -190,51 +190,49 @@ class _Builder:
             self._report("Y106", message, (start, start + len(tag)), "take the tag away")
 
     def _report(self, code: str, message: str, span: tuple[int, int], mend: str) -> None:
-        self.report.add(code, message, span, mend=mend)
+        self.report.add(code, message, span, fix=mend)
         if self.report.is_full:
-            raise _GiveUp
+            raise _ParseAborted
 
-    def _begin(self, event: yaml.MappingStartEvent | yaml.SequenceStartEvent) -> None:
+    def _open_collection(self, event: yaml.MappingStartEvent | yaml.SequenceStartEvent) -> None:
         start = self._span(event)[0]
-        if len(self.open) >= MAXIMUM_DEPTH:
-            message = f"more than {MAXIMUM_DEPTH} levels inside each other"
-            self.report.add("Y108", message, (start, start + 1), mend="split the design")
-            raise _GiveUp
+        if len(self.open) >= MAX_DEPTH:
+            message = f"more than {MAX_DEPTH} levels inside each other"
+            self.report.add("Y108", message, (start, start + 1), fix="split the design")
+            raise _ParseAborted
         is_mapping = isinstance(event, yaml.MappingStartEvent)
-        self.open.append(_Open(is_mapping, bool(event.flow_style), start, []))
+        self.open.append(_OpenCollection(is_mapping, bool(event.flow_style), start, []))
 
-    def _end(self, end: int) -> None:
+    def _close_collection(self, end: int) -> None:
         ended = self.open.pop()
         children = tuple(ended.children)
-        if not ended.flow:
+        if not ended.is_flow:
             # The parser ends a block where the next token begins; it ends with its last child.
             end = children[-1].end if children else ended.start
         if ended.is_mapping:
             pairs = tuple(zip(children[::2], children[1::2], strict=False))
-            self._add(Mapping(pairs, ended.flow, ended.start, end))
+            self._add(YamlMapping(pairs, ended.is_flow, ended.start, end))
         else:
-            self._add(Sequence(children, ended.flow, ended.start, end))
+            self._add(YamlSequence(children, ended.is_flow, ended.start, end))
 
-    def _add(self, node: Node) -> None:
+    def _add(self, node: YamlNode) -> None:
         self.nodes += 1
-        if self.nodes > MAXIMUM_NODES:
-            self.report.add(
-                "Y108", f"more than {MAXIMUM_NODES} values", (node.start, node.end), mend="split the design"
-            )
-            raise _GiveUp
+        if self.nodes > MAX_NODES:
+            self.report.add("Y108", f"more than {MAX_NODES} values", (node.start, node.end), fix="split the design")
+            raise _ParseAborted
         if self.open:
             self.open[-1].children.append(node)
         else:
             self.root = node
 
-    def _scalar(self, event: yaml.ScalarEvent) -> Scalar:
+    def _scalar(self, event: yaml.ScalarEvent) -> YamlScalar:
         start, end = self._span(event)
         style = event.style or ""
         if style in ("|", ">"):
             end = self._block_end(start, end)
         elif event.anchor is not None or event.tag is not None:
             start = max(start, end - len(event.value)) if not style else start
-        return Scalar(event.value, style, start, end)
+        return YamlScalar(event.value, style, start, end)
 
     def _block_end(self, start: int, end: int) -> int:
         """The end of the last line of a block scalar, its line break left out."""

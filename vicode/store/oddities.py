@@ -6,20 +6,22 @@ from typing import Any
 
 from vicode.model.design import Design
 
-_HALF = re.compile("[\ud800-\udfff]")
+_LONE_SURROGATE = re.compile("[\ud800-\udfff]")
 
 
-def without_oddities(design: Design) -> Design:
+def sanitize_design(design: Design) -> Design:
     """The design with nothing where a text is blank, and a replacement sign for half a character."""
-    tidied: Design = _tidied(design)
+    tidied: Design = _sanitize(design)
     return tidied
 
 
-def _tidied(value: Any) -> Any:
+def _sanitize(value: Any) -> Any:
     if isinstance(value, str):
-        return _HALF.sub("\ufffd", value) if value.strip() else ""
+        return _LONE_SURROGATE.sub("\ufffd", value) if value.strip() else ""
     if isinstance(value, tuple):
-        return tuple(_tidied(each) for each in value)
+        return tuple(_sanitize(each) for each in value)
     if is_dataclass(value) and not isinstance(value, type):
-        return replace(value, **{each.name: _tidied(getattr(value, each.name)) for each in fields(value) if each.init})
+        return replace(
+            value, **{each.name: _sanitize(getattr(value, each.name)) for each in fields(value) if each.init}
+        )
     return value

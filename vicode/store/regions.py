@@ -2,23 +2,23 @@
 
 from dataclasses import dataclass
 
-from vicode.store.nodes import Mapping, Node, Sequence
+from vicode.store.nodes import YamlMapping, YamlNode, YamlSequence
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Region:
+class MemberSpan:
     """A member's characters from `start` (its comments above) to `end`, past its last line break.
 
-    `first` is where its key or dash stands, `is_inline` whether something else stands before it on that line.
+    `key_start` is where its key or dash stands, `is_inline` whether something else stands before it on that line.
     """
 
     start: int
-    first: int
+    key_start: int
     end: int
     is_inline: bool
 
 
-def regions_of(text: str, node: Mapping | Sequence, floor: int | None, limit: int) -> list[Region]:
+def find_member_spans(text: str, node: YamlMapping | YamlSequence, floor: int | None, limit: int) -> list[MemberSpan]:
     """The regions of a block's members.
 
     Args:
@@ -27,19 +27,19 @@ def regions_of(text: str, node: Mapping | Sequence, floor: int | None, limit: in
         floor: The colon or dash that the block follows; None for the document, whose head is nobody's comment.
         limit: Where what belongs to the block ends.
     """
-    firsts = _firsts(text, node)
-    values = [value for _key, value in node.pairs] if isinstance(node, Mapping) else list(node.items)
+    firsts = _key_starts(text, node)
+    values = [value for _key, value in node.pairs] if isinstance(node, YamlMapping) else list(node.items)
     column = firsts[0] - line_start(text, firsts[0])
-    regions: list[Region] = []
-    free = line_start(text, firsts[0]) if floor is None else after_line(text, floor)
+    regions: list[MemberSpan] = []
+    free = line_start(text, firsts[0]) if floor is None else next_line_start(text, floor)
     for number, value in enumerate(values):
         first = firsts[number]
         own_line = line_start(text, first)
         until = line_start(text, firsts[number + 1]) if number + 1 < len(firsts) else limit
-        end = _past_deeper_comments(text, after_line(text, max(value.end, first)), until, column)
+        end = _end_of_deeper_comments(text, next_line_start(text, max(value.end, first)), until, column)
         is_inline = bool(text[own_line:first].strip(" "))
         start = first if is_inline else _first_attached_comment(text, own_line, free)
-        regions.append(Region(start=start, first=first, end=end, is_inline=is_inline))
+        regions.append(MemberSpan(start=start, key_start=first, end=end, is_inline=is_inline))
         free = end
     return regions
 
@@ -57,13 +57,13 @@ def line_end(text: str, offset: int) -> int:
     return end - 1 if end > offset and text[end - 1] == "\r" else end
 
 
-def after_line(text: str, offset: int) -> int:
+def next_line_start(text: str, offset: int) -> int:
     """Where the next line begins."""
     end = text.find("\n", offset)
     return len(text) if end < 0 else end + 1
 
 
-def blank_lines_before(text: str, offset: int) -> int:
+def blank_lines_start(text: str, offset: int) -> int:
     """Where the blank lines directly above a line begin."""
     while offset > 0:
         above = text.rfind("\n", 0, offset - 1) + 1
@@ -73,36 +73,36 @@ def blank_lines_before(text: str, offset: int) -> int:
     return offset
 
 
-def _firsts(text: str, node: Mapping | Sequence) -> list[int]:
-    if isinstance(node, Mapping):
+def _key_starts(text: str, node: YamlMapping | YamlSequence) -> list[int]:
+    if isinstance(node, YamlMapping):
         # An explicit key begins with its question mark.
-        return [_question_mark(text, key) for key, _value in node.pairs]
+        return [_explicit_key_start(text, key) for key, _value in node.pairs]
     column = node.start - line_start(text, node.start)
     firsts = [node.start]
     for before, item in zip(node.items, node.items[1:], strict=False):
-        firsts.append(_dash(text, before.end, item, column))
+        firsts.append(_find_dash(text, before.end, item, column))
     return firsts
 
 
-def _question_mark(text: str, key: Node) -> int:
+def _explicit_key_start(text: str, key: YamlNode) -> int:
     before = text[line_start(text, key.start) : key.start]
     return key.start - 2 if before.endswith("? ") else key.start
 
 
-def _dash(text: str, after: int, item: Node, column: int) -> int:
+def _find_dash(text: str, after: int, item: YamlNode, column: int) -> int:
     """The dash of an item: the first line below the item before that has one in the list's column."""
-    line = after_line(text, after)
+    line = next_line_start(text, after)
     while line <= item.start:
         content = text[line : line_end(text, line)]
         if content[column : column + 1] == "-" and not content[:column].strip(" "):
             return line + column
-        if after_line(text, line) <= line:
+        if next_line_start(text, line) <= line:
             break
-        line = after_line(text, line)
+        line = next_line_start(text, line)
     return item.start
 
 
-def _past_deeper_comments(text: str, offset: int, until: int, column: int) -> int:
+def _end_of_deeper_comments(text: str, offset: int, until: int, column: int) -> int:
     """Past the comments that are indented deeper than the block: they belong to what stands above."""
     end = offset
     while offset < until:
@@ -110,7 +110,7 @@ def _past_deeper_comments(text: str, offset: int, until: int, column: int) -> in
         depth = len(content) - len(content.lstrip(" "))
         if content.strip() and (not content.strip().startswith("#") or depth <= column):
             break
-        offset = after_line(text, offset)
+        offset = next_line_start(text, offset)
         if content.strip():
             end = offset
     return end

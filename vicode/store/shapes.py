@@ -4,11 +4,11 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from enum import StrEnum
 
-Data = str | float | bool | tuple["Data", ...]
+FormatValue = str | float | bool | tuple["FormatValue", ...]
 """A value as the format means it, short forms written out: pairs of a mapping are tuples (name, value)."""
 
 
-class Kind(StrEnum):
+class ScalarType(StrEnum):
     """What a single text stands for."""
 
     TEXT = "text"
@@ -16,106 +16,106 @@ class Kind(StrEnum):
     EXPRESSION = "expression"
     NUMBER = "number greater than 0"
     COUNT = "whole number from 0 up"
-    FLAG = "true or false"
+    BOOLEAN = "true or false"
     TRUE = "true"
     VERSION = "version"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Leaf:
+class ScalarSchema:
     """A single text; one of `choices` where there are some."""
 
-    kind: Kind
+    scalar_type: ScalarType
     choices: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Pair:
+class PairSchema:
     """Two finite numbers."""
 
-    what: str
+    description: str
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Listing:
+class ListSchema:
     """A list of items.
 
-    `lone` is a key of its items: a value that is no list stands for a list of one item with only this key.
+    `single_item_key` is a key of its items: a value that is no list stands for a list of one item with only this key.
     """
 
-    what: str
-    item: "Callable[[], Shape]"
-    lone: str = ""
-    width: int = 0
+    description: str
+    item_schema: "Callable[[], ValueSchema]"
+    single_item_key: str = ""
+    flow_width: int = 0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Table:
+class MapSchema:
     """A mapping from names that the user chooses to values.
 
-    `names`: a list of names stands for a mapping with empty values. `short`: a text stands for a mapping with only
-    this key. `keys`: the only names there are.
+    `allows_name_list`: a list of names stands for a mapping with empty values. `shorthand_key`: a text stands for a mapping with only
+    this key. `allowed_keys`: the only names there are.
     """
 
-    what: str
-    value: "Shape"
-    names: bool = False
-    short: str = ""
-    keys: tuple[str, ...] = ()
-    width: int = 0
+    description: str
+    value_schema: "ValueSchema"
+    allows_name_list: bool = False
+    shorthand_key: str = ""
+    allowed_keys: tuple[str, ...] = ()
+    flow_width: int = 0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Key:
+class KeySchema:
     """A key of a record.
 
-    `implied` is the value that a missing key means; `keeps_empty`: an empty value differs from a missing key.
-    `stands_for`: this key is the lone form of that one.
+    `default` is the value that a missing key means; `keeps_empty`: an empty value differs from a missing key.
+    `shorthand_for`: this key is the lone form of that one.
     """
 
     name: str
-    shape: "Shape"
-    meaning: str
+    schema: "ValueSchema"
+    description: str
     required: bool = False
-    implied: Data = ()
+    default: FormatValue = ()
     keeps_empty: bool = False
-    stands_for: str = ""
+    shorthand_for: str = ""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Record:
+class RecordSchema:
     """A mapping with known keys.
 
-    `short`: a value that is no mapping (for a table: no mapping with this key) stands for only this key.
-    `one_of`: exactly one of these must be given; `missing` says so. `needs`: a key and the one it goes with.
-    `meant`: words of other tools and the key they mean here. `width`: written in braces up to this line length.
+    `shorthand_key`: a value that is no mapping (for a table: no mapping with this key) stands for only this key.
+    `one_of`: exactly one of these must be given; `missing_message` says so. `dependent_keys`: a key and the one it goes with.
+    `synonyms`: words of other tools and the key they mean here. `flow_width`: written in braces up to this line length.
     """
 
     name: str
-    what: str
-    keys: tuple[Key, ...]
-    short: str = ""
+    description: str
+    keys: tuple[KeySchema, ...]
+    shorthand_key: str = ""
     one_of: tuple[str, ...] = ()
-    missing: tuple[str, str] = ("", "")
-    needs: tuple[tuple[str, str], ...] = ()
-    meant: Mapping[str, str] = field(default_factory=dict)
-    width: int = 0
+    missing_message: tuple[str, str] = ("", "")
+    dependent_keys: tuple[tuple[str, str], ...] = ()
+    synonyms: Mapping[str, str] = field(default_factory=dict)
+    flow_width: int = 0
     is_item: bool = False
 
-    def key(self, name: str) -> Key | None:
+    def find_key(self, name: str) -> KeySchema | None:
         """The key of this name."""
         return next((key for key in self.keys if key.name == name), None)
 
 
-Shape = Leaf | Pair | Listing | Table | Record
+ValueSchema = ScalarSchema | PairSchema | ListSchema | MapSchema | RecordSchema
 
 
-def gather(record: Record, values: Mapping[str, Data | None]) -> tuple[Data, ...]:
+def build_record_value(record: RecordSchema, values: Mapping[str, FormatValue | None]) -> tuple[FormatValue, ...]:
     """A record's value: pairs in the order of its table, without what a missing key means anyway."""
-    pairs: list[Data] = []
+    pairs: list[FormatValue] = []
     for key in record.keys:
         value = values.get(key.name)
-        is_said = value is not None and (value != key.implied or value == ()) and not key.stands_for
+        is_said = value is not None and (value != key.default or value == ()) and not key.shorthand_for
         if is_said and value is not None and (key.keeps_empty or value not in ("", (), False)):
             pairs.append((key.name, value))
     return tuple(pairs)

@@ -2,10 +2,10 @@
 
 from dataclasses import dataclass
 
-from vicode.findings import Path, Place, Span
-from vicode.store.lines import Lines
-from vicode.store.nodes import Mapping, Node, Scalar
-from vicode.store.reading import Form, Read
+from vicode.findings import DesignPath, SourceLocation, Span
+from vicode.store.lines import LineIndex
+from vicode.store.nodes import YamlMapping, YamlNode, YamlScalar
+from vicode.store.reading import TypedNode, YamlNotation
 
 _ESCAPE_LENGTHS = {"x": 4, "u": 6, "U": 10}
 
@@ -15,10 +15,10 @@ class SourceMap:
     """Where the things of one file stand."""
 
     file: str
-    lines: Lines
-    root: Read | None
+    line_index: LineIndex
+    root: TypedNode | None
 
-    def place(self, path: Path = (), span: Span | None = None, *, of_key: bool = False) -> Place:
+    def locate(self, path: DesignPath = (), span: Span | None = None, *, of_key: bool = False) -> SourceLocation:
         """The place of the thing a path leads to, or of the nearest thing around it.
 
         Args:
@@ -28,41 +28,45 @@ class SourceMap:
         """
         read, is_exact = self._find(path)
         if read is None:
-            return self.lines.place(0, 1)
+            return self.line_index.locate(0, 1)
         node = read.node
         if span is not None and is_exact and not of_key:
             node = _text_node(read)
-            if isinstance(node, Scalar):
-                return self.lines.place(*_source_span(self.lines.text, node, span))
-        is_block = not isinstance(node, Scalar) and not node.flow
-        if read.key is not None and (of_key or is_block or node.end == node.start or not is_exact):
-            node = read.key
-        elif is_block and isinstance(node, Mapping) and node.pairs:
+            if isinstance(node, YamlScalar):
+                return self.line_index.locate(*_source_span(self.line_index.text, node, span))
+        is_block = not isinstance(node, YamlScalar) and not node.is_flow
+        if read.key_node is not None and (of_key or is_block or node.end == node.start or not is_exact):
+            node = read.key_node
+        elif is_block and isinstance(node, YamlMapping) and node.pairs:
             node = node.pairs[0][0]
-        return self.lines.place(node.start, node.end)
+        return self.line_index.locate(node.start, node.end)
 
-    def knows(self, path: Path) -> bool:
+    def contains(self, path: DesignPath) -> bool:
         """Whether the path leads to something in the file."""
         return self._find(path)[1]
 
-    def _find(self, path: Path) -> tuple[Read | None, bool]:
+    def _find(self, path: DesignPath) -> tuple[TypedNode | None, bool]:
         read = self.root
         for step in path:
-            part = read.parts.get(step) if read is not None else None
+            part = read.children.get(step) if read is not None else None
             if part is None:
                 return read, False
             read = part
         return read, read is not None
 
 
-def _text_node(read: Read) -> Node:
+def _text_node(read: TypedNode) -> YamlNode:
     """The text meant: of code that is written in several languages the first."""
-    while read.form in (Form.LONG, Form.SHORT) and read.parts and not isinstance(read.node, Scalar):
-        read = next(iter(read.parts.values()))
+    while (
+        read.notation in (YamlNotation.FULL, YamlNotation.SHORTHAND)
+        and read.children
+        and not isinstance(read.node, YamlScalar)
+    ):
+        read = next(iter(read.children.values()))
     return read.node
 
 
-def _source_span(text: str, node: Scalar, span: Span) -> tuple[int, int]:
+def _source_span(text: str, node: YamlScalar, span: Span) -> tuple[int, int]:
     """The characters of a file that give these characters of a scalar's text."""
     if not node.style and "\n" not in text[node.start : node.end]:
         return node.start + span[0], node.start + max(span[1], span[0] + 1)
@@ -72,7 +76,7 @@ def _source_span(text: str, node: Scalar, span: Span) -> tuple[int, int]:
     return first, max(first, last) + 1
 
 
-def _offsets(text: str, node: Scalar) -> list[int]:
+def _offsets(text: str, node: YamlScalar) -> list[int]:
     """For every character of a scalar's text its offset in the file, then the offset after the last.
 
     Between two visible characters the file has blanks, line breaks and escapes only, so that walking both side by
@@ -93,7 +97,9 @@ def _offsets(text: str, node: Scalar) -> list[int]:
             source += 1
         source = _after_continuation(text, source, node.style)
         offsets.append(min(source, max(node.start, node.end - 1)))
-        source += _step(text, source, node.style) if not is_blank or text[source : source + 1] in (char, "\\") else 0
+        source += (
+            _source_length(text, source, node.style) if not is_blank or text[source : source + 1] in (char, "\\") else 0
+        )
     offsets.append(min(source, node.end))
     return offsets
 
@@ -107,7 +113,7 @@ def _after_continuation(text: str, source: int, style: str) -> int:
     return source + 1 + len(rest) - len(rest.lstrip())
 
 
-def _step(text: str, source: int, style: str) -> int:
+def _source_length(text: str, source: int, style: str) -> int:
     """How many characters of the file stand for the one at `source`."""
     if style == "'" and text[source : source + 2] == "''":
         return 2

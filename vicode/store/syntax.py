@@ -3,7 +3,7 @@
 import yaml
 
 # (part of the parser's message, message, mend, whether the place where it began helps)
-_WORDS = (
+_EXPLANATIONS = (
     ("tab character that violates", "a tab where blanks must indent", "indent with blanks", False),
     ("mapping values are not allowed", "a ':' where none can stand",
      "put a text that holds ': ' in quotes, or check the indentation", False),
@@ -32,12 +32,12 @@ _WORDS = (
 )  # fmt: skip
 
 
-def explain(error: yaml.YAMLError, char: str) -> tuple[str, str, bool]:
+def explain_yaml_error(error: yaml.YAMLError, char: str) -> tuple[str, str, bool]:
     """Message, mend, and whether the place where the broken thing began helps; `char` stands at the error."""
     problem = f"{getattr(error, 'context', None) or ''} {getattr(error, 'problem', None) or ''}"
     if "cannot start any token" in problem:
         return _explain_character(char)
-    for part, message, mend, tells_opening in _WORDS:
+    for part, message, mend, tells_opening in _EXPLANATIONS:
         if part in problem:
             return message, mend, tells_opening
     return problem.strip() or "the text is not YAML", "", False

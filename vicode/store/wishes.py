@@ -4,45 +4,45 @@ from dataclasses import dataclass
 
 
 @dataclass(frozen=True, slots=True)
-class Kept:
+class TargetKeep:
     """Leave the old node as it is."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Word:
-    """A single text; a `bare` one (number, truth) means another thing in quotes."""
+class TargetScalar:
+    """A single text; a `is_plain` one (number, truth) means another thing in quotes."""
 
     text: str
-    bare: bool = False
+    is_plain: bool = False
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Member:
+class TargetMember:
     """An item, or with a `key` a pair; `old` is its number in the old node, None for a new one."""
 
-    value: "Wish"
+    value: "TargetNode"
     key: str | None = None
-    old: int | None = None
+    old_index: int | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Members:
-    """A mapping or a list; written in brackets when it fits into `width` columns.
+class TargetCollection:
+    """A mapping or a list; written in brackets when it fits into `flow_width` columns.
 
     `is_ordered`: the order of the members means something.
     """
 
-    members: tuple[Member, ...]
+    members: tuple[TargetMember, ...]
     is_mapping: bool
-    width: int
+    flow_width: int
     is_ordered: bool = True
 
 
-Wish = Kept | Word | Members
+TargetNode = TargetKeep | TargetScalar | TargetCollection
 
 
-def is_long(wish: Wish) -> bool:
+def has_multiline_text(wish: TargetNode) -> bool:
     """Whether it holds a text of several lines."""
-    if isinstance(wish, Word):
+    if isinstance(wish, TargetScalar):
         return "\n" in wish.text
-    return isinstance(wish, Members) and any(is_long(member.value) for member in wish.members)
+    return isinstance(wish, TargetCollection) and any(has_multiline_text(member.value) for member in wish.members)

@@ -5,49 +5,49 @@ from collections.abc import Iterator
 
 from vicode.findings import Note
 from vicode.xabsl import tree
-from vicode.xabsl.declared import Declared, Table
-from vicode.xabsl.declaring import Report
+from vicode.xabsl.declared import Definition, SymbolTable
+from vicode.xabsl.declaring import CompileReport
 from vicode.xabsl.lexer import Tokens
-from vicode.xabsl.sources import Source
+from vicode.xabsl.sources import ProgramSource
 
-Callers = dict[str, list[tuple[tree.State, list[tree.Call]]]]
+CallsByOption = dict[str, list[tuple[tree.StateNode, list[tree.CallNode]]]]
 
 
-def check_meaning(source: Source, table: Table, report: Report) -> None:
+def check_semantics(source: ProgramSource, table: SymbolTable, report: CompileReport) -> None:
     """Look at a program whose names are bound."""
-    calls: Callers = {}
+    calls: CallsByOption = {}
     homes: dict[str, Tokens] = {}
     for parsed in source.files.values():
         for item in parsed.file.body:
-            if isinstance(item, tree.Option):
-                _look_for_unreached(item, parsed.tokens, report)
+            if isinstance(item, tree.OptionNode):
+                _check_unreachable_states(item, parsed.tokens, report)
                 calls[item.name.text] = [(state, _calls(item, state, table)) for state in item.states]
                 homes[item.name.text] = parsed.tokens
-    below = _look_for_cycles(calls, homes, report)
-    _look_for_twins(calls, below, homes, report)
-    _look_for_unused(source, table, report)
+    below = _check_option_cycles(calls, homes, report)
+    _check_double_execution(calls, below, homes, report)
+    _check_unused(source, table, report)
 
 
-def _calls(option: tree.Option, state: tree.State, table: Table) -> list[tree.Call]:
+def _calls(option: tree.OptionNode, state: tree.StateNode, table: SymbolTable) -> list[tree.CallNode]:
     """The options that a state calls, common actions first."""
     actions = [*(option.common_actions.actions if option.common_actions else ()), *state.actions.actions]
     return [
         each
         for each in actions
-        if isinstance(each, tree.Call) and each.kind != "behavior" and each.name.text in table.options
+        if isinstance(each, tree.CallNode) and each.kind != "behavior" and each.name.text in table.options
     ]
 
 
-def _targets(node: tree.Tree | None) -> Iterator[str]:
-    while isinstance(node, tree.If | tree.Block):
-        if isinstance(node, tree.If):
+def _targets(node: tree.DecisionTreeNode | None) -> Iterator[str]:
+    while isinstance(node, tree.IfNode | tree.BlockNode):
+        if isinstance(node, tree.IfNode):
             yield from _targets(node.then)
-        node = node.otherwise if isinstance(node, tree.If) else node.inner
-    if isinstance(node, tree.Goto):
+        node = node.otherwise if isinstance(node, tree.IfNode) else node.inner
+    if isinstance(node, tree.GotoNode):
         yield node.state.text
 
 
-def _look_for_unreached(option: tree.Option, tokens: Tokens, report: Report) -> None:
+def _check_unreachable_states(option: tree.OptionNode, tokens: Tokens, report: CompileReport) -> None:
     ways = {state.name.text: set(_targets(state.decision.tree if state.decision else None)) for state in option.states}
     common = set(_targets(option.common_decision))
     waiting = [state.name.text for state in option.states if state.is_initial]
@@ -59,10 +59,12 @@ def _look_for_unreached(option: tree.Option, tokens: Tokens, report: Report) -> 
     for state in option.states if reached else ():
         if state.name.text not in reached:
             message = f"no decision leads to state {state.name.text} of option {option.name.text}"
-            report.complain(tokens, state.name.at, "X643", message, "lead to it or remove it")
+            report.add_finding(tokens, state.name.first_token, "X643", message, "lead to it or remove it")
 
 
-def _look_for_cycles(calls: Callers, homes: dict[str, Tokens], report: Report) -> dict[str, frozenset[str]]:
+def _check_option_cycles(
+    calls: CallsByOption, homes: dict[str, Tokens], report: CompileReport
+) -> dict[str, frozenset[str]]:
     """All options below each option; a call that leads back is told, and followed no further."""
     below: dict[str, frozenset[str]] = {}
 
@@ -76,7 +78,9 @@ def _look_for_cycles(calls: Callers, homes: dict[str, Tokens], report: Report) -
                 if callee in (*path, name):
                     circle = " → ".join((*path, name)[(*path, name).index(callee) :]) + f" → {callee}"
                     message = f"option {callee} leads back to itself: {circle}"
-                    report.complain(homes[name], call.name.at, "X636", message, "no engine runs it; break the circle")
+                    report.add_finding(
+                        homes[name], call.name.first_token, "X636", message, "no engine runs it; break the circle"
+                    )
                 elif callee in calls:
                     found |= {callee} | look(callee, (*path, name))
         below[name] = frozenset(found)
@@ -87,49 +91,55 @@ def _look_for_cycles(calls: Callers, homes: dict[str, Tokens], report: Report) -
     return below
 
 
-def _look_for_twins(calls: Callers, below: dict[str, frozenset[str]], homes: dict[str, Tokens], report: Report) -> None:
+def _check_double_execution(
+    calls: CallsByOption, below: dict[str, frozenset[str]], homes: dict[str, Tokens], report: CompileReport
+) -> None:
     """What two calls of one state both lead to is executed twice in a cycle, if both get there."""
     for name, states in calls.items():
         for state, called in states:
-            seen: dict[str, tree.Call] = {}
+            seen: dict[str, tree.CallNode] = {}
             for call in called:
                 reached = {call.name.text} | below.get(call.name.text, frozenset())
                 twins = sorted(reached & seen.keys())
                 if twins:
                     other = seen[twins[0]]
                     message = f"option {twins[0]} may be executed twice in a cycle of state {state.name.text}"
-                    note = Note(message="it may also be by this call", place=homes[name].place(other.name.at))
+                    note = Note(
+                        message="it may also be by this call", location=homes[name].location(other.name.first_token)
+                    )
                     mend = "call it from one of them only"
-                    report.complain(homes[name], call.name.at, "X647", message, mend, note=note)
+                    report.add_finding(homes[name], call.name.first_token, "X647", message, mend, note=note)
                 seen |= dict.fromkeys(reached - seen.keys(), call)
 
 
-def _look_for_unused(source: Source, table: Table, report: Report) -> None:
+def _check_unused(source: ProgramSource, table: SymbolTable, report: CompileReport) -> None:
     uses: dict[int, int] = defaultdict(int)
-    for _tokens, _at, declared in report.uses:
+    for _tokens, _at, declared in report.references:
         uses[id(declared)] += 1
-    sets = _set_symbols(source)
+    sets = _assigned_symbols(source)
     for declared in table.symbols("input", "output", "internal", "const"):
         if not uses[id(declared)]:
-            _tell_unused(declared, report)
+            _add_unused_finding(declared, report)
         elif declared.role == "internal" and declared.name not in sets:
-            message = f"{declared.what} {declared.name} is read, but no action sets it"
-            report.complain(declared.tokens, declared.word.at, "X645", message, "set it somewhere, or use a constant")
+            message = f"{declared.description} {declared.name} is read, but no action sets it"
+            report.add_finding(
+                declared.tokens, declared.name_node.first_token, "X645", message, "set it somewhere, or use a constant"
+            )
     for declared in (*table.behaviors.values(), *table.options.values()):
         if not uses[id(declared)]:
-            _tell_unused(declared, report)
+            _add_unused_finding(declared, report)
 
 
-def _set_symbols(source: Source) -> set[str]:
-    blocks: list[tree.Actions] = []
+def _assigned_symbols(source: ProgramSource) -> set[str]:
+    blocks: list[tree.ActionBlockNode] = []
     for parsed in source.files.values():
         for item in parsed.file.body:
-            if isinstance(item, tree.Option):
+            if isinstance(item, tree.OptionNode):
                 blocks += [state.actions for state in item.states]
                 blocks += [item.common_actions] if item.common_actions else []
-    return {each.symbol.text for block in blocks for each in block.actions if isinstance(each, tree.Assignment)}
+    return {each.symbol.text for block in blocks for each in block.actions if isinstance(each, tree.AssignmentNode)}
 
 
-def _tell_unused(declared: Declared, report: Report) -> None:
-    message = f"nothing uses {declared.what} {declared.name}"
-    report.complain(declared.tokens, declared.word.at, "X644", message, "use it or remove it")
+def _add_unused_finding(declared: Definition, report: CompileReport) -> None:
+    message = f"nothing uses {declared.description} {declared.name}"
+    report.add_finding(declared.tokens, declared.name_node.first_token, "X644", message, "use it or remove it")

@@ -7,7 +7,7 @@ from vicode.xabsl.lexer import Comment
 INDENT = "  "
 
 
-class Layout:
+class TokenFormatter:
     """A text that is written token by token. `depth` is how far lines are indented.
 
     Tokens are counted: comments are kept by the number of the token after them, and so are empty lines.
@@ -15,17 +15,17 @@ class Layout:
 
     def __init__(self, comments: Mapping[int, Sequence[Comment]], blanks: Collection[int]) -> None:
         self._comments = {number: list(found) for number, found in comments.items()}
-        self._blanks = blanks
+        self._after_blank_lines = blanks
         self._lines: list[str] = []
         self._line = ""
         self._count = 0
         self._must_break = False
-        self._is_begun = True
+        self._is_block_start = True
         self.depth = 0
 
     def text(self) -> str:
         """All that was written, with the comments at the end."""
-        self._remark(self.depth)
+        self._write_comments(self.depth)
         self._end_line()
         while self._lines and not self._lines[-1]:
             self._lines.pop()
@@ -36,52 +36,52 @@ class Layout:
         """How long the line is that is written."""
         return len(self._line) or len(INDENT) * self.depth
 
-    def word(self, text: str, gap: str = " ") -> None:
+    def write(self, text: str, gap: str = " ") -> None:
         """Write a token; `gap` stands between it and what is before it in its line."""
-        self._remark(self.depth)
+        self._write_comments(self.depth)
         if self._must_break:
             self._end_line()
         if self._line:
             self._line += gap + text
         else:
-            self._begin_line(text)
+            self._start_line(text)
         self._count += 1
-        self._is_begun = text == "{"
+        self._is_block_start = text == "{"
 
-    def first(self, text: str) -> None:
+    def write_on_new_line(self, text: str) -> None:
         """Write a token that begins a line."""
         self.end_line()
-        self.word(text)
+        self.write(text)
 
     def end_line(self) -> None:
         """End a line after the comments that stand behind its last token."""
         waiting = self._comments.get(self._count, [])
         while waiting and self._line and not waiting[0].own_line:
-            self._beside(waiting.pop(0))
+            self._write_trailing_comment(waiting.pop(0))
         self._end_line()
 
-    def blank(self) -> None:
+    def blank_line(self) -> None:
         """Leave a line empty, unless a block or the text just begins."""
         self.end_line()
-        if self._lines and self._lines[-1] and not self._is_begun:
+        if self._lines and self._lines[-1] and not self._is_block_start:
             self._lines.append("")
 
-    def close(self, text: str) -> None:
+    def close_block(self, text: str) -> None:
         """Write the token that ends a block, on a line of its own and less indented."""
         self.end_line()
-        self._remark(self.depth)
+        self._write_comments(self.depth)
         self._end_line()
         self.depth -= 1
         self._line = INDENT * self.depth + text
         self._count += 1
-        self._is_begun = False
+        self._is_block_start = False
 
-    def has_remarks(self) -> bool:
+    def has_comments(self) -> bool:
         """Whether comments stand before the next token."""
         return bool(self._comments.get(self._count))
 
-    def _begin_line(self, text: str) -> None:
-        if self._count in self._blanks and self._lines and self._lines[-1] and not self._is_begun:
+    def _start_line(self, text: str) -> None:
+        if self._count in self._after_blank_lines and self._lines and self._lines[-1] and not self._is_block_start:
             self._lines.append("")
         first, *others = text.split("\n")
         self._lines += [INDENT * self.depth + first, *others][:-1] if others else []
@@ -92,21 +92,21 @@ class Layout:
             self._lines.append(self._line.rstrip())
         self._line, self._must_break = "", False
 
-    def _remark(self, depth: int) -> None:
+    def _write_comments(self, depth: int) -> None:
         """Write the comments before the next token."""
         for comment in self._comments.pop(self._count, ()):
             if self._line and not comment.own_line:
-                self._beside(comment)
+                self._write_trailing_comment(comment)
                 continue
             self._end_line()
-            if comment.after_blank and self._lines and self._lines[-1] and not self._is_begun:
+            if comment.after_blank_line and self._lines and self._lines[-1] and not self._is_block_start:
                 self._lines.append("")
             first, *others = comment.text.split("\n")
             # What a comment holds is its author's; only where it begins is ours.
             self._lines += [INDENT * depth + first, *others]
-            self._is_begun = False
+            self._is_block_start = False
 
-    def _beside(self, comment: Comment) -> None:
+    def _write_trailing_comment(self, comment: Comment) -> None:
         if self._must_break:
             self._end_line()
         self._line = f"{self._line} {comment.text}" if self._line else INDENT * self.depth + comment.text

@@ -5,8 +5,8 @@ from bisect import bisect_right
 from dataclasses import dataclass, field
 from functools import cached_property
 
-from vicode.findings import Finding, Place, rule
-from vicode.xabsl.tokens import DOC, END, INITIAL, KEYWORDS, NAME, NUMBER, RANGE, STRING, TOKEN
+from vicode.findings import Finding, SourceLocation, get_rule
+from vicode.xabsl.tokens import DOC, END, HEADER, KEYWORDS, NAME, NUMBER, RANGE, STRING, TOKEN_PATTERN
 
 _KINDS = {
     "name": NAME,
@@ -15,13 +15,13 @@ _KINDS = {
     "open": STRING,
     "range": RANGE,
     "doc": DOC,
-    "initial": INITIAL,
+    "initial": HEADER,
 }
-_BLANK = re.compile(r"\n[ \t\r]*\n\s*")
+_BLANK_LINE = re.compile(r"\n[ \t\r]*\n\s*")
 _COMMENTS = ("line", "block", "initial", "doc")
 
 
-_COMPLAINTS = {
+_TOKEN_ERRORS = {
     "line": ("X651", "a comment at the end of a file without a line break", "end the line"),
     "/**/": ("X651", "/**/ opens a description there", "write a blank into it: /* */"),
     "initial": ("X651", "a comment that begins with /*** stands first in a file only", "begin it with /*"),
@@ -41,7 +41,7 @@ class Comment:
 
     text: str
     own_line: bool
-    after_blank: bool = field(default=False, compare=False)
+    after_blank_line: bool = field(default=False, compare=False)
     """Whether an empty line stands before it."""
 
 
@@ -60,38 +60,38 @@ class Tokens:
     comments: dict[int, list[Comment]] = field(default_factory=dict)
 
     @cached_property
-    def _lines(self) -> list[int]:
+    def _line_starts(self) -> list[int]:
         """Where each line begins."""
         return [0, *(match.end() for match in re.finditer("\n", self.text))]
 
-    def place_at(self, start: int, length: int = 1) -> Place:
+    def location_at(self, start: int, length: int = 1) -> SourceLocation:
         """The place of some characters."""
         line = self.line_at(start)
-        end = self._lines[line] - 1 if line < len(self._lines) else len(self.text)
+        end = self._line_starts[line] - 1 if line < len(self._line_starts) else len(self.text)
         # What goes on in the next line is underlined to the end of the first.
         length = max(1, min(length, end - start))
-        return Place(file=self.file, line=line, column=start - self._lines[line - 1] + 1, length=length)
+        return SourceLocation(file=self.file, line=line, column=start - self._line_starts[line - 1] + 1, length=length)
 
     @cached_property
-    def after_blanks(self) -> frozenset[int]:
+    def after_blank_lines(self) -> frozenset[int]:
         """The characters that are the first after an empty line."""
-        return frozenset(match.end() for match in _BLANK.finditer(self.text))
+        return frozenset(match.end() for match in _BLANK_LINE.finditer(self.text))
 
     def line_at(self, start: int) -> int:
         """The line of a character, counted from 1."""
-        return bisect_right(self._lines, start)
+        return bisect_right(self._line_starts, start)
 
-    def place(self, number: int, last: int = -1) -> Place:
+    def location(self, number: int, last: int = -1) -> SourceLocation:
         """The place of a token, or of all from it to `last`."""
         last = max(number, last)
-        return self.place_at(self.starts[number], self.starts[last] + len(self.texts[last]) - self.starts[number])
+        return self.location_at(self.starts[number], self.starts[last] + len(self.texts[last]) - self.starts[number])
 
 
 def tokenize(text: str, file: str) -> tuple[Tokens, list[Finding]]:
     """The tokens of a text, and what is wrong with its characters."""
     tokens, odd = Tokens(file, text), list[tuple[str, str, int]]()
     kinds, texts, starts = tokens.kinds, tokens.texts, tokens.starts
-    for match in TOKEN.finditer(text):
+    for match in TOKEN_PATTERN.finditer(text):
         group = match.lastgroup or END
         word, start = match[group], match.start(group)
         kind = word if group == "own" or word in KEYWORDS else _KINDS.get(group, "")
@@ -101,7 +101,7 @@ def tokenize(text: str, file: str) -> tuple[Tokens, list[Finding]]:
             if group != "doc":
                 odd.append((group, word, start))
             if group in _COMMENTS:
-                _keep(tokens, word, start)
+                _add_comment(tokens, word, start)
             elif text.startswith("/*", start):
                 # It goes on to the end.
                 break
@@ -112,7 +112,7 @@ def tokenize(text: str, file: str) -> tuple[Tokens, list[Finding]]:
             # Of several descriptions the last is the one that stands at what it describes.
             between = tokens.comments.pop(len(kinds), [])
             kinds.pop()
-            _keep(tokens, texts.pop(), starts.pop())
+            _add_comment(tokens, texts.pop(), starts.pop())
             tokens.comments[len(kinds)] += between
         if group == "open" or (group == "name" and kind is word and text.startswith("-", start + len(word))):
             odd.append((group, word, start))
@@ -122,18 +122,18 @@ def tokenize(text: str, file: str) -> tuple[Tokens, list[Finding]]:
     kinds.append(END)
     texts.append("")
     starts.append(len(text))
-    return tokens, [finding for each in odd for finding in _complain(tokens, *each)]
+    return tokens, [finding for each in odd for finding in _token_findings(tokens, *each)]
 
 
-def _keep(tokens: Tokens, word: str, start: int) -> None:
+def _add_comment(tokens: Tokens, word: str, start: int) -> None:
     """Keep a comment, before the token that comes next."""
     line = tokens.text.rfind("\n", 0, start) + 1
     is_first = not tokens.text[line:start].strip()
-    comment = Comment(word.rstrip().replace("\r", ""), is_first, start in tokens.after_blanks)
+    comment = Comment(word.rstrip().replace("\r", ""), is_first, start in tokens.after_blank_lines)
     tokens.comments.setdefault(len(tokens.kinds), []).append(comment)
 
 
-def _complain(tokens: Tokens, group: str, word: str, start: int) -> list[Finding]:
+def _token_findings(tokens: Tokens, group: str, word: str, start: int) -> list[Finding]:
     """What is wrong with a token, or would be for the original compiler."""
     text = tokens.text
     if group == "line" and start + len(word) < len(text):
@@ -142,9 +142,9 @@ def _complain(tokens: Tokens, group: str, word: str, start: int) -> list[Finding
         group = "/*" if text.startswith("/*", start) else word
     elif group == "block":
         group = word
-    if group not in _COMPLAINTS and group.startswith("/*"):
+    if group not in _TOKEN_ERRORS and group.startswith("/*"):
         return []
     shown = word if word.isprintable() else f"U+{ord(word[0]):04X}"
-    code, message, mend = _COMPLAINTS.get(group, ("X601", "a character that means nothing: {}", "remove it"))
-    place = tokens.place_at(start, len(word))
-    return [Finding(rule=rule(code), message=message.format(shown), mend=mend.format(shown), place=place)]
+    code, message, mend = _TOKEN_ERRORS.get(group, ("X601", "a character that means nothing: {}", "remove it"))
+    place = tokens.location_at(start, len(word))
+    return [Finding(rule=get_rule(code), message=message.format(shown), fix=mend.format(shown), location=place)]

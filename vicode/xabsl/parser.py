@@ -3,61 +3,72 @@
 from dataclasses import dataclass
 
 from vicode.findings import Finding
-from vicode.xabsl.cursor import Cursor, SyntaxSlipError
+from vicode.xabsl.cursor import TokenCursor, XabslSyntaxError
 from vicode.xabsl.lexer import Tokens, tokenize
 from vicode.xabsl.parsing_declarations import parse_agent, parse_namespace, parse_parameters
-from vicode.xabsl.parsing_states import parse_actions, parse_state, parse_tree
-from vicode.xabsl.tokens import DOC, END, INITIAL, STRING
-from vicode.xabsl.tree import Actions, Agent, File, Include, Namespace, Option, State, Tree
+from vicode.xabsl.parsing_states import parse_actions, parse_decision_tree, parse_state
+from vicode.xabsl.tokens import DOC, END, HEADER, STRING
+from vicode.xabsl.tree import (
+    ActionBlockNode,
+    AgentNode,
+    DecisionTreeNode,
+    FileNode,
+    IncludeNode,
+    NamespaceNode,
+    OptionNode,
+    StateNode,
+)
 
-_TOP = ("include", "option", "namespace", "agent")
-_STATE_BEGINS = frozenset(("state", "initial", "target"))
+_TOP_LEVEL_KEYWORDS = ("include", "option", "namespace", "agent")
+_STATE_STARTS = frozenset(("state", "initial", "target"))
 
 
 @dataclass(slots=True)
-class Parsed:
+class ParsedFile:
     """A file that was read: what is in it, where, and what is wrong with it."""
 
-    file: File
+    file: FileNode
     tokens: Tokens
     findings: list[Finding]
 
 
-def parse(text: str, file: str = "") -> Parsed:
+def parse(text: str, file: str = "") -> ParsedFile:
     """Read a file; `file` is its name in messages. Never raises: what cannot be read is left out and told."""
     tokens, findings = tokenize(text, file)
-    cursor = Cursor(tokens)
-    result = File(comments=tokens.comments)
-    if cursor.kind == INITIAL:
-        result.initial = tokens.texts[cursor.skip()][4:-2].strip()
+    cursor = TokenCursor(tokens)
+    result = FileNode(comments=tokens.comments)
+    if cursor.kind == HEADER:
+        result.header = tokens.texts[cursor.advance()][4:-2].strip()
     while cursor.kind != END:
-        start = cursor.at
+        start = cursor.position
         try:
             _item(cursor, result)
-        except SyntaxSlipError:
+        except XabslSyntaxError:
             cursor.depth = 0
-            _find_next(cursor, start)
-    result.blanks = frozenset(number for number, start in enumerate(tokens.starts) if start in tokens.after_blanks)
-    return Parsed(result, tokens, findings + cursor.findings)
+            _recover(cursor, start)
+    result.after_blank_lines = frozenset(
+        number for number, start in enumerate(tokens.starts) if start in tokens.after_blank_lines
+    )
+    return ParsedFile(result, tokens, findings + cursor.findings)
 
 
-def _find_next(cursor: Cursor, start: int) -> None:
+def _recover(cursor: TokenCursor, start: int) -> None:
     """Go to the next word that begins something, on the level of the file if braces can be believed."""
-    if cursor.at == start:
-        cursor.skip()
-    cursor.leave(*_TOP, DOC, inside=cursor.open_since(start))
+    if cursor.position == start:
+        cursor.advance()
+    cursor.skip_to(*_TOP_LEVEL_KEYWORDS, DOC, open_braces=cursor.open_braces_since(start))
     while cursor.kind == "}":
-        cursor.skip()
-        cursor.leave(*_TOP, DOC, inside=0)
+        cursor.advance()
+        cursor.skip_to(*_TOP_LEVEL_KEYWORDS, DOC, open_braces=0)
 
 
-def _item(cursor: Cursor, result: File) -> None:
-    start, doc = cursor.at, cursor.doc()
+def _item(cursor: TokenCursor, result: FileNode) -> None:
+    start, doc = cursor.position, cursor.accept_doc()
     match cursor.kind:
         case "include" if not doc:
             include = _include(cursor)
             if result.body:
-                cursor.complain("X604", "an include after what the file defines", "put it first", at=start)
+                cursor.add_finding("X604", "an include after what the file defines", "put it first", at=start)
             result.includes.append(include)
         case "option":
             result.body.append(_option(cursor, start, doc))
@@ -67,64 +78,68 @@ def _item(cursor: Cursor, result: File) -> None:
             result.body.append(parse_agent(cursor, start, doc))
         case _:
             if doc:
-                raise cursor.slip(_TOP[1:], "after the description")
-            raise cursor.slip(_TOP)
-    _look_at_company(cursor, result.body, start)
+                raise cursor.syntax_error(_TOP_LEVEL_KEYWORDS[1:], "after the description")
+            raise cursor.syntax_error(_TOP_LEVEL_KEYWORDS)
+    _check_single_definition(cursor, result.body, start)
 
 
-def _look_at_company(cursor: Cursor, body: list[Option | Namespace | Agent], start: int) -> None:
-    if len(body) > 1 and not all(isinstance(each, Agent) for each in body):
+def _check_single_definition(
+    cursor: TokenCursor, body: list[OptionNode | NamespaceNode | AgentNode], start: int
+) -> None:
+    if len(body) > 1 and not all(isinstance(each, AgentNode) for each in body):
         message = "a second thing in a file, which defines one option, one namespace, or agents"
-        cursor.complain("X610", message, "give it a file of its own", at=start)
+        cursor.add_finding("X610", message, "give it a file of its own", at=start)
 
 
-def _include(cursor: Cursor) -> Include:
-    start = cursor.skip()
-    path = cursor.text(STRING, "with a path after include")[1:-1]
-    cursor.end("after include")
-    return Include(path, at=start, to=cursor.at - 1)
+def _include(cursor: TokenCursor) -> IncludeNode:
+    start = cursor.advance()
+    path = cursor.expect_text(STRING, "with a path after include")[1:-1]
+    cursor.expect_semicolon("after include")
+    return IncludeNode(path, first_token=start, last_token=cursor.position - 1)
 
 
-def _option(cursor: Cursor, start: int, doc: str) -> Option:
-    cursor.skip()
-    name = cursor.name("of the option")
+def _option(cursor: TokenCursor, start: int, doc: str) -> OptionNode:
+    cursor.advance()
+    name = cursor.expect_name("of the option")
     cursor.expect("{", f"after option {name.text}")
-    parameters = parse_parameters(cursor, _STATE_BEGINS | {"common"})
+    parameters = parse_parameters(cursor, _STATE_STARTS | {"common"})
     decision, actions = _common(cursor)
-    states: list[State] = []
+    states: list[StateNode] = []
     while cursor.kind not in ("}", END):
-        first, depth = cursor.at, cursor.depth
+        first, depth = cursor.position, cursor.depth
         try:
-            if cursor.kind not in _STATE_BEGINS:
-                raise cursor.slip(("state", "initial", "target"), f"in option {name.text}")
+            if cursor.kind not in _STATE_STARTS:
+                raise cursor.syntax_error(("state", "initial", "target"), f"in option {name.text}")
             states.append(parse_state(cursor))
-        except SyntaxSlipError:
+        except XabslSyntaxError:
             cursor.depth = depth
-            if cursor.at == first:
-                cursor.skip()
-            cursor.leave(*_STATE_BEGINS, "}", inside=cursor.open_since(first))
-    option = Option(name, parameters, states, decision, actions, doc, at=start, to=cursor.at)
+            if cursor.position == first:
+                cursor.advance()
+            cursor.skip_to(*_STATE_STARTS, "}", open_braces=cursor.open_braces_since(first))
+    option = OptionNode(name, parameters, states, decision, actions, doc, first_token=start, last_token=cursor.position)
     if not states and cursor.kind == "}":
-        cursor.complain("X604", f"option {name.text} has no state", "an option has at least one", at=name.at)
-    if not cursor.take("}"):
-        cursor.slip(("}",), f"at the end of option {name.text}")
+        cursor.add_finding(
+            "X604", f"option {name.text} has no state", "an option has at least one", at=name.first_token
+        )
+    if not cursor.accept("}"):
+        cursor.syntax_error(("}",), f"at the end of option {name.text}")
     return option
 
 
-def _common(cursor: Cursor) -> tuple[Tree | None, Actions | None]:
-    decision: Tree | None = None
-    actions: Actions | None = None
+def _common(cursor: TokenCursor) -> tuple[DecisionTreeNode | None, ActionBlockNode | None]:
+    decision: DecisionTreeNode | None = None
+    actions: ActionBlockNode | None = None
     while cursor.kind == "common":
-        start, depth = cursor.skip(), cursor.depth
+        start, depth = cursor.advance(), cursor.depth
         try:
-            if cursor.take("decision"):
+            if cursor.accept("decision"):
                 cursor.expect("{", "after common decision")
-                decision = parse_tree(cursor, is_open=True)
+                decision = parse_decision_tree(cursor, is_open=True)
                 cursor.expect("}", "at the end of the common decision")
             else:
                 cursor.expect("action", "after common")
                 actions = parse_actions(cursor)
-        except SyntaxSlipError:
+        except XabslSyntaxError:
             cursor.depth = depth
-            cursor.leave("common", *_STATE_BEGINS, "}", inside=cursor.open_since(start))
+            cursor.skip_to("common", *_STATE_STARTS, "}", open_braces=cursor.open_braces_since(start))
     return decision, actions

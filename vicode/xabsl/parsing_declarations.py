@@ -2,84 +2,84 @@
 
 from collections.abc import Collection
 
-from vicode.xabsl.cursor import Cursor, SyntaxSlipError
+from vicode.xabsl.cursor import TokenCursor, XabslSyntaxError
 from vicode.xabsl.tokens import DOC, END, KEYWORDS, NAME, NUMBER, RANGE, STRING
 from vicode.xabsl.tree import (
-    Agent,
-    Behavior,
-    Constant,
-    Declaration,
-    Enumeration,
-    Name,
-    Namespace,
-    Parameter,
-    Symbol,
-    Type,
+    AgentNode,
+    BehaviorNode,
+    ConstantNode,
+    DeclarationNode,
+    EnumerationNode,
+    NameNode,
+    NamespaceNode,
+    ParameterNode,
+    SymbolNode,
+    TypeNode,
 )
 
 _DIRECTIONS = ("input", "output", "internal")
-_BEGINS = ("float", "bool", "enum", "const", "behavior", *_DIRECTIONS)
+_DECLARATION_STARTS = ("float", "bool", "enum", "const", "behavior", *_DIRECTIONS)
 
 
-def parse_agent(cursor: Cursor, start: int, doc: str) -> Agent:
+def parse_agent(cursor: TokenCursor, start: int, doc: str) -> AgentNode:
     """The agent whose word begins here; its description began at `start`.
 
     Raises:
         SyntaxSlipError: It cannot be read to its end.
     """
-    cursor.skip()
-    name = cursor.name("of the agent")
+    cursor.advance()
+    name = cursor.expect_name("of the agent")
     cursor.expect("(", "after the agent's name")
-    title = cursor.text(STRING, "with the agent's title")[1:-1]
+    title = cursor.expect_text(STRING, "with the agent's title")[1:-1]
     cursor.expect(",", "after the title")
-    root = cursor.name("of the root option")
+    root = cursor.expect_name("of the root option")
     cursor.expect(")", "after the root option")
-    cursor.end("after the agent")
-    return Agent(name, title, root, doc, at=start, to=cursor.at - 1)
+    cursor.expect_semicolon("after the agent")
+    return AgentNode(name, title, root, doc, first_token=start, last_token=cursor.position - 1)
 
 
-def parse_namespace(cursor: Cursor, start: int, doc: str) -> Namespace:
+def parse_namespace(cursor: TokenCursor, start: int, doc: str) -> NamespaceNode:
     """The namespace whose word begins here; declarations that cannot be read are left out.
 
     Raises:
         SyntaxSlipError: Its beginning or end is missing.
     """
-    cursor.skip()
-    name = cursor.name("of the namespace")
+    cursor.advance()
+    name = cursor.expect_name("of the namespace")
     title = ""
     if cursor.kind == "{":
-        cursor.complain("X604", f"namespace {name.text} has no title", f'write namespace {name.text}("Title")')
+        cursor.add_finding("X604", f"namespace {name.text} has no title", f'write namespace {name.text}("Title")')
     else:
         cursor.expect("(", f"after namespace {name.text}")
-        title = cursor.text(STRING, "with the namespace's title")[1:-1]
+        title = cursor.expect_text(STRING, "with the namespace's title")[1:-1]
         cursor.expect(")", "after the title")
     cursor.expect("{", f"after namespace {name.text}")
-    declarations: list[Declaration] = []
+    declarations: list[DeclarationNode] = []
     while cursor.kind not in ("}", END):
-        first = cursor.at
+        first = cursor.position
         try:
             declarations.append(_declaration(cursor))
-        except SyntaxSlipError:
-            _find_next(cursor, first)
-    if not cursor.take("}"):
-        cursor.slip(("}",), f"at the end of namespace {name.text}")
-    return Namespace(name, title, declarations, doc, at=start, to=cursor.at - 1)
+        except XabslSyntaxError:
+            _recover(cursor, first)
+    if not cursor.accept("}"):
+        cursor.syntax_error(("}",), f"at the end of namespace {name.text}")
+    return NamespaceNode(name, title, declarations, doc, first_token=start, last_token=cursor.position - 1)
 
 
-def _find_next(cursor: Cursor, first: int) -> None:
-    if cursor.at == first:
-        cursor.skip()
-    cursor.leave(";", DOC, *_BEGINS, inside=cursor.open_since(first))
-    cursor.take(";")
+def _recover(cursor: TokenCursor, first: int) -> None:
+    if cursor.position == first:
+        cursor.advance()
+    cursor.skip_to(";", DOC, *_DECLARATION_STARTS, open_braces=cursor.open_braces_since(first))
+    cursor.accept(";")
 
 
-def _declaration(cursor: Cursor) -> Declaration:
-    start, doc = cursor.at, cursor.doc()
+def _declaration(cursor: TokenCursor) -> DeclarationNode:
+    start, doc = cursor.position, cursor.accept_doc()
     if cursor.kind == "behavior":
         return _behavior(cursor, start, doc)
     of = _type(cursor)
     if of is not None and of.enum is not None and cursor.kind in ("{", "internal"):
-        after = cursor.kinds[cursor.at + 1]
+        after = cursor.kinds[cursor.position + 1]
         if cursor.kind == "{" or after == "{":
             return _enumeration(cursor, start, doc, of.enum)
     if cursor.kind == "const" and (of is None or of.text == "float"):
@@ -87,111 +87,115 @@ def _declaration(cursor: Cursor) -> Declaration:
     if cursor.kind in _DIRECTIONS:
         return _symbol(cursor, start, doc, of)
     if of is not None and cursor.kind == NAME:
-        name = cursor.tokens.texts[cursor.at]
-        cursor.complain("X604", f"{name} is neither input, output nor internal", "say which")
+        name = cursor.tokens.texts[cursor.position]
+        cursor.add_finding("X604", f"{name} is neither input, output nor internal", "say which")
         return _symbol(cursor, start, doc, of, direction="input")
-    raise cursor.slip((*_DIRECTIONS, "const") if of else _BEGINS, "in a namespace" if of is None else "")
+    raise cursor.syntax_error(
+        (*_DIRECTIONS, "const") if of else _DECLARATION_STARTS, "in a namespace" if of is None else ""
+    )
 
 
-def _type(cursor: Cursor) -> Type | None:
-    start = cursor.at
+def _type(cursor: TokenCursor) -> TypeNode | None:
+    start = cursor.position
     if cursor.kind in ("float", "bool"):
-        return Type(cursor.tokens.texts[cursor.skip()], at=start, to=start)
-    if cursor.take("enum"):
-        enum = cursor.name("of an enumeration after enum")
-        return Type("enum", enum, at=start, to=cursor.at - 1)
+        return TypeNode(cursor.tokens.texts[cursor.advance()], first_token=start, last_token=start)
+    if cursor.accept("enum"):
+        enum = cursor.expect_name("of an enumeration after enum")
+        return TypeNode("enum", enum, first_token=start, last_token=cursor.position - 1)
     return None
 
 
-def _behavior(cursor: Cursor, start: int, doc: str) -> Behavior:
-    cursor.skip()
-    name = cursor.name("of the basic behavior")
+def _behavior(cursor: TokenCursor, start: int, doc: str) -> BehaviorNode:
+    cursor.advance()
+    name = cursor.expect_name("of the basic behavior")
     cursor.expect("{", f"after behavior {name.text}")
     parameters = parse_parameters(cursor, ())
     cursor.expect("}", f"at the end of behavior {name.text}")
     if cursor.kind == ";":
-        cursor.complain("X651", "a ; after a behavior's }", "remove it")
-        cursor.skip()
-    return Behavior(name, parameters, doc, at=start, to=cursor.at - 1)
+        cursor.add_finding("X651", "a ; after a behavior's }", "remove it")
+        cursor.advance()
+    return BehaviorNode(name, parameters, doc, first_token=start, last_token=cursor.position - 1)
 
 
-def _enumeration(cursor: Cursor, start: int, doc: str, name: Name) -> Enumeration:
-    is_internal = cursor.take("internal")
+def _enumeration(cursor: TokenCursor, start: int, doc: str, name: NameNode) -> EnumerationNode:
+    is_internal = cursor.accept("internal")
     cursor.expect("{", f"after enum {name.text}")
-    elements = [cursor.name("of an element")]
-    while cursor.take(","):
+    elements = [cursor.expect_name("of an element")]
+    while cursor.accept(","):
         if cursor.kind == "}":
-            cursor.complain("X651", "a comma after the last element", "remove it")
+            cursor.add_finding("X651", "a comma after the last element", "remove it")
             break
-        elements.append(cursor.name("of an element"))
+        elements.append(cursor.expect_name("of an element"))
     cursor.expect("}", "after the elements")
-    cursor.end("after the enumeration")
-    return Enumeration(name, elements, is_internal, doc, at=start, to=cursor.at - 1)
+    cursor.expect_semicolon("after the enumeration")
+    return EnumerationNode(name, elements, is_internal, doc, first_token=start, last_token=cursor.position - 1)
 
 
-def _constant(cursor: Cursor, start: int, doc: str, *, says_float: bool) -> Constant:
-    cursor.skip()
-    name = cursor.name("of the constant")
+def _constant(cursor: TokenCursor, start: int, doc: str, *, says_float: bool) -> ConstantNode:
+    cursor.advance()
+    name = cursor.expect_name("of the constant")
     cursor.expect("=", "after the constant's name")
-    sign = "-" if cursor.take("-") else ""
-    number = sign + cursor.text(NUMBER, "(a constant is a number)")
+    sign = "-" if cursor.accept("-") else ""
+    number = sign + cursor.expect_text(NUMBER, "(a constant is a number)")
     unit = _unit(cursor)
     if cursor.kind in ("+", "-", "*", "/", "%"):
-        cursor.complain("X604", "a constant is a number, no expression", "write its value")
-        raise SyntaxSlipError
-    cursor.end("after the constant")
-    return Constant(name, number, unit, doc, says_float, at=start, to=cursor.at - 1)
+        cursor.add_finding("X604", "a constant is a number, no expression", "write its value")
+        raise XabslSyntaxError
+    cursor.expect_semicolon("after the constant")
+    return ConstantNode(name, number, unit, doc, says_float, first_token=start, last_token=cursor.position - 1)
 
 
-def _symbol(cursor: Cursor, start: int, doc: str, of: Type | None, direction: str = "") -> Symbol:
-    direction = direction or cursor.tokens.texts[cursor.skip()]
-    name = cursor.name("of the symbol")
+def _symbol(cursor: TokenCursor, start: int, doc: str, of: TypeNode | None, direction: str = "") -> SymbolNode:
+    direction = direction or cursor.tokens.texts[cursor.advance()]
+    name = cursor.expect_name("of the symbol")
     range_, unit = _range(cursor), _unit(cursor)
     parameters = None
     if cursor.kind == "(":
         if direction != "input":
-            cursor.complain("X604", "only input symbols have parameters", "remove the parentheses")
-        cursor.skip()
+            cursor.add_finding("X604", "only input symbols have parameters", "remove the parentheses")
+        cursor.advance()
         parameters = parse_parameters(cursor, (")",))
         cursor.expect(")", "after the parameters")
-    cursor.end(f"after symbol {name.text}")
-    return Symbol(direction, name, of, range_, unit, parameters, doc, at=start, to=cursor.at - 1)
+    cursor.expect_semicolon(f"after symbol {name.text}")
+    return SymbolNode(
+        direction, name, of, range_, unit, parameters, doc, first_token=start, last_token=cursor.position - 1
+    )
 
 
-def parse_parameters(cursor: Cursor, until: Collection[str]) -> list[Parameter]:
+def parse_parameters(cursor: TokenCursor, until: Collection[str]) -> list[ParameterNode]:
     """The declarations of parameters, up to one of these kinds or a closing brace."""
-    parameters: list[Parameter] = []
+    parameters: list[ParameterNode] = []
     while cursor.kind not in until and cursor.kind not in ("}", END):
-        start = cursor.at
+        start = cursor.position
         try:
             parameters.append(_parameter(cursor))
-        except SyntaxSlipError:
+        except XabslSyntaxError:
             if cursor.kind in until:
                 break
-            if cursor.at == start:
-                cursor.skip()
-            cursor.leave(";", *until, inside=cursor.open_since(start))
-            cursor.take(";")
+            if cursor.position == start:
+                cursor.advance()
+            cursor.skip_to(";", *until, open_braces=cursor.open_braces_since(start))
+            cursor.accept(";")
     return parameters
 
 
-def _parameter(cursor: Cursor) -> Parameter:
-    start, doc = cursor.at, cursor.doc()
+def _parameter(cursor: TokenCursor) -> ParameterNode:
+    start, doc = cursor.position, cursor.accept_doc()
     of = _type(cursor)
     if doc and of is None and cursor.kind in KEYWORDS:
-        cursor.complain("X604", "a description stands where none can", "write it as a comment: // …", at=start)
-        raise SyntaxSlipError
+        cursor.add_finding("X604", "a description stands where none can", "write it as a comment: // …", at=start)
+        raise XabslSyntaxError
     if of is None and cursor.kind != NAME:
-        raise cursor.slip((NAME, "float", "bool", "enum"), "of a parameter")
-    name = cursor.name("of a parameter")
+        raise cursor.syntax_error((NAME, "float", "bool", "enum"), "of a parameter")
+    name = cursor.expect_name("of a parameter")
     range_, unit = _range(cursor), _unit(cursor)
-    cursor.end(f"after parameter {name.text}")
-    return Parameter(name, of, range_, unit, doc, at=start, to=cursor.at - 1)
+    cursor.expect_semicolon(f"after parameter {name.text}")
+    return ParameterNode(name, of, range_, unit, doc, first_token=start, last_token=cursor.position - 1)
 
 
-def _range(cursor: Cursor) -> str:
-    return cursor.tokens.texts[cursor.skip()][1:-1] if cursor.kind == RANGE else ""
+def _range(cursor: TokenCursor) -> str:
+    return cursor.tokens.texts[cursor.advance()][1:-1] if cursor.kind == RANGE else ""
 
 
-def _unit(cursor: Cursor) -> str:
-    return cursor.tokens.texts[cursor.skip()][1:-1] if cursor.kind == STRING else ""
+def _unit(cursor: TokenCursor) -> str:
+    return cursor.tokens.texts[cursor.advance()][1:-1] if cursor.kind == STRING else ""

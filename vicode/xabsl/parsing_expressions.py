@@ -1,24 +1,24 @@
 """Expressions, by the precedence that the original has: unary, * / %, + -, comparisons, &&, ||, ? :."""
 
-from vicode.xabsl.cursor import Cursor, SyntaxSlipError
+from vicode.xabsl.cursor import TokenCursor, XabslSyntaxError
 from vicode.xabsl.tokens import NAME, NUMBER
 from vicode.xabsl.tree import (
-    Argument,
-    Arguments,
-    Binary,
-    Conditional,
-    Expression,
-    Function,
-    Name,
-    Number,
-    Parentheses,
-    Ref,
-    Unary,
-    Word,
+    ArgumentListNode,
+    ArgumentNode,
+    BinaryNode,
+    ConditionalNode,
+    ExpressionNode,
+    FunctionCallNode,
+    KeywordNode,
+    NameNode,
+    NumberNode,
+    ParenthesizedNode,
+    ReferenceNode,
+    UnaryNode,
 )
 
 _COMPARISON = 3
-_POWERS = {
+_PRECEDENCE = {
     "||": 1,
     "&&": 2,
     **dict.fromkeys(("<", ">", "<=", ">=", "==", "!="), _COMPARISON),
@@ -28,111 +28,123 @@ _POWERS = {
     "/": 5,
     "%": 5,
 }
-_WORDS = frozenset(("true", "false", "state_time", "option_time", "action_done", "conflict"))
-_SIGNS = frozenset("-!")
+_KEYWORD_OPERANDS = frozenset(("true", "false", "state_time", "option_time", "action_done", "conflict"))
+_UNARY_OPERATORS = frozenset("-!")
 
 
-def parse_expression(cursor: Cursor) -> Expression:
+def parse_expression(cursor: TokenCursor) -> ExpressionNode:
     """The expression that begins here.
 
     Raises:
         SyntaxSlipError: There is none, or it is not one to its end.
     """
-    start = cursor.at
-    cursor.enter()
+    start = cursor.position
+    cursor.increase_depth()
     condition = _binary(cursor, 1)
     if cursor.kind == "?":
-        cursor.skip()
+        cursor.advance()
         yes = parse_expression(cursor)
         cursor.expect(":", "between the two values")
-        first = cursor.at
+        first = cursor.position
         no = parse_expression(cursor)
-        if isinstance(no, Conditional):
-            cursor.complain("X651", "a condition in the last branch of another", "put it in parentheses", at=first)
-        condition = Conditional(condition, yes, no, at=start, to=cursor.at - 1)
+        if isinstance(no, ConditionalNode):
+            cursor.add_finding("X651", "a condition in the last branch of another", "put it in parentheses", at=first)
+        condition = ConditionalNode(condition, yes, no, first_token=start, last_token=cursor.position - 1)
     cursor.depth -= 1
     return condition
 
 
-def _binary(cursor: Cursor, least: int) -> Expression:
-    start, depth = cursor.at, cursor.depth
+def _binary(cursor: TokenCursor, least: int) -> ExpressionNode:
+    start, depth = cursor.position, cursor.depth
     left = _unary(cursor)
-    while (power := _POWERS.get(cursor.kind, 0)) >= least:
-        operator, sign = cursor.kind, cursor.skip()
+    while (power := _PRECEDENCE.get(cursor.kind, 0)) >= least:
+        operator, sign = cursor.kind, cursor.advance()
         # A chain is nested to the left, as deep as it is long.
-        cursor.enter()
-        left = Binary(operator, left, _binary(cursor, power + 1), sign=sign, at=start, to=cursor.at - 1)
-        if power == _COMPARISON and _POWERS.get(cursor.kind) == _COMPARISON:
-            cursor.complain("X604", "comparisons cannot be chained", "join two of them by &&")
-            raise SyntaxSlipError
+        cursor.increase_depth()
+        left = BinaryNode(
+            operator,
+            left,
+            _binary(cursor, power + 1),
+            operator_token=sign,
+            first_token=start,
+            last_token=cursor.position - 1,
+        )
+        if power == _COMPARISON and _PRECEDENCE.get(cursor.kind) == _COMPARISON:
+            cursor.add_finding("X604", "comparisons cannot be chained", "join two of them by &&")
+            raise XabslSyntaxError
     cursor.depth = depth
     return left
 
 
-def _unary(cursor: Cursor) -> Expression:
+def _unary(cursor: TokenCursor) -> ExpressionNode:
     kind = cursor.kind
-    if kind not in _SIGNS:
+    if kind not in _UNARY_OPERATORS:
         return _operand(cursor, kind)
-    start = cursor.skip()
-    cursor.enter()
+    start = cursor.advance()
+    cursor.increase_depth()
     operand = _unary(cursor)
     cursor.depth -= 1
-    return Unary(kind, operand, at=start, to=cursor.at - 1)
+    return UnaryNode(kind, operand, first_token=start, last_token=cursor.position - 1)
 
 
-def _operand(cursor: Cursor, kind: str) -> Expression:
-    start = cursor.at
+def _operand(cursor: TokenCursor, kind: str) -> ExpressionNode:
+    start = cursor.position
     if kind == NAME:
-        text = cursor.tokens.texts[cursor.skip()]
+        text = cursor.tokens.texts[cursor.advance()]
         if cursor.kind != "(":
-            return Ref(text, at=start, to=start)
+            return ReferenceNode(text, first_token=start, last_token=start)
         arguments = parse_arguments(cursor)
-        return Function(Name(text, at=start, to=start), arguments, at=start, to=cursor.at - 1)
+        return FunctionCallNode(
+            NameNode(text, first_token=start, last_token=start),
+            arguments,
+            first_token=start,
+            last_token=cursor.position - 1,
+        )
     if kind == NUMBER:
-        cursor.skip()
+        cursor.advance()
         return _number(cursor, start)
-    if kind in _WORDS:
-        cursor.skip()
-        return Word(kind, at=start, to=start)
+    if kind in _KEYWORD_OPERANDS:
+        cursor.advance()
+        return KeywordNode(kind, first_token=start, last_token=start)
     if kind == "(":
-        cursor.skip()
+        cursor.advance()
         inner = parse_expression(cursor)
         cursor.expect(")", "after the expression")
-        return Parentheses(inner, at=start, to=cursor.at - 1)
-    raise cursor.slip(("an expression",))
+        return ParenthesizedNode(inner, first_token=start, last_token=cursor.position - 1)
+    raise cursor.syntax_error(("an expression",))
 
 
-def _number(cursor: Cursor, start: int) -> Number:
-    text, next_text = cursor.tokens.texts[start], cursor.tokens.texts[cursor.at]
-    is_joined = cursor.tokens.starts[start] + len(text) == cursor.tokens.starts[cursor.at]
+def _number(cursor: TokenCursor, start: int) -> NumberNode:
+    text, next_text = cursor.tokens.texts[start], cursor.tokens.texts[cursor.position]
+    is_joined = cursor.tokens.starts[start] + len(text) == cursor.tokens.starts[cursor.position]
     if cursor.kind == NAME and is_joined:
         mend = "write it without exponent" if next_text[0] in "eE" else "write a blank or an operator between"
-        cursor.complain("X604", f"a number cannot go on with {next_text[:20]}", mend)
-        cursor.skip()
-    return Number(text, at=start, to=start)
+        cursor.add_finding("X604", f"a number cannot go on with {next_text[:20]}", mend)
+        cursor.advance()
+    return NumberNode(text, first_token=start, last_token=start)
 
 
-def parse_arguments(cursor: Cursor) -> Arguments:
+def parse_arguments(cursor: TokenCursor) -> ArgumentListNode:
     """What is given in the parentheses that begin here, by name.
 
     Raises:
         SyntaxSlipError: They are not closed, or hold something else.
     """
     start = cursor.expect("(")
-    given: list[Argument] = []
+    given: list[ArgumentNode] = []
     ends_with_comma = False
     while cursor.kind != ")":
-        name = cursor.name("of a parameter")
+        name = cursor.expect_name("of a parameter")
         if cursor.kind != "=":
-            cursor.complain(
+            cursor.add_finding(
                 "X604", f"a value without the name of its parameter: {name.text}", "write parameter = value"
             )
-            raise SyntaxSlipError
-        cursor.skip()
+            raise XabslSyntaxError
+        cursor.advance()
         value = parse_expression(cursor)
-        given.append(Argument(name, value, at=name.at, to=cursor.at - 1))
-        ends_with_comma = cursor.take(",")
+        given.append(ArgumentNode(name, value, first_token=name.first_token, last_token=cursor.position - 1))
+        ends_with_comma = cursor.accept(",")
         if not ends_with_comma:
             break
     cursor.expect(")", "after the parameters")
-    return Arguments(given, ends_with_comma, at=start, to=cursor.at - 1)
+    return ArgumentListNode(given, ends_with_comma, first_token=start, last_token=cursor.position - 1)

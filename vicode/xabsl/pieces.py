@@ -5,65 +5,65 @@ from dataclasses import dataclass
 from typing import Generic, TypeVar
 
 from vicode.findings import Finding, Severity
-from vicode.xabsl.cursor import Cursor, SyntaxSlipError
+from vicode.xabsl.cursor import TokenCursor, XabslSyntaxError
 from vicode.xabsl.lexer import Comment, tokenize
 from vicode.xabsl.parsing_expressions import parse_expression
 from vicode.xabsl.parsing_states import parse_actions
 from vicode.xabsl.tokens import END
-from vicode.xabsl.tree import Actions, Expression
+from vicode.xabsl.tree import ActionBlockNode, ExpressionNode
 
-Read = TypeVar("Read")
+NodeT = TypeVar("NodeT")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Mistake:
+class EmbeddedDiagnostic:
     """What is wrong with a piece, and which characters of it are meant."""
 
     message: str
-    mend: str
+    fix: str
     span: tuple[int, int]
 
 
 @dataclass(frozen=True, slots=True)
-class Piece(Generic[Read]):
+class EmbeddedCode(Generic[NodeT]):
     """What was read, None where nothing was; `comments` stand before its token of that number."""
 
-    node: Read | None
-    mistakes: tuple[Mistake, ...]
+    node: NodeT | None
+    diagnostics: tuple[EmbeddedDiagnostic, ...]
     comments: dict[int, list[Comment]]
 
 
-def read_actions(text: str) -> Piece[Actions]:
+def parse_embedded_actions(text: str) -> EmbeddedCode[ActionBlockNode]:
     """Read what may stand between the braces of `action { }`; token 0 is the brace before it. Never raises."""
-    return _read("{", text, "\n}", parse_actions)
+    return _parse_embedded("{", text, "\n}", parse_actions)
 
 
-def read_expression(text: str) -> Piece[Expression]:
+def parse_embedded_expression(text: str) -> EmbeddedCode[ExpressionNode]:
     """Read an expression. Never raises."""
-    return _read("", text, "\n", parse_expression)
+    return _parse_embedded("", text, "\n", parse_expression)
 
 
-def _read(before: str, text: str, after: str, parse: Callable[[Cursor], Read]) -> Piece[Read]:
+def _parse_embedded(before: str, text: str, after: str, parse: Callable[[TokenCursor], NodeT]) -> EmbeddedCode[NodeT]:
     tokens, findings = tokenize(f"{before}{text}{after}", "")
-    cursor = Cursor(tokens)
-    node: Read | None = None
+    cursor = TokenCursor(tokens)
+    node: NodeT | None = None
     try:
         node = parse(cursor)
         if cursor.kind != END:
-            cursor.complain("X604", "something follows that does not belong to it", "remove it")
-    except SyntaxSlipError:
+            cursor.add_finding("X604", "something follows that does not belong to it", "remove it")
+    except XabslSyntaxError:
         node = None
     lines = f"{before}{text}{after}".split("\n")
     errors = [each for each in (*findings, *cursor.findings) if each.severity is Severity.ERROR]
-    mistakes = tuple(_mistake(each, lines, len(before), len(text)) for each in errors)
-    return Piece(node, mistakes, tokens.comments)
+    mistakes = tuple(_to_diagnostic(each, lines, len(before), len(text)) for each in errors)
+    return EmbeddedCode(node, mistakes, tokens.comments)
 
 
-def _mistake(finding: Finding, lines: list[str], shift: int, length: int) -> Mistake:
-    assert finding.place is not None
-    place = finding.place
+def _to_diagnostic(finding: Finding, lines: list[str], shift: int, length: int) -> EmbeddedDiagnostic:
+    assert finding.location is not None
+    place = finding.location
     start = sum(len(line) + 1 for line in lines[: place.line - 1]) + place.column - 1 - shift
     first = max(0, min(start, length - 1))
-    return Mistake(
-        message=finding.message, mend=finding.mend, span=(first, max(first + 1, min(start + place.length, length)))
+    return EmbeddedDiagnostic(
+        message=finding.message, fix=finding.fix, span=(first, max(first + 1, min(start + place.length, length)))
     )

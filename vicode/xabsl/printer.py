@@ -3,24 +3,24 @@
 from collections.abc import Sequence
 
 from vicode.xabsl import tree
-from vicode.xabsl.laying import Layout
+from vicode.xabsl.laying import TokenFormatter
 
-WIDTH = 110
+MAX_WIDTH = 110
 """Conditions and calls that make a line longer are broken."""
 
 
-def print_file(file: tree.File) -> str:
+def print_file(file: tree.FileNode) -> str:
     """The text of a file; reading it gives the same tree."""
-    layout = Layout(file.comments, file.blanks)
-    if file.initial:
-        layout.word(f"/***\n{file.initial}\n*/")
+    layout = TokenFormatter(file.comments, file.after_blank_lines)
+    if file.header:
+        layout.write(f"/***\n{file.header}\n*/")
     for include in file.includes:
-        layout.first("include")
-        layout.word(f'"{include.path}"')
-        layout.word(";", "")
+        layout.write_on_new_line("include")
+        layout.write(f'"{include.path}"')
+        layout.write(";", "")
     for number, item in enumerate(file.body):
-        if not (isinstance(item, tree.Agent) and number):
-            layout.blank()
+        if not (isinstance(item, tree.AgentNode) and number):
+            layout.blank_line()
         _Printer(layout).item(item)
     return layout.text()
 
@@ -28,52 +28,52 @@ def print_file(file: tree.File) -> str:
 class _Printer:
     """Writes nodes; each method writes exactly the tokens of its node."""
 
-    def __init__(self, layout: Layout) -> None:
+    def __init__(self, layout: TokenFormatter) -> None:
         self.out = layout
 
-    def item(self, item: tree.Option | tree.Namespace | tree.Agent) -> None:
+    def item(self, item: tree.OptionNode | tree.NamespaceNode | tree.AgentNode) -> None:
         """Write what a file is there for."""
         self._doc(item.doc)
         match item:
-            case tree.Option():
+            case tree.OptionNode():
                 self._option(item)
-            case tree.Namespace():
-                self.out.first("namespace")
-                self.out.word(item.name.text)
+            case tree.NamespaceNode():
+                self.out.write_on_new_line("namespace")
+                self.out.write(item.name.text)
                 self._list("(", [f'"{item.title}"'], ")")
                 self._open()
                 for declaration in item.declarations:
                     self._declaration(declaration)
-                self.out.close("}")
-            case tree.Agent():
-                self.out.first("agent")
-                self.out.word(item.name.text)
+                self.out.close_block("}")
+            case tree.AgentNode():
+                self.out.write_on_new_line("agent")
+                self.out.write(item.name.text)
                 self._list("(", [f'"{item.title}"', item.root.text], ")")
-                self.out.word(";", "")
+                self.out.write(";", "")
 
-    def _option(self, option: tree.Option) -> None:
-        self.out.first("option")
-        self.out.word(option.name.text)
+    def _option(self, option: tree.OptionNode) -> None:
+        self.out.write_on_new_line("option")
+        self.out.write(option.name.text)
         self._open()
         for parameter in option.parameters:
             self._parameter(parameter)
         if option.common_decision is not None:
-            self.out.blank()
-            self.out.first("common")
-            self.out.word("decision")
+            self.out.blank_line()
+            self.out.write_on_new_line("common")
+            self.out.write("decision")
             self._open()
             self._tree(option.common_decision)
-            self.out.close("}")
+            self.out.close_block("}")
         if option.common_actions is not None:
-            self.out.blank()
-            self.out.first("common")
+            self.out.blank_line()
+            self.out.write_on_new_line("common")
             self._actions(option.common_actions)
         for state in option.states:
-            self.out.blank()
+            self.out.blank_line()
             self._state(state)
-        self.out.close("}")
+        self.out.close_block("}")
 
-    def _state(self, state: tree.State) -> None:
+    def _state(self, state: tree.StateNode) -> None:
         words = [
             *(["initial"] if state.is_initial else []),
             *(["target"] if state.is_target else []),
@@ -81,271 +81,271 @@ class _Printer:
             *([state.cooperation] if state.cooperation else []),
             *([state.robots] if state.robots else []),
         ]
-        self.out.first(words[0])
+        self.out.write_on_new_line(words[0])
         for word in words[1:]:
-            self.out.word(word)
+            self.out.write(word)
         self._open()
         if state.decision is not None:
             self._decision(state.decision)
         self.out.end_line()
         self._actions(state.actions)
-        self.out.close("}")
+        self.out.close_block("}")
 
-    def _decision(self, decision: tree.Decision) -> None:
-        self.out.first("decision")
+    def _decision(self, decision: tree.DecisionNode) -> None:
+        self.out.write_on_new_line("decision")
         self._open()
         if decision.begins_with_else:
             self._doc(decision.else_doc)
-            self.out.first("else")
+            self.out.write_on_new_line("else")
             self._after_else(decision.tree)
         else:
             self._tree(decision.tree)
-        self.out.close("}")
+        self.out.close_block("}")
 
-    def _tree(self, node: tree.Tree) -> None:
+    def _tree(self, node: tree.DecisionTreeNode) -> None:
         """Write a tree from the beginning of a line."""
         match node:
-            case tree.Goto():
-                self.out.first("goto")
-                self.out.word(node.state.text)
-                self.out.word(";", "")
-            case tree.Stay():
-                self.out.first("stay")
-                self.out.word(";", "")
-            case tree.Block():
-                self.out.first("{")
+            case tree.GotoNode():
+                self.out.write_on_new_line("goto")
+                self.out.write(node.state.text)
+                self.out.write(";", "")
+            case tree.StayNode():
+                self.out.write_on_new_line("stay")
+                self.out.write(";", "")
+            case tree.BlockNode():
+                self.out.write_on_new_line("{")
                 self.out.depth += 1
                 self._tree(node.inner)
-                self.out.close("}")
-            case tree.If():
+                self.out.close_block("}")
+            case tree.IfNode():
                 self._doc(node.doc)
-                self.out.first("if")
+                self.out.write_on_new_line("if")
                 self._if(node)
 
-    def _if(self, node: tree.If) -> None:
+    def _if(self, node: tree.IfNode) -> None:
         """Write what follows the word `if`, with all that follows by `else if`."""
-        current: tree.If | None = node
+        current: tree.IfNode | None = node
         while current is not None:
             self._condition(current.condition)
             self._branch(current.then)
             following = current.otherwise
             if following is None:
                 return
-            if current.else_doc or not isinstance(current.then, tree.Block):
+            if current.else_doc or not isinstance(current.then, tree.BlockNode):
                 self.out.end_line()
             self._doc(current.else_doc)
-            self.out.word("else")
-            if isinstance(following, tree.If) and not following.doc:
-                self.out.word("if")
+            self.out.write("else")
+            if isinstance(following, tree.IfNode) and not following.doc:
+                self.out.write("if")
                 current = following
             else:
                 self._after_else(following)
                 return
 
-    def _after_else(self, node: tree.Tree) -> None:
-        if isinstance(node, tree.If) and not node.doc:
-            self.out.word("if")
+    def _after_else(self, node: tree.DecisionTreeNode) -> None:
+        if isinstance(node, tree.IfNode) and not node.doc:
+            self.out.write("if")
             self._if(node)
         else:
             self._branch(node)
 
-    def _branch(self, node: tree.Tree) -> None:
+    def _branch(self, node: tree.DecisionTreeNode) -> None:
         """Write what is done in one case: braces in the same line, or the next line indented."""
-        if isinstance(node, tree.Block):
-            self.out.word("{")
+        if isinstance(node, tree.BlockNode):
+            self.out.write("{")
             self.out.depth += 1
             self._tree(node.inner)
-            self.out.close("}")
+            self.out.close_block("}")
         else:
             self.out.depth += 1
             self._tree(node)
             self.out.depth -= 1
 
-    def _condition(self, condition: tree.Expression) -> None:
+    def _condition(self, condition: tree.ExpressionNode) -> None:
         length = self.out.column + len(_flat(condition)) + 4
-        self.out.word("(")
-        self._expression(condition, "", breaks=length > WIDTH)
-        self.out.word(")", "")
+        self.out.write("(")
+        self._expression(condition, "", breaks=length > MAX_WIDTH)
+        self.out.write(")", "")
 
-    def _actions(self, actions: tree.Actions) -> None:
-        self.out.word("action")
+    def _actions(self, actions: tree.ActionBlockNode) -> None:
+        self.out.write("action")
         self._open()
         for action in actions.actions:
-            if isinstance(action, tree.Assignment):
-                self.out.first(action.symbol.text)
-                self.out.word("=")
-                self._expression(action.value, " ", breaks=self.out.column + len(_flat(action.value)) > WIDTH)
+            if isinstance(action, tree.AssignmentNode):
+                self.out.write_on_new_line(action.symbol.text)
+                self.out.write("=")
+                self._expression(action.value, " ", breaks=self.out.column + len(_flat(action.value)) > MAX_WIDTH)
             else:
-                self.out.first(action.name.text)
+                self.out.write_on_new_line(action.name.text)
                 if action.kind:
-                    self.out.word(action.kind)
-                self._arguments(action.arguments, breaks=self.out.column + _length(action.arguments) > WIDTH)
-            self.out.word(";", "")
-        self.out.close("}")
+                    self.out.write(action.kind)
+                self._arguments(action.arguments, breaks=self.out.column + _length(action.arguments) > MAX_WIDTH)
+            self.out.write(";", "")
+        self.out.close_block("}")
 
-    def _arguments(self, arguments: tree.Arguments, *, breaks: bool = False) -> None:
-        self.out.word("(", "")
+    def _arguments(self, arguments: tree.ArgumentListNode, *, breaks: bool = False) -> None:
+        self.out.write("(", "")
         self.out.depth += 1
-        for number, argument in enumerate(arguments.given):
+        for number, argument in enumerate(arguments.items):
             if number:
-                self.out.word(",", "")
+                self.out.write(",", "")
             if breaks:
-                self.out.first(argument.name.text)
+                self.out.write_on_new_line(argument.name.text)
             else:
-                self.out.word(argument.name.text, " " if number else "")
-            self.out.word("=")
+                self.out.write(argument.name.text, " " if number else "")
+            self.out.write("=")
             self._expression(argument.value, " ")
-        if arguments.ends_with_comma:
-            self.out.word(",", "")
+        if arguments.has_trailing_comma:
+            self.out.write(",", "")
         self.out.depth -= 1
         if breaks:
-            self.out.first(")")
+            self.out.write_on_new_line(")")
         else:
-            self.out.word(")", "")
+            self.out.write(")", "")
 
-    def _expression(self, node: tree.Expression, gap: str, *, breaks: bool = False) -> None:
+    def _expression(self, node: tree.ExpressionNode, gap: str, *, breaks: bool = False) -> None:
         """Write an expression; `gap` goes before its first token. Broken ones have && and || at beginnings of lines."""
         match node:
-            case tree.Number(text=text) | tree.Word(text=text) | tree.Ref(name=text):
-                self.out.word(text, gap)
-            case tree.Function():
-                self.out.word(node.name.text, gap)
+            case tree.NumberNode(text=text) | tree.KeywordNode(text=text) | tree.ReferenceNode(name=text):
+                self.out.write(text, gap)
+            case tree.FunctionCallNode():
+                self.out.write(node.name.text, gap)
                 self._arguments(node.arguments)
-            case tree.Parentheses():
-                self.out.word("(", gap)
+            case tree.ParenthesizedNode():
+                self.out.write("(", gap)
                 self._expression(node.inner, "", breaks=breaks)
-                self.out.word(")", "")
-            case tree.Unary():
-                self.out.word(node.operator, gap)
+                self.out.write(")", "")
+            case tree.UnaryNode():
+                self.out.write(node.operator, gap)
                 # Two signs in a row are two tokens.
                 self._expression(node.operand, "")
-            case tree.Binary():
+            case tree.BinaryNode():
                 self._binary(node, gap, breaks=breaks)
-            case tree.Conditional():
+            case tree.ConditionalNode():
                 self._expression(node.condition, gap, breaks=breaks)
-                self._part("?", node.yes, breaks=breaks)
-                self._part(":", node.no, breaks=breaks)
+                self._operator_and_operand("?", node.yes, breaks=breaks)
+                self._operator_and_operand(":", node.no, breaks=breaks)
 
-    def _binary(self, node: tree.Binary, gap: str, *, breaks: bool) -> None:
+    def _binary(self, node: tree.BinaryNode, gap: str, *, breaks: bool) -> None:
         is_joint = node.operator in ("&&", "||")
         self._expression(node.left, gap, breaks=breaks and is_joint)
-        self._part(node.operator, node.right, breaks=breaks and is_joint)
+        self._operator_and_operand(node.operator, node.right, breaks=breaks and is_joint)
 
-    def _part(self, operator: str, operand: tree.Expression, *, breaks: bool) -> None:
+    def _operator_and_operand(self, operator: str, operand: tree.ExpressionNode, *, breaks: bool) -> None:
         self.out.depth += 2 * breaks
         if breaks:
-            self.out.first(operator)
+            self.out.write_on_new_line(operator)
         else:
-            self.out.word(operator)
+            self.out.write(operator)
         self._expression(operand, " ")
         self.out.depth -= 2 * breaks
 
-    def _declaration(self, item: tree.Declaration) -> None:
+    def _declaration(self, item: tree.DeclarationNode) -> None:
         self._doc(item.doc)
         match item:
-            case tree.Constant():
-                self._row(["float"] * item.says_float + ["const", item.name.text, "="])
+            case tree.ConstantNode():
+                self._line(["float"] * item.has_float_keyword + ["const", item.name.text, "="])
                 if item.number.startswith("-"):
-                    self.out.word("-")
-                self.out.word(item.number.removeprefix("-"), "" if item.number.startswith("-") else " ")
+                    self.out.write("-")
+                self.out.write(item.number.removeprefix("-"), "" if item.number.startswith("-") else " ")
                 if item.unit:
-                    self.out.word(f'"{item.unit}"')
-            case tree.Enumeration():
-                self._row(["enum", item.name.text] + ["internal"] * item.is_internal)
+                    self.out.write(f'"{item.unit}"')
+            case tree.EnumerationNode():
+                self._line(["enum", item.name.text] + ["internal"] * item.is_internal)
                 self._elements(item)
-            case tree.Symbol():
-                self._row([*_type(item.type), item.direction, item.name.text, *_details(item)])
+            case tree.SymbolNode():
+                self._line([*_type(item.type), item.direction, item.name.text, *_details(item)])
                 if item.parameters is not None:
                     self._parameters("(", item.parameters, ")")
-            case tree.Behavior():
-                self._row(["behavior", item.name.text])
+            case tree.BehaviorNode():
+                self._line(["behavior", item.name.text])
                 self._parameters("{", item.parameters, "}")
                 return
-        self.out.word(";", "")
+        self.out.write(";", "")
 
-    def _elements(self, item: tree.Enumeration) -> None:
+    def _elements(self, item: tree.EnumerationNode) -> None:
         names = [each.text for each in item.elements]
-        breaks = self.out.column + sum(map(len, names)) + 2 * len(names) > WIDTH
-        self.out.word("{")
+        breaks = self.out.column + sum(map(len, names)) + 2 * len(names) > MAX_WIDTH
+        self.out.write("{")
         self.out.depth += 1
         for number, name in enumerate(names):
             if number:
-                self.out.word(",", "")
+                self.out.write(",", "")
             if breaks:
-                self.out.first(name)
+                self.out.write_on_new_line(name)
             else:
-                self.out.word(name)
+                self.out.write(name)
         if breaks:
-            self.out.close("}")
+            self.out.close_block("}")
         else:
             self.out.depth -= 1
-            self.out.word("}")
+            self.out.write("}")
 
-    def _parameters(self, begin: str, parameters: Sequence[tree.Parameter], end: str) -> None:
+    def _parameters(self, begin: str, parameters: Sequence[tree.ParameterNode], end: str) -> None:
         """Write parameters in one line, or a line each where they have descriptions or are many."""
-        flat = sum(len(" ".join(_words(each))) + 2 for each in parameters)
-        breaks = any(each.doc for each in parameters) or self.out.column + flat > WIDTH
-        self.out.word(begin, " " if begin == "{" else "")
+        flat = sum(len(" ".join(_parameter_tokens(each))) + 2 for each in parameters)
+        breaks = any(each.doc for each in parameters) or self.out.column + flat > MAX_WIDTH
+        self.out.write(begin, " " if begin == "{" else "")
         if breaks:
             self.out.depth += 1
             for each in parameters:
                 self._parameter(each)
-            self.out.close(end)
+            self.out.close_block(end)
             return
         for number, each in enumerate(parameters):
-            for at, word in enumerate(_words(each)):
-                self.out.word(word, " " if begin == "{" or number or at else "")
-            self.out.word(";", "")
-        self.out.word(end, " " if begin == "{" else "")
+            for at, word in enumerate(_parameter_tokens(each)):
+                self.out.write(word, " " if begin == "{" or number or at else "")
+            self.out.write(";", "")
+        self.out.write(end, " " if begin == "{" else "")
 
-    def _parameter(self, parameter: tree.Parameter) -> None:
+    def _parameter(self, parameter: tree.ParameterNode) -> None:
         self._doc(parameter.doc)
-        self._row(_words(parameter))
-        self.out.word(";", "")
+        self._line(_parameter_tokens(parameter))
+        self.out.write(";", "")
 
-    def _row(self, words: Sequence[str]) -> None:
-        self.out.first(words[0])
+    def _line(self, words: Sequence[str]) -> None:
+        self.out.write_on_new_line(words[0])
         for word in words[1:]:
-            self.out.word(word)
+            self.out.write(word)
 
     def _list(self, begin: str, words: Sequence[str], end: str) -> None:
-        self.out.word(begin, "")
+        self.out.write(begin, "")
         for number, word in enumerate(words):
             if number:
-                self.out.word(",", "")
-            self.out.word(word, " " if number else "")
-        self.out.word(end, "")
+                self.out.write(",", "")
+            self.out.write(word, " " if number else "")
+        self.out.write(end, "")
 
     def _open(self) -> None:
-        self.out.word("{")
+        self.out.write("{")
         self.out.depth += 1
 
     def _doc(self, doc: str) -> None:
         if doc:
-            self.out.first(f"/** {doc} */")
+            self.out.write_on_new_line(f"/** {doc} */")
             self.out.end_line()
 
 
-def _type(of: tree.Type | None) -> list[str]:
+def _type(of: tree.TypeNode | None) -> list[str]:
     if of is None:
         return []
     return [of.text, of.enum.text] if of.enum else [of.text]
 
 
-def _details(item: tree.Symbol | tree.Parameter) -> list[str]:
+def _details(item: tree.SymbolNode | tree.ParameterNode) -> list[str]:
     return [*([f"[{item.range}]"] if item.range else []), *([f'"{item.unit}"'] if item.unit else [])]
 
 
-def _words(parameter: tree.Parameter) -> list[str]:
+def _parameter_tokens(parameter: tree.ParameterNode) -> list[str]:
     return [*_type(parameter.type), parameter.name.text, *_details(parameter)]
 
 
-def _flat(node: tree.Expression) -> str:
+def _flat(node: tree.ExpressionNode) -> str:
     """An expression in one line, without comments."""
-    layout = Layout({}, ())
+    layout = TokenFormatter({}, ())
     _Printer(layout)._expression(node, "")
     return layout.text().strip()
 
 
-def _length(arguments: tree.Arguments) -> int:
-    return sum(len(each.name.text) + len(_flat(each.value)) + 5 for each in arguments.given) + 2
+def _length(arguments: tree.ArgumentListNode) -> int:
+    return sum(len(each.name.text) + len(_flat(each.value)) + 5 for each in arguments.items) + 2

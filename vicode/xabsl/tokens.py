@@ -16,10 +16,10 @@ OPERATORS = ("<=", ">=", "==", "!=", "&&", "||")
 PUNCTUATION = "%!<>{}();|+-*/=,?:"
 
 NAME, NUMBER, STRING, RANGE = "name", "number", "string", "range"
-DOC, INITIAL, END = "description", "first comment", "end of file"
+DOC, HEADER, END = "description", "first comment", "end of file"
 """Kinds of tokens that are not their own text; keywords, operators and punctuation are."""
 
-TOKEN = re.compile(
+TOKEN_PATTERN = re.compile(
     r"""
     [\s\ufeff]*(?:
       (?P<name>@?[A-Za-z_][A-Za-z0-9_.]*)

@@ -10,15 +10,15 @@ from vicode.xabsl.lexer import Comment
 
 
 @dataclass(slots=True, kw_only=True)
-class Node:
+class SyntaxNode:
     """Anything in a file."""
 
-    at: int = field(default=-1, compare=False)
-    to: int = field(default=-1, compare=False)
+    first_token: int = field(default=-1, compare=False)
+    last_token: int = field(default=-1, compare=False)
 
 
 @dataclass(slots=True)
-class Name(Node):
+class NameNode(SyntaxNode):
     """A word where it is declared or used; names of option parameters begin with @ in the option."""
 
     text: str
@@ -28,246 +28,255 @@ class Name(Node):
 
 
 @dataclass(slots=True)
-class Number(Node):
+class NumberNode(SyntaxNode):
     """A number without sign, as it was written."""
 
     text: str
 
 
 @dataclass(slots=True)
-class Word(Node):
+class KeywordNode(SyntaxNode):
     """`true`, `false`, `state_time`, `option_time`, `action_done` or `conflict`."""
 
     text: str
 
 
 @dataclass(slots=True)
-class Ref(Node):
+class ReferenceNode(SyntaxNode):
     """A symbol, parameter, constant or element of an enumeration."""
 
     name: str
 
 
 @dataclass(slots=True)
-class Argument(Node):
+class ArgumentNode(SyntaxNode):
     """A parameter by its name, and what it is given."""
 
-    name: Name
-    value: "Expression"
+    name: NameNode
+    value: "ExpressionNode"
 
 
 @dataclass(slots=True)
-class Arguments(Node):
+class ArgumentListNode(SyntaxNode):
     """What stands between parentheses; a comma may follow the last."""
 
-    given: list[Argument]
-    ends_with_comma: bool = False
+    items: list[ArgumentNode]
+    has_trailing_comma: bool = False
 
 
 @dataclass(slots=True)
-class Function(Node):
+class FunctionCallNode(SyntaxNode):
     """An input symbol with parentheses."""
 
-    name: Name
-    arguments: Arguments
+    name: NameNode
+    arguments: ArgumentListNode
 
 
 @dataclass(slots=True)
-class Parentheses(Node):
+class ParenthesizedNode(SyntaxNode):
     """An expression in parentheses."""
 
-    inner: "Expression"
+    inner: "ExpressionNode"
 
 
 @dataclass(slots=True)
-class Unary(Node):
+class UnaryNode(SyntaxNode):
     """`-` or `!` before an operand."""
 
     operator: str
-    operand: "Expression"
+    operand: "ExpressionNode"
 
 
 @dataclass(slots=True)
-class Binary(Node):
-    """Two operands; `sign` is the number of the operator's token."""
+class BinaryNode(SyntaxNode):
+    """Two operands; `operator_token` is the number of the operator's token."""
 
     operator: str
-    left: "Expression"
-    right: "Expression"
-    sign: int = field(default=-1, compare=False)
+    left: "ExpressionNode"
+    right: "ExpressionNode"
+    operator_token: int = field(default=-1, compare=False)
 
 
 @dataclass(slots=True)
-class Conditional(Node):
+class ConditionalNode(SyntaxNode):
     """`condition ? yes : no`."""
 
-    condition: "Expression"
-    yes: "Expression"
-    no: "Expression"
+    condition: "ExpressionNode"
+    yes: "ExpressionNode"
+    no: "ExpressionNode"
 
 
-Expression = Number | Word | Ref | Function | Parentheses | Unary | Binary | Conditional
+ExpressionNode = (
+    NumberNode
+    | KeywordNode
+    | ReferenceNode
+    | FunctionCallNode
+    | ParenthesizedNode
+    | UnaryNode
+    | BinaryNode
+    | ConditionalNode
+)
 
 # Decisions and actions
 
 
 @dataclass(slots=True)
-class Goto(Node):
+class GotoNode(SyntaxNode):
     """`goto state;`."""
 
-    state: Name
+    state: NameNode
 
 
 @dataclass(slots=True)
-class Stay(Node):
+class StayNode(SyntaxNode):
     """`stay;`."""
 
 
 @dataclass(slots=True)
-class If(Node):
+class IfNode(SyntaxNode):
     """A condition with a tree for each answer; no `otherwise` at the open end of a common decision.
 
     `doc` stood before `if`, `else_doc` before `else`.
     """
 
-    condition: Expression
-    then: "Tree"
-    otherwise: "Tree | None"
+    condition: ExpressionNode
+    then: "DecisionTreeNode"
+    otherwise: "DecisionTreeNode | None"
     doc: str = ""
     else_doc: str = ""
 
 
 @dataclass(slots=True)
-class Block(Node):
+class BlockNode(SyntaxNode):
     """A tree in braces."""
 
-    inner: "Tree"
+    inner: "DecisionTreeNode"
 
 
-Tree = Goto | Stay | If | Block
+DecisionTreeNode = GotoNode | StayNode | IfNode | BlockNode
 
 
 @dataclass(slots=True)
-class Decision(Node):
+class DecisionNode(SyntaxNode):
     """What stands in `decision { }`; `begins_with_else` where a common decision goes before it."""
 
-    tree: Tree
+    tree: DecisionTreeNode
     begins_with_else: bool = False
     else_doc: str = ""
 
 
 @dataclass(slots=True)
-class Assignment(Node):
+class AssignmentNode(SyntaxNode):
     """`symbol = value;`."""
 
-    symbol: Name
-    value: Expression
+    symbol: NameNode
+    value: ExpressionNode
 
 
 @dataclass(slots=True)
-class Call(Node):
+class CallNode(SyntaxNode):
     """A call of an option or a basic behavior; `kind` is "", "option" or "behavior"."""
 
-    name: Name
-    arguments: Arguments
+    name: NameNode
+    arguments: ArgumentListNode
     kind: str = ""
 
 
-Action = Assignment | Call
+ActionNode = AssignmentNode | CallNode
 
 
 @dataclass(slots=True)
-class Actions(Node):
+class ActionBlockNode(SyntaxNode):
     """What stands in `action { }`."""
 
-    actions: list[Action]
+    actions: list[ActionNode]
 
 
 # Declarations
 
 
 @dataclass(slots=True)
-class Type(Node):
+class TypeNode(SyntaxNode):
     """`float`, `bool` or `enum NAME`."""
 
     text: str
-    enum: Name | None = None
+    enum: NameNode | None = None
 
 
 @dataclass(slots=True)
-class Parameter(Node):
+class ParameterNode(SyntaxNode):
     """A parameter of an option, a function or a basic behavior; without a type it is a decimal."""
 
-    name: Name
-    type: Type | None = None
+    name: NameNode
+    type: TypeNode | None = None
     range: str = ""
     unit: str = ""
     doc: str = ""
 
 
 @dataclass(slots=True)
-class Constant(Node):
+class ConstantNode(SyntaxNode):
     """`float const name = 3 "m";`, the number with its sign; `float` may be missing."""
 
-    name: Name
+    name: NameNode
     number: str
     unit: str = ""
     doc: str = ""
-    says_float: bool = True
+    has_float_keyword: bool = True
 
 
 @dataclass(slots=True)
-class Enumeration(Node):
+class EnumerationNode(SyntaxNode):
     """`enum name { a, b };`, its values the engine's own where it is internal."""
 
-    name: Name
-    elements: list[Name]
+    name: NameNode
+    elements: list[NameNode]
     is_internal: bool = False
     doc: str = ""
 
 
 @dataclass(slots=True)
-class Symbol(Node):
+class SymbolNode(SyntaxNode):
     """An input, output or internal symbol (`direction`); `parameters` is None without parentheses."""
 
     direction: str
-    name: Name
-    type: Type | None = None
+    name: NameNode
+    type: TypeNode | None = None
     range: str = ""
     unit: str = ""
-    parameters: list[Parameter] | None = None
+    parameters: list[ParameterNode] | None = None
     doc: str = ""
 
 
 @dataclass(slots=True)
-class Behavior(Node):
+class BehaviorNode(SyntaxNode):
     """A basic behavior, which the robot program implements."""
 
-    name: Name
-    parameters: list[Parameter]
+    name: NameNode
+    parameters: list[ParameterNode]
     doc: str = ""
 
 
-Declaration = Constant | Enumeration | Symbol | Behavior
+DeclarationNode = ConstantNode | EnumerationNode | SymbolNode | BehaviorNode
 
 
 @dataclass(slots=True)
-class Namespace(Node):
+class NamespaceNode(SyntaxNode):
     """A page of symbols or of basic behaviors; it does not change their names."""
 
-    name: Name
+    name: NameNode
     title: str
-    declarations: list[Declaration]
+    declarations: list[DeclarationNode]
     doc: str = ""
 
 
 @dataclass(slots=True)
-class State(Node):
+class StateNode(SyntaxNode):
     """A state of an option; `cooperation` is "", "capacity" or "synchronized", `robots` the number behind it."""
 
-    name: Name
-    actions: Actions
-    decision: Decision | None = None
+    name: NameNode
+    actions: ActionBlockNode
+    decision: DecisionNode | None = None
     is_initial: bool = False
     is_target: bool = False
     cooperation: str = ""
@@ -275,43 +284,43 @@ class State(Node):
 
 
 @dataclass(slots=True)
-class Option(Node):
+class OptionNode(SyntaxNode):
     """A state machine."""
 
-    name: Name
-    parameters: list[Parameter]
-    states: list[State]
-    common_decision: Tree | None = None
-    common_actions: Actions | None = None
+    name: NameNode
+    parameters: list[ParameterNode]
+    states: list[StateNode]
+    common_decision: DecisionTreeNode | None = None
+    common_actions: ActionBlockNode | None = None
     doc: str = ""
 
 
 @dataclass(slots=True)
-class Agent(Node):
+class AgentNode(SyntaxNode):
     """A name for a root option."""
 
-    name: Name
+    name: NameNode
     title: str
-    root: Name
+    root: NameNode
     doc: str = ""
 
 
 @dataclass(slots=True)
-class Include(Node):
+class IncludeNode(SyntaxNode):
     """Another file that belongs to the program; `path` as it was written."""
 
     path: str
 
 
 @dataclass(slots=True)
-class File:
-    """All that a file holds. `initial` is its first comment without signs; `comments` stand before tokens.
+class FileNode:
+    """All that a file holds. `header` is its first comment without signs; `comments` stand before tokens.
 
-    `blanks` are tokens with an empty line before them.
+    `after_blank_lines` are tokens with an empty line before them.
     """
 
-    includes: list[Include] = field(default_factory=list)
-    body: list[Option | Namespace | Agent] = field(default_factory=list)
-    initial: str = ""
+    includes: list[IncludeNode] = field(default_factory=list)
+    body: list[OptionNode | NamespaceNode | AgentNode] = field(default_factory=list)
+    header: str = ""
     comments: dict[int, list[Comment]] = field(default_factory=dict)
-    blanks: frozenset[int] = field(default=frozenset(), compare=False)
+    after_blank_lines: frozenset[int] = field(default=frozenset(), compare=False)

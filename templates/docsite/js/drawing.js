@@ -1,11 +1,11 @@
 // Drawings that can be moved, and looked through.
 const ZOOM_STEP = 1.25;
 const PAN_STEP = 60;
-const MOST_SEEN_AT_ONCE = 12;
-const MOST_READABLE = 1800;
-const MOST_FADING = 40;
+const MAX_NODES_WITHOUT_SEARCH = 12;
+const MAX_READABLE_SPAN = 1800;
+const MAX_FADING_NODES = 40;
 
-function frameSign() {
+function fullscreenIcon() {
   const svg = document.createElementNS("http://www.w3.org/2000/svg", "svg");
   const path = document.createElementNS("http://www.w3.org/2000/svg", "path");
   svg.setAttribute("viewBox", "0 0 14 14");
@@ -14,27 +14,27 @@ function frameSign() {
   return svg;
 }
 
-class Drawing {
+class DiagramViewer {
   constructor(frame) {
     this.frame = frame;
-    this.sheet = frame.querySelector(".sheet");
+    this.viewport = frame.querySelector(".viewport");
     this.svg = frame.querySelector("svg");
     if (!this.svg) return;
     const [x, y, width, height] = this.svg.getAttribute("viewBox").split(" ").map(Number);
-    this.whole = { x, y, width, height };
-    this.view = { ...this.whole };
+    this.fullView = { x, y, width, height };
+    this.view = { ...this.fullView };
     this.nodes = new Map([...this.svg.querySelectorAll("[data-key]")].map((node) => [node.dataset.key, node]));
-    this.held = null;
-    frame.classList.toggle("is-large", this.nodes.size > MOST_FADING);
-    frame.classList.add("is-live");
-    this.addTools();
-    this.listen();
+    this.focusedKey = null;
+    frame.classList.toggle("is-large", this.nodes.size > MAX_FADING_NODES);
+    frame.classList.add("is-interactive");
+    this.addToolbar();
+    this.addListeners();
   }
 
-  addTools() {
+  addToolbar() {
     const tools = document.createElement("div");
-    tools.className = "tools";
-    if (this.nodes.size > MOST_SEEN_AT_ONCE) tools.append(...this.finder());
+    tools.className = "toolbar";
+    if (this.nodes.size > MAX_NODES_WITHOUT_SEARCH) tools.append(...this.makeSearchField());
     const add = (sign, title, act, name = title) => {
       const button = document.createElement("button");
       button.type = "button";
@@ -47,12 +47,12 @@ class Drawing {
     add("+", "Zoom in (+)", () => this.zoom(1 / ZOOM_STEP));
     add("−", "Zoom out (-)", () => this.zoom(ZOOM_STEP));
     add("Fit", "Show all of it (0)", () => this.fit(), "Fit: show all of it (0)");
-    if (document.fullscreenEnabled) add(frameSign(), "Full screen (F)", () => this.toggleFullScreen());
+    if (document.fullscreenEnabled) add(fullscreenIcon(), "Full screen (F)", () => this.toggleFullScreen());
     this.frame.prepend(tools);
   }
 
   // A field that shows a box large, with all that are joined to it.
-  finder() {
+  makeSearchField() {
     const field = document.createElement("input");
     const names = document.createElement("datalist");
     names.id = `names-${document.querySelectorAll("datalist").length}`;
@@ -68,7 +68,7 @@ class Drawing {
       const text = field.value.trim().toLowerCase();
       const named = [...keys].filter(([name]) => (isWhole ? name.toLowerCase().includes(text) : name.toLowerCase() === text));
       if (!text) this.fit();
-      else if (named.length) this.hold(named.sort(([a], [b]) => a.length - b.length)[0][1]);
+      else if (named.length) this.focusNode(named.sort(([a], [b]) => a.length - b.length)[0][1]);
     };
     field.addEventListener("input", () => look(false));
     field.addEventListener("keydown", (event) => {
@@ -80,92 +80,92 @@ class Drawing {
   }
 
   // Its neighbors are in the view as far as its name can be read then.
-  hold(key) {
-    this.held = key;
-    this.light(key);
+  focusNode(key) {
+    this.focusedKey = key;
+    this.highlight(key);
     const own = this.nodes.get(key).getBBox();
-    const boxes = [...this.nodes.values()].filter((node) => node.classList.contains("is-lit")).map((node) => node.getBBox());
-    const ratio = this.whole.width / this.whole.height;
+    const boxes = [...this.nodes.values()].filter((node) => node.classList.contains("is-highlighted")).map((node) => node.getBBox());
+    const ratio = this.fullView.width / this.fullView.height;
     const span = (start, size, most) => {
       const from = Math.min(...boxes.map((box) => box[start])) - 40;
       const to = Math.max(...boxes.map((box) => box[start] + box[size])) + 40;
       const middle = own[start] + own[size] / 2;
       return [Math.max(from, middle - most / 2), Math.min(to, middle + most / 2)];
     };
-    const [left, right] = span("x", "width", MOST_READABLE);
-    const [top, bottom] = span("y", "height", MOST_READABLE / ratio);
+    const [left, right] = span("x", "width", MAX_READABLE_SPAN);
+    const [top, bottom] = span("y", "height", MAX_READABLE_SPAN / ratio);
     const width = Math.max(right - left, (bottom - top) * ratio, 400);
     const height = width / ratio;
     this.view = { x: (left + right - width) / 2, y: (top + bottom - height) / 2, width, height };
-    this.show();
+    this.applyView();
   }
 
-  listen() {
-    this.sheet.addEventListener("keydown", (event) => this.onKey(event));
+  addListeners() {
+    this.viewport.addEventListener("keydown", (event) => this.onKey(event));
     // The page scrolls by the wheel; with Ctrl, as a pinch says too, the drawing zooms.
-    this.sheet.addEventListener("wheel", (event) => {
+    this.viewport.addEventListener("wheel", (event) => {
       if (!event.ctrlKey && !event.metaKey) return;
       event.preventDefault();
-      this.zoom(Math.exp(Math.max(-60, Math.min(60, event.deltaY)) / 200), this.pointOf(event));
+      this.zoom(Math.exp(Math.max(-60, Math.min(60, event.deltaY)) / 200), this.relativePoint(event));
     }, { passive: false });
-    this.sheet.addEventListener("pointerdown", (event) => this.onDown(event));
+    this.viewport.addEventListener("pointerdown", (event) => this.onPointerDown(event));
     this.svg.addEventListener("dragstart", (event) => event.preventDefault());
     for (const node of this.svg.querySelectorAll("[data-key]")) {
-      node.addEventListener("pointerenter", () => this.light(node.dataset.key));
-      node.addEventListener("pointerleave", () => this.light(null));
-      node.addEventListener("focus", () => this.light(node.dataset.key));
-      node.addEventListener("blur", () => this.light(null));
+      node.addEventListener("pointerenter", () => this.highlight(node.dataset.key));
+      node.addEventListener("pointerleave", () => this.highlight(null));
+      node.addEventListener("focus", () => this.highlight(node.dataset.key));
+      node.addEventListener("blur", () => this.highlight(null));
     }
   }
 
-  show() {
+  applyView() {
     const { x, y, width, height } = this.view;
     this.svg.setAttribute("viewBox", `${x} ${y} ${width} ${height}`);
-    this.frame.classList.toggle("is-zoomed", width < this.whole.width * 0.99);
+    this.frame.classList.toggle("is-zoomed", width < this.fullView.width * 0.99);
   }
 
-  pixels() {
+  unitsPerPixel() {
     const rect = this.svg.getBoundingClientRect();
     return Math.max(this.view.width / rect.width, this.view.height / rect.height);
   }
 
-  pointOf(event) {
+  relativePoint(event) {
     const rect = this.svg.getBoundingClientRect();
     return { x: (event.clientX - rect.left) / rect.width, y: (event.clientY - rect.top) / rect.height };
   }
 
   // In its own size from its upper left corner on.
-  begin(height) {
-    const width = this.sheet.clientWidth - 16;
+  showAtNaturalSize(height) {
+    const width = this.viewport.clientWidth - 16;
     this.svg.setAttribute("width", width);
     this.svg.setAttribute("height", height);
-    this.view = { x: this.whole.x, y: this.whole.y, width, height };
-    this.show();
+    this.view = { x: this.fullView.x, y: this.fullView.y, width, height };
+    this.applyView();
   }
 
   zoom(factor, at = { x: 0.5, y: 0.5 }) {
-    const least = Math.min(this.whole.width, 200);
-    const width = Math.max(least, Math.min(this.whole.width * 2, this.view.width * factor));
+    const least = Math.min(this.fullView.width, 200);
+    const width = Math.max(least, Math.min(this.fullView.width * 2, this.view.width * factor));
     const height = width * this.view.height / this.view.width;
     this.view.x += (this.view.width - width) * at.x;
     this.view.y += (this.view.height - height) * at.y;
     Object.assign(this.view, { width, height });
-    this.show();
+    this.applyView();
   }
 
   pan(dx, dy) {
-    const scale = this.pixels();
+    const scale = this.unitsPerPixel();
     this.view.x += dx * scale;
     this.view.y += dy * scale;
-    this.show();
+    this.applyView();
   }
 
   fit() {
-    this.held = null;
-    this.light(null);
+    this.focusedKey = null;
+    this.highlight(null);
     if (this.field) this.field.value = "";
-    this.view = { ...this.whole };
-    this.show();
+    this.view = { ...this.fullView };
+    this.applyView();
   }
 
   toggleFullScreen() {
@@ -186,7 +186,7 @@ class Drawing {
     acts[event.key]();
   }
 
-  onDown(event) {
+  onPointerDown(event) {
     // A finger scrolls the page while all of the drawing is shown, and moves the drawing when it is not.
     if (event.button !== 0 || (event.pointerType === "touch" && !this.frame.classList.contains("is-zoomed"))) return;
     let last = event;
@@ -194,14 +194,14 @@ class Drawing {
     const onMove = (next) => {
       moved += Math.abs(next.clientX - last.clientX) + Math.abs(next.clientY - last.clientY);
       if (moved > 4) {
-        this.frame.classList.add("is-moving");
+        this.frame.classList.add("is-panning");
         this.pan(last.clientX - next.clientX, last.clientY - next.clientY);
       }
       last = next;
     };
     const onUp = () => {
       window.removeEventListener("pointermove", onMove);
-      this.frame.classList.remove("is-moving");
+      this.frame.classList.remove("is-panning");
       // The click that ends a drag follows no link.
       if (moved > 4) {
         const stop = (click) => { click.preventDefault(); click.stopPropagation(); };
@@ -213,18 +213,18 @@ class Drawing {
     window.addEventListener("pointerup", onUp, { once: true });
   }
 
-  light(asked) {
-    const key = asked ?? this.held;
-    this.svg.classList.toggle("is-asked", key !== null);
+  highlight(asked) {
+    const key = asked ?? this.focusedKey;
+    this.svg.classList.toggle("has-highlight", key !== null);
     const lit = new Set();
     for (const each of this.svg.querySelectorAll("[data-from]")) {
       const isOf = key === each.dataset.from || key === each.dataset.to;
-      each.classList.toggle("is-lit", isOf);
+      each.classList.toggle("is-highlighted", isOf);
       if (isOf) lit.add(each.dataset.from).add(each.dataset.to);
     }
     lit.add(key);
-    for (const each of this.svg.querySelectorAll("[data-key]")) each.classList.toggle("is-lit", lit.has(each.dataset.key));
+    for (const each of this.svg.querySelectorAll("[data-key]")) each.classList.toggle("is-highlighted", lit.has(each.dataset.key));
   }
 }
 
-for (const frame of document.querySelectorAll("[data-drawing]")) new Drawing(frame);
+for (const frame of document.querySelectorAll("[data-diagram]")) new DiagramViewer(frame);

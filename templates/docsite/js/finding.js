@@ -1,24 +1,24 @@
 // The search over everything that the site tells of.
-const MOST_FOUND = 30;
+const MAX_RESULTS = 30;
 
 const box = document.querySelector(".search");
 const field = document.getElementById("search");
-const list = document.getElementById("found");
-let chosen = 0;
-let loading = null;
+const list = document.getElementById("search-results");
+let selectedIndex = 0;
+let indexPromise = null;
 
-function loadEntries() {
-  loading ??= new Promise((resolve) => {
+function loadIndex() {
+  indexPromise ??= new Promise((resolve) => {
     const script = document.createElement("script");
     script.src = "search.js";
-    script.onload = () => resolve(unpacked(window.vicodeIndex));
+    script.onload = () => resolve(unpackIndex(window.vicodeSearchIndex));
     document.head.append(script);
   });
-  return loading;
+  return indexPromise;
 }
 
 // Entries as [name, kind, where, address, doc, pieces of code]; what they share is written once.
-function unpacked({ kinds, places, pages, pieces, entries }) {
+function unpackIndex({ kinds, places, pages, pieces, entries }) {
   return entries.map(([name, kind, where, page, anchor = 0, doc = "", words = []]) => {
     const place = anchor === 0 ? `${kinds[kind]}-${name}` : anchor;
     const code = words.map((number) => pieces[number]);
@@ -50,7 +50,7 @@ function find(entries, text) {
     .map((entry, index) => ({ entry, index, rank: rank(entry, words) }))
     .filter((each) => each.rank < 6)
     .sort((a, b) => a.rank - b.rank || a.index - b.index)
-    .slice(0, MOST_FOUND)
+    .slice(0, MAX_RESULTS)
     .map((each) => each.entry);
 }
 
@@ -61,22 +61,22 @@ function excerpt(entry, text) {
   const said = (body) => words.filter((word) => body.toLowerCase().includes(word));
   const best = [doc, ...code].reduce((one, other) => (said(other).length > said(one).length ? other : one));
   // Of what is part of another thing the line above says of which.
-  if (!said(best).length) return [cut(doc, 0) || (isWhole(kind) ? where : ""), false];
+  if (!said(best).length) return [truncate(doc, 0) || (isTopLevel(kind) ? where : ""), false];
   const at = Math.min(...said(best).map((word) => best.toLowerCase().indexOf(word)));
   const start = at > 60 || best.length > 140 ? Math.max(0, at - 40) : 0;
-  return [(start ? "… " : "") + cut(best, start), best !== doc];
+  return [(start ? "… " : "") + truncate(best, start), best !== doc];
 }
 
-const isWhole = (kind) => ["component", "interface"].includes(kind);
+const isTopLevel = (kind) => ["component", "interface"].includes(kind);
 
 // From a place on, to the last whole word that there is room for.
-function cut(text, start) {
+function truncate(text, start) {
   const end = start + 140;
   return text.length <= end ? text.slice(start) : `${text.slice(start, end).replace(/\s+\S*$/, "")} …`;
 }
 
 // A text with the words that were looked for marked in it.
-function marked(body, text) {
+function highlightMatches(body, text) {
   const words = text.split(/\s+/).filter(Boolean).map((word) => word.replace(/[.*+?^${}()|[\]\\]/g, "\\$&"));
   return body.split(new RegExp(`(${words.join("|")})`, "i")).map((part, at) => {
     if (at % 2 === 0) return part;
@@ -88,17 +88,17 @@ function marked(body, text) {
 
 function row(entry, index, text) {
   const item = document.createElement("li");
-  item.id = `found-${index}`;
+  item.id = `search-result-${index}`;
   item.role = "option";
   const name = document.createElement("bdi");
-  name.append(...marked(entry[0], text));
+  name.append(...highlightMatches(entry[0], text));
   const kind = document.createElement("span");
   kind.className = "kind";
-  kind.textContent = isWhole(entry[1]) ? entry[1] : `${entry[1]} of ${entry[2]}`;
+  kind.textContent = isTopLevel(entry[1]) ? entry[1] : `${entry[1]} of ${entry[2]}`;
   const [said, isCode] = excerpt(entry, text);
   const about = document.createElement(isCode ? "code" : "span");
   about.className = "about";
-  about.append(...marked(said, text));
+  about.append(...highlightMatches(said, text));
   item.append(kind, name, about);
   item.addEventListener("mousedown", (event) => event.preventDefault());
   item.addEventListener("click", () => go(entry[3]));
@@ -117,35 +117,35 @@ function close() {
   field.removeAttribute("aria-activedescendant");
 }
 
-function choose(index) {
+function selectResult(index) {
   const items = [...list.querySelectorAll("[role=option]")];
   if (!items.length) return;
-  chosen = (index + items.length) % items.length;
-  items.forEach((item, at) => item.setAttribute("aria-selected", String(at === chosen)));
-  items[chosen].scrollIntoView({ block: "nearest" });
-  field.setAttribute("aria-activedescendant", items[chosen].id);
+  selectedIndex = (index + items.length) % items.length;
+  items.forEach((item, at) => item.setAttribute("aria-selected", String(at === selectedIndex)));
+  items[selectedIndex].scrollIntoView({ block: "nearest" });
+  field.setAttribute("aria-activedescendant", items[selectedIndex].id);
 }
 
 async function search() {
   const text = field.value;
-  const entries = await loadEntries();
+  const entries = await loadIndex();
   if (text !== field.value) return;
   const found = find(entries, text);
   list.replaceChildren(...found.map((entry, index) => row(entry, index, text)));
   if (text.trim() && !found.length) {
     const item = document.createElement("li");
-    item.className = "nothing";
+    item.className = "no-results";
     item.textContent = "Nothing is called so, or says so.";
     list.append(item);
   }
   list.hidden = !text.trim();
   field.setAttribute("aria-expanded", String(!list.hidden));
-  choose(0);
+  selectResult(0);
 }
 
 function onSearchKey(event) {
-  if (event.key === "ArrowDown") choose(chosen + 1);
-  else if (event.key === "ArrowUp") choose(chosen - 1);
+  if (event.key === "ArrowDown") selectResult(selectedIndex + 1);
+  else if (event.key === "ArrowUp") selectResult(selectedIndex - 1);
   else if (event.key === "Enter") list.querySelector("[aria-selected=true]")?.click();
   else if (event.key === "Escape") { close(); field.value = ""; field.blur(); }
   else return;
@@ -156,7 +156,7 @@ if (box) {
   box.hidden = false;
   // Where there is little room there is no key either.
   if (matchMedia("(max-width: 800px)").matches) field.placeholder = "Search";
-  field.addEventListener("focus", loadEntries);
+  field.addEventListener("focus", loadIndex);
   field.addEventListener("input", search);
   field.addEventListener("keydown", onSearchKey);
   field.addEventListener("blur", close);

@@ -1,12 +1,12 @@
 // Decision trees: a box and the line of pseudo code that says the same are shown together.
-const TALLEST = 640;
+const MAX_TREE_HEIGHT = 640;
 
 for (const section of document.querySelectorAll(".state")) {
   const light = (key, on) => {
-    for (const node of section.querySelectorAll(".tree [data-key]")) if (node.dataset.key === key) node.classList.toggle("is-lit", on);
-    document.getElementById(key)?.classList.toggle("is-lit", on);
+    for (const node of section.querySelectorAll(".tree [data-key]")) if (node.dataset.key === key) node.classList.toggle("is-highlighted", on);
+    document.getElementById(key)?.classList.toggle("is-highlighted", on);
   };
-  for (const each of section.querySelectorAll(".tree [data-key], .pseudo li[id]")) {
+  for (const each of section.querySelectorAll(".tree [data-key], .pseudocode li[id]")) {
     const key = each.dataset.key ?? each.id;
     for (const [event, on] of [["pointerenter", true], ["pointerleave", false], ["focusin", true], ["focusout", false]]) {
       each.addEventListener(event, () => light(key, on));
@@ -21,20 +21,20 @@ const trees = [...document.querySelectorAll(".tree")].map((tree) => ({ tree, roo
 for (const { tree, room, width } of trees) {
   if (width <= room) continue;
   if (width < room * 1.4 || !hasPointer) tree.classList.toggle("is-fitted", width < room * 1.4);
-  else makeMovable(tree);
+  else makePannable(tree);
 }
 
-function makeMovable(tree) {
-  const sheet = document.createElement("div");
-  sheet.className = "sheet";
+function makePannable(tree) {
+  const viewport = document.createElement("div");
+  viewport.className = "viewport";
   for (const name of ["tabindex", "role", "aria-label"]) {
-    sheet.setAttribute(name, tree.getAttribute(name));
+    viewport.setAttribute(name, tree.getAttribute(name));
     tree.removeAttribute(name);
   }
-  sheet.append(...tree.childNodes);
-  tree.append(sheet);
-  tree.classList.add("drawing");
-  new Drawing(tree).begin(Math.min(TALLEST, Number(sheet.querySelector("svg").getAttribute("height"))));
+  viewport.append(...tree.childNodes);
+  tree.append(viewport);
+  tree.classList.add("diagram");
+  new DiagramViewer(tree).showAtNaturalSize(Math.min(MAX_TREE_HEIGHT, Number(viewport.querySelector("svg").getAttribute("height"))));
 }
 
 function showTarget() {

@@ -21,7 +21,7 @@ SERVER = Path(__file__).parent / "canvas_page.py"
 Point = tuple[float, float]
 
 
-class Hand:
+class CanvasDriver:
     """A person at the canvas: points, drags and types, and can ask what Python heard."""
 
     def __init__(self, page: Page, address: str) -> None:
@@ -39,20 +39,20 @@ class Hand:
         self.page.wait_for_selector(".vicode-canvas[data-ready]")
         self.call("fit")
         self.page.wait_for_timeout(30)
-        self.wait_until_rest()
-        self.forget()
+        self.wait_until_idle()
+        self.clear_gestures()
 
-    def forget(self) -> None:
+    def clear_gestures(self) -> None:
         """Let go of all gestures so far; those on their way are waited for, as one comes after the other."""
         self._ask("/forget", b"")
         canvas = "getElement(document.querySelector('.vicode-canvas').id.slice(1))"
         self.page.evaluate(f"{canvas}.$emit('gesture', {{kind: 'redo', rev: 0}})")
-        self.heard("redo")
+        self.wait_for_gesture("redo")
         self._ask("/forget", b"")
 
     def at(self, of: str, identity: str, right: float = 0, down: float = 0) -> Point:
         """Where the middle of a thing is on the screen, or a point beside it."""
-        spot = self.vicode(f"screen({json.dumps(of)}, {json.dumps(identity)})")
+        spot = self.evaluate(f"screen({json.dumps(of)}, {json.dumps(identity)})")
         return spot["x"] + right, spot["y"] + down
 
     def drag(self, start: Point, end: Point, button: Any = "left") -> None:
@@ -78,18 +78,18 @@ class Hand:
         for key in keys:
             self.page.keyboard.press(key)
 
-    def heard(self, kind: str, **words: Any) -> dict[str, Any]:
+    def wait_for_gesture(self, kind: str, **words: Any) -> dict[str, Any]:
         """The newest gesture of a kind, waited for until it says these words; it comes without its revision."""
         end = time.monotonic() + 10
         while time.monotonic() < end:
-            if found := self.heard_all(kind):
+            if found := self.gestures(kind):
                 newest = {name: value for name, value in found[-1].items() if name not in {"kind", "rev"}}
                 if newest.items() >= words.items():
                     return newest
             time.sleep(0.02)
-        raise AssertionError(f"no gesture {kind!r} with {words} was heard, only {self.heard_all()}")
+        raise AssertionError(f"no gesture {kind!r} with {words} was heard, only {self.gestures()}")
 
-    def heard_all(self, kind: str = "") -> list[dict[str, Any]]:
+    def gestures(self, kind: str = "") -> list[dict[str, Any]]:
         gestures: list[dict[str, Any]] = json.loads(self._ask("/heard"))
         return [gesture for gesture in gestures if gesture["kind"] == kind or not kind]
 
@@ -97,25 +97,25 @@ class Hand:
         """Call a method of the Python element."""
         self._ask(f"/call/{method}", json.dumps(arguments).encode())
 
-    def vicode(self, call: str) -> Any:
+    def evaluate(self, call: str) -> Any:
         return self.page.evaluate(f"document.querySelector('.vicode-canvas').vicode.{call}")
 
-    def place(self, name: str) -> Point:
+    def position(self, name: str) -> Point:
         """Where a node is in the scene: `place("states/FollowBall")`."""
-        node = self.vicode("positions()")[name]
+        node = self.evaluate("positions()")[name]
         return node["x"], node["y"]
 
     def selection(self) -> set[str]:
-        return {f"{item['of']}/{item['id']}" for item in self.vicode("selection()")}
+        return {f"{item['of']}/{item['id']}" for item in self.evaluate("selection()")}
 
     def group(self, kind: str, identity: str) -> Locator:
         return self.page.locator(f'g.item:not(.chip)[data-kind="{kind}"][data-id={json.dumps(identity)}]')
 
-    def wait_until_rest(self) -> None:
+    def wait_until_idle(self) -> None:
         self.page.wait_for_function("document.querySelector('.vicode-canvas').vicode.view().resting")
 
     def wait_for(self, claim: str) -> None:
-        """Wait until something holds, said with the canvas' test interface as `vicode`."""
+        """Wait until something holds, said with the canvas' test interface as `evaluate`."""
         self.page.wait_for_function(
             f"() => {{ const {{vicode}} = document.querySelector('.vicode-canvas'); return {claim}; }}"
         )
@@ -160,7 +160,7 @@ def canvas_page(chromium: Browser, canvas_address: str) -> Iterator[Page]:
 
 
 @pytest.fixture
-def show(canvas_page: Page, canvas_address: str) -> Iterator[Callable[[Mapping[str, Any]], Hand]]:
+def show(canvas_page: Page, canvas_address: str) -> Iterator[Callable[[Mapping[str, Any]], CanvasDriver]]:
     """Shows a scene and answers the hand that works on it; errors in the console fail the test."""
     errors: list[str] = []
 
@@ -171,8 +171,8 @@ def show(canvas_page: Page, canvas_address: str) -> Iterator[Callable[[Mapping[s
     def on_page_error(error: Error) -> None:
         errors.append(str(error))
 
-    def show_scene(scene: Mapping[str, Any]) -> Hand:
-        hand = Hand(canvas_page, canvas_address)
+    def show_scene(scene: Mapping[str, Any]) -> CanvasDriver:
+        hand = CanvasDriver(canvas_page, canvas_address)
         hand.show(scene)
         return hand
 
@@ -185,7 +185,7 @@ def show(canvas_page: Page, canvas_address: str) -> Iterator[Callable[[Mapping[s
 
 
 @pytest.fixture
-def hand(show: Callable[[Mapping[str, Any]], Hand]) -> Hand:
+def hand(show: Callable[[Mapping[str, Any]], CanvasDriver]) -> CanvasDriver:
     """A hand at the player's scene."""
     return show(player())
 

@@ -8,9 +8,9 @@ from playwright.sync_api import Page
 
 from tests.diagram.drawn_designs import shipped_designs
 from vicode.diagram.layout import LayoutService
-from vicode.editor.session import take_places
-from vicode.editor.view import scene_of
-from vicode.model.design import Common, Design, Guard, State, Transition
+from vicode.editor.session import apply_layout
+from vicode.editor.view import make_scene
+from vicode.model.design import CommonSection, Design, Guard, State, Transition
 from vicode.model.project import Project
 
 GUARDS = ("seen", "ball.near and not lost", "x > 0", "tries >= 3", "ball_distance < 400 and net_seen", "done", "left")
@@ -60,7 +60,7 @@ COUNT = """() => {
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Reading:
+class Legibility:
     """What stands in the way of reading a drawing."""
 
     boxes: int
@@ -72,16 +72,16 @@ class Reading:
     lines_under_labels: int
 
 
-def read(page: Page) -> Reading:
+def measure_legibility(page: Page) -> Legibility:
     """Count on what is drawn now."""
-    return Reading(**page.evaluate(COUNT))
+    return Legibility(**page.evaluate(COUNT))
 
 
 def forward_scenes() -> dict[str, dict[str, Any]]:
     """The shipped designs as they are, by component."""
     designs = shipped_designs()
     project = Project(name="forward", designs=tuple(designs))
-    return {design.component: scene_of(project, design, (), 1) for design in designs}
+    return {design.component: make_scene(project, design, (), 1) for design in designs}
 
 
 def random_scenes(count: int) -> dict[str, dict[str, Any]]:
@@ -90,9 +90,9 @@ def random_scenes(count: int) -> dict[str, dict[str, Any]]:
     with LayoutService() as service:
         for seed in range(count):
             design = random_design(seed)
-            layout = service.lay_out(design, timeout_s=60.0)
-            placed = take_places(design, layout.placement, None)
-            scenes[design.component] = scene_of(Project(name="random", designs=(placed,)), placed, (), 1)
+            layout = service.compute(design, timeout_s=60.0)
+            placed = apply_layout(design, layout.layout, None)
+            scenes[design.component] = make_scene(Project(name="random", designs=(placed,)), placed, (), 1)
     return scenes
 
 
@@ -106,7 +106,11 @@ def random_design(seed: int) -> Design:
         )
         for index in range(size)
     )
-    common = Common(transitions=(Transition(to=states[-1].name, guard=Guard(when="fallen")),)) if seed % 2 else Common()
+    common = (
+        CommonSection(transitions=(Transition(to=states[-1].name, guard=Guard(when="fallen")),))
+        if seed % 2
+        else CommonSection()
+    )
     return replace(Design(component=f"Random{seed}x{size}", initial=_name(0), states=states), common=common)
 
 

@@ -6,10 +6,10 @@ from typing import Any
 import pytest
 from playwright.sync_api import expect
 
-from tests.editor.canvas.conftest import Hand
+from tests.editor.canvas.conftest import CanvasDriver
 from tests.editor.canvas.player_scene import machine, player
 
-Show = Callable[[Mapping[str, Any]], Hand]
+Show = Callable[[Mapping[str, Any]], CanvasDriver]
 Scene = dict[str, Any]
 
 
@@ -82,7 +82,7 @@ def _difference(old: Scene, new: Scene) -> dict[str, Any]:
     }
 
 
-def _drawn(hand: Hand) -> dict[str, list[str]]:
+def _drawn(hand: CanvasDriver) -> dict[str, list[str]]:
     """The curve and the place of the label of every transition."""
     hand.page.wait_for_timeout(50)
     drawn: dict[str, list[str]] = hand.page.evaluate(

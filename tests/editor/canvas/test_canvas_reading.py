@@ -3,21 +3,21 @@
 from collections.abc import Callable, Mapping
 from typing import Any
 
-from tests.editor.canvas.conftest import Hand
-from tests.editor.canvas.reading import forward_scenes, random_scenes, read
+from tests.editor.canvas.conftest import CanvasDriver
+from tests.editor.canvas.reading import forward_scenes, measure_legibility, random_scenes
 
-Show = Callable[[Mapping[str, Any]], Hand]
+Show = Callable[[Mapping[str, Any]], CanvasDriver]
 
 
 def test_nothing_is_hidden_in_the_shipped_designs(show: Show) -> None:
     for name, scene in forward_scenes().items():
-        counted = read(show(scene).page)
+        counted = measure_legibility(show(scene).page)
         hidden = (counted.labels_on_boxes, counted.labels_on_labels, counted.labels_off_their_lines)
         assert (name, *hidden, counted.lines_over_boxes) == (name, 0, 0, 0, 0)
 
 
 def test_little_is_hidden_in_random_designs(show: Show) -> None:
-    counts = [read(show(scene).page) for scene in random_scenes(8).values()]
+    counts = [measure_legibility(show(scene).page) for scene in random_scenes(8).values()]
     labels = sum(each.labels for each in counts)
     hidden = sum(each.labels_on_boxes + each.labels_on_labels + each.labels_off_their_lines for each in counts)
     assert labels > 400

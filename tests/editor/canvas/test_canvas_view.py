@@ -8,15 +8,15 @@ from typing import Any
 import pytest
 from playwright.sync_api import expect
 
-from tests.editor.canvas.conftest import Hand
+from tests.editor.canvas.conftest import CanvasDriver
 from tests.editor.canvas.player_scene import machine, player
 
-Show = Callable[[Mapping[str, Any]], Hand]
+Show = Callable[[Mapping[str, Any]], CanvasDriver]
 
 HOSTILE = '<img src=x onerror="document.body.dataset.hacked=1"> \u202e "\'&lt;'
 
 
-def test_everything_is_there_with_a_role_and_a_name(hand: Hand) -> None:
+def test_everything_is_there_with_a_role_and_a_name(hand: CanvasDriver) -> None:
     expect(hand.page.locator("g.node")).to_have_count(8 + 3 + 1)
     expect(hand.page.locator("g.edge")).to_have_count(12 + 5)
     expect(hand.page.get_by_role("button", name="State LookForBall, initial")).to_have_count(1)
@@ -26,7 +26,7 @@ def test_everything_is_there_with_a_role_and_a_name(hand: Hand) -> None:
     assert hand.page.locator(".vicode-canvas").get_attribute("data-rev") == "1"
 
 
-def test_labels_cover_neither_boxes_nor_each_other(hand: Hand) -> None:
+def test_labels_cover_neither_boxes_nor_each_other(hand: CanvasDriver) -> None:
     boxes = hand.page.locator("g.node .box, g.chip .plate").evaluate_all(
         "all => all.map(each => each.getBoundingClientRect()).map(({x, y, width, height}) => [x, y, width, height])"
     )
@@ -50,12 +50,12 @@ def test_user_text_stays_text(show: Show) -> None:
     hand.press("Escape")
     for kind, identity in (("states", "GetUp"), ("transitions", "LookForBall/1"), ("components", HOSTILE)):
         page.mouse.move(*hand.at(kind, identity))
-        expect(page.locator(".peek")).to_contain_text(HOSTILE[:20])
+        expect(page.locator(".tooltip")).to_contain_text(HOSTILE[:20])
     assert page.locator(".vicode-canvas img").count() == 0
     assert page.locator("body").get_attribute("data-hacked") is None
 
 
-def test_apply_changes_only_what_it_names(hand: Hand) -> None:
+def test_apply_changes_only_what_it_names(hand: CanvasDriver) -> None:
     lost, added = {"id": "Lost", "name": "Lost", "x": 240, "y": 420}, "LookForBall/3"
     edge = {
         "id": added,
@@ -79,10 +79,10 @@ def test_apply_changes_only_what_it_names(hand: Hand) -> None:
     expect(hand.page.locator("g.node")).to_have_count(12)
 
 
-def test_a_page_that_comes_later_sees_all_changes(hand: Hand) -> None:
+def test_a_page_that_comes_later_sees_all_changes(hand: CanvasDriver) -> None:
     hand.click(hand.at("states", "GiveUp"))
     hand.press("ArrowRight")
-    hand.heard("move")
+    hand.wait_for_gesture("move")
     hand.call("apply", {"rev": 9, "remove": {"states": ["KickLeft"]}, "common": None})
     expect(hand.page.locator(".vicode-canvas")).to_have_attribute("data-rev", "9")
     # What NiceGUI does when the element is mounted anew.
@@ -94,54 +94,54 @@ def test_a_page_that_comes_later_sees_all_changes(hand: Hand) -> None:
         }"""
     )
     hand.page.wait_for_selector(".vicode-canvas[data-ready]")
-    assert hand.place("states/GiveUp") == (90, 330)
-    assert "common/@common" not in hand.vicode("positions()")
-    assert "states/KickLeft" not in hand.vicode("positions()")
+    assert hand.position("states/GiveUp") == (90, 330)
+    assert "common/@common" not in hand.evaluate("positions()")
+    assert "states/KickLeft" not in hand.evaluate("positions()")
 
 
-def test_select_from_python_reports_nothing_back(hand: Hand) -> None:
+def test_select_from_python_reports_nothing_back(hand: CanvasDriver) -> None:
     hand.call("select", [{"of": "transitions", "id": "Fixmove/0"}])
     hand.wait_for("vicode.selection().length === 1")
     assert hand.selection() == {"transitions/Fixmove/0"}
-    assert not hand.heard_all("select")
+    assert not hand.gestures("select")
 
 
-def test_the_newest_active_states_win(hand: Hand) -> None:
+def test_the_newest_active_states_win(hand: CanvasDriver) -> None:
     # The page outlives the test, and its numbers only grow.
     start = time.monotonic_ns() // 1000
     for number in range(7):
-        hand.call("set_active", [["LookForBall", "FollowBall"][number % 2]], start + number)
-    hand.call("set_active", ["GetUp"], start + 2)
+        hand.call("highlight_active", [["LookForBall", "FollowBall"][number % 2]], start + number)
+    hand.call("highlight_active", ["GetUp"], start + 2)
     expect(hand.page.locator("g.node.active")).to_have_attribute("data-id", "LookForBall")
-    hand.call("set_active", [], start + 7)
+    hand.call("highlight_active", [], start + 7)
     expect(hand.page.locator("g.node.active")).to_have_count(0)
 
 
-def test_links_can_be_hidden(hand: Hand) -> None:
+def test_links_can_be_hidden(hand: CanvasDriver) -> None:
     hand.call("show_links", False)
     expect(hand.page.locator("g.edge.link")).to_have_count(0)
     hand.call("show_links", True)
     expect(hand.page.locator("g.edge.link")).to_have_count(5)
 
 
-def test_a_new_state_is_named_in_place(hand: Hand) -> None:
+def test_a_new_state_is_named_in_place(hand: CanvasDriver) -> None:
     hand.call("rename_in_place", "GiveUp")
     expect(hand.page.locator("input.rename")).to_be_focused()
 
 
-def test_the_wheel_zooms_at_the_pointer_and_the_middle_button_pans(hand: Hand) -> None:
+def test_the_wheel_zooms_at_the_pointer_and_the_middle_button_pans(hand: CanvasDriver) -> None:
     spot = hand.at("states", "KickLeft")
     hand.page.mouse.move(*spot)
-    before = hand.vicode("view()")["k"]
+    before = hand.evaluate("view()")["k"]
     hand.page.mouse.wheel(0, -300)
     hand.wait_for(f"vicode.view().k > {before}")
     assert hand.at("states", "KickLeft") == pytest.approx(spot, abs=1)
     hand.drag(spot, (spot[0] - 120, spot[1] + 40), button="middle")
     assert hand.at("states", "KickLeft") == pytest.approx((spot[0] - 120, spot[1] + 40), abs=1)
-    assert not hand.heard_all("move")
+    assert not hand.gestures("move")
 
 
-def test_two_fingers_on_a_touchpad_pan(hand: Hand) -> None:
+def test_two_fingers_on_a_touchpad_pan(hand: CanvasDriver) -> None:
     spot = hand.at("states", "KickLeft")
     hand.page.mouse.move(*spot)
     hand.page.mouse.wheel(7, 13)
@@ -149,7 +149,7 @@ def test_two_fingers_on_a_touchpad_pan(hand: Hand) -> None:
     assert hand.at("states", "KickLeft") == pytest.approx((spot[0] - 7, spot[1] - 13), abs=1)
 
 
-def test_one_finger_pans_and_two_zoom(hand: Hand) -> None:
+def test_one_finger_pans_and_two_zoom(hand: CanvasDriver) -> None:
     cdp = hand.page.context.new_cdp_session(hand.page)
 
     def touch(kind: str, *points: tuple[float, float]) -> None:
@@ -162,51 +162,51 @@ def test_one_finger_pans_and_two_zoom(hand: Hand) -> None:
     touch("touchMove", (640, 560))
     touch("touchEnd")
     hand.wait_for(f"vicode.screen('states', 'KickLeft').y < {spot[1] - 80}")
-    before = hand.vicode("view()")["k"]
+    before = hand.evaluate("view()")["k"]
     touch("touchStart", (600, 500), (700, 500))
     touch("touchMove", (560, 500), (740, 500))
     touch("touchMove", (520, 500), (780, 500))
     touch("touchEnd")
     hand.wait_for(f"vicode.view().k > {before} * 1.5")
-    assert not hand.heard_all("move")
+    assert not hand.gestures("move")
     hand.drag((620, 330), (660, 330))
-    assert not hand.heard_all("create")
+    assert not hand.gestures("create")
 
 
-def test_a_press_on_the_minimap_goes_there(hand: Hand) -> None:
+def test_a_press_on_the_minimap_goes_there(hand: CanvasDriver) -> None:
     minimap = hand.page.locator(".minimap")
     expect(minimap).to_be_hidden()
     hand.call("centre", "states", "LookForBall")
     hand.page.locator(".stage").focus()
     hand.press("+", "+", "+", "+")
     expect(minimap).to_be_visible()
-    before = hand.vicode("view()")["x"]
+    before = hand.evaluate("view()")["x"]
     minimap.click(position={"x": 160, "y": 90})
     hand.wait_for(f"vicode.view().x < {before} - 100")
 
 
 def test_a_large_machine_is_a_picture_from_far_and_boxes_from_near(show: Show) -> None:
     hand = show(machine(400))
-    assert hand.vicode("view()")["far"]
-    assert hand.vicode("mounted()") == 0
+    assert hand.evaluate("view()")["far"]
+    assert hand.evaluate("mounted()") == 0
     hand.click(hand.at("states", "State210"))
     expect(hand.group("state", "State210")).to_have_class(re.compile("selected"))
     x, y = hand.at("states", "State210")
-    before = hand.place("states/State210")
+    before = hand.position("states/State210")
     hand.drag((x, y), (x + 60, y + 30))
-    assert hand.heard("move")["items"][0]["id"] == "State210"
-    assert hand.place("states/State210") != before
+    assert hand.wait_for_gesture("move")["items"][0]["id"] == "State210"
+    assert hand.position("states/State210") != before
     hand.call("centre", "states", "State0")
     hand.wait_for("!vicode.view().far")
     expect(hand.group("state", "State0")).to_be_visible()
-    assert hand.vicode("mounted()") < 700
+    assert hand.evaluate("mounted()") < 700
 
 
 def test_a_crowd_zooms_as_a_picture_and_is_there_again_for_a_hand(show: Show) -> None:
     hand = show(machine(400))
     hand.call("centre", "states", "State210")
     hand.wait_for("!vicode.view().far")
-    hand.wait_until_rest()
+    hand.wait_until_idle()
     hand.wait_for("vicode.mounted() > 250")
     # The coarse bitmap must be there, which has time to be drawn.
     hand.page.wait_for_timeout(700)
@@ -227,7 +227,7 @@ def test_a_crowd_zooms_as_a_picture_and_is_there_again_for_a_hand(show: Show) ->
     hand.click(spot)
     expect(frozen).to_have_count(0)
     assert hand.selection() == {"states/State210"}
-    hand.wait_until_rest()
+    hand.wait_until_idle()
     box = hand.group("state", "State210").locator("rect.box").bounding_box()
     assert box is not None
     assert (box["x"] + box["width"] / 2, box["y"] + box["height"] / 2) == pytest.approx(spot, abs=1)

@@ -6,14 +6,14 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 from tests.diagram.drawn_designs import shipped_designs
-from tests.editor.canvas.conftest import Hand, Point
-from vicode.diagram.figure import figure_of
-from vicode.diagram.routes import routes_of
-from vicode.diagram.ways import point_at
-from vicode.editor.view import scene_of
+from tests.editor.canvas.conftest import CanvasDriver, Point
+from vicode.diagram.figure import build_diagram
+from vicode.diagram.routes import route_edges
+from vicode.diagram.ways import point_on_curve
+from vicode.editor.view import make_scene
 from vicode.model.project import Project
 
-Show = Callable[[Mapping[str, Any]], Hand]
+Show = Callable[[Mapping[str, Any]], CanvasDriver]
 # A browser measures texts by its fonts, Python by a table: the widths of boxes and labels differ by a step of the grid.
 STEP = 20.0
 DRAWN = """() => {
@@ -30,16 +30,16 @@ DRAWN = """() => {
 def test_arrows_and_labels_of_shipped_designs_are_where_the_canvas_has_them(show: Show) -> None:
     labels: list[float] = []
     for design in shipped_designs():
-        hand = show(scene_of(Project(name="P", designs=(design,)), design, (), 1))
+        hand = show(make_scene(Project(name="P", designs=(design,)), design, (), 1))
         drawn = {name: (numbers(path), numbers(at)) for name, path, at in hand.page.evaluate(DRAWN)}
-        for route in routes_of(figure_of(design)):
-            curve, at = drawn[name_of(route.arrow.key)]
-            assert math.dist(middle(curve), middle(route.curve)) < STEP / 2, route.arrow.key
+        for route in route_edges(build_diagram(design)):
+            curve, at = drawn[name_of(route.edge.key)]
+            assert math.dist(middle(curve), middle(route.curve)) < STEP / 2, route.edge.key
             assert max(abs(there - here) for there, here in zip(curve, route.curve, strict=True)) <= STEP, (
-                route.arrow.key
+                route.edge.key
             )
-            assert bool(at) == (route.chip is not None), route.arrow.key
-            labels += [math.dist(at, route.at)] if at else []
+            assert bool(at) == (route.label is not None), route.edge.key
+            labels += [math.dist(at, route.label_position)] if at else []
     # A label as wide as a gap is may find its place in one of them alone.
     assert sum(distance < STEP for distance in labels) >= 0.9 * len(labels)
 
@@ -49,7 +49,7 @@ def numbers(text: str) -> list[float]:
 
 
 def middle(curve: Any) -> Point:
-    return point_at(tuple(curve), 0.5)
+    return point_on_curve(tuple(curve), 0.5)
 
 
 def name_of(key: str) -> str:

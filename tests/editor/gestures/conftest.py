@@ -46,7 +46,7 @@ DRAWN = """() => {
 expect.set_options(timeout=WAIT_MS)
 
 
-class Sketch:
+class EditorDriver:
     """One page on one small design, and what a person does there with mouse and keys."""
 
     def __init__(self, page: Page, address: str) -> None:
@@ -63,7 +63,7 @@ class Sketch:
 
     def at(self, of: str, identity: str, right: float = 0, down: float = 0) -> Point:
         """Where the middle of a thing is on the screen, or a point beside it."""
-        spot = self.vicode(f"screen({json.dumps(of)}, {json.dumps(identity)})")
+        spot = self.evaluate(f"screen({json.dumps(of)}, {json.dumps(identity)})")
         return spot["x"] + right, spot["y"] + down
 
     def state(self, name: str, right: float = 0, down: float = 0) -> Point:
@@ -81,7 +81,7 @@ class Sketch:
         for key in held:
             self.page.keyboard.up(key)
 
-    def grip(self, start: Point, *on: Point, button: Any = "left") -> None:
+    def press_and_move(self, start: Point, *on: Point, button: Any = "left") -> None:
         """Press and move, without letting go."""
         self.page.mouse.move(*start)
         self.page.mouse.down(button=button)
@@ -89,7 +89,7 @@ class Sketch:
             self.page.mouse.move(*spot, steps=4)
 
     def drag(self, start: Point, *on: Point, button: Any = "left") -> None:
-        self.grip(start, *on, button=button)
+        self.press_and_move(start, *on, button=button)
         self.page.mouse.up(button=button)
 
     def handle(self, name: str, index: int) -> Point:
@@ -106,28 +106,28 @@ class Sketch:
         self.view()
         for index, name in enumerate(names):
             self.click(self.state(name), *(["Shift"] if index else []))
-        self.selects(*(f"states/{name}" for name in names))
+        self.expect_selection(*(f"states/{name}" for name in names))
 
-    def selects(self, *things: str) -> None:
+    def expect_selection(self, *things: str) -> None:
         """Wait until exactly these are selected."""
         wanted = json.dumps(sorted(things), separators=(",", ":"))
         self.wait_for(f"JSON.stringify(vicode.selection().map(i => i.of + '/' + i.id).sort()) === {json.dumps(wanted)}")
 
     def selection(self) -> set[str]:
-        return {f"{item['of']}/{item['id']}" for item in self.vicode("selection()")}
+        return {f"{item['of']}/{item['id']}" for item in self.evaluate("selection()")}
 
-    def place(self, name: str) -> Point:
+    def position(self, name: str) -> Point:
         """Where a node is in the design: `place("states/Go")`."""
-        node = self.vicode("positions()")[name]
+        node = self.evaluate("positions()")[name]
         return node["x"], node["y"]
 
-    def stands(self, name: str, x: float, y: float) -> None:
+    def expect_position(self, name: str, x: float, y: float) -> None:
         """Wait until a node is there, also in the design."""
         self.wait_for(f"vicode.positions()['{name}']?.x === {x} && vicode.positions()['{name}'].y === {y}")
 
     def view(self) -> dict[str, Any]:
         self.wait_for("vicode.view().resting")
-        return dict(self.vicode("view()"))
+        return dict(self.evaluate("view()"))
 
     def thing(self, kind: str, identity: str) -> Locator:
         return self.page.locator(f'g.item:not(.chip)[data-kind="{kind}"][data-id={json.dumps(identity)}]')
@@ -135,7 +135,7 @@ class Sketch:
     def arrow(self, identity: str) -> Locator:
         return self.thing("transition", identity)
 
-    def tells(self, words: str) -> None:
+    def expect_message(self, words: str) -> None:
         """Wait for words of the page."""
         expect(self.page.get_by_text(words).first).to_be_visible()
 
@@ -152,7 +152,7 @@ class Sketch:
         field.press("Enter")
         expect(self.thing("state", name)).to_be_visible()
 
-    def undone(self, steps: int = 1) -> None:
+    def expect_undone(self, steps: int = 1) -> None:
         """Take edits back; the design is then what is in the file, and not one step earlier."""
         expect(self.page.get_by_text("Unsaved changes")).to_be_visible()
         self.press("Escape", "Escape")
@@ -172,7 +172,7 @@ class Sketch:
             self.press("Control+z")
             expect(canvas).not_to_have_attribute("data-rev", rev)
 
-    def vicode(self, call: str) -> Any:
+    def evaluate(self, call: str) -> Any:
         return self.page.evaluate(f"document.querySelector('.vicode-canvas').vicode.{call}")
 
     def wait_for(self, claim: str) -> None:
@@ -234,7 +234,7 @@ def first_page(window: BrowserContext) -> Page:
 
 
 @pytest.fixture
-def sketch(sketches: str, first_page: Page) -> Iterator[Sketch]:
+def sketch(sketches: str, first_page: Page) -> Iterator[EditorDriver]:
     """A hand at the design as it is on disk; errors in the console fail the test."""
     errors: list[str] = []
 
@@ -247,7 +247,7 @@ def sketch(sketches: str, first_page: Page) -> Iterator[Sketch]:
 
     first_page.on("console", on_console)
     first_page.on("pageerror", on_error)
-    yield Sketch(first_page, sketches)
+    yield EditorDriver(first_page, sketches)
     first_page.remove_listener("console", on_console)
     first_page.remove_listener("pageerror", on_error)
     assert not errors, "the browser reported errors:\n" + "\n".join(errors)

@@ -7,7 +7,7 @@ from playwright.sync_api import Page, expect
 from tests.editor.gestures.conftest import Point, middle
 
 
-class Newcomer:
+class FirstDesignDriver:
     """Draws on an empty design."""
 
     def __init__(self, page: Page, url: str) -> None:
@@ -56,7 +56,7 @@ class Newcomer:
 
 def test_by_mouse(sketches: str, first_page: Page) -> None:
     page = first_page
-    user = Newcomer(page, f"{sketches}design/forward/Blank")
+    user = FirstDesignDriver(page, f"{sketches}design/forward/Blank")
     page.mouse.dblclick(330, 250)
     user.names_it("Idle")
     user.drags_from("Idle", 1, user.at("states", "Idle", right=220))
@@ -80,7 +80,7 @@ def test_by_mouse(sketches: str, first_page: Page) -> None:
 
 def test_by_keys_alone(sketches: str, first_page: Page) -> None:
     page = first_page
-    user = Newcomer(page, f"{sketches}design/forward/Empty")
+    user = FirstDesignDriver(page, f"{sketches}design/forward/Empty")
     press = page.keyboard.press
     press("s")
     user.names_it("Idle")

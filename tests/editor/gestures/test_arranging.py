@@ -3,12 +3,12 @@
 import pytest
 from playwright.sync_api import expect
 
-from tests.editor.gestures.conftest import Sketch
+from tests.editor.gestures.conftest import EditorDriver
 
 ALL = ("Start", "Go", "Stop", "Rest")
 
 
-def test_a_frame_selects_and_clicks_add_or_take_away(sketch: Sketch) -> None:
+def test_a_frame_selects_and_clicks_add_or_take_away(sketch: EditorDriver) -> None:
     sketch.drag(sketch.state("Start", -90, -50), sketch.state("Go", 70, 40))
     assert {"states/Start", "states/Go"} <= sketch.selection()
     assert "states/Stop" not in sketch.selection()
@@ -21,19 +21,19 @@ def test_a_frame_selects_and_clicks_add_or_take_away(sketch: Sketch) -> None:
     sketch.page.keyboard.up("Shift")
     assert {"states/Start", "states/Stop", "states/Rest"} <= sketch.selection()
     sketch.click(sketch.empty())
-    sketch.selects()
+    sketch.expect_selection()
 
 
-def test_a_selection_is_moved_and_deleted_in_one_edit(sketch: Sketch) -> None:
+def test_a_selection_is_moved_and_deleted_in_one_edit(sketch: EditorDriver) -> None:
     sketch.select("Go", "Stop")
     start = sketch.state("Go")
     sketch.drag(start, (start[0] + 60, start[1] + 37))
     sketch.wait_for("vicode.positions()['states/Go'].x > 470 && vicode.positions()['states/Stop'].x > 470")
-    sketch.undone()
+    sketch.expect_undone()
     sketch.select("Go", "Stop")
     sketch.press("Delete")
     expect(sketch.thing("state", "Stop")).to_have_count(0)
-    sketch.undone()
+    sketch.expect_undone()
     expect(sketch.thing("state", "Stop")).to_be_visible()
 
 
@@ -49,23 +49,23 @@ def test_a_selection_is_moved_and_deleted_in_one_edit(sketch: Sketch) -> None:
     ],
 )
 def test_lining_up_by_keys_and_by_buttons(
-    sketch: Sketch, button: str, keys: str, places: dict[str, tuple[int, int]]
+    sketch: EditorDriver, button: str, keys: str, places: dict[str, tuple[int, int]]
 ) -> None:
     sketch.select("Start", "Go", "Stop")
     sketch.press(keys)
     for name, (x, y) in places.items():
-        sketch.stands(f"states/{name}", x, y)
-    sketch.undone()
+        sketch.expect_position(f"states/{name}", x, y)
+    sketch.expect_undone()
     sketch.select("Start", "Go", "Stop")
     # The buttons for two of them are replaced by those for all three.
     expect(sketch.page.get_by_text("3 states selected")).to_be_visible()
     sketch.page.get_by_role("button", name=button).click()
     for name, (x, y) in places.items():
-        sketch.stands(f"states/{name}", x, y)
-    sketch.undone()
+        sketch.expect_position(f"states/{name}", x, y)
+    sketch.expect_undone()
 
 
-def test_three_are_needed_to_be_spread_out(sketch: Sketch) -> None:
+def test_three_are_needed_to_be_spread_out(sketch: EditorDriver) -> None:
     start = sketch.state("Go")
     sketch.drag(start, (start[0] - 120, start[1] + 33))
     sketch.wait_for("vicode.positions()['states/Go'].x < 400")
@@ -79,11 +79,11 @@ def test_three_are_needed_to_be_spread_out(sketch: Sketch) -> None:
     sketch.press("Alt+Shift+H")
     sketch.wait_for("vicode.positions()['states/Go'].x === 280")
     sketch.press("Alt+Shift+V")
-    sketch.stands("states/Go", 280, 210)
-    sketch.undone(3)
+    sketch.expect_position("states/Go", 280, 210)
+    sketch.expect_undone(3)
 
 
-def test_a_dragged_box_lines_up_with_others_and_shows_it(sketch: Sketch) -> None:
+def test_a_dragged_box_lines_up_with_others_and_shows_it(sketch: EditorDriver) -> None:
     k = sketch.view()["k"]
     x, y = sketch.state("Rest")
     # Freely to a place off the grid, so that lining up can be told from it.
@@ -91,19 +91,19 @@ def test_a_dragged_box_lines_up_with_others_and_shows_it(sketch: Sketch) -> None
     sketch.drag((x, y), (x + 23 * k, y + 41 * k))
     sketch.page.keyboard.up("Alt")
     sketch.wait_for("vicode.positions()['states/Rest'].x !== 120 && vicode.positions()['states/Rest'].x % 10 !== 0")
-    rest = sketch.place("states/Rest")
+    rest = sketch.position("states/Rest")
     sketch.press("Escape")
     x, y = sketch.state("Stop")
-    sketch.grip((x, y), (x - 60 * k, y + 70 * k), sketch.state("Rest", 260, 4 * k))
+    sketch.press_and_move((x, y), (x - 60 * k, y + 70 * k), sketch.state("Rest", 260, 4 * k))
     guides = sketch.page.locator("path.guide")
     expect(guides).not_to_have_count(0)
     sketch.page.mouse.up()
     expect(guides).to_have_count(0)
     sketch.wait_for(f"vicode.positions()['states/Stop'].y === {rest[1]}")
-    sketch.undone(2)
+    sketch.expect_undone(2)
 
 
-def test_a_dragged_box_takes_equal_gaps_and_shows_them(sketch: Sketch) -> None:
+def test_a_dragged_box_takes_equal_gaps_and_shows_them(sketch: EditorDriver) -> None:
     k = sketch.view()["k"]
     x, y = sketch.state("Rest")
     # Off the grid, so that a place of equal gaps is none of the grid's.
@@ -111,43 +111,43 @@ def test_a_dragged_box_takes_equal_gaps_and_shows_them(sketch: Sketch) -> None:
     sketch.drag((x, y), (x + 14 * k, y))
     sketch.page.keyboard.up("Alt")
     sketch.wait_for("vicode.positions()['states/Rest'].x > 125")
-    rest, stop = sketch.place("states/Rest"), sketch.place("states/Stop")
+    rest, stop = sketch.position("states/Rest"), sketch.position("states/Stop")
     middle = round((rest[0] + stop[0]) / 2)
     assert middle % 10
     sketch.press("Escape")
     x, y = sketch.state("Go")
     (left, row), (right, _row) = sketch.state("Rest"), sketch.state("Stop")
-    sketch.grip((x, y), (x - 30, y + 60), ((left + right) / 2 - 3 * k, row + 23 * k))
+    sketch.press_and_move((x, y), (x - 30, y + 60), ((left + right) / 2 - 3 * k, row + 23 * k))
     gaps = sketch.page.locator("path.guide.gap")
     expect(gaps).to_have_count(2)
     sketch.page.mouse.up()
     expect(gaps).to_have_count(0)
     sketch.wait_for(f"vicode.positions()['states/Go'].x === {middle}")
-    sketch.undone(2)
+    sketch.expect_undone(2)
 
 
-def test_arrow_keys_nudge_as_one_edit(sketch: Sketch) -> None:
+def test_arrow_keys_nudge_as_one_edit(sketch: EditorDriver) -> None:
     sketch.select("Go", "Stop")
     sketch.press("ArrowRight", "ArrowRight", "Shift+ArrowDown")
-    sketch.stands("states/Go", 460, 101)
-    sketch.stands("states/Stop", 460, 321)
-    sketch.undone()
-    sketch.stands("states/Go", 440, 100)
+    sketch.expect_position("states/Go", 460, 101)
+    sketch.expect_position("states/Stop", 460, 321)
+    sketch.expect_undone()
+    sketch.expect_position("states/Go", 440, 100)
 
 
-def test_arrows_follow_while_a_box_is_dragged(sketch: Sketch) -> None:
+def test_arrows_follow_while_a_box_is_dragged(sketch: EditorDriver) -> None:
     line = sketch.arrow("Start/0").locator("path.line")
     before = line.get_attribute("d")
     assert before
     x, y = sketch.state("Go")
-    sketch.grip((x, y), (x + 90, y + 110))
+    sketch.press_and_move((x, y), (x + 90, y + 110))
     expect(line).not_to_have_attribute("d", before)
     sketch.press("Escape")
     sketch.page.mouse.up()
     expect(line).to_have_attribute("d", before)
 
 
-def test_the_view_pans_and_zooms_by_every_way(sketch: Sketch) -> None:
+def test_the_view_pans_and_zooms_by_every_way(sketch: EditorDriver) -> None:
     before, spot = sketch.view(), sketch.state("Go")
     sketch.page.keyboard.down(" ")
     sketch.drag(sketch.empty(), (sketch.empty()[0] + 50, sketch.empty()[1] - 40))

@@ -4,78 +4,78 @@ import re
 
 from playwright.sync_api import expect
 
-from tests.editor.gestures.conftest import Sketch, middle
+from tests.editor.gestures.conftest import EditorDriver, middle
 
 
-def label(sketch: Sketch, identity: str) -> tuple[float, float]:
+def label(sketch: EditorDriver, identity: str) -> tuple[float, float]:
     return middle(sketch.page.locator(f'g.chip[data-id="{identity}"]'))
 
 
-def leads(sketch: Sketch, identity: str, words: str) -> None:
+def leads(sketch: EditorDriver, identity: str, words: str) -> None:
     expect(sketch.arrow(identity)).to_have_attribute("aria-label", re.compile(words))
 
 
-def test_both_ends_are_taken_elsewhere_by_mouse(sketch: Sketch) -> None:
+def test_both_ends_are_taken_elsewhere_by_mouse(sketch: EditorDriver) -> None:
     sketch.click(label(sketch, "Start/1"))
     sketch.drag(middle(sketch.page.locator('circle[data-end="target"]')), sketch.state("Go"))
     leads(sketch, "Start/1", "from Start to Go: 3 s")
-    sketch.undone()
+    sketch.expect_undone()
     sketch.click(label(sketch, "Start/1"))
     sketch.drag(middle(sketch.page.locator('circle[data-end="source"]')), sketch.state("Rest"))
     leads(sketch, "Rest/0", "from Rest to Stop: 3 s")
-    sketch.selects("transitions/Rest/0")
-    sketch.undone()
+    sketch.expect_selection("transitions/Rest/0")
+    sketch.expect_undone()
 
 
-def test_both_ends_are_taken_elsewhere_by_keys(sketch: Sketch) -> None:
+def test_both_ends_are_taken_elsewhere_by_keys(sketch: EditorDriver) -> None:
     sketch.click(label(sketch, "Start/1"))
     sketch.press("r", "g", "o", "Enter")
     leads(sketch, "Start/1", "from Start to Go: 3 s")
-    sketch.undone()
+    sketch.expect_undone()
     sketch.click(label(sketch, "Start/1"))
     sketch.press("Shift+R", "ArrowDown", "Enter")
     leads(sketch, "Rest/0", "from Rest to Stop: 3 s")
-    sketch.undone()
+    sketch.expect_undone()
 
 
-def test_states_are_connected_by_mouse_and_by_keys(sketch: Sketch) -> None:
+def test_states_are_connected_by_mouse_and_by_keys(sketch: EditorDriver) -> None:
     sketch.drag(sketch.handle("Rest", 1), sketch.state("Stop"))
     leads(sketch, "Rest/0", "from Rest to Stop")
-    sketch.undone()
+    sketch.expect_undone()
     sketch.select("Rest")
     sketch.press("t", "Tab", "Tab", "Enter")
     leads(sketch, "Rest/0", "from Rest to Start")
-    sketch.undone()
+    sketch.expect_undone()
     sketch.select("Rest")
     sketch.press("t", "ArrowRight")
     expect(sketch.page.locator(".message")).to_contain_text("Stop: Enter")
     sketch.press("Enter")
     leads(sketch, "Rest/0", "from Rest to Stop")
-    sketch.undone()
+    sketch.expect_undone()
     sketch.select("Rest")
     sketch.press("t", "w", "a", "l", "Enter")
     expect(sketch.thing("link", "requires/Rest/walk").or_(sketch.thing("link", "modulates/Rest/walk"))).to_have_count(1)
-    sketch.undone()
+    sketch.expect_undone()
 
 
-def test_a_connection_to_nothing_brings_a_new_state(sketch: Sketch) -> None:
+def test_a_connection_to_nothing_brings_a_new_state(sketch: EditorDriver) -> None:
     sketch.drag(sketch.handle("Rest", 2), sketch.state("Rest", 0, 150))
     sketch.rename_to("Sleep")
     leads(sketch, "Rest/0", "from Rest to Sleep")
-    sketch.undone(2)
+    sketch.expect_undone(2)
     sketch.select("Rest")
     sketch.press("n")
     sketch.rename_to("Doze")
     leads(sketch, "Rest/0", "from Rest to Doze")
-    sketch.undone(2)
+    sketch.expect_undone(2)
 
 
-def test_a_label_is_moved_along_and_off_its_arrow_and_put_back(sketch: Sketch) -> None:
+def test_a_label_is_moved_along_and_off_its_arrow_and_put_back(sketch: EditorDriver) -> None:
     x, y = label(sketch, "Start/0")
     sketch.drag((x, y), (x - 20, y - 40))
     sketch.wait_for(f"Math.abs(vicode.screen('transitions', 'Start/0').y - {y - 40}) < 4")
     assert abs(label(sketch, "Start/0")[0] - (x - 20)) < 4
-    sketch.undone()
+    sketch.expect_undone()
     sketch.wait_for(f"Math.abs(vicode.screen('transitions', 'Start/0').y - {y}) < 1")
     sketch.drag((x, y), (x, y - 40))
     expect(sketch.page.get_by_text("Unsaved changes")).to_be_visible()
@@ -84,37 +84,37 @@ def test_a_label_is_moved_along_and_off_its_arrow_and_put_back(sketch: Sketch) -
     expect(sketch.page.get_by_text("Saved", exact=True)).to_be_visible()
 
 
-def test_a_label_is_nudged_by_keys(sketch: Sketch) -> None:
+def test_a_label_is_nudged_by_keys(sketch: EditorDriver) -> None:
     sketch.click(label(sketch, "Start/0"))
     before = label(sketch, "Start/0")[1]
     sketch.press("ArrowDown")
     sketch.wait_for(f"vicode.screen('transitions', 'Start/0').y > {before + 4}")
     sketch.press("ArrowDown")
     sketch.wait_for(f"vicode.screen('transitions', 'Start/0').y > {before + 9}")
-    sketch.undone()
+    sketch.expect_undone()
 
 
-def test_a_label_dropped_on_another_is_tested_there(sketch: Sketch) -> None:
+def test_a_label_dropped_on_another_is_tested_there(sketch: EditorDriver) -> None:
     sketch.drag(label(sketch, "Start/2"), label(sketch, "Start/0"))
     leads(sketch, "Start/0", "1 of 3 from Start to Rest")
     leads(sketch, "Start/1", "2 of 3 from Start to Go")
-    sketch.selects("transitions/Start/0")
-    sketch.undone()
+    sketch.expect_selection("transitions/Start/0")
+    sketch.expect_undone()
 
 
-def test_brackets_put_in_order(sketch: Sketch) -> None:
+def test_brackets_put_in_order(sketch: EditorDriver) -> None:
     sketch.click(label(sketch, "Start/0"))
     sketch.press("]")
-    sketch.selects("transitions/Start/1")
+    sketch.expect_selection("transitions/Start/1")
     leads(sketch, "Start/1", "2 of 3 from Start to Go")
     sketch.press("]")
-    sketch.selects("transitions/Start/2")
+    sketch.expect_selection("transitions/Start/2")
     sketch.press("[")
-    sketch.selects("transitions/Start/1")
-    sketch.undone(3)
+    sketch.expect_selection("transitions/Start/1")
+    sketch.expect_undone(3)
 
 
-def test_rows_of_the_list_are_dragged_into_another_order(sketch: Sketch) -> None:
+def test_rows_of_the_list_are_dragged_into_another_order(sketch: EditorDriver) -> None:
     sketch.select("Start")
     rows = sketch.page.get_by_label("Inspector").locator(".decision-row")
     expect(rows).to_have_count(3)
@@ -122,27 +122,27 @@ def test_rows_of_the_list_are_dragged_into_another_order(sketch: Sketch) -> None
     leads(sketch, "Start/0", "1 of 3 from Start to Rest")
     expect(rows.nth(0)).to_contain_text("Rest")
     sketch.page.locator(".stage").last.focus()
-    sketch.undone()
+    sketch.expect_undone()
 
 
-def test_escape_leaves_every_half_done_gesture(sketch: Sketch) -> None:
+def test_escape_leaves_every_half_done_gesture(sketch: EditorDriver) -> None:
     x, y = sketch.state("Go")
-    sketch.grip((x, y), (x + 80, y + 50))
+    sketch.press_and_move((x, y), (x + 80, y + 50))
     sketch.wait_for("vicode.positions()['states/Go'].x > 450")
     sketch.press("Escape")
     sketch.page.mouse.up()
-    sketch.stands("states/Go", 440, 100)
-    sketch.grip(sketch.handle("Go", 1), sketch.state("Go", 160, 60))
+    sketch.expect_position("states/Go", 440, 100)
+    sketch.press_and_move(sketch.handle("Go", 1), sketch.state("Go", 160, 60))
     expect(sketch.page.locator("path.preview")).to_be_visible()
     sketch.press("Escape")
     sketch.page.mouse.up()
     expect(sketch.page.locator("path.preview")).to_have_count(0)
     x, y = label(sketch, "Start/0")
-    sketch.grip((x, y), (x, y - 60))
+    sketch.press_and_move((x, y), (x, y - 60))
     sketch.press("Escape")
     sketch.page.mouse.up()
     assert abs(label(sketch, "Start/0")[1] - y) < 1
-    sketch.grip(sketch.empty(), sketch.state("Stop"))
+    sketch.press_and_move(sketch.empty(), sketch.state("Stop"))
     expect(sketch.page.locator("rect.marquee")).to_be_visible()
     sketch.press("Escape")
     sketch.page.mouse.up()
@@ -152,5 +152,5 @@ def test_escape_leaves_every_half_done_gesture(sketch: Sketch) -> None:
     expect(sketch.page.locator(".message")).to_be_visible()
     sketch.press("Escape")
     expect(sketch.page.locator(".message")).to_be_hidden()
-    sketch.selects("states/Rest")
+    sketch.expect_selection("states/Rest")
     expect(sketch.page.get_by_text("Saved", exact=True)).to_be_visible()

@@ -2,24 +2,24 @@
 
 from playwright.sync_api import expect
 
-from tests.editor.gestures.conftest import Sketch
+from tests.editor.gestures.conftest import EditorDriver
 from tests.editor.player_page import open_player, state
 
 
-def clipboard(sketch: Sketch) -> str:
+def clipboard(sketch: EditorDriver) -> str:
     return str(sketch.page.evaluate("navigator.clipboard.readText()"))
 
 
-def put_on_clipboard(sketch: Sketch, text: str) -> None:
+def put_on_clipboard(sketch: EditorDriver, text: str) -> None:
     sketch.page.evaluate("text => navigator.clipboard.writeText(text)", text)
 
 
-def copy(sketch: Sketch, keys: str = "Control+c") -> None:
+def copy(sketch: EditorDriver, keys: str = "Control+c") -> None:
     sketch.press(keys)
     expect(sketch.page.locator(".message")).to_have_text("Cut" if keys == "Control+x" else "Copied")
 
 
-def test_copied_states_are_readable_text_and_paste_under_the_hand(sketch: Sketch) -> None:
+def test_copied_states_are_readable_text_and_paste_under_the_hand(sketch: EditorDriver) -> None:
     sketch.select("Start", "Go")
     copy(sketch)
     text = clipboard(sketch)
@@ -29,7 +29,7 @@ def test_copied_states_are_readable_text_and_paste_under_the_hand(sketch: Sketch
     spot = sketch.empty()
     sketch.page.mouse.move(*spot)
     sketch.press("Control+v")
-    sketch.selects("states/Start2", "states/Go2")
+    sketch.expect_selection("states/Start2", "states/Go2")
     expect(sketch.arrow("Start2/0")).to_have_attribute(
         "aria-label", "Transition 1 of 3 from Start2 to Go2: state_time > 1"
     )
@@ -37,36 +37,36 @@ def test_copied_states_are_readable_text_and_paste_under_the_hand(sketch: Sketch
     (left, y), (right, _y) = sketch.state("Start2"), sketch.state("Go2")
     assert abs((left + right) / 2 - spot[0]) < 12
     assert abs(y - spot[1]) < 12
-    sketch.undone()
+    sketch.expect_undone()
 
 
-def test_cut_takes_away_what_paste_brings_back(sketch: Sketch) -> None:
+def test_cut_takes_away_what_paste_brings_back(sketch: EditorDriver) -> None:
     sketch.select("Go")
     copy(sketch, "Control+x")
     expect(sketch.thing("state", "Go")).to_have_count(0)
     assert "Go:" in clipboard(sketch)
     sketch.press("Control+v")
     expect(sketch.thing("state", "Go")).to_be_visible()
-    sketch.undone(2)
+    sketch.expect_undone(2)
 
 
-def test_duplicate_keeps_what_leads_between_and_out(sketch: Sketch) -> None:
+def test_duplicate_keeps_what_leads_between_and_out(sketch: EditorDriver) -> None:
     sketch.select("Start", "Go")
     sketch.press("Control+d")
-    sketch.selects("states/Start2", "states/Go2")
-    sketch.stands("states/Start2", 160, 190)
+    sketch.expect_selection("states/Start2", "states/Go2")
+    sketch.expect_position("states/Start2", 160, 190)
     expect(sketch.arrow("Start2/2")).to_have_attribute(
         "aria-label", "Transition 3 of 3 from Start2 to Rest: state_time > 9"
     )
-    sketch.undone()
+    sketch.expect_undone()
     sketch.click(sketch.at("transitions", "Start/1"))
     sketch.press("Control+d")
-    sketch.selects("transitions/Start/2")
+    sketch.expect_selection("transitions/Start/2")
     expect(sketch.arrow("Start/2")).to_have_attribute("aria-label", "Transition 3 of 4 from Start to Stop: 3 s")
-    sketch.undone()
+    sketch.expect_undone()
 
 
-def test_parts_travel_between_designs_and_windows_with_what_they_use(sketch: Sketch) -> None:
+def test_parts_travel_between_designs_and_windows_with_what_they_use(sketch: EditorDriver) -> None:
     page = sketch.page.context.new_page()
     open_player(page, sketch.address)
     state(page, "LookForBall").click()
@@ -75,29 +75,29 @@ def test_parts_travel_between_designs_and_windows_with_what_they_use(sketch: Ske
     sketch.page.bring_to_front()
     sketch.page.mouse.move(*sketch.empty())
     sketch.press("Control+v")
-    sketch.selects("states/LookForBall")
+    sketch.expect_selection("states/LookForBall")
     for alias in ("perception", "search_ball"):
         expect(sketch.thing("component", alias)).to_be_visible()
     expect(sketch.thing("link", "requires/LookForBall/perception")).to_have_count(1)
     # It led to a state that this design does not have.
     expect(sketch.arrow("LookForBall/0")).to_have_count(0)
-    sketch.undone()
+    sketch.expect_undone()
     page.close()
 
 
-def test_transitions_go_to_the_selected_states(sketch: Sketch) -> None:
+def test_transitions_go_to_the_selected_states(sketch: EditorDriver) -> None:
     sketch.click(sketch.at("transitions", "Start/1"))
     copy(sketch)
     sketch.press("Escape", "Control+v")
-    sketch.tells("select the states that shall get these transitions")
+    sketch.expect_message("select the states that shall get these transitions")
     sketch.select("Go", "Rest")
     sketch.press("Control+v")
     for name in ("Go", "Rest"):
         expect(sketch.arrow(f"{name}/0")).to_have_attribute("aria-label", f"Transition 1 of 1 from {name} to Stop: 3 s")
-    sketch.undone()
+    sketch.expect_undone()
 
 
-def test_any_text_gets_words_and_changes_nothing(sketch: Sketch) -> None:
+def test_any_text_gets_words_and_changes_nothing(sketch: EditorDriver) -> None:
     for text, words in (
         ("just a letter", "the clipboard holds no part of a design"),
         ("states: {A: !!python/object/apply:os.system [ls]}", "the clipboard holds no part of a design: "),
@@ -108,19 +108,19 @@ def test_any_text_gets_words_and_changes_nothing(sketch: Sketch) -> None:
         put_on_clipboard(sketch, text)
         sketch.page.locator(".stage").last.focus()
         sketch.press("Control+v")
-        sketch.tells(words)
+        sketch.expect_message(words)
     expect(sketch.page.get_by_text("Saved", exact=True)).to_be_visible()
     assert sketch.page.locator("img[src=x]").count() == 0
 
 
-def test_menus_copy_and_paste_as_well(sketch: Sketch) -> None:
+def test_menus_copy_and_paste_as_well(sketch: EditorDriver) -> None:
     sketch.click(sketch.state("Rest"), right=True)
     sketch.choose("Copy")
     expect(sketch.page.locator(".message")).to_have_text("Copied")
     spot = sketch.empty()
     sketch.click(spot, right=True)
     sketch.choose("Paste")
-    sketch.selects("states/Rest2")
+    sketch.expect_selection("states/Rest2")
     x, y = sketch.state("Rest2")
     assert abs(x - spot[0]) + abs(y - spot[1]) < 20
-    sketch.undone()
+    sketch.expect_undone()

@@ -4,25 +4,25 @@ import re
 
 from playwright.sync_api import expect
 
-from tests.editor.gestures.conftest import Sketch, middle
+from tests.editor.gestures.conftest import EditorDriver, middle
 
 
-def test_a_right_click_shows_what_can_be_done_with_its_keys(sketch: Sketch) -> None:
+def test_a_right_click_shows_what_can_be_done_with_its_keys(sketch: EditorDriver) -> None:
     sketch.click(sketch.state("Go"), right=True)
-    sketch.selects("states/Go")
+    sketch.expect_selection("states/Go")
     entries = sketch.menu().get_by_role("menuitem")
     expect(entries.first).to_be_focused()
     expect(sketch.menu().get_by_role("menuitem", name="Duplicate")).to_contain_text("Ctrl+D")
     sketch.choose("Start here")
     expect(sketch.thing("state", "Go")).to_have_attribute("aria-label", re.compile("initial"))
-    sketch.undone()
+    sketch.expect_undone()
     sketch.click(sketch.state("Go"), right=True)
     sketch.choose("Final")
     expect(sketch.thing("state", "Go")).to_have_attribute("aria-label", re.compile("final"))
-    sketch.undone()
+    sketch.expect_undone()
 
 
-def test_each_kind_of_thing_has_its_menu(sketch: Sketch) -> None:
+def test_each_kind_of_thing_has_its_menu(sketch: EditorDriver) -> None:
     for spot, entry in (
         (middle(sketch.page.locator('g.chip[data-id="Start/1"]')), "Edit the guard"),
         (sketch.at("components", "walk"), "Open its design"),
@@ -34,13 +34,13 @@ def test_each_kind_of_thing_has_its_menu(sketch: Sketch) -> None:
         expect(sketch.menu()).to_be_hidden()
     sketch.select("Go", "Stop")
     sketch.click(sketch.state("Stop"), right=True)
-    sketch.selects("states/Go", "states/Stop")
+    sketch.expect_selection("states/Go", "states/Stop")
     sketch.choose("Delete")
     expect(sketch.thing("state", "Stop")).to_have_count(0)
-    sketch.undone()
+    sketch.expect_undone()
 
 
-def test_a_menu_works_by_keys_alone(sketch: Sketch) -> None:
+def test_a_menu_works_by_keys_alone(sketch: EditorDriver) -> None:
     sketch.select("Go")
     for keys in ("Shift+F10", "ContextMenu"):
         sketch.press(keys)
@@ -53,21 +53,21 @@ def test_a_menu_works_by_keys_alone(sketch: Sketch) -> None:
         sketch.press("Escape")
         expect(sketch.menu()).to_be_hidden()
     sketch.press("Shift+F10", "d", "d", "Enter")
-    sketch.selects("states/Go2")
-    sketch.undone()
+    sketch.expect_selection("states/Go2")
+    sketch.expect_undone()
 
 
-def test_what_was_made_by_the_menu_stands_where_it_was_opened(sketch: Sketch) -> None:
+def test_what_was_made_by_the_menu_stands_where_it_was_opened(sketch: EditorDriver) -> None:
     spot = sketch.empty()
     sketch.click(spot, right=True)
     sketch.choose("New state")
     sketch.rename_to("Wait")
     x, y = sketch.state("Wait")
     assert abs(x - spot[0]) + abs(y - spot[1]) < 20
-    sketch.undone(2)
+    sketch.expect_undone(2)
 
 
-def test_the_help_lists_every_key(sketch: Sketch) -> None:
+def test_the_help_lists_every_key(sketch: EditorDriver) -> None:
     sketch.page.locator(".stage").last.focus()
     sketch.press("?")
     help_ = sketch.page.locator(".help")
@@ -77,30 +77,30 @@ def test_the_help_lists_every_key(sketch: Sketch) -> None:
     expect(help_).to_have_count(0)
 
 
-def test_keys_work_from_the_first_moment_and_when_nothing_has_the_focus(sketch: Sketch) -> None:
+def test_keys_work_from_the_first_moment_and_when_nothing_has_the_focus(sketch: EditorDriver) -> None:
     expect(sketch.page.locator(".stage").last).to_be_focused()
     sketch.press("Tab")
-    sketch.selects("states/Start")
+    sketch.expect_selection("states/Start")
     sketch.page.evaluate("document.activeElement.blur()")
     sketch.press("Control+ArrowRight")
-    sketch.selects("states/Go")
+    sketch.expect_selection("states/Go")
     sketch.press("Control+Shift+ArrowDown")
-    sketch.selects("states/Go", "states/Stop")
+    sketch.expect_selection("states/Go", "states/Stop")
     sketch.press("d")
     expect(sketch.thing("state", "Stop")).to_have_class(re.compile("disabled"))
-    sketch.undone()
+    sketch.expect_undone()
 
 
-def test_new_states_by_keys_find_a_free_place(sketch: Sketch) -> None:
+def test_new_states_by_keys_find_a_free_place(sketch: EditorDriver) -> None:
     for name in ("One", "Two"):
         sketch.press("s")
         sketch.rename_to(name)
-    (x1, y1), (x2, y2) = sketch.place("states/One"), sketch.place("states/Two")
+    (x1, y1), (x2, y2) = sketch.position("states/One"), sketch.position("states/Two")
     assert abs(x1 - x2) >= 120 or abs(y1 - y2) >= 60
-    sketch.undone(4)
+    sketch.expect_undone(4)
 
 
-def test_a_component_is_used_by_keys_and_by_dragging_its_design(sketch: Sketch) -> None:
+def test_a_component_is_used_by_keys_and_by_dragging_its_design(sketch: EditorDriver) -> None:
     sketch.press("u")
     field = sketch.page.get_by_label("Component", exact=True)
     expect(field).to_be_focused()
@@ -108,17 +108,17 @@ def test_a_component_is_used_by_keys_and_by_dragging_its_design(sketch: Sketch) 
     expect(sketch.page.locator(".choice")).to_have_count(1)
     field.press("Enter")
     expect(sketch.thing("component", "search_ball")).to_be_visible()
-    sketch.selects("components/search_ball")
+    sketch.expect_selection("components/search_ball")
     expect(sketch.page.locator(".stage").last).to_be_focused()
-    sketch.undone()
+    sketch.expect_undone()
     link = sketch.page.get_by_role("link", name="SearchNet")
     link.drag_to(sketch.page.locator(".vicode-canvas"), target_position={"x": 500, "y": 80})
     expect(sketch.thing("component", "search_net")).to_be_visible()
-    sketch.selects("components/search_net")
-    sketch.undone()
+    sketch.expect_selection("components/search_net")
+    sketch.expect_undone()
 
 
-def test_escape_leads_from_a_field_back_to_the_drawing(sketch: Sketch) -> None:
+def test_escape_leads_from_a_field_back_to_the_drawing(sketch: EditorDriver) -> None:
     sketch.click(middle(sketch.page.locator('g.chip[data-id="Start/1"]')))
     sketch.press("Enter")
     expect(sketch.page.get_by_label("When", exact=True)).to_be_focused()
@@ -127,5 +127,5 @@ def test_escape_leads_from_a_field_back_to_the_drawing(sketch: Sketch) -> None:
     expect(sketch.arrow("Start/1")).to_have_attribute("aria-label", re.compile("5 s"))
     sketch.press("Escape")
     expect(sketch.page.locator(".stage").last).to_be_focused()
-    sketch.selects("transitions/Start/1")
-    sketch.undone()
+    sketch.expect_selection("transitions/Start/1")
+    sketch.expect_undone()

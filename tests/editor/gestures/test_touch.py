@@ -5,10 +5,10 @@ from collections.abc import Iterator
 import pytest
 from playwright.sync_api import Browser, BrowserContext, CDPSession, Page, StorageState, expect
 
-from tests.editor.gestures.conftest import Point, Sketch, box_of, middle, opened_window
+from tests.editor.gestures.conftest import EditorDriver, Point, box_of, middle, opened_window
 
 
-class Fingers:
+class TouchInput:
     """Touches as the screen sends them."""
 
     def __init__(self, page: Page) -> None:
@@ -36,17 +36,17 @@ def window(chromium: Browser, person: StorageState) -> Iterator[BrowserContext]:
 
 
 @pytest.fixture
-def fingers(sketch: Sketch) -> Fingers:
-    return Fingers(sketch.page)
+def fingers(sketch: EditorDriver) -> TouchInput:
+    return TouchInput(sketch.page)
 
 
-def test_one_finger_selects_and_drags_and_pans(sketch: Sketch, fingers: Fingers) -> None:
+def test_one_finger_selects_and_drags_and_pans(sketch: EditorDriver, fingers: TouchInput) -> None:
     fingers.tap(sketch.state("Go"))
-    sketch.selects("states/Go")
+    sketch.expect_selection("states/Go")
     x, y = sketch.state("Go")
     fingers.drag((x, y), (x + 60, y + 50))
     sketch.wait_for("vicode.positions()['states/Go'].x > 470")
-    sketch.undone()
+    sketch.expect_undone()
     before = sketch.state("Stop")
     spot = sketch.empty()
     fingers.drag(spot, (spot[0] + 40, spot[1] - 30))
@@ -54,22 +54,24 @@ def test_one_finger_selects_and_drags_and_pans(sketch: Sketch, fingers: Fingers)
     expect(sketch.page.get_by_text("Saved", exact=True)).to_be_visible()
 
 
-def test_a_finger_held_still_opens_the_menu(sketch: Sketch, fingers: Fingers) -> None:
+def test_a_finger_held_still_opens_the_menu(sketch: EditorDriver, fingers: TouchInput) -> None:
     fingers.send("touchStart", sketch.state("Rest"))
     expect(sketch.menu()).to_be_visible()
     fingers.send("touchEnd")
     expect(sketch.menu()).to_be_visible()
-    sketch.selects("states/Rest")
+    sketch.expect_selection("states/Rest")
     entry = sketch.menu().get_by_role("menuitem", name="Duplicate")
     box = entry.bounding_box()
     assert box is not None
     assert box["height"] >= 40
     fingers.tap(middle(entry))
-    sketch.selects("states/Rest2")
-    sketch.undone()
+    sketch.expect_selection("states/Rest2")
+    sketch.expect_undone()
 
 
-def test_two_fingers_zoom_and_a_finger_drags_a_transition_from_a_state(sketch: Sketch, fingers: Fingers) -> None:
+def test_two_fingers_zoom_and_a_finger_drags_a_transition_from_a_state(
+    sketch: EditorDriver, fingers: TouchInput
+) -> None:
     before = sketch.view()["k"]
     fingers.send("touchStart", (500, 600), (600, 600))
     fingers.send("touchMove", (520, 600), (580, 600))
@@ -79,24 +81,24 @@ def test_two_fingers_zoom_and_a_finger_drags_a_transition_from_a_state(sketch: S
     sketch.press("1")
     sketch.wait_for(f"vicode.view().k === {before}")
     fingers.tap(sketch.state("Rest"))
-    sketch.selects("states/Rest")
+    sketch.expect_selection("states/Rest")
     disc = sketch.page.locator('circle.handle-hit[data-handle="s:Rest"]').nth(1)
     box = box_of(disc)
     assert min(box["width"], box["height"]) >= 40 * min(1, before)
     fingers.drag(middle(disc), sketch.state("Stop"))
     expect(sketch.arrow("Rest/0")).to_have_count(1)
-    sketch.undone()
+    sketch.expect_undone()
 
 
-def test_several_are_selected_without_a_key(sketch: Sketch, fingers: Fingers) -> None:
+def test_several_are_selected_without_a_key(sketch: EditorDriver, fingers: TouchInput) -> None:
     fingers.tap(sketch.state("Go"))
     several = sketch.page.get_by_role("button", name="Select several")
     several.click()
     expect(several).to_have_attribute("aria-pressed", "true")
     fingers.tap(sketch.state("Stop"))
-    sketch.selects("states/Go", "states/Stop")
+    sketch.expect_selection("states/Go", "states/Stop")
     fingers.tap(sketch.state("Go"))
-    sketch.selects("states/Stop")
+    sketch.expect_selection("states/Stop")
     fingers.drag(sketch.state("Rest", -70, 50), sketch.state("Rest", 70, -20))
     sketch.wait_for("vicode.selection().some(item => item.id === 'Rest')")
     several.click()

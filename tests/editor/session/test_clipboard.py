@@ -8,16 +8,16 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from vicode.editor.session import Document, Outcome, Sheet, apply_gesture, clipboard
-from vicode.editor.view import Selected
-from vicode.model.design import Common, Design, Guard, State, Transition, Use
+from vicode.editor.session import DocumentSession, EditResult, SharedDocument, apply_gesture, clipboard
+from vicode.editor.view import ItemRef
+from vicode.model.design import CommonSection, Design, Guard, State, Transition, Use
 from vicode.store import read_design
 
 DESIGN = Design(
     component="Player",
     initial="A",
     uses=(Use(alias="head", component="Head"),),
-    common=Common(at=(9, 9), transitions=(Transition(to="C"),)),
+    common=CommonSection(at=(9, 9), transitions=(Transition(to="C"),)),
     states=(
         State(
             name="A",
@@ -32,12 +32,14 @@ DESIGN = Design(
 KNOWN = {"Head", "Player"}
 
 
-def opened(design: Design = DESIGN) -> Document:
-    return Document(Sheet(file=Path("player.yaml"), disk_text="", saved=design, check=lambda _design: ()))
+def opened(design: Design = DESIGN) -> DocumentSession:
+    return DocumentSession(
+        SharedDocument(file=Path("player.yaml"), disk_text="", saved=design, check=lambda _design: ())
+    )
 
 
 @pytest.fixture
-def document() -> Document:
+def document() -> DocumentSession:
     return opened()
 
 
@@ -45,22 +47,22 @@ def items(**named: str) -> list[dict[str, str]]:
     return [{"of": of, "id": identity} for of, ids in named.items() for identity in ids.split()]
 
 
-def paste(document: Document, text: Any, *onto: str, x: float = 0, y: float = 0) -> Outcome:
-    things = [Selected(of="states", id=name) for name in onto]
+def paste(document: DocumentSession, text: Any, *onto: str, x: float = 0, y: float = 0) -> EditResult:
+    things = [ItemRef(kind="states", id=name) for name in onto]
     more = {"paste": lambda here, wish: clipboard.paste(here, wish, KNOWN, things)}
     return apply_gesture(document, {"kind": "paste", "text": text, "x": x, "y": y}, more)
 
 
-def duplicate(document: Document, wanted: Any) -> Outcome:
-    return apply_gesture(document, {"kind": "duplicate", "items": wanted}, {"duplicate": clipboard.duplicate})
+def duplicate(document: DocumentSession, wanted: Any) -> EditResult:
+    return apply_gesture(document, {"kind": "duplicate", "items": wanted}, {"duplicate": clipboard.duplicate_items})
 
 
-def names(document: Document) -> list[str]:
+def names(document: DocumentSession) -> list[str]:
     return [state.name for state in document.design.states]
 
 
 def test_what_is_copied_is_a_file_that_can_be_read() -> None:
-    text = clipboard.copied(DESIGN, items(states="A B"))
+    text = clipboard.copy_as_text(DESIGN, items(states="A B"))
     assert text is not None
     assert text.startswith("vicode: 1\ncomponent: Player\nuses:\n  head: {component: Head, at:")
     read = read_design(text)
@@ -70,31 +72,31 @@ def test_what_is_copied_is_a_file_that_can_be_read() -> None:
 
 
 def test_nothing_that_could_be_copied_is_no_text() -> None:
-    assert clipboard.copied(DESIGN, []) is None
-    assert clipboard.copied(DESIGN, items(components="head", states="Ghost", transitions="A/9")) is None
+    assert clipboard.copy_as_text(DESIGN, []) is None
+    assert clipboard.copy_as_text(DESIGN, items(components="head", states="Ghost", transitions="A/9")) is None
     twins = replace(DESIGN, states=(DESIGN.states[0], DESIGN.states[0]))
-    assert clipboard.copied(twins, items(states="A")) is None
+    assert clipboard.copy_as_text(twins, items(states="A")) is None
 
 
-def test_pasting_is_one_edit_around_the_hand(document: Document) -> None:
-    text = clipboard.copied(DESIGN, items(states="A B"))
+def test_pasting_is_one_edit_around_the_hand(document: DocumentSession) -> None:
+    text = clipboard.copy_as_text(DESIGN, items(states="A B"))
     outcome = paste(document, text, x=1003, y=498)
-    assert outcome.select == (Selected(of="states", id="A2"), Selected(of="states", id="B2"))
+    assert outcome.new_selection == (ItemRef(kind="states", id="A2"), ItemRef(kind="states", id="B2"))
     assert [document.design.states[index].at for index in (3, 4)] == [(900, 500), (1100, 500)]
     assert document.undo_label == "paste 2 states"
     document.undo()
     assert document.design == DESIGN
 
 
-def test_pasting_twice_hides_nothing(document: Document) -> None:
-    text = clipboard.copied(DESIGN, items(states="A"))
+def test_pasting_twice_hides_nothing(document: DocumentSession) -> None:
+    text = clipboard.copy_as_text(DESIGN, items(states="A"))
     for _time in range(3):
         paste(document, text, x=500, y=500)
     assert len({state.at for state in document.design.states}) == 6
 
 
-def test_a_part_of_a_file_is_enough(document: Document) -> None:
-    assert paste(document, "states:\n  D: {transitions: [{to: A}]}\n").refused == ""
+def test_a_part_of_a_file_is_enough(document: DocumentSession) -> None:
+    assert paste(document, "states:\n  D: {transitions: [{to: A}]}\n").error == ""
     assert names(document) == ["A", "B", "C", "D"]
 
 
@@ -105,18 +107,18 @@ def test_another_project_tells_what_it_lacks() -> None:
     assert other.design.uses == ()
 
 
-def test_transitions_alone_go_to_the_selected_states(document: Document) -> None:
-    text = clipboard.copied(DESIGN, items(transitions="A/0"))
+def test_transitions_alone_go_to_the_selected_states(document: DocumentSession) -> None:
+    text = clipboard.copy_as_text(DESIGN, items(transitions="A/0"))
     assert text is not None
-    assert "select the states" in paste(document, text).refused
+    assert "select the states" in paste(document, text).error
     paste(document, text, "B", "C", "Ghost")
     assert [len(state.transitions) for state in document.design.states] == [2, 2, 1]
     assert document.undo_label == "paste transitions"
 
 
-def test_the_common_part_can_be_copied(document: Document) -> None:
+def test_the_common_part_can_be_copied(document: DocumentSession) -> None:
     other = opened(Design(component="Other", states=(State(name="C"),)))
-    paste(other, clipboard.copied(DESIGN, items(common="@common")))
+    paste(other, clipboard.copy_as_text(DESIGN, items(common="@common")))
     assert other.design.common.transitions == (Transition(to="C"),)
 
 
@@ -138,8 +140,8 @@ def test_the_common_part_can_be_copied(document: Document) -> None:
         ({"states": 1}, "holds no part of a design"),
     ],
 )
-def test_what_is_no_part_of_a_design_gets_words(document: Document, text: object, words: str) -> None:
-    assert words in paste(document, text).refused
+def test_what_is_no_part_of_a_design_gets_words(document: DocumentSession, text: object, words: str) -> None:
+    assert words in paste(document, text).error
     assert document.design == DESIGN
 
 
@@ -153,24 +155,24 @@ def test_any_text_is_taken_or_refused(text: str) -> None:
 
 
 @pytest.mark.parametrize("place", [("x", "east"), ("x", float("nan")), ("y", None)])
-def test_a_place_that_is_none_changes_nothing(document: Document, place: tuple[str, Any]) -> None:
+def test_a_place_that_is_none_changes_nothing(document: DocumentSession, place: tuple[str, Any]) -> None:
     payload = {"kind": "paste", "text": "states: {D: {}}", "x": 0, "y": 0, place[0]: place[1]}
     outcome = apply_gesture(document, payload, {"paste": lambda here, wish: clipboard.paste(here, wish, KNOWN, ())})
-    assert outcome.refused
+    assert outcome.error
     assert document.design == DESIGN
 
 
-def test_duplicates_stand_beside_and_are_one_edit(document: Document) -> None:
+def test_duplicates_stand_beside_and_are_one_edit(document: DocumentSession) -> None:
     outcome = duplicate(document, items(states="A B", transitions="A/0", components="head"))
-    assert outcome.select == (Selected(of="states", id="A2"), Selected(of="states", id="B2"))
+    assert outcome.new_selection == (ItemRef(kind="states", id="A2"), ItemRef(kind="states", id="B2"))
     assert [state.at for state in document.design.states[3:]] == [(140, 190), (340, 190)]
     assert document.undo_label == "duplicate 2 states"
 
 
-def test_transitions_are_duplicated_behind_themselves(document: Document) -> None:
-    assert duplicate(document, items(transitions="A/0")).select == (Selected(of="transitions", id="A/1"),)
+def test_transitions_are_duplicated_behind_themselves(document: DocumentSession) -> None:
+    assert duplicate(document, items(transitions="A/0")).new_selection == (ItemRef(kind="transitions", id="A/1"),)
     duplicate(document, items(transitions="A/0 B/0"))
     assert [len(state.transitions) for state in document.design.states] == [4, 2, 0]
     assert document.undo_label == "duplicate 2 transitions"
-    assert duplicate(document, items(components="head")).refused
-    assert duplicate(document, [{"of": "walls", "id": "x"}]).refused
+    assert duplicate(document, items(components="head")).error
+    assert duplicate(document, [{"of": "walls", "id": "x"}]).error

@@ -4,7 +4,12 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.strategies.designs import designs
-from vicode.editor.session.completing import Completion, complete_expression, complete_pairs, complete_python
+from vicode.editor.session.completing import (
+    CompletionResult,
+    complete_assignments,
+    complete_expression,
+    complete_python,
+)
 from vicode.model.design import Declaration, Design, Use
 from vicode.model.project import Enumeration, Interface, Project
 
@@ -26,7 +31,7 @@ DESIGN = Design(
 )
 
 
-def labels(completion: Completion) -> list[str]:
+def labels(completion: CompletionResult) -> list[str]:
     return [option.label for option in completion.options]
 
 
@@ -49,9 +54,9 @@ def test_an_expression_is_offered_all_names_that_exist() -> None:
 
 def test_a_line_of_pairs_is_offered_what_can_be_set_and_then_expressions() -> None:
     settable = DESIGN.variables
-    assert labels(complete_pairs(PROJECT, DESIGN, settable, "tries = 1\ntr", 12)) == ["tries"]
-    assert complete_pairs(PROJECT, DESIGN, settable, "tries = 1\ntr", 12).start == 10
-    assert "speed" in labels(complete_pairs(PROJECT, DESIGN, settable, "tries = sp", 10))
+    assert labels(complete_assignments(PROJECT, DESIGN, settable, "tries = 1\ntr", 12)) == ["tries"]
+    assert complete_assignments(PROJECT, DESIGN, settable, "tries = 1\ntr", 12).start == 10
+    assert "speed" in labels(complete_assignments(PROJECT, DESIGN, settable, "tries = sp", 10))
 
 
 def test_code_is_offered_the_members_of_self_and_what_is_below_them() -> None:
@@ -68,6 +73,6 @@ def test_no_text_makes_it_raise(design: Design, text: str, offset: int) -> None:
     for found in (
         complete_expression(PROJECT, design, text, at),
         complete_python(PROJECT, design, text, at),
-        complete_pairs(PROJECT, design, design.variables, text, at),
+        complete_assignments(PROJECT, design, design.variables, text, at),
     ):
         assert 0 <= found.start <= at

@@ -3,7 +3,7 @@
 from hypothesis import given
 from hypothesis import strategies as st
 
-from vicode.editor.session.diffing import Change, side_by_side
+from vicode.editor.session.diffing import LineStatus, side_by_side
 
 lines = st.lists(st.sampled_from("abcde"), max_size=12)
 
@@ -11,20 +11,20 @@ lines = st.lists(st.sampled_from("abcde"), max_size=12)
 def test_a_changed_line_stands_beside_its_new_text() -> None:
     old, new = "\n".join("abcdefghij"), "\n".join("abcdXfghij")
     rows = side_by_side(old, new, context=1)
-    assert [(row.change, row.old, row.new) for row in rows] == [
-        (Change.GAP, "3 unchanged lines", ""),
-        (Change.SAME, "d", "d"),
-        (Change.CHANGED, "e", "X"),
-        (Change.SAME, "f", "f"),
-        (Change.GAP, "4 unchanged lines", ""),
+    assert [(row.status, row.old, row.new) for row in rows] == [
+        (LineStatus.GAP, "3 unchanged lines", ""),
+        (LineStatus.SAME, "d", "d"),
+        (LineStatus.CHANGED, "e", "X"),
+        (LineStatus.SAME, "f", "f"),
+        (LineStatus.GAP, "4 unchanged lines", ""),
     ]
     assert (rows[2].old_number, rows[2].new_number) == (5, 5)
 
 
 def test_equal_texts_have_no_rows_and_new_files_only_added_ones() -> None:
     assert side_by_side("a\nb", "a\nb") == ()
-    assert {row.change for row in side_by_side("", "a\nb")} == {Change.ADDED}
-    assert {row.change for row in side_by_side("a\nb", "")} == {Change.REMOVED}
+    assert {row.status for row in side_by_side("", "a\nb")} == {LineStatus.ADDED}
+    assert {row.status for row in side_by_side("a\nb", "")} == {LineStatus.REMOVED}
 
 
 @given(lines, lines)

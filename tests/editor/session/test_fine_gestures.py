@@ -5,9 +5,9 @@ from typing import Any
 
 import pytest
 
-from vicode.editor.session import Document, Outcome, Sheet, apply_gesture
-from vicode.editor.view import Selected
-from vicode.model.design import Design, Group, Guard, State, Stay, Transition
+from vicode.editor.session import DocumentSession, EditResult, SharedDocument, apply_gesture
+from vicode.editor.view import ItemRef
+from vicode.model.design import DecisionGroup, Design, Guard, State, Stay, Transition
 
 DESIGN = Design(
     component="Player",
@@ -18,7 +18,7 @@ DESIGN = Design(
             transitions=(
                 Transition(to="B"),
                 Stay(),
-                Group(guard=Guard(when="x"), then=(Transition(to="A"), Transition(to="B"))),
+                DecisionGroup(guard=Guard(when="x"), then=(Transition(to="A"), Transition(to="B"))),
                 Transition(to="A"),
             ),
         ),
@@ -28,21 +28,23 @@ DESIGN = Design(
 
 
 @pytest.fixture
-def document() -> Document:
-    return Document(Sheet(file=Path("player.yaml"), disk_text="", saved=DESIGN, check=lambda _design: ()))
+def document() -> DocumentSession:
+    return DocumentSession(
+        SharedDocument(file=Path("player.yaml"), disk_text="", saved=DESIGN, check=lambda _design: ())
+    )
 
 
-def do(document: Document, kind: str, **payload: Any) -> Outcome:
+def do(document: DocumentSession, kind: str, **payload: Any) -> EditResult:
     return apply_gesture(document, {"kind": kind, **payload})
 
 
-def kinds(document: Document) -> str:
+def kinds(document: DocumentSession) -> str:
     return "".join(type(item).__name__[0] + getattr(item, "to", "") for item in document.design.states[0].transitions)
 
 
-def test_a_transition_is_tested_earlier_or_later(document: Document) -> None:
+def test_a_transition_is_tested_earlier_or_later(document: DocumentSession) -> None:
     assert kinds(document) == "TBSGTA"
-    assert do(document, "reorder", id="A/0", by=1).select == (Selected(of="transitions", id="A/1"),)
+    assert do(document, "reorder", id="A/0", by=1).new_selection == (ItemRef(kind="transitions", id="A/1"),)
     assert kinds(document) == "STBGTA"
     do(document, "reorder", id="A/3", by=-1)
     assert kinds(document) == "STBTAG"
@@ -53,17 +55,17 @@ def test_a_transition_is_tested_earlier_or_later(document: Document) -> None:
     assert document.design == DESIGN
 
 
-def test_a_transition_takes_the_place_of_another(document: Document) -> None:
-    assert do(document, "reorder", id="A/0", onto="A/3").select == (Selected(of="transitions", id="A/3"),)
+def test_a_transition_takes_the_place_of_another(document: DocumentSession) -> None:
+    assert do(document, "reorder", id="A/0", onto="A/3").new_selection == (ItemRef(kind="transitions", id="A/3"),)
     assert kinds(document) == "SGTATB"
-    assert "branch" in do(document, "reorder", id="A/3", onto="A/1/then/0").refused
+    assert "branch" in do(document, "reorder", id="A/3", onto="A/1/then/0").error
     do(document, "reorder", id="A/1/then/0", onto="A/1/then/1")
     group = document.design.states[0].transitions[1]
-    assert isinstance(group, Group)
+    assert isinstance(group, DecisionGroup)
     assert group.then == (Transition(to="B"), Transition(to="A"))
 
 
-def test_a_label_stays_where_it_was_put(document: Document) -> None:
+def test_a_label_stays_where_it_was_put(document: DocumentSession) -> None:
     do(document, "label", id="A/0", at=[0.25049, -12.4])
     assert document.design.states[0].transitions[0] == Transition(to="B", label_at=(0.25, -12))
     do(document, "label", id="A/0", at=[9, 1e9])
@@ -73,7 +75,7 @@ def test_a_label_stays_where_it_was_put(document: Document) -> None:
     assert document.undo_label == "move a label"
 
 
-def test_steps_by_keys_are_one_edit(document: Document) -> None:
+def test_steps_by_keys_are_one_edit(document: DocumentSession) -> None:
     for beside in (10, 20, 30):
         do(document, "label", id="A/0", at=[0.5, beside], by="nudge")
     for x in (10, 20, 30):
@@ -86,7 +88,7 @@ def test_steps_by_keys_are_one_edit(document: Document) -> None:
     assert document.design == DESIGN
 
 
-def test_a_state_becomes_initial_or_final(document: Document) -> None:
+def test_a_state_becomes_initial_or_final(document: DocumentSession) -> None:
     do(document, "mark", mark="initial", id="B")
     assert document.design.initial == "B"
     do(document, "mark", mark="final", id="B")
@@ -95,7 +97,7 @@ def test_a_state_becomes_initial_or_final(document: Document) -> None:
     assert not document.design.states[1].final
 
 
-def test_lining_up_is_named_in_the_history(document: Document) -> None:
+def test_lining_up_is_named_in_the_history(document: DocumentSession) -> None:
     items = [{"of": "states", "id": name, "x": 5, "y": index} for index, name in enumerate("AB")]
     do(document, "move", items=items, how="align-left")
     assert document.undo_label == "align left sides"
@@ -120,6 +122,6 @@ def test_lining_up_is_named_in_the_history(document: Document) -> None:
         {"kind": "mark", "mark": "initial", "id": "Ghost"},
     ],
 )
-def test_what_means_nothing_changes_nothing(document: Document, payload: dict[str, Any]) -> None:
-    assert apply_gesture(document, payload).refused
+def test_what_means_nothing_changes_nothing(document: DocumentSession, payload: dict[str, Any]) -> None:
+    assert apply_gesture(document, payload).error
     assert document.design == DESIGN

@@ -11,7 +11,7 @@ from hypothesis import given
 
 from tests.strategies.designs import designs
 from vicode.check import check_design, check_project
-from vicode.editor.session.fixes import FIXERS, UNFIXED, fixes_of
+from vicode.editor.session.fixes import FIXERS, UNFIXABLE, find_fixes
 from vicode.findings import RULES, Finding, Severity
 from vicode.model.design import Design
 from vicode.model.project import Interface, Project
@@ -32,8 +32,8 @@ MENDED_ELSEWHERE = {"P204", "P205", "P206", "D404", "D405", "D406", "D416", "E30
 
 def test_every_rule_has_fixes_or_a_reason_for_none() -> None:
     of_designs = {code for code in RULES if not code.startswith("X")}
-    assert set(FIXERS) | set(UNFIXED) == of_designs
-    assert not set(FIXERS) & set(UNFIXED)
+    assert set(FIXERS) | set(UNFIXABLE) == of_designs
+    assert not set(FIXERS) & set(UNFIXABLE)
 
 
 @pytest.mark.parametrize("code", sorted(BAD))
@@ -101,7 +101,7 @@ def _labels(project: Project, code: str) -> list[str]:
         for design in project.designs
         for finding in check_design(project, design)
         if finding.rule.code == code
-        for fix in fixes_of(project, design, finding)
+        for fix in find_fixes(project, design, finding)
     ]
 
 
@@ -110,9 +110,9 @@ def _try_all(project: Project) -> Counter[str]:
     count: Counter[str] = Counter()
     for design in project.designs:
         for finding in check_project(project):
-            for fix in fixes_of(project, design, finding):
+            for fix in find_fixes(project, design, finding):
                 count[finding.rule.code] += 1
-                _assert_mends(project, design, finding, fix.label, fix.change(design))
+                _assert_mends(project, design, finding, fix.label, fix.edit(design))
     return count
 
 

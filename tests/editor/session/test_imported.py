@@ -7,16 +7,16 @@ import pytest
 from tests.xabsl.cases_of import CASES
 from vicode.check import check_design
 from vicode.cli.door import main
-from vicode.editor.session.completing import complete_expression, complete_pairs
-from vicode.editor.session.preview import preview_of
-from vicode.editor.view.scene import scene_of
-from vicode.editor.view.table import table_of
+from vicode.editor.session.completing import complete_assignments, complete_expression
+from vicode.editor.session.preview import preview_code
+from vicode.editor.view.scene import make_scene
+from vicode.editor.view.table import make_table
 from vicode.findings import Severity
 from vicode.model.design import Assign
 from vicode.model.edits import rename_state
-from vicode.model.expressions import scope_of
+from vicode.model.expressions import build_scope
 from vicode.model.renaming import rename_alias
-from vicode.store import OpenProject, design_files, open_project, read_design, save_design
+from vicode.store import OpenProject, find_design_files, open_project, read_design, save_design
 
 
 @pytest.fixture(scope="module")
@@ -29,15 +29,15 @@ def opened(tmp_path_factory: pytest.TempPathFactory) -> OpenProject:
 def test_every_option_is_drawn_listed_and_previewed(opened: OpenProject) -> None:
     for design in opened.project.designs:
         findings = check_design(opened.project, design)
-        scene = scene_of(opened.project, design, findings, 0)
+        scene = make_scene(opened.project, design, findings, 0)
         assert [each["name"] for each in scene["states"]] == [state.name for state in design.states]
-        assert table_of(design, findings)["rows"]
-        preview = preview_of(opened.project, design, {})
+        assert make_table(design, findings)["rows"]
+        preview = preview_code(opened.project, design, {})
         assert any(file.path.endswith(".py") for file in preview.files)
 
 
 def test_an_edit_changes_its_own_lines_only(opened: OpenProject) -> None:
-    for path in design_files(opened.folder):
+    for path in find_design_files(opened.folder):
         text = path.read_text(encoding="utf-8")
         design = read_design(text).design
         assert design is not None
@@ -61,9 +61,9 @@ def test_variables_of_others_are_offered_and_follow_a_new_alias(opened: OpenProj
     alias, _dot, variable = name.partition(".")
     offered = complete_expression(opened.project, design, f"{alias}.", len(alias) + 1)
     assert variable in {option.label for option in offered.options}
-    settable = scope_of(opened.project, design).settable(name)
+    settable = build_scope(opened.project, design).find_assignable(name)
     assert settable is not None
-    pairs = complete_pairs(opened.project, design, [settable], f"{alias}.{variable[:1]}", len(alias) + 2)
+    pairs = complete_assignments(opened.project, design, [settable], f"{alias}.{variable[:1]}", len(alias) + 2)
     assert pairs.start == 0
     renamed = rename_alias(design, alias, "elsewhere")
     targets = {

@@ -8,11 +8,11 @@ from hypothesis import given
 
 from tests.strategies.designs import designs
 from vicode.editor.session import linting
-from vicode.editor.session.linting import Lints, lint_design
-from vicode.findings import Path as ThingPath
+from vicode.editor.session.linting import LintWarnings, lint_design
+from vicode.findings import DesignPath as ThingPath
 from vicode.model.design import Code, Declaration, Design, Guard, RunCode, State, Stay
 from vicode.model.project import Enumeration, Project
-from vicode.model.texts import walk_texts
+from vicode.model.texts import iter_texts
 from vicode.store import open_project
 
 ROOT = Path(__file__).parents[3]
@@ -31,8 +31,8 @@ def design_of(action: str, *, module: str = "", guard: str = "return True\n") ->
     return Design(component="A", initial="S", module=python(module) if module else Code(), states=(state,))
 
 
-def remarks(lints: Lints, design: Design) -> dict[ThingPath, list[tuple[str, str]]]:
-    texts = {each.path: each.text for each in walk_texts(design)}
+def remarks(lints: LintWarnings, design: Design) -> dict[ThingPath, list[tuple[str, str]]]:
+    texts = {each.path: each.text for each in iter_texts(design)}
     return {path: [(each.code, texts[path][each.start : each.end]) for each in found] for path, found in lints.items()}
 
 
@@ -86,6 +86,6 @@ def test_any_line_of_the_module_leads_into_a_text_of_the_design(design: Design) 
         rows = [{"location": {"row": at, "column": 3}, "code": "X", "message": ""} for at in range(source.count("\n"))]
         return linting.json.dumps(rows)
 
-    texts = {each.path: each.text for each in walk_texts(design)}
+    texts = {each.path: each.text for each in iter_texts(design)}
     for path, lints in lint_design(Project(name="p"), design, complain).items():
         assert all(0 <= lint.start <= len(texts[path]) for lint in lints)

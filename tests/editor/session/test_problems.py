@@ -1,11 +1,11 @@
 """The order of findings, their filter, and going round."""
 
-from vicode.editor.session.problems import following, grouped, matching, ordered
-from vicode.findings import Finding, Path, Severity, Thing, rule
+from vicode.editor.session.problems import filter_findings, group_by_severity, next_finding, sort_findings
+from vicode.findings import DesignPath, Finding, FindingSubject, Severity, get_rule
 
 
 def finding(code: str, message: str, *path: str | int) -> Finding:
-    return Finding(rule=rule(code), message=message, thing=Thing(component="A", path=path))
+    return Finding(rule=get_rule(code), message=message, subject=FindingSubject(component="A", path=path))
 
 
 TRAP = finding("D422", "never left", "states", "Kick")
@@ -13,24 +13,24 @@ NAME = finding("E303", "no such name", "states", "Kick", "transitions", 0, "when
 STATE = finding("D402", "no such state", "states", "Wait", "transitions", 0, "to")
 TYPE = finding("E304", "expected bool", "states", "Kick", "transitions", 0, "when")
 ALL: tuple[Finding, ...] = (TRAP, NAME, STATE, TYPE)
-NOWHERE: Path = ()
+NOWHERE: DesignPath = ()
 
 
 def test_the_worst_come_first_and_one_thing_together() -> None:
-    assert ordered(ALL) == (NAME, TYPE, STATE, TRAP)
-    assert grouped(ALL) == ((Severity.ERROR, (NAME, TYPE, STATE)), (Severity.WARNING, (TRAP,)))
+    assert sort_findings(ALL) == (NAME, TYPE, STATE, TRAP)
+    assert group_by_severity(ALL) == ((Severity.ERROR, (NAME, TYPE, STATE)), (Severity.WARNING, (TRAP,)))
 
 
 def test_every_word_of_a_filter_is_found_in_words_code_or_place() -> None:
-    assert matching(ALL, "kick NO", ()) == (NAME,)
-    assert matching(ALL, "e30", {Severity.WARNING}) == (NAME, TYPE)
-    assert matching(ALL, "", {Severity.ERROR}) == (TRAP,)
+    assert filter_findings(ALL, "kick NO", ()) == (NAME,)
+    assert filter_findings(ALL, "e30", {Severity.WARNING}) == (NAME, TYPE)
+    assert filter_findings(ALL, "", {Severity.ERROR}) == (TRAP,)
 
 
 def test_going_on_goes_round() -> None:
-    assert following(ALL, None, 1) == NAME
-    assert following(ALL, None, -1) == TRAP
-    assert following(ALL, TRAP, 1) == NAME
-    assert following(ALL, NAME, -1) == TRAP
-    assert following(ALL, finding("D411", "gone", *NOWHERE), 1) == NAME
-    assert following((), TRAP, 1) is None
+    assert next_finding(ALL, None, 1) == NAME
+    assert next_finding(ALL, None, -1) == TRAP
+    assert next_finding(ALL, TRAP, 1) == NAME
+    assert next_finding(ALL, NAME, -1) == TRAP
+    assert next_finding(ALL, finding("D411", "gone", *NOWHERE), 1) == NAME
+    assert next_finding((), TRAP, 1) is None

@@ -8,9 +8,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.strategies.designs import designs
-from vicode.editor.session.searching import Query, find, replace_hits
+from vicode.editor.session.searching import TextQuery, find_text, replace_matches
 from vicode.model.design import Code, Declaration, Design, Guard, RunCode, State, Transition
-from vicode.model.texts import TextKind, walk_texts
+from vicode.model.texts import TextKind, iter_texts
 
 DESIGN = Design(
     component="Player",
@@ -29,8 +29,11 @@ DESIGN = Design(
 
 
 def found(text: str, **options: object) -> list[tuple[str, int, str]]:
-    query = replace(Query(text=text), **options)
-    return [(str(hit.path[-1]), hit.line, f"{hit.before}[{hit.found}]{hit.after}") for hit in find(DESIGN, query).hits]
+    query = replace(TextQuery(text=text), **options)
+    return [
+        (str(hit.path[-1]), hit.line, f"{hit.before}[{hit.matched}]{hit.after}")
+        for hit in find_text(DESIGN, query).matches
+    ]
 
 
 def test_all_texts_are_searched_with_their_lines() -> None:
@@ -56,20 +59,20 @@ def test_words_case_kinds_and_patterns() -> None:
 
 
 def test_replacing_puts_in_text_or_groups() -> None:
-    changed = replace_hits(DESIGN, Query(text="ball", whole_word=True, match_case=True), r"\1 puck")
+    changed = replace_matches(DESIGN, TextQuery(text="ball", whole_word=True, match_case=True), r"\1 puck")
     assert changed.count == 6
     assert changed.design.states[0].transitions[0].guard.when == r"\1 puck > 3 and football"
-    pattern = Query(text=r"self\.(\w+)", is_pattern=True)
-    changed = replace_hits(DESIGN, pattern, r"self.my_\1")
+    pattern = TextQuery(text=r"self\.(\w+)", is_pattern=True)
+    changed = replace_matches(DESIGN, pattern, r"self.my_\1")
     assert changed.design.states[0].enter[0] == RunCode(
         code=Code(texts=(("python", "self.my_ball += 1"), ("cpp", "ball++;")))
     )
 
 
 def test_one_hit_can_be_replaced_alone() -> None:
-    query = Query(text="ball")
-    hit = find(DESIGN, query).hits[2]
-    changed = replace_hits(DESIGN, query, "puck", [(hit.path, hit.start)])
+    query = TextQuery(text="ball")
+    hit = find_text(DESIGN, query).matches[2]
+    changed = replace_matches(DESIGN, query, "puck", [(hit.path, hit.start)])
     assert (changed.count, changed.design.states[0].transitions[0].guard.when) == (1, "ball > 3 and footpuck")
 
 
@@ -78,26 +81,26 @@ def test_one_hit_can_be_replaced_alone() -> None:
     [("(", "", "no pattern"), ("ball", r"\9", "cannot be put in"), ("ball", r"\g<x>", "cannot be put in")],
 )
 def test_mistakes_are_told_and_change_nothing(pattern: str, replacement: str, words: str) -> None:
-    changed = replace_hits(DESIGN, Query(text=pattern, is_pattern=True), replacement)
-    assert words in changed.mistake
+    changed = replace_matches(DESIGN, TextQuery(text=pattern, is_pattern=True), replacement)
+    assert words in changed.error
     assert changed.design == DESIGN
 
 
 def test_a_pattern_that_would_take_for_ever_is_given_up() -> None:
     design = replace(DESIGN, doc="x" * 5000)
     start = monotonic()
-    answer = find(design, Query(text="(x+x+)+y", is_pattern=True))
-    assert "too long" in answer.mistake
+    answer = find_text(design, TextQuery(text="(x+x+)+y", is_pattern=True))
+    assert "too long" in answer.error
     # The limit is a second; a busy machine may take its time, but not for ever.
     assert monotonic() - start < 60
 
 
 @given(designs, st.sampled_from(["a", "go", " ", "\n", ":", "é", "self", "."]))
 def test_replacing_there_and_back_is_nothing(design: Design, text: str) -> None:
-    query = Query(text=text, match_case=True)
-    hits = find(design, query).hits
-    assert all(hit.found == text for hit in hits)
-    assert len(hits) == sum(each.text.count(text) for each in walk_texts(design))
-    there = replace_hits(design, query, "⟦⟧")
-    back = replace_hits(there.design, Query(text="⟦⟧", match_case=True), text)
+    query = TextQuery(text=text, match_case=True)
+    hits = find_text(design, query).matches
+    assert all(hit.matched == text for hit in hits)
+    assert len(hits) == sum(each.text.count(text) for each in iter_texts(design))
+    there = replace_matches(design, query, "⟦⟧")
+    back = replace_matches(there.design, TextQuery(text="⟦⟧", match_case=True), text)
     assert (there.count, back.design) == (len(hits), design)

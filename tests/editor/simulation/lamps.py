@@ -5,8 +5,8 @@ from collections.abc import Awaitable, Callable
 from dataclasses import replace
 from pathlib import Path
 
-from vicode.editor.session.simulation import Simulation, Stage, Wish, prepare
-from vicode.simulation import Moment
+from vicode.editor.session.simulation import PreparedRun, RunConfig, Simulation, prepare_run
+from vicode.simulation import IterationResult
 from vicode.store import open_project
 
 PROJECT = """
@@ -100,30 +100,30 @@ def write_lamps(folder: Path, lamp: str = LAMP) -> Path:
     return folder
 
 
-def stage_of(folder: Path, *, stood_in: frozenset[str] | None = None, **wish: object) -> Stage:
+def prepare_lamp(folder: Path, *, stubbed: frozenset[str] | None = None, **wish: object) -> PreparedRun:
     """What runs the lamp; hand-written components are stood in unless told otherwise."""
     opened = open_project(folder)
     design = opened.project.design("Lamp")
     assert design is not None
-    wished = replace(Wish(stood_in=stood_in), **wish)
-    return prepare(opened.project, design, wished, {"Lamp": "lamp.yaml"}, folder)
+    wished = replace(RunConfig(stubbed=stubbed), **wish)
+    return prepare_run(opened.project, design, wished, {"Lamp": "lamp.yaml"}, folder)
 
 
-def simulate(stage: Stage, folder: Path, act: Callable[[Simulation], Awaitable[None]]) -> None:
+def simulate(stage: PreparedRun, folder: Path, act: Callable[[Simulation], Awaitable[None]]) -> None:
     """Let a test act on a simulation, and end it whatever happens."""
 
     async def run() -> None:
-        simulation = Simulation(stage=stage, cwd=folder)
+        simulation = Simulation(prepared=stage, cwd=folder)
         try:
             await act(simulation)
         finally:
             simulation.end()
-            await simulation.gone()
+            await simulation.wait_closed()
 
     asyncio.run(run())
 
 
-def past_of(simulation: Simulation) -> list[Moment]:
+def recorded_iterations(simulation: Simulation) -> list[IterationResult]:
     """Every recorded moment."""
-    moments = (simulation.recording.moment(number) for number in range(1, len(simulation.recording) + 1))
+    moments = (simulation.recording.iteration(number) for number in range(1, len(simulation.recording) + 1))
     return [moment for moment in moments if moment is not None]

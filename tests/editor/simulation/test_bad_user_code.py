@@ -7,10 +7,10 @@ from pathlib import Path
 
 import pytest
 
-from tests.editor.simulation.lamps import LAMP, simulate, stage_of, write_lamps
-from vicode.editor.session.simulation import NotReadyError, Phase, Simulation
-from vicode.editor.view.activation import mistake_of
-from vicode.simulation import Stops
+from tests.editor.simulation.lamps import LAMP, prepare_lamp, simulate, write_lamps
+from vicode.editor.session.simulation import NotReadyError, RunStatus, Simulation
+from vicode.editor.view.activation import code_error_view
+from vicode.simulation import StopConditions
 
 DESIGN = """
 vicode: 1
@@ -39,7 +39,7 @@ def failure_words(simulation: Simulation) -> str:
     assert failure is not None
     if failure.error is None:
         return failure.message
-    return mistake_of(simulation.stage.design, failure.error).words
+    return code_error_view(simulation.prepared.design, failure.error).text
 
 
 def test_an_endless_loop_is_told_with_its_line(tmp_path: Path) -> None:
@@ -47,16 +47,16 @@ def test_an_endless_loop_is_told_with_its_line(tmp_path: Path) -> None:
 
     async def act(simulation: Simulation) -> None:
         assert await simulation.step(5) == ""
-        assert simulation.phase is Phase.FAILED
+        assert simulation.status is RunStatus.FAILED
         assert simulation.cursor == 1
         words = failure_words(simulation)
         assert words.startswith("Lamp, state Lit, Lit.actions, line 2: did not come to an end within 1.5 s")
         # The past is still there, and a step from it meets the same end.
-        simulation.back()
+        simulation.step_back()
         assert await simulation.step(5) == ""
         assert simulation.cursor == 1
 
-    simulate(stage_of(folder, limit_s=1.5), folder, act)
+    simulate(prepare_lamp(folder, limit_s=1.5), folder, act)
 
 
 def test_a_loop_that_catches_everything_is_killed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -69,7 +69,7 @@ def test_a_loop_that_catches_everything_is_killed(tmp_path: Path, monkeypatch: p
         assert "lamp, Lit.actions, line" in failure_words(simulation)
         assert "did not come to an end within" in failure_words(simulation)
 
-    simulate(stage_of(folder, limit_s=1.5), folder, act)
+    simulate(prepare_lamp(folder, limit_s=1.5), folder, act)
 
 
 @pytest.mark.parametrize(
@@ -87,22 +87,22 @@ def test_a_death_is_told(tmp_path: Path, code: str, words: str) -> None:
         assert await simulation.step(5) == ""
         assert words in failure_words(simulation)
 
-    simulate(stage_of(folder), folder, act)
+    simulate(prepare_lamp(folder), folder, act)
 
 
 def test_an_exception_is_told_and_the_run_goes_on(tmp_path: Path) -> None:
     folder = lamp(tmp_path, "1 / 0")
 
     async def act(simulation: Simulation) -> None:
-        assert await simulation.step(9, Stops(errors=True)) == "error"
-        assert simulation.moment is not None
-        mistake = mistake_of(simulation.stage.design, simulation.moment.errors[0])
-        assert mistake.words == "Lamp, state Lit, Lit.actions, line 2: ZeroDivisionError: division by zero"
-        assert mistake.thing is not None
-        assert (mistake.thing.of, mistake.thing.id) == ("states", "Lit")
+        assert await simulation.step(9, StopConditions(errors=True)) == "error"
+        assert simulation.shown_iteration is not None
+        mistake = code_error_view(simulation.prepared.design, simulation.shown_iteration.errors[0])
+        assert mistake.text == "Lamp, state Lit, Lit.actions, line 2: ZeroDivisionError: division by zero"
+        assert mistake.item is not None
+        assert (mistake.item.kind, mistake.item.id) == ("states", "Lit")
         assert await simulation.step(3) == "count"
 
-    simulate(stage_of(folder), folder, act)
+    simulate(prepare_lamp(folder), folder, act)
 
 
 def test_a_flood_of_prints_is_bounded(tmp_path: Path) -> None:
@@ -110,10 +110,10 @@ def test_a_flood_of_prints_is_bounded(tmp_path: Path) -> None:
 
     async def act(simulation: Simulation) -> None:
         await simulation.step(2)
-        assert simulation.moment is not None
-        assert (len(simulation.moment.prints), simulation.moment.unprinted) == (200, 49_800)
+        assert simulation.shown_iteration is not None
+        assert (len(simulation.shown_iteration.prints), simulation.shown_iteration.omitted_lines) == (200, 49_800)
 
-    simulate(stage_of(folder, limit_s=20.0), folder, act)
+    simulate(prepare_lamp(folder, limit_s=20.0), folder, act)
 
 
 def test_writing_past_python_does_not_reach_the_protocol(tmp_path: Path) -> None:
@@ -123,7 +123,7 @@ def test_writing_past_python_does_not_reach_the_protocol(tmp_path: Path) -> None
         assert await simulation.step(4) == "count"
         assert simulation.failure is None
 
-    simulate(stage_of(folder), folder, act)
+    simulate(prepare_lamp(folder), folder, act)
 
 
 def test_memory_is_bounded(tmp_path: Path) -> None:
@@ -131,10 +131,10 @@ def test_memory_is_bounded(tmp_path: Path) -> None:
 
     async def act(simulation: Simulation) -> None:
         await simulation.step(2)
-        assert simulation.moment is not None
-        assert simulation.moment.errors[0]["message"] == "MemoryError"
+        assert simulation.shown_iteration is not None
+        assert simulation.shown_iteration.errors[0]["message"] == "MemoryError"
 
-    simulate(stage_of(folder, memory_bytes=300 << 20), folder, act)
+    simulate(prepare_lamp(folder, memory_bytes=300 << 20), folder, act)
 
 
 def test_what_cannot_be_loaded_is_told(tmp_path: Path) -> None:
@@ -142,19 +142,19 @@ def test_what_cannot_be_loaded_is_told(tmp_path: Path) -> None:
     (folder / "hands.py").write_text("import nothing_of_this_name\n")
 
     async def act(simulation: Simulation) -> None:
-        await simulation.begin()
-        assert simulation.phase is Phase.FAILED
+        await simulation.start()
+        assert simulation.status is RunStatus.FAILED
         assert "No module named 'nothing_of_this_name' [" in failure_words(simulation)
         assert "hands.py:1]" in failure_words(simulation)
 
-    simulate(stage_of(folder, stood_in=frozenset()), folder, act)
+    simulate(prepare_lamp(folder, stubbed=frozenset()), folder, act)
 
 
 def test_a_design_with_mistakes_is_not_started(tmp_path: Path) -> None:
     states = "{Dark: {transitions: [{to: Dark, when: nobody}]}}"
     folder = write_lamps(tmp_path / "lamps", f"vicode: 1\ncomponent: Lamp\ninitial: Dark\nstates: {states}\n")
     with pytest.raises(NotReadyError, match=r"Lamp: .*nobody.* Mend it, then start again"):
-        stage_of(folder)
+        prepare_lamp(folder)
 
 
 def test_code_that_reads_the_real_time_is_noticed(tmp_path: Path) -> None:
@@ -162,12 +162,12 @@ def test_code_that_reads_the_real_time_is_noticed(tmp_path: Path) -> None:
 
     async def act(simulation: Simulation) -> None:
         await simulation.step(5)
-        simulation.back()
-        simulation.cut()
+        simulation.step_back()
+        simulation.truncate()
         await simulation.step()
-        assert simulation.note.startswith("Repeating the past gave something else")
+        assert simulation.warning.startswith("Repeating the past gave something else")
 
-    simulate(stage_of(folder), folder, act)
+    simulate(prepare_lamp(folder), folder, act)
 
 
 def test_inputs_before_a_failure_are_not_lost(tmp_path: Path) -> None:
@@ -184,7 +184,7 @@ def test_inputs_before_a_failure_are_not_lost(tmp_path: Path) -> None:
         assert simulation.failure is None
         assert await simulation.step() == "count"
 
-    simulate(stage_of(folder, limit_s=1.5), folder, act)
+    simulate(prepare_lamp(folder, limit_s=1.5), folder, act)
 
 
 def test_the_process_ends_when_the_editor_is_killed(tmp_path: Path) -> None:

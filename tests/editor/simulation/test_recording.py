@@ -4,15 +4,15 @@ import math
 from xml.etree import ElementTree as ET
 
 from vicode.editor.session.simulation import Recording
-from vicode.editor.view.activation import tree_rows
-from vicode.editor.view.plot import Curve, band_labels, plot_svg, state_runs
-from vicode.simulation import Moment
+from vicode.editor.view.activation import activation_rows
+from vicode.editor.view.plot import PlotSeries, band_labels, render_plot, state_runs
+from vicode.simulation import IterationResult
 
 
-def moment(number: int, state: str, **values: object) -> Moment:
+def moment(number: int, state: str, **values: object) -> IterationResult:
     tree = [{"component": "Lamp", "by": None, "values": values}]
     transition = f"{state}/0" if number > 1 and state == "Lit" else None
-    return Moment(iteration=number, time_ns=(number - 1) * 20, state=state, transition=transition, tree=tree)
+    return IterationResult(iteration=number, time_ns=(number - 1) * 20, state=state, transition=transition, tree=tree)
 
 
 def recorded(*states: str) -> Recording:
@@ -25,8 +25,8 @@ def recorded(*states: str) -> Recording:
 
 def test_moments_are_kept_whole() -> None:
     recording = recorded("Dark", "Lit", "Lit")
-    assert recording.moment(2) == moment(2, "Lit", turns=2, lit=True, word="x")
-    assert recording.moment(0) is recording.moment(4) is None
+    assert recording.iteration(2) == moment(2, "Lit", turns=2, lit=True, word="x")
+    assert recording.iteration(0) is recording.iteration(4) is None
     assert recording.states == ["Dark", "Lit", "Lit"]
     assert recording.latest_transition(3) == "Lit/0"
     assert recording.latest_transition(1) == ""
@@ -34,15 +34,15 @@ def test_moments_are_kept_whole() -> None:
 
 def test_the_way_is_told_as_runs_between_inputs() -> None:
     recording = recorded("Dark", "Dark", "Lit", "Lit")
-    assert list(recording.runs(4)) == [({"Eye": {"light": 1}}, 2), ({"Eye": {"light": 3}}, 2)]
-    assert list(recording.runs(3)) == [({"Eye": {"light": 1}}, 2), ({"Eye": {"light": 3}}, 1)]
-    assert list(recording.runs(0)) == []
+    assert list(recording.input_segments(4)) == [({"Eye": {"light": 1}}, 2), ({"Eye": {"light": 3}}, 2)]
+    assert list(recording.input_segments(3)) == [({"Eye": {"light": 1}}, 2), ({"Eye": {"light": 3}}, 1)]
+    assert list(recording.input_segments(0)) == []
     assert recording.inputs_at(2) == {"Eye": {"light": 1}}
 
 
 def test_what_came_after_can_be_cut() -> None:
     recording = recorded("Dark", "Dark", "Lit", "Lit")
-    recording.cut(2)
+    recording.truncate(2)
     assert len(recording) == 2
     assert list(recording.column("Lamp.turns")) == [1, 2]
     assert recording.inputs_at(9) == {"Eye": {"light": 1}}
@@ -54,7 +54,7 @@ def test_what_came_after_can_be_cut() -> None:
 
 def test_a_plot_is_sound_xml_whatever_the_names() -> None:
     states = ["Dark", "<b>&\"'", "Dark"]
-    drawing = plot_svg([Curve(name="</svg>", values=[1.0, math.nan, 3.0])], states, 2)
+    drawing = render_plot([PlotSeries(name="</svg>", values=[1.0, math.nan, 3.0])], states, 2)
     root = ET.fromstring(drawing)
     titles = [element.text for element in root.iter("title")]
     assert titles == ["Dark", "<b>&\"'", "Dark"]
@@ -63,7 +63,7 @@ def test_a_plot_is_sound_xml_whatever_the_names() -> None:
 def test_a_plot_of_many_moments_is_thinned_and_keeps_its_peaks() -> None:
     values = [0.0] * 20_000
     values[12_345] = 1.0
-    drawing = plot_svg([Curve(name="x", values=values)], ["Dark"] * 20_000, 20_000)
+    drawing = render_plot([PlotSeries(name="x", values=values)], ["Dark"] * 20_000, 20_000)
     assert len(drawing) < 20_000
     assert "18.0H" in drawing
 
@@ -71,7 +71,7 @@ def test_a_plot_of_many_moments_is_thinned_and_keeps_its_peaks() -> None:
 def test_states_are_drawn_as_runs() -> None:
     assert state_runs(["A", "A", "B", "A"]) == [("A", 0, 2), ("B", 2, 3), ("A", 3, 4)]
     assert band_labels(["A"] * 99 + ["B"]) == [("A", 0.0)]
-    assert plot_svg([], [], 0).startswith("<svg")
+    assert render_plot([], [], 0).startswith("<svg")
 
 
 def test_the_activation_tree_is_indented() -> None:
@@ -81,7 +81,7 @@ def test_the_activation_tree_is_indented() -> None:
         {"component": "Timer", "by": "Lamp", "link": "modulates", "parameters": {"speed": 2.0}},
         {"component": "Eye", "by": "Timer", "link": "requires"},
     ]
-    rows = tree_rows(tree)
+    rows = activation_rows(tree)
     assert [(row.depth, row.link, row.component) for row in rows] == [
         (0, "", "Lamp"),
         (1, "requires", "Eye"),

@@ -5,10 +5,10 @@ from pathlib import Path
 
 import pytest
 
-from tests.editor.simulation.lamps import stage_of, write_lamps
-from vicode.editor.session.simulation import Breakpoints, meaning_of, used_components
-from vicode.editor.view import Selected
-from vicode.model.edits import move, update_state
+from tests.editor.simulation.lamps import prepare_lamp, write_lamps
+from vicode.editor.session.simulation import Breakpoints, behavior_key, used_components
+from vicode.editor.view import ItemRef
+from vicode.model.edits import move_nodes, update_state
 from vicode.store import open_project
 
 
@@ -18,7 +18,7 @@ def lamps(tmp_path: Path) -> Path:
 
 
 def test_inputs_are_known_from_the_declarations(lamps: Path) -> None:
-    inputs = {each.key: each for each in stage_of(lamps).inputs}
+    inputs = {each.key: each for each in prepare_lamp(lamps).inputs}
     assert list(inputs) == [
         ("", "patience"),
         ("Eye", "seen"),
@@ -39,7 +39,7 @@ def test_inputs_are_known_from_the_declarations(lamps: Path) -> None:
 
 
 def test_stood_in_designs_can_be_done(lamps: Path) -> None:
-    inputs = stage_of(lamps, stood_in=frozenset({"Timer"})).inputs
+    inputs = prepare_lamp(lamps, stubbed=frozenset({"Timer"})).inputs
     assert [each.key for each in inputs] == [("", "patience"), ("Timer", "is_done")]
 
 
@@ -58,7 +58,7 @@ def test_stood_in_designs_can_be_done(lamps: Path) -> None:
 def test_values_from_a_browser_are_taken_by_type(
     lamps: Path, key: tuple[str, str], given: object, taken: object
 ) -> None:
-    each = next(each for each in stage_of(lamps).inputs if each.key == key)
+    each = next(each for each in prepare_lamp(lamps).inputs if each.key == key)
     assert each.accept(given) == taken
 
 
@@ -66,14 +66,14 @@ def test_places_do_not_change_the_meaning(lamps: Path) -> None:
     project = open_project(lamps).project
     design = project.design("Lamp")
     assert design is not None
-    before = meaning_of(project, design)
-    assert meaning_of(project, move(design, {"Dark": (5.0, 5.0)})) == before
+    before = behavior_key(project, design)
+    assert behavior_key(project, move_nodes(design, {"Dark": (5.0, 5.0)})) == before
     final = update_state(design, "Dark", lambda state: replace(state, final=True))
-    assert meaning_of(project, final) != before
+    assert behavior_key(project, final) != before
     timer = project.design("Timer")
     assert timer is not None
     other = replace(project, designs=(design, replace(timer, doc="slow")))
-    assert meaning_of(other, design) != before
+    assert behavior_key(other, design) != before
 
 
 def test_used_components_are_found_through_designs(lamps: Path) -> None:
@@ -84,17 +84,17 @@ def test_used_components_are_found_through_designs(lamps: Path) -> None:
 
 
 def test_breakpoints_are_set_all_or_taken_away_all() -> None:
-    dark, first = Selected(of="states", id="Dark"), Selected(of="transitions", id="Dark/0")
+    dark, first = ItemRef(kind="states", id="Dark"), ItemRef(kind="transitions", id="Dark/0")
     some = Breakpoints().toggled(dark)
-    both = some.toggled(dark, first, Selected(of="components", id="eye"))
-    assert both.things == {dark, first}
-    assert both.toggled(dark, first).things == frozenset()
-    assert both.stops(also="Lit").states == ("Dark", "Lit")
+    both = some.toggled(dark, first, ItemRef(kind="components", id="eye"))
+    assert both.items == {dark, first}
+    assert both.toggled(dark, first).items == frozenset()
+    assert both.stop_conditions(extra_state="Lit").states == ("Dark", "Lit")
 
 
 def test_breakpoints_go_with_their_things(lamps: Path) -> None:
     design = open_project(lamps).project.design("Lamp")
     assert design is not None
-    kept = Selected(of="transitions", id="@common/0")
-    gone = Selected(of="transitions", id="Dark/7")
-    assert Breakpoints(things=frozenset({kept, gone})).within(design).things == {kept}
+    kept = ItemRef(kind="transitions", id="@common/0")
+    gone = ItemRef(kind="transitions", id="Dark/7")
+    assert Breakpoints(items=frozenset({kept, gone})).existing_in(design).items == {kept}

@@ -7,9 +7,9 @@ from pathlib import Path
 
 import pytest
 
-from tests.editor.simulation.lamps import past_of, simulate, stage_of, write_lamps
-from vicode.editor.session.simulation import Phase, Simulation
-from vicode.simulation import Stops
+from tests.editor.simulation.lamps import prepare_lamp, recorded_iterations, simulate, write_lamps
+from vicode.editor.session.simulation import RunStatus, Simulation
+from vicode.simulation import StopConditions
 
 SEEN = ("Eye", "seen")
 
@@ -22,8 +22,8 @@ def lamps(tmp_path: Path) -> Path:
 def test_an_input_leads_to_another_state(lamps: Path) -> None:
     async def act(simulation: Simulation) -> None:
         assert await simulation.step() == "count"
-        assert simulation.moment is not None
-        assert simulation.moment.state == "Dark"
+        assert simulation.shown_iteration is not None
+        assert simulation.shown_iteration.state == "Dark"
         assert await simulation.set_input(SEEN, True)
         assert simulation.guards["Dark/0"] == {
             "holds": True,
@@ -32,14 +32,14 @@ def test_an_input_leads_to_another_state(lamps: Path) -> None:
         }
         assert simulation.guards["Dark/1"]["parts"] == [False, True]
         await simulation.step()
-        moment = simulation.moment
-        assert (moment.state, moment.came_from, moment.transition) == ("Lit", "Dark", "Dark/0")
+        moment = simulation.shown_iteration
+        assert (moment.state, moment.changed_from, moment.transition) == ("Lit", "Dark", "Dark/0")
         assert moment.prints == ["lit 1"]
-        assert [(call["output"], call["arguments"]) for call in moment.asked] == [("toward", {"x": 2.0})]
+        assert [(call["output"], call["arguments"]) for call in moment.calls] == [("toward", {"x": 2.0})]
         assert [step["component"] for step in moment.tree] == ["Lamp", "Eye", "Bulb", "Timer"]
         assert moment.tree[2]["parameters"] == {"power": 3.0}
 
-    simulate(stage_of(lamps), lamps, act)
+    simulate(prepare_lamp(lamps), lamps, act)
 
 
 def test_code_is_never_run_to_look_at_it(lamps: Path) -> None:
@@ -52,22 +52,22 @@ def test_code_is_never_run_to_look_at_it(lamps: Path) -> None:
         assert simulation.guards["Lit/0"]["holds"] is None
         await simulation.step()
         assert simulation.guards["Lit/0"]["parts"] == [True, False]
-        assert simulation.moment is not None
-        assert simulation.moment.tree[0]["values"]["asked"] == 1
+        assert simulation.shown_iteration is not None
+        assert simulation.shown_iteration.tree[0]["values"]["asked"] == 1
 
-    simulate(stage_of(lamps), lamps, act)
+    simulate(prepare_lamp(lamps), lamps, act)
 
 
 def test_functions_of_components_that_run_themselves_are_not_called_to_look(lamps: Path) -> None:
     async def act(simulation: Simulation) -> None:
         await simulation.step(30)
-        assert simulation.moment is not None
-        assert simulation.moment.state == "Lit"
+        assert simulation.shown_iteration is not None
+        assert simulation.shown_iteration.state == "Lit"
         assert simulation.guards["Lit/2"]["reads"] == {"eye.toward(x=2.0)": 4.0}
         # The design asked once, to test its guard; looking did not.
-        assert simulation.moment.prints == ["asked"]
+        assert simulation.shown_iteration.prints == ["asked"]
 
-    simulate(stage_of(lamps, stood_in=frozenset({"Bulb"})), lamps, act)
+    simulate(prepare_lamp(lamps, stubbed=frozenset({"Bulb"})), lamps, act)
 
 
 @pytest.mark.parametrize("back", [1, 7, 24])
@@ -78,62 +78,62 @@ def test_going_back_and_on_gives_the_same_past(lamps: Path, back: int) -> None:
             if number in changes:
                 await simulation.set_input(SEEN, changes[number])
             await simulation.step()
-        before = past_of(simulation)
-        simulation.back(back)
+        before = recorded_iterations(simulation)
+        simulation.step_back(back)
         assert simulation.is_past
-        assert simulation.moment == (before[23 - back] if back < 24 else None)
+        assert simulation.shown_iteration == (before[23 - back] if back < 24 else None)
         for number in range(25 - back, 25):
             if number in changes:
                 await simulation.set_input(SEEN, changes[number])
             await simulation.step()
-        assert past_of(simulation) == before
+        assert recorded_iterations(simulation) == before
         # The same once more by a new process, which repeats the way up to there.
-        simulation.back(back)
-        simulation.cut()
+        simulation.step_back(back)
+        simulation.truncate()
         assert len(simulation.recording) == 24 - back
         for number in range(25 - back, 25):
             if number in changes:
                 await simulation.set_input(SEEN, changes[number])
             await simulation.step()
-        assert past_of(simulation) == before
-        assert simulation.note == ""
+        assert recorded_iterations(simulation) == before
+        assert simulation.warning == ""
 
-    simulate(stage_of(lamps), lamps, act)
+    simulate(prepare_lamp(lamps), lamps, act)
 
 
 def test_an_input_in_the_past_begins_another_future(lamps: Path) -> None:
     async def act(simulation: Simulation) -> None:
         await simulation.step(10)
-        before = past_of(simulation)
+        before = recorded_iterations(simulation)
         simulation.go_to(4)
         await simulation.set_input(SEEN, True)
         assert len(simulation.recording) == 4
         await simulation.step()
-        assert past_of(simulation)[:4] == before[:4]
-        assert simulation.moment is not None
-        assert simulation.moment.state == "Lit"
+        assert recorded_iterations(simulation)[:4] == before[:4]
+        assert simulation.shown_iteration is not None
+        assert simulation.shown_iteration.state == "Lit"
         assert simulation.inputs["Eye"]["seen"] is True
-        simulation.back()
+        simulation.step_back()
         assert simulation.inputs["Eye"]["seen"] is False
 
-    simulate(stage_of(lamps), lamps, act)
+    simulate(prepare_lamp(lamps), lamps, act)
 
 
 def test_runs_rest_at_breakpoints_also_in_the_past(lamps: Path) -> None:
     async def act(simulation: Simulation) -> None:
         await simulation.set_input(SEEN, True)
         await simulation.set_input(("Eye", "light"), 50)
-        stops = Stops(transitions=("Dark/1",))
+        stops = StopConditions(transitions=("Dark/1",))
         assert await simulation.step(100, stops) == "transition"
         assert simulation.cursor == 6
         assert await simulation.step(3) == "count"
         simulation.go_to(0)
-        assert await simulation.step(100, Stops(states=("Lit",))) == "state"
+        assert await simulation.step(100, StopConditions(states=("Lit",))) == "state"
         assert simulation.cursor == 6
         simulation.go_to(0)
-        assert await simulation.step(100, Stops(changes=True)) == "change"
+        assert await simulation.step(100, StopConditions(changes=True)) == "change"
 
-    simulate(stage_of(lamps), lamps, act)
+    simulate(prepare_lamp(lamps), lamps, act)
 
 
 def test_a_final_state_is_told_once(lamps: Path) -> None:
@@ -143,7 +143,7 @@ def test_a_final_state_is_told_once(lamps: Path) -> None:
         assert simulation.cursor == 1
         assert await simulation.step(3) == "count"
 
-    simulate(stage_of(lamps), lamps, act)
+    simulate(prepare_lamp(lamps), lamps, act)
 
 
 def test_parameters_and_stood_in_designs_are_set(lamps: Path) -> None:
@@ -151,30 +151,30 @@ def test_parameters_and_stood_in_designs_are_set(lamps: Path) -> None:
         await simulation.set_input(SEEN, True)
         await simulation.set_input(("", "patience"), 1.5)
         await simulation.step(2)
-        assert simulation.moment is not None
-        assert simulation.moment.tree[0]["values"]["patience"] == 1.5
+        assert simulation.shown_iteration is not None
+        assert simulation.shown_iteration.tree[0]["values"]["patience"] == 1.5
         await simulation.set_input(("Timer", "is_done"), True)
         await simulation.step()
-        assert simulation.moment.transition == "Lit/1"
+        assert simulation.shown_iteration.transition == "Lit/1"
 
-    simulate(stage_of(lamps, stood_in=frozenset({"Eye", "Bulb", "Timer"})), lamps, act)
+    simulate(prepare_lamp(lamps, stubbed=frozenset({"Eye", "Bulb", "Timer"})), lamps, act)
 
 
 def test_a_function_has_values_for_some_arguments(lamps: Path) -> None:
     async def act(simulation: Simulation) -> None:
         await simulation.set_input(SEEN, True)
         await simulation.step(2)
-        assert simulation.moment is not None
-        assert simulation.moment.asked == [
+        assert simulation.shown_iteration is not None
+        assert simulation.shown_iteration.calls == [
             {"component": "Eye", "output": "toward", "arguments": {"x": 2.0}, "value": 0.0}
         ]
         assert not await simulation.set_input(("Eye", "toward"), {"value": 1, "table": [[{"x": 2.0}, "much"]]})
         assert await simulation.set_input(("Eye", "toward"), {"value": 1, "table": [[{"x": 2.0}, 70]]})
         assert simulation.guards["Lit/2"]["reads"] == {"eye.toward(x=2.0)": 70.0}
         await simulation.step()
-        assert simulation.moment.state == "Broken"
+        assert simulation.shown_iteration.state == "Broken"
 
-    simulate(stage_of(lamps), lamps, act)
+    simulate(prepare_lamp(lamps), lamps, act)
 
 
 def test_values_that_are_none_are_refused(lamps: Path) -> None:
@@ -189,30 +189,30 @@ def test_values_that_are_none_are_refused(lamps: Path) -> None:
         ]:
             assert not await simulation.set_input(key, value)
 
-    simulate(stage_of(lamps), lamps, act)
+    simulate(prepare_lamp(lamps), lamps, act)
 
 
 def test_the_process_goes_with_the_simulation(lamps: Path) -> None:
     async def act(simulation: Simulation) -> None:
-        await simulation.begin()
-        runner = simulation._runner
+        await simulation.start()
+        runner = simulation._process
         assert runner is not None
         folder, pid = runner._folder, runner.pid
         assert folder.is_dir()
         simulation.end()
-        assert simulation.phase is Phase.ENDED
+        assert simulation.status is RunStatus.ENDED
         assert not folder.exists()
-        await simulation.gone()
+        await simulation.wait_closed()
         with pytest.raises(ProcessLookupError):
             os.kill(pid, 0)
         assert not (lamps / "__pycache__").exists()
 
-    simulate(stage_of(lamps), lamps, act)
+    simulate(prepare_lamp(lamps), lamps, act)
 
 
 def test_pausing_ends_a_long_run_early(lamps: Path) -> None:
     async def act(simulation: Simulation) -> None:
-        await simulation.begin()
+        await simulation.start()
         running = asyncio.create_task(simulation.step(20_000))
         end = time.monotonic() + 30
         while len(simulation.recording) < 30 and time.monotonic() < end:
@@ -221,4 +221,4 @@ def test_pausing_ends_a_long_run_early(lamps: Path) -> None:
         assert await running == "pause"
         assert 30 <= len(simulation.recording) < 20_000
 
-    simulate(stage_of(lamps), lamps, act)
+    simulate(prepare_lamp(lamps), lamps, act)

@@ -5,9 +5,9 @@ from pathlib import Path
 
 import pytest
 
-from tests.editor.simulation.lamps import past_of, simulate, stage_of, write_lamps
+from tests.editor.simulation.lamps import prepare_lamp, recorded_iterations, simulate, write_lamps
 from vicode.editor.session.simulation import Simulation
-from vicode.editor.session.simulation.traces import TraceError, read_trace, script_of
+from vicode.editor.session.simulation.traces import TraceError, input_script, read_trace
 from vicode.model.design import Design
 from vicode.store import open_project
 
@@ -26,7 +26,7 @@ def lamp_of(folder: Path) -> Design:
 def trace_of(simulation: Simulation) -> str:
     lines = [
         {"iteration": moment.iteration, "time_ns": moment.time_ns, "tree": moment.tree}
-        for moment in past_of(simulation)
+        for moment in recorded_iterations(simulation)
     ]
     return "\n".join(json.dumps(line) for line in lines) + '\n{"summary": {}}\n'
 
@@ -42,13 +42,13 @@ def test_a_trace_drives_the_inputs_to_the_same_states(lamps: Path) -> None:
         await simulation.step(3)
         traces.extend([trace_of(simulation), repr(simulation.recording.states)])
 
-    stage = stage_of(lamps)
+    stage = prepare_lamp(lamps)
     simulate(stage, lamps, record)
     moments = read_trace(traces[0], lamp_of(lamps))
     assert [moment.state for moment in moments][-1] == "Broken"
 
     async def drive(simulation: Simulation) -> None:
-        simulation.script = script_of(moments, stage.inputs)
+        simulation.script = input_script(moments, stage.inputs)
         await simulation.step(13)
         assert repr(simulation.recording.states) == traces[1]
         assert simulation.inputs["Eye"]["mood"] == "Mood.angry"
@@ -69,15 +69,15 @@ def test_a_trace_is_looked_at_without_a_process(lamps: Path) -> None:
     assert moments[2].transition is None
 
     async def act(simulation: Simulation) -> None:
-        looked = Simulation(stage=simulation.stage, cwd=lamps, replay=moments)
+        looked = Simulation(prepared=simulation.prepared, cwd=lamps, replay=moments)
         assert await looked.step(2) == "count"
-        assert (looked.cursor, looked.can_go_on) == (2, True)
+        assert (looked.cursor, looked.can_step) == (2, True)
         assert await looked.step(5) == "end"
-        assert not looked.can_go_on
+        assert not looked.can_step
         assert not await looked.set_input(("Eye", "seen"), True)
-        assert looked._runner is None
+        assert looked._process is None
 
-    simulate(stage_of(lamps), lamps, act)
+    simulate(prepare_lamp(lamps), lamps, act)
 
 
 @pytest.mark.parametrize(

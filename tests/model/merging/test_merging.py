@@ -10,9 +10,9 @@ from tests.strategies.designs import designs, states
 from vicode.model.design import (
     Assign,
     Code,
+    DecisionGroup,
     Declaration,
     Design,
-    Group,
     Guard,
     RunCode,
     State,
@@ -21,16 +21,16 @@ from vicode.model.design import (
     Use,
 )
 from vicode.model.edits import (
+    add_requirement,
     add_state,
     add_transition,
     remove_states,
     rename_state,
     rename_use,
     reorder_decision,
-    require,
     update_state,
 )
-from vicode.model.merging import merge
+from vicode.model.merging import merge_designs
 
 BASE = Design(
     component="Player",
@@ -52,13 +52,13 @@ def with_doc(design: Design, name: str, doc: str) -> Design:
 
 def merged(ours: Design, theirs: Design) -> Design:
     """The merge of two sides that do not touch."""
-    result = merge(BASE, ours, theirs)
+    result = merge_designs(BASE, ours, theirs)
     assert result.conflicts == ()
     return result.design
 
 
 def paths(ours: Design, theirs: Design) -> list[Any]:
-    return [conflict.path for conflict in merge(BASE, ours, theirs).conflicts]
+    return [conflict.path for conflict in merge_designs(BASE, ours, theirs).conflicts]
 
 
 def test_edits_of_different_things_come_together() -> None:
@@ -80,17 +80,17 @@ def test_a_rename_meets_edits_of_the_other_side() -> None:
 
 
 def test_a_renamed_component_takes_the_other_sides_links_along() -> None:
-    both = merged(rename_use(BASE, "head", "neck"), require(BASE, "A", "head"))
+    both = merged(rename_use(BASE, "head", "neck"), add_requirement(BASE, "A", "head"))
     assert both.state("A") == replace(BASE.states[0], requires=("neck",))
 
 
 def test_two_names_for_one_thing_are_a_conflict() -> None:
-    result = merge(BASE, rename_state(BASE, "A", "One"), rename_state(BASE, "A", "Two"))
+    result = merge_designs(BASE, rename_state(BASE, "A", "One"), rename_state(BASE, "A", "Two"))
     assert [(each.path, each.ours, each.theirs) for each in result.conflicts] == [
         (("states", "A", "name"), "One", "Two")
     ]
     assert result.design.states[0].name == "One"
-    theirs = merge(
+    theirs = merge_designs(
         BASE, rename_state(BASE, "A", "One"), rename_state(BASE, "A", "Two"), theirs_at=[("states", "A", "name")]
     )
     assert theirs.design.initial == "Two"
@@ -98,7 +98,7 @@ def test_two_names_for_one_thing_are_a_conflict() -> None:
 
 def test_one_value_changed_twice_is_a_conflict_with_a_choice() -> None:
     ours, theirs = with_doc(BASE, "A", "mine"), with_doc(BASE, "A", "theirs")
-    result = merge(BASE, ours, theirs)
+    result = merge_designs(BASE, ours, theirs)
     (conflict,) = result.conflicts
     assert (conflict.path, conflict.base, conflict.ours, conflict.theirs) == (
         ("states", "A", "doc"),
@@ -107,7 +107,7 @@ def test_one_value_changed_twice_is_a_conflict_with_a_choice() -> None:
         "theirs",
     )
     assert result.design == ours
-    assert merge(BASE, ours, theirs, theirs_at=[conflict.path]).design == theirs
+    assert merge_designs(BASE, ours, theirs, theirs_at=[conflict.path]).design == theirs
 
 
 def test_lines_of_a_text_come_together() -> None:
@@ -124,7 +124,7 @@ def test_what_is_gone_here_and_changed_there_is_a_conflict() -> None:
 def test_what_is_gone_here_and_needed_there_is_a_conflict() -> None:
     smaller, leading = remove_states(BASE, ["C"]), add_transition(BASE, "B", "C")
     assert paths(smaller, leading) == [("states", "C")]
-    assert merge(BASE, leading, smaller).design.state("C") is not None
+    assert merge_designs(BASE, leading, smaller).design.state("C") is not None
 
 
 @pytest.mark.parametrize("name", ["D", "E"])
@@ -146,7 +146,7 @@ def test_decisions_are_found_again_wherever_they_stand() -> None:
 
 
 def test_guards_within_groups_and_code_within_actions_come_together() -> None:
-    group = Group(guard=Guard(when="x"), then=(Transition(to="B"),), otherwise=(Transition(to="C"),))
+    group = DecisionGroup(guard=Guard(when="x"), then=(Transition(to="B"),), otherwise=(Transition(to="C"),))
     run = RunCode(code=Code(texts=(("python", "a\nb\nc\n"),)))
     base = update_state(BASE, "A", lambda state: replace(state, transitions=(group,), enter=(run,)))
     ours = update_state(
@@ -167,7 +167,7 @@ def test_guards_within_groups_and_code_within_actions_come_together() -> None:
             enter=(RunCode(code=Code(texts=(("python", "a\nb\nC\n"),))),),
         ),
     )
-    result = merge(base, ours, theirs)
+    result = merge_designs(base, ours, theirs)
     assert result.conflicts == ()
     assert result.design.states[0].transitions == (
         replace(group, guard=Guard(when="y"), then=(Transition(to="B", doc="mine"),)),
@@ -189,23 +189,23 @@ def test_assignments_and_declarations_come_together() -> None:
 def test_one_name_given_to_two_things_stays_with_ours() -> None:
     ours = replace(BASE, variables=(Declaration(name="k", type="int"), Declaration(name="m")))
     theirs = replace(BASE, variables=(*BASE.variables, Declaration(name="k", doc="another")))
-    result = merge(BASE, ours, theirs)
+    result = merge_designs(BASE, ours, theirs)
     assert [conflict.path for conflict in result.conflicts] == [("variables", "k")]
     assert [each.name for each in result.design.variables] == ["k", "m"]
 
 
 @given(designs, designs)
 def test_one_side_alone_wins(base: Design, side: Design) -> None:
-    assert merge(base, side, base).design == side
-    assert merge(base, base, side).design == side
-    assert merge(base, side, side).design == side
+    assert merge_designs(base, side, base).design == side
+    assert merge_designs(base, base, side).design == side
+    assert merge_designs(base, side, side).design == side
 
 
 @given(designs, designs, designs)
 def test_any_three_merge_and_every_choice_is_taken(base: Design, ours: Design, theirs: Design) -> None:
-    result = merge(base, ours, theirs)
+    result = merge_designs(base, ours, theirs)
     chosen = {conflict.path for conflict in result.conflicts}
-    again = merge(base, ours, theirs, theirs_at=chosen)
+    again = merge_designs(base, ours, theirs, theirs_at=chosen)
     assert bool(again.conflicts) == bool(result.conflicts)
 
 
@@ -213,6 +213,6 @@ def test_any_three_merge_and_every_choice_is_taken(base: Design, ours: Design, t
 def test_independent_edits_both_survive(base: Design, state: State) -> None:
     free = replace(state, name="Zz9_new", transitions=())
     ours, theirs = add_state(base, free), replace(base, doc="zz9 theirs")
-    for result in (merge(base, ours, theirs), merge(base, theirs, ours)):
+    for result in (merge_designs(base, ours, theirs), merge_designs(base, theirs, ours)):
         assert result.conflicts == ()
         assert result.design == replace(ours, doc="zz9 theirs")

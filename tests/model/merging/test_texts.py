@@ -4,7 +4,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from vicode.model.merging import merge_lines, merge_typing
+from vicode.model.merging import merge_characters, merge_lines
 
 texts = st.text("ab \n", max_size=12)
 
@@ -33,12 +33,12 @@ def test_lines_come_together_unless_they_touch(base: str, ours: str, theirs: str
     ],
 )
 def test_what_is_typed_at_once_is_kept(base: str, ours: str, theirs: str, merged: str) -> None:
-    assert merge_typing(base, ours, theirs) == merged
+    assert merge_characters(base, ours, theirs) == merged
 
 
 @given(texts, texts)
 def test_one_side_alone_wins(base: str, text: str) -> None:
-    for merge in (merge_lines, merge_typing):
+    for merge in (merge_lines, merge_characters):
         assert merge(base, text, base) == text
         assert merge(base, base, text) == text
         assert merge(base, text, text) == text
@@ -46,7 +46,7 @@ def test_one_side_alone_wins(base: str, text: str) -> None:
 
 @given(texts, st.text("XY", max_size=4), st.text("UV", max_size=4), st.integers(0, 12), st.integers(0, 12))
 def test_no_keystroke_is_lost(base: str, mine: str, yours: str, here: int, there: int) -> None:
-    merged = merge_typing(base, base[:here] + mine + base[here:], base[:there] + yours + base[there:])
+    merged = merge_characters(base, base[:here] + mine + base[here:], base[:there] + yours + base[there:])
     assert mine in merged
     assert yours in merged
     assert "".join(each for each in merged if each not in "XYUV") == base

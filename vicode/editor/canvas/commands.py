@@ -5,16 +5,16 @@ from enum import StrEnum
 from typing import Any
 
 
-class Group(StrEnum):
+class CommandGroup(StrEnum):
     """What belongs together in menus and in the help."""
 
-    MAKE = "Make"
-    CHANGE = "Change"
+    CREATE = "Make"
+    MODIFY = "Change"
     EDIT = "Edit"
     ARRANGE = "Arrange"
-    SEE = "See"
+    VIEW = "See"
     RUN = "Simulate"
-    WALK = "Get about"
+    NAVIGATE = "Get about"
 
 
 @dataclass(frozen=True, slots=True)
@@ -22,21 +22,21 @@ class CanvasCommand:
     """A command of the canvas; `keys` are spelt "Ctrl+Shift+Z", several are several ways.
 
     `on` names what its menu entry belongs to: a kind of thing, "several" of them, or "nothing". Keys that only mean
-    something together with a direction or a pointer are told by `shown`; such a command is in no menu.
+    something together with a direction or a pointer are told by `keys_label`; such a command is in no menu.
     """
 
     name: str
     label: str
-    group: Group
+    group: CommandGroup
     keys: tuple[str, ...] = ()
     _: KW_ONLY
-    on: tuple[str, ...] = ()
-    shown: str = ""
+    menus: tuple[str, ...] = ()
+    keys_label: str = ""
 
 
 _ARROWS = ("ArrowLeft", "ArrowRight", "ArrowUp", "ArrowDown")
-_BOXES = ("states", "components", "several")
-_FEW = ("states", "transitions", "several")
+_NODES = ("states", "components", "several")
+_STATES_AND_TRANSITIONS = ("states", "transitions", "several")
 
 
 def _with_arrows(*held: str) -> tuple[str, ...]:
@@ -44,64 +44,64 @@ def _with_arrows(*held: str) -> tuple[str, ...]:
 
 
 CANVAS_COMMANDS = (
-    CanvasCommand("new-state", "New state", Group.MAKE, ("S",), on=("nothing",)),
-    CanvasCommand("use", "Use a component…", Group.MAKE, ("U",), on=("nothing",)),
-    CanvasCommand("new-next", "Transition to a new state", Group.MAKE, ("N",), on=("states", "common")),
-    CanvasCommand("connect", "Connect to…", Group.MAKE, ("T",), on=("states", "components", "common")),
-    CanvasCommand("finish", "End a connection at the target", Group.MAKE, ("Enter",)),
-    CanvasCommand("open-guard", "Edit the guard", Group.CHANGE, ("Enter",), on=("transitions",)),
-    CanvasCommand("open-design", "Open its design", Group.CHANGE, ("Enter",), on=("components",)),
-    CanvasCommand("open-common", "Edit what is common", Group.CHANGE, ("Enter",), on=("common",)),
-    CanvasCommand("rename", "Rename", Group.CHANGE, ("F2", "Enter"), on=("states", "components")),
-    CanvasCommand("initial", "Start here", Group.CHANGE, ("I",), on=("states",)),
-    CanvasCommand("final", "Final, or no longer", Group.CHANGE, ("F",), on=("states",)),
-    CanvasCommand("disable", "Disable, or enable again", Group.CHANGE, ("D",), on=_FEW),
-    CanvasCommand("reconnect-target", "Lead to another state…", Group.CHANGE, ("R",), on=("transitions",)),
-    CanvasCommand("reconnect-source", "Start from another state…", Group.CHANGE, ("Shift+R",), on=("transitions",)),
-    CanvasCommand("earlier", "Test earlier", Group.CHANGE, ("[",), on=("transitions",)),
-    CanvasCommand("later", "Test later", Group.CHANGE, ("]",), on=("transitions",)),
-    CanvasCommand("free-label", "Put the label back", Group.CHANGE, on=("transitions",)),
-    CanvasCommand("undo", "Undo", Group.EDIT, ("Ctrl+Z",)),
-    CanvasCommand("redo", "Redo", Group.EDIT, ("Ctrl+Shift+Z", "Ctrl+Y")),
-    CanvasCommand("cut", "Cut", Group.EDIT, ("Ctrl+X",), on=_FEW),
-    CanvasCommand("copy", "Copy", Group.EDIT, ("Ctrl+C",), on=(*_FEW, "common")),
-    CanvasCommand("paste", "Paste", Group.EDIT, ("Ctrl+V",), on=(*_FEW, "common", "nothing")),
-    CanvasCommand("duplicate", "Duplicate", Group.EDIT, ("Ctrl+D",), on=_FEW),
-    CanvasCommand("delete", "Delete", Group.EDIT, ("Delete", "Backspace"), on=(*_FEW, "components", "links")),
-    CanvasCommand("select-all", "Select all", Group.EDIT, ("Ctrl+A",), on=("nothing",)),
-    CanvasCommand("align-left", "Align left sides", Group.ARRANGE, ("Alt+A",), on=("several",)),
-    CanvasCommand("align-centre", "Align centres", Group.ARRANGE, ("Alt+H",), on=("several",)),
-    CanvasCommand("align-right", "Align right sides", Group.ARRANGE, ("Alt+D",), on=("several",)),
-    CanvasCommand("align-top", "Align tops", Group.ARRANGE, ("Alt+W",), on=("several",)),
-    CanvasCommand("align-middle", "Align middles", Group.ARRANGE, ("Alt+V",), on=("several",)),
-    CanvasCommand("align-bottom", "Align bottoms", Group.ARRANGE, ("Alt+S",), on=("several",)),
-    CanvasCommand("distribute-across", "Equal gaps across", Group.ARRANGE, ("Alt+Shift+H",), on=("several",)),
-    CanvasCommand("distribute-down", "Equal gaps downwards", Group.ARRANGE, ("Alt+Shift+V",), on=("several",)),
+    CanvasCommand("new-state", "New state", CommandGroup.CREATE, ("S",), menus=("nothing",)),
+    CanvasCommand("use", "Use a component…", CommandGroup.CREATE, ("U",), menus=("nothing",)),
+    CanvasCommand("new-target", "Transition to a new state", CommandGroup.CREATE, ("N",), menus=("states", "common")),
+    CanvasCommand("connect", "Connect to…", CommandGroup.CREATE, ("T",), menus=("states", "components", "common")),
+    CanvasCommand("finish-connection", "End a connection at the target", CommandGroup.CREATE, ("Enter",)),
+    CanvasCommand("open-guard", "Edit the guard", CommandGroup.MODIFY, ("Enter",), menus=("transitions",)),
+    CanvasCommand("open-design", "Open its design", CommandGroup.MODIFY, ("Enter",), menus=("components",)),
+    CanvasCommand("open-common", "Edit what is common", CommandGroup.MODIFY, ("Enter",), menus=("common",)),
+    CanvasCommand("rename", "Rename", CommandGroup.MODIFY, ("F2", "Enter"), menus=("states", "components")),
+    CanvasCommand("initial", "Start here", CommandGroup.MODIFY, ("I",), menus=("states",)),
+    CanvasCommand("final", "Final, or no longer", CommandGroup.MODIFY, ("F",), menus=("states",)),
+    CanvasCommand("disable", "Disable, or enable again", CommandGroup.MODIFY, ("D",), menus=_STATES_AND_TRANSITIONS),
+    CanvasCommand("reconnect-target", "Lead to another state…", CommandGroup.MODIFY, ("R",), menus=("transitions",)),
+    CanvasCommand("reconnect-source", "Start from another state…", CommandGroup.MODIFY, ("Shift+R",), menus=("transitions",)),
+    CanvasCommand("move-up", "Test earlier", CommandGroup.MODIFY, ("[",), menus=("transitions",)),
+    CanvasCommand("move-down", "Test later", CommandGroup.MODIFY, ("]",), menus=("transitions",)),
+    CanvasCommand("reset-label", "Put the label back", CommandGroup.MODIFY, menus=("transitions",)),
+    CanvasCommand("undo", "Undo", CommandGroup.EDIT, ("Ctrl+Z",)),
+    CanvasCommand("redo", "Redo", CommandGroup.EDIT, ("Ctrl+Shift+Z", "Ctrl+Y")),
+    CanvasCommand("cut", "Cut", CommandGroup.EDIT, ("Ctrl+X",), menus=_STATES_AND_TRANSITIONS),
+    CanvasCommand("copy", "Copy", CommandGroup.EDIT, ("Ctrl+C",), menus=(*_STATES_AND_TRANSITIONS, "common")),
+    CanvasCommand("paste", "Paste", CommandGroup.EDIT, ("Ctrl+V",), menus=(*_STATES_AND_TRANSITIONS, "common", "nothing")),
+    CanvasCommand("duplicate", "Duplicate", CommandGroup.EDIT, ("Ctrl+D",), menus=_STATES_AND_TRANSITIONS),
+    CanvasCommand("delete", "Delete", CommandGroup.EDIT, ("Delete", "Backspace"), menus=(*_STATES_AND_TRANSITIONS, "components", "links")),
+    CanvasCommand("select-all", "Select all", CommandGroup.EDIT, ("Ctrl+A",), menus=("nothing",)),
+    CanvasCommand("align-left", "Align left sides", CommandGroup.ARRANGE, ("Alt+A",), menus=("several",)),
+    CanvasCommand("align-centre", "Align centres", CommandGroup.ARRANGE, ("Alt+H",), menus=("several",)),
+    CanvasCommand("align-right", "Align right sides", CommandGroup.ARRANGE, ("Alt+D",), menus=("several",)),
+    CanvasCommand("align-top", "Align tops", CommandGroup.ARRANGE, ("Alt+W",), menus=("several",)),
+    CanvasCommand("align-middle", "Align middles", CommandGroup.ARRANGE, ("Alt+V",), menus=("several",)),
+    CanvasCommand("align-bottom", "Align bottoms", CommandGroup.ARRANGE, ("Alt+S",), menus=("several",)),
+    CanvasCommand("distribute-across", "Equal gaps across", CommandGroup.ARRANGE, ("Alt+Shift+H",), menus=("several",)),
+    CanvasCommand("distribute-down", "Equal gaps downwards", CommandGroup.ARRANGE, ("Alt+Shift+V",), menus=("several",)),
     CanvasCommand(
-        "nudge", "Move by a step (a pixel with Shift)", Group.ARRANGE, _with_arrows("", "Shift+"), shown="Arrow keys"
+        "nudge", "Move by a step (a pixel with Shift)", CommandGroup.ARRANGE, _with_arrows("", "Shift+"), keys_label="Arrow keys"
     ),
-    CanvasCommand("lay-out", "Lay out", Group.ARRANGE, on=("several", "nothing")),
-    CanvasCommand("fit", "Zoom to everything", Group.SEE, ("1",), on=("nothing",)),
-    CanvasCommand("zoom-selection", "Zoom to the selection", Group.SEE, ("2",), on=_BOXES),
-    CanvasCommand("life-size", "Zoom to life size", Group.SEE, ("0",), on=("nothing",)),
-    CanvasCommand("zoom-in", "Zoom in", Group.SEE, ("+", "=")),
-    CanvasCommand("zoom-out", "Zoom out", Group.SEE, ("-",)),
-    CanvasCommand("links", "Show or hide links to components", Group.SEE, on=("nothing",)),
-    CanvasCommand("breakpoint", "Breakpoint, or none", Group.RUN, on=_FEW),
-    CanvasCommand("simulate-here", "Run to here", Group.RUN, on=("states",)),
-    CanvasCommand("menu", "Menu of what is selected", Group.WALK, ("Shift+F10", "ContextMenu"), shown="Shift+F10"),
-    CanvasCommand("help", "Keys and gestures", Group.WALK, ("?",), on=("nothing",)),
-    CanvasCommand("next", "Next thing, in the order of the design", Group.WALK, ("Tab",), shown="Tab"),
-    CanvasCommand("previous", "Previous thing", Group.WALK, ("Shift+Tab",), shown="Shift+Tab"),
-    CanvasCommand("go", "Nearest box in a direction", Group.WALK, _with_arrows("Ctrl+"), shown="Ctrl+Arrow keys"),
+    CanvasCommand("lay-out", "Lay out", CommandGroup.ARRANGE, menus=("several", "nothing")),
+    CanvasCommand("fit", "Zoom to everything", CommandGroup.VIEW, ("1",), menus=("nothing",)),
+    CanvasCommand("zoom-selection", "Zoom to the selection", CommandGroup.VIEW, ("2",), menus=_NODES),
+    CanvasCommand("actual-size", "Zoom to life size", CommandGroup.VIEW, ("0",), menus=("nothing",)),
+    CanvasCommand("zoom-in", "Zoom in", CommandGroup.VIEW, ("+", "=")),
+    CanvasCommand("zoom-out", "Zoom out", CommandGroup.VIEW, ("-",)),
+    CanvasCommand("links", "Show or hide links to components", CommandGroup.VIEW, menus=("nothing",)),
+    CanvasCommand("breakpoint", "Breakpoint, or none", CommandGroup.RUN, menus=_STATES_AND_TRANSITIONS),
+    CanvasCommand("simulate-here", "Run to here", CommandGroup.RUN, menus=("states",)),
+    CanvasCommand("menu", "Menu of what is selected", CommandGroup.NAVIGATE, ("Shift+F10", "ContextMenu"), keys_label="Shift+F10"),
+    CanvasCommand("help", "Keys and gestures", CommandGroup.NAVIGATE, ("?",), menus=("nothing",)),
+    CanvasCommand("next", "Next thing, in the order of the design", CommandGroup.NAVIGATE, ("Tab",), keys_label="Tab"),
+    CanvasCommand("previous", "Previous thing", CommandGroup.NAVIGATE, ("Shift+Tab",), keys_label="Shift+Tab"),
+    CanvasCommand("select-nearest", "Nearest box in a direction", CommandGroup.NAVIGATE, _with_arrows("Ctrl+"), keys_label="Ctrl+Arrow keys"),
     CanvasCommand(
-        "reach", "The same, and keep what is selected", Group.WALK, _with_arrows("Ctrl+Shift+"),
-        shown="Ctrl+Shift+Arrow keys",
+        "add-nearest", "The same, and keep what is selected", CommandGroup.NAVIGATE, _with_arrows("Ctrl+Shift+"),
+        keys_label="Ctrl+Shift+Arrow keys",
     ),
-    CanvasCommand("cancel", "Leave what is half done; then select nothing", Group.WALK, ("Escape",), shown="Escape"),
+    CanvasCommand("cancel", "Leave what is half done; then select nothing", CommandGroup.NAVIGATE, ("Escape",), keys_label="Escape"),
 )  # fmt: skip
 
-BY_HAND = (
+GESTURE_HELP = (
     ("Double click", "a new state; on a state its name, on an arrow its guard, on a component its design"),
     ("Drag from the edge of a state", "a transition, to nothing with a new state; to a component a link"),
     ("Drag an end of a selected arrow", "leads elsewhere"),
@@ -118,7 +118,7 @@ BY_HAND = (
 """What a hand does, for the help: gesture and meaning."""
 
 
-def as_plain() -> list[dict[str, Any]]:
+def commands_json() -> list[dict[str, Any]]:
     """The table as the browser takes it."""
     return [
         {
@@ -126,7 +126,7 @@ def as_plain() -> list[dict[str, Any]]:
             "label": each.label,
             "group": str(each.group),
             "keys": list(each.keys),
-            "on": list(each.on),
+            "on": list(each.menus),
         }
         for each in CANVAS_COMMANDS
     ]

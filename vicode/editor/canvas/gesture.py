@@ -6,64 +6,66 @@ from typing import Any, Literal, NotRequired, TypedDict
 Scene = Mapping[
     str, Any
 ]  # {"rev", "component", "states", "transitions", "components", "links", "common", …}, built by the editor's view
-Changes = Mapping[str, Any]  # {"rev", "upsert": {kind: [things]}, "remove": {kind: [ids]}, "common" only if it changed}
-Kind = Literal["states", "transitions", "components", "links", "common"]
+SceneChanges = Mapping[
+    str, Any
+]  # {"rev", "upsert": {kind: [things]}, "remove": {kind: [ids]}, "common" only if it changed}
+ElementKind = Literal["states", "transitions", "components", "links", "common"]
 
 
-class Item(TypedDict):
+class SceneItem(TypedDict):
     """A thing in the scene."""
 
-    of: Kind
+    of: ElementKind
     id: str
 
 
-class Other(TypedDict):
+class RemoteUser(TypedDict):
     """Another person: the number of a colour, what is selected there, where the pointer is (None: nowhere here)."""
 
     name: str
     colour: int
-    items: list[Item]
+    items: list[SceneItem]
     pointer: dict[str, float] | None
 
 
-class Place(TypedDict):
+class NodePosition(TypedDict):
     """A node and the centre it was moved to, in world units."""
 
-    of: Kind
+    of: ElementKind
     id: str
     x: float
     y: float
 
 
-class Select(TypedDict):
+class SelectGesture(TypedDict):
     """The selection changed by hand; empty when nothing is selected any more."""
 
     kind: Literal["select"]
     rev: int
-    items: list[Item]
-    told: int
+    items: list[SceneItem]
+    client_seq: int
     """How many selections by hand were told, this one included."""
 
 
-class Move(TypedDict):
+class MoveGesture(TypedDict):
     """Nodes were moved; the canvas already shows them there and accepts the echo (or a correction)."""
 
     kind: Literal["move"]
     rev: int
-    items: list[Place]
+    items: list[NodePosition]
     how: str
     """By which command: "drag", "nudge", "align-left" …"""
 
 
-class Delete(TypedDict):
+class DeleteGesture(TypedDict):
     """The selected things are to go."""
 
     kind: Literal["delete"]
     rev: int
-    items: list[Item]
+    items: list[SceneItem]
 
 
-class Connect(TypedDict):
+class ConnectGesture(TypedDict):
     """A new transition; without a target, a new state is wanted at (x, y) first. The source may be `@common`."""
 
     kind: Literal["connect"]
@@ -74,7 +76,7 @@ class Connect(TypedDict):
     y: float | None
 
 
-class Reconnect(TypedDict):
+class ReconnectGesture(TypedDict):
     """One end of a transition was taken to another state (or, the source only, to `@common`)."""
 
     kind: Literal["reconnect"]
@@ -84,7 +86,7 @@ class Reconnect(TypedDict):
     state: str
 
 
-class Link(TypedDict):
+class LinkGesture(TypedDict):
     """A state is to require or to modulate a component.
 
     Drawn from the component it means `requires`. Drawn from the state it means `modulates`, but `requires` where the
@@ -98,7 +100,7 @@ class Link(TypedDict):
     component: str
 
 
-class Create(TypedDict):
+class CreateGesture(TypedDict):
     """A new state is wanted with its centre at (x, y)."""
 
     kind: Literal["create"]
@@ -107,7 +109,7 @@ class Create(TypedDict):
     y: float
 
 
-class Rename(TypedDict):
+class RenameGesture(TypedDict):
     """A state (or a component's alias) got another name; it is never empty, but may be taken or no name at all."""
 
     kind: Literal["rename"]
@@ -117,32 +119,32 @@ class Rename(TypedDict):
     name: str
 
 
-class Open(TypedDict):
+class OpenGesture(TypedDict):
     """A double click (or Enter) on something that is not renamed: show it, its design or its code."""
 
     kind: Literal["open"]
     rev: int
-    of: Kind
+    of: ElementKind
     id: str
 
 
-class Disable(TypedDict):
+class DisableGesture(TypedDict):
     """States and transitions are to be disabled, or enabled when all of them are disabled."""
 
     kind: Literal["disable"]
     rev: int
-    items: list[Item]
+    items: list[SceneItem]
 
 
-class Copy(TypedDict):
-    """The text of these things is wanted for the clipboard; `put_on_clipboard` answers."""
+class CopyGesture(TypedDict):
+    """The text of these things is wanted for the clipboard; `write_clipboard` answers."""
 
     kind: Literal["copy"]
     rev: int
-    items: list[Item]
+    items: list[SceneItem]
 
 
-class Paste(TypedDict):
+class PasteGesture(TypedDict):
     """A text from the clipboard is to become part of the design, its middle at (x, y)."""
 
     kind: Literal["paste"]
@@ -152,15 +154,15 @@ class Paste(TypedDict):
     y: float
 
 
-class Duplicate(TypedDict):
+class DuplicateGesture(TypedDict):
     """The selected things are wanted once more, a little beside."""
 
     kind: Literal["duplicate"]
     rev: int
-    items: list[Item]
+    items: list[SceneItem]
 
 
-class Reorder(TypedDict):
+class ReorderGesture(TypedDict):
     """A transition is to be tested earlier or later: `by` -1 or 1, or where the transition `onto` is tested now."""
 
     kind: Literal["reorder"]
@@ -170,7 +172,7 @@ class Reorder(TypedDict):
     onto: NotRequired[str]
 
 
-class Label(TypedDict):
+class LabelGesture(TypedDict):
     """A label was put on a part of the way (0 to 1) and pixels beside it; None: wherever there is room."""
 
     kind: Literal["label"]
@@ -179,7 +181,7 @@ class Label(TypedDict):
     at: tuple[float, float] | None
 
 
-class Mark(TypedDict):
+class StateFlagGesture(TypedDict):
     """A state is to be the initial one, or final or no longer so."""
 
     kind: Literal["mark"]
@@ -188,7 +190,7 @@ class Mark(TypedDict):
     id: str
 
 
-class Use(TypedDict):
+class UseGesture(TypedDict):
     """A component is to be used at (x, y): the one a dropped link leads to, else one to be chosen."""
 
     kind: Literal["use"]
@@ -198,7 +200,7 @@ class Use(TypedDict):
     y: float
 
 
-class Ask(TypedDict):
+class CommandGesture(TypedDict):
     """A command of the page is wanted, by its name."""
 
     kind: Literal["command"]
@@ -206,24 +208,24 @@ class Ask(TypedDict):
     name: str
 
 
-class Peek(TypedDict):
-    """The pointer or the keys rest on a thing: its card is shown, and `tell_peek` may tell more of it."""
+class TooltipGesture(TypedDict):
+    """The pointer or the keys rest on a thing: its card is shown, and `show_tooltip` may tell more of it."""
 
-    kind: Literal["peek"]
+    kind: Literal["tooltip"]
     rev: int
-    of: Kind
+    of: ElementKind
     id: str
 
 
-class Preview(TypedDict):
+class PreviewGesture(TypedDict):
     """Enter or Escape was pressed while other places are shown: they are wanted, or not."""
 
     kind: Literal["preview"]
     rev: int
-    wanted: bool
+    accepted: bool
 
 
-class History(TypedDict):
+class HistoryGesture(TypedDict):
     """Ctrl+Z, Ctrl+Shift+Z or Ctrl+Y were pressed on the canvas."""
 
     kind: Literal["undo", "redo"]
@@ -232,27 +234,27 @@ class History(TypedDict):
 
 
 Gesture = (
-    Select
-    | Move
-    | Delete
-    | Connect
-    | Reconnect
-    | Link
-    | Create
-    | Rename
-    | Open
-    | Disable
-    | Copy
-    | Paste
-    | Duplicate
-    | Reorder
-    | Label
-    | Mark
-    | Use
-    | Ask
-    | Peek
-    | Preview
-    | History
+    SelectGesture
+    | MoveGesture
+    | DeleteGesture
+    | ConnectGesture
+    | ReconnectGesture
+    | LinkGesture
+    | CreateGesture
+    | RenameGesture
+    | OpenGesture
+    | DisableGesture
+    | CopyGesture
+    | PasteGesture
+    | DuplicateGesture
+    | ReorderGesture
+    | LabelGesture
+    | StateFlagGesture
+    | UseGesture
+    | CommandGesture
+    | TooltipGesture
+    | PreviewGesture
+    | HistoryGesture
 )
 OnGesture = Callable[[Gesture], Awaitable[None] | None]
 OnPointer = Callable[[tuple[float, float] | None], None]

@@ -7,18 +7,18 @@ from typing import Any
 from nicegui import ui
 from nicegui.events import GenericEventArguments
 
-from vicode.editor.scripts import CODE
-from vicode.editor.session.completing import Completion
-from vicode.editor.session.marking import Mark
+from vicode.editor.scripts import CODE_JS
+from vicode.editor.session.completing import CompletionResult
+from vicode.editor.session.marking import CodeMark
 
-_LONGEST = 200_000
+_MAX_TEXT_LENGTH = 200_000
 
 
-Complete = Callable[[str, int], Completion]
+Complete = Callable[[str, int], CompletionResult]
 """What may be written in a text at a character."""
 
 
-class CodeAid(ui.element, component=CODE / "vicode_code.js"):
+class CodeAssist(ui.element, component=CODE_JS / "vicode_code.js"):
     """Stands beside a code editor and helps who writes in it; it shows nothing itself.
 
     Args:
@@ -27,7 +27,7 @@ class CodeAid(ui.element, component=CODE / "vicode_code.js"):
         complete: answers what may be written; None for an editor that asks nobody.
         is_expression: coloured as an expression, and left by Tab like any field.
         hint: shown while it is empty.
-        on_line: called with the line that was clicked or reached by keyboard in it; None if nobody wants to know.
+        on_line_selected: called with the line that was clicked or reached by keyboard in it; None if nobody wants to know.
     """
 
     def __init__(
@@ -38,40 +38,40 @@ class CodeAid(ui.element, component=CODE / "vicode_code.js"):
         complete: Complete | None = None,
         is_expression: bool = False,
         hint: str = "",
-        on_line: Callable[[int], None] | None = None,
+        on_line_selected: Callable[[int], None] | None = None,
     ) -> None:
         super().__init__()
-        self._complete, self._on_line = complete, on_line
-        self._sent: object = None
+        self._complete, self._on_line_selected = complete, on_line_selected
+        self._sent_marks: object = None
         self._is_mounted = False
-        self._waiting: dict[str, tuple[object, ...]] = {}
+        self._pending_calls: dict[str, tuple[object, ...]] = {}
         self.props["editor"] = editor.id
-        self.props["wishes"] = {
+        self.props["options"] = {
             "label": label,
-            "asks": complete is not None,
+            "completes": complete is not None,
             "isExpression": is_expression,
             "hint": hint,
-            "tellsLines": on_line is not None,
+            "reportsLine": on_line_selected is not None,
         }
         # Handlers added after the first rendering would make NiceGUI mount the element anew.
-        self.on("ready", self._hear_ready)
-        self.on("complete", self._hear_complete)
-        self.on("line", self._hear_line)
+        self.on("ready", self._on_ready)
+        self.on("complete", self._on_complete)
+        self.on("line", self._on_line_event)
 
-    def show_marks(self, text: str, marks: Iterable[Mark]) -> None:
+    def show_marks(self, text: str, marks: Iterable[CodeMark]) -> None:
         """Underline characters of a text; nothing is shown if something else stands in the editor by then."""
         rows = [asdict(mark) for mark in marks]
-        if (text, rows) != self._sent:
-            self._sent = (text, rows)
+        if (text, rows) != self._sent_marks:
+            self._sent_marks = (text, rows)
             self._call("showMarks", text, rows)
 
-    def show_lines(self, first: int, last: int, *, reveal: bool = True) -> None:
+    def highlight_lines(self, first: int, last: int, *, reveal: bool = True) -> None:
         """Bring lines forward, counted from 1, and scroll to them; none for 0."""
-        self._call("showLines", first, last, reveal)
+        self._call("highlightLines", first, last, reveal)
 
-    def show_regions(self, lines: Iterable[tuple[int, str]]) -> None:
+    def set_line_styles(self, lines: Iterable[tuple[int, str]]) -> None:
         """Give lines a style class and take it from all others: pairs of a line and a class."""
-        self._call("showStyles", [list(each) for each in lines])
+        self._call("setLineStyles", [list(each) for each in lines])
 
     def go_to(self, start: int) -> None:
         """Put the cursor to a character, and the focus into the editor."""
@@ -82,27 +82,27 @@ class CodeAid(ui.element, component=CODE / "vicode_code.js"):
         if self._is_mounted:
             self.run_method(method, *arguments)
         else:
-            self._waiting[method] = arguments
+            self._pending_calls[method] = arguments
 
-    def _hear_ready(self) -> None:
+    def _on_ready(self) -> None:
         self._is_mounted = True
-        for method, arguments in self._waiting.items():
+        for method, arguments in self._pending_calls.items():
             self.run_method(method, *arguments)
 
-    def _hear_complete(self, event: GenericEventArguments) -> None:
-        number, text, offset = _question(event.args)
+    def _on_complete(self, event: GenericEventArguments) -> None:
+        number, text, offset = _parse_request(event.args)
         answer: dict[str, Any] = {"start": offset, "options": []}
-        if self._complete is not None and len(text) <= _LONGEST:
+        if self._complete is not None and len(text) <= _MAX_TEXT_LENGTH:
             found = self._complete(text, offset)
             answer = {"start": found.start, "options": [asdict(option) for option in found.options]}
         self.run_method("answer", number, answer)
 
-    def _hear_line(self, event: GenericEventArguments) -> None:
-        if self._on_line is not None and isinstance(event.args, int):
-            self._on_line(event.args)
+    def _on_line_event(self, event: GenericEventArguments) -> None:
+        if self._on_line_selected is not None and isinstance(event.args, int):
+            self._on_line_selected(event.args)
 
 
-def _question(payload: Any) -> tuple[int, str, int]:
+def _parse_request(payload: Any) -> tuple[int, str, int]:
     """A question of a browser, in which nothing is trusted."""
     wanted = payload if isinstance(payload, dict) else {}
     number, text, offset = wanted.get("number"), wanted.get("text"), wanted.get("offset")

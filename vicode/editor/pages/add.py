@@ -6,47 +6,47 @@ from nicegui import ui
 from starlette.requests import Request
 
 from vicode.editor.pages.design_page import DesignPage
-from vicode.editor.pages.going import Way
-from vicode.editor.pages.keeping import keep_all
-from vicode.editor.pages.look import add_look
-from vicode.editor.pages.site_pages import serve_site_pages
-from vicode.editor.panels.messages import tell_failure
+from vicode.editor.pages.going import PageRequest
+from vicode.editor.pages.keeping import run_autosave
+from vicode.editor.pages.look import apply_theme
+from vicode.editor.pages.site_pages import serve_docs_preview
+from vicode.editor.panels.messages import show_internal_error
 from vicode.editor.panels.thumbnails import serve_thumbnails
 from vicode.editor.session import Library, Workspace
-from vicode.editor.session.finding_things import Index
-from vicode.editor.session.keeper import Keeper
-from vicode.editor.view.address import broken_address, trail_of_text
+from vicode.editor.session.finding_things import SearchIndex
+from vicode.editor.session.keeper import AutosaveService
+from vicode.editor.view.address import broken_file_url, parse_trail
 
 
-def add_pages(library: Library, keeper: Keeper | None = None, *, tour: bool = False) -> None:
+def register_pages(library: Library, autosave: AutosaveService | None = None, *, tour: bool = False) -> None:
     """Serve the designs of a library: `/` is their home, `/design/PROJECT/COMPONENT` edits one."""
-    index = Index(library)
-    if keeper is not None:
-        keep_all(keeper)
+    index = SearchIndex(library)
+    if autosave is not None:
+        run_autosave(autosave)
 
     serve_thumbnails(library)
-    serve_site_pages(library)
+    serve_docs_preview(library)
 
     @ui.page("/", title="vicode")
     def home(request: Request) -> None:
         from vicode.editor.pages.home import HomePage
 
-        ui.on_exception(tell_failure)
+        ui.on_exception(show_internal_error)
         HomePage(library, index, request.query_params.get("gone", ""))
 
     @ui.page("/design/{key}/{component}", title="vicode")
     def design(key: str, component: str, request: Request) -> None:
         workspace = _workspace_as_on_disk(library, key)
-        document = workspace.document(component) if workspace else None
+        document = workspace.open_document(component) if workspace else None
         if workspace is None or document is None:
             _nothing(f"There is no design {component[:80]} here", "It may have been renamed or removed.", workspace)
             return
         ui.page_title(f"{component} – vicode")
         query = request.query_params
-        trail = trail_of_text(query.get("from", ""), workspace.project.interfaces(), component)
-        ui.on_exception(tell_failure)
-        way = Way(index=index, trail=trail, select=query.get("select", ""), tour=tour)
-        DesignPage(library, workspace, document, way, keeper)
+        trail = parse_trail(query.get("from", ""), workspace.project.interfaces(), component)
+        ui.on_exception(show_internal_error)
+        way = PageRequest(index=index, trail=trail, select=query.get("select", ""), tour=tour)
+        DesignPage(library, workspace, document, way, autosave)
 
     @ui.page("/broken/{key}/{file:path}", title="vicode")
     def broken(key: str, file: str) -> None:
@@ -59,7 +59,7 @@ def add_pages(library: Library, keeper: Keeper | None = None, *, tour: bool = Fa
             _nothing(f"There is no broken file {file[:80]} here", "It may have been mended or removed.")
             return
         ui.page_title(f"{file} – vicode")
-        ui.on_exception(tell_failure)
+        ui.on_exception(show_internal_error)
         BrokenPage(library, workspace, path, file)
 
 
@@ -68,18 +68,18 @@ def _workspace_as_on_disk(library: Library, key: str) -> Workspace | None:
     workspace = library.workspace(key)
     if workspace:
         with contextlib.suppress(OSError):
-            workspace.follow_disk()
+            workspace.sync_from_disk()
     return workspace
 
 
 def _nothing(title: str, hint: str, workspace: Workspace | None = None) -> None:
     """Say that there is nothing at an address; what is sought may be in a file that cannot be read."""
-    add_look()
+    apply_theme()
     with ui.element("main").classes("nothing"):
         ui.label(title).classes("dialog-title").props("role=heading aria-level=1")
         ui.label(hint).classes("empty")
-        if workspace is not None and workspace.broken:
+        if workspace is not None and workspace.broken_file_names:
             ui.label("Or it is in a file that cannot be read just now:").classes("empty")
-            for file in workspace.broken:
-                ui.link(file, broken_address(workspace.key, file))
+            for file in workspace.broken_file_names:
+                ui.link(file, broken_file_url(workspace.key, file))
         ui.link("Show the designs", "/")

@@ -5,17 +5,17 @@ from typing import TYPE_CHECKING
 from nicegui import ui
 
 from vicode.editor.canvas import Canvas
-from vicode.editor.panels.command import Command, Place
-from vicode.editor.panels.desk import Desk
-from vicode.editor.panels.grips import add_grips, dock_grip, side_grip
-from vicode.editor.panels.problems import Problems
+from vicode.editor.panels.command import Command, MenuGroup
+from vicode.editor.panels.desk import WindowContext
+from vicode.editor.panels.grips import add_splitters, dock_splitter, side_splitter
+from vicode.editor.panels.problems import FindingNavigator
 from vicode.editor.panels.simulation.commands import simulation_commands
 from vicode.editor.panels.tabs import Tabs
 
 if TYPE_CHECKING:
     from vicode.editor.panels.search_panel import SearchPanel
     from vicode.editor.panels.simulation.panel import SimulationPanel
-    from vicode.editor.panels.simulation.simulator import Simulator
+    from vicode.editor.panels.simulation.simulator import SimulationController
 
 _DOCK = _FINDINGS, _SEARCH, _HISTORY, _SIMULATE = "Findings", "Search", "History", "Simulate"
 _SIDE = _INSPECT, _CODE = "Inspect", "Generated code"
@@ -28,33 +28,33 @@ _FOCUS_SEARCH = """
 """
 
 
-class Beside:
-    """Builds both with their tabs; `begin` fills them. The panels take longer to load than all that is drawn before."""
+class SidePanels:
+    """Builds both with their tabs; `build` fills them. The panels take longer to load than all that is drawn before."""
 
-    def __init__(self, desk: Desk, canvas: Canvas, problems: Problems) -> None:
+    def __init__(self, context: WindowContext, canvas: Canvas, problems: FindingNavigator) -> None:
         """Make room for the panels."""
-        self._desk, self._canvas, self._problems = desk, canvas, problems
-        self._simulator: Simulator | None = None
-        add_grips()
+        self._context, self._canvas, self._finding_navigator = context, canvas, problems
+        self._simulator: SimulationController | None = None
+        add_splitters()
         with ui.element("section").classes("dock").props('aria-label="Below the drawing"'):
-            dock_grip()
+            dock_splitter()
             self.dock = Tabs(_DOCK, "dock", "Panels below")
         with ui.element("aside").classes("side").props('aria-label="Inspector"'):
-            side_grip()
+            side_splitter()
             self.side = Tabs(_SIDE, "side", "Panels beside")
 
-    def begin(self) -> None:
+    def build(self) -> None:
         """Build the panels that are in sight."""
         from vicode.editor.panels.code_panel import CodePanel
         from vicode.editor.panels.findings_panel import FindingsPanel
         from vicode.editor.panels.history_panel import HistoryPanel
         from vicode.editor.panels.inspector import Inspector
 
-        desk = self._desk
-        self.side.begin({_INSPECT: lambda: Inspector(desk), _CODE: lambda: CodePanel(desk)})
-        self.dock.begin(
+        desk = self._context
+        self.side.build({_INSPECT: lambda: Inspector(desk), _CODE: lambda: CodePanel(desk)})
+        self.dock.build(
             {
-                _FINDINGS: lambda: FindingsPanel(desk, self._problems),
+                _FINDINGS: lambda: FindingsPanel(desk, self._finding_navigator),
                 _SEARCH: self._search_panel,
                 _HISTORY: lambda: HistoryPanel(desk),
                 _SIMULATE: self._simulation_panel,
@@ -68,8 +68,8 @@ class Beside:
             Command(
                 name="search",
                 label="Search and replace in all texts",
-                act=self._open_search,
-                place=Place.EDIT,
+                handler=self._open_search,
+                menu_group=MenuGroup.EDIT,
                 icon="search",
                 keys=("Ctrl+Shift+F",),
                 while_typing=True,
@@ -79,7 +79,7 @@ class Beside:
     def design_changed(self) -> None:
         """Let what runs know that it is no longer what is drawn."""
         if self._simulator is not None:
-            self._simulator.design_changed()
+            self._simulator.check_design()
 
     def refresh(self) -> None:
         """Show the desk as it is now."""
@@ -90,18 +90,18 @@ class Beside:
         self.dock.show(_SEARCH)
         ui.run_javascript(_FOCUS_SEARCH)
 
-    def _simulate(self) -> "Simulator":
-        from vicode.editor.panels.simulation.simulator import Simulator
+    def _simulate(self) -> "SimulationController":
+        from vicode.editor.panels.simulation.simulator import SimulationController
 
         if self._simulator is None:
             with self._canvas.client:
-                self._simulator = Simulator(self._desk, self._canvas)
+                self._simulator = SimulationController(self._context, self._canvas)
         return self._simulator
 
     def _search_panel(self) -> "SearchPanel":
         from vicode.editor.panels.search_panel import SearchPanel
 
-        return SearchPanel(self._desk)
+        return SearchPanel(self._context)
 
     def _simulation_panel(self) -> "SimulationPanel":
         from vicode.editor.panels.simulation.panel import SimulationPanel

@@ -6,131 +6,138 @@ from urllib.parse import quote
 
 from nicegui import core, ui
 
-from vicode.editor.pages.actions import Actions
-from vicode.editor.pages.beside import Beside
-from vicode.editor.pages.going import HOME, Going, Way
-from vicode.editor.pages.keeping import Keeping
-from vicode.editor.pages.keys import listen_to_keys
-from vicode.editor.pages.look import Theme, add_look
-from vicode.editor.pages.meeting import Meeting
-from vicode.editor.pages.site_pages import page_command
-from vicode.editor.pages.stage import Stage
-from vicode.editor.pages.visitor import greet_visitor
-from vicode.editor.panels.command import Command, Place
+from vicode.editor.pages.actions import PageCommands
+from vicode.editor.pages.beside import SidePanels
+from vicode.editor.pages.going import HOME, Navigator, PageRequest
+from vicode.editor.pages.keeping import AutosaveControls
+from vicode.editor.pages.keys import register_shortcuts
+from vicode.editor.pages.look import Theme, apply_theme
+from vicode.editor.pages.meeting import PresenceSync
+from vicode.editor.pages.site_pages import docs_command
+from vicode.editor.pages.stage import DesignView
+from vicode.editor.pages.visitor import identify_user
+from vicode.editor.panels.command import Command, MenuGroup
 from vicode.editor.panels.design_dialogs import DesignDialogs
 from vicode.editor.panels.designs_list import DesignsList
-from vicode.editor.panels.desk import Desk
+from vicode.editor.panels.desk import WindowContext
 from vicode.editor.panels.export_dialog import ExportDialog
 from vicode.editor.panels.header import Header
 from vicode.editor.panels.help_dialog import show_help
-from vicode.editor.panels.messages import say
-from vicode.editor.panels.problems import Problems
+from vicode.editor.panels.messages import show_toast
+from vicode.editor.panels.problems import FindingNavigator
 from vicode.editor.panels.tour import Tour
 from vicode.editor.panels.undo_bar import UndoBar
-from vicode.editor.session import Document, Library, Workspace
-from vicode.editor.session.keeper import Keeper
-from vicode.editor.view.address import design_address
+from vicode.editor.session import DocumentSession, Library, Workspace
+from vicode.editor.session.keeper import AutosaveService
+from vicode.editor.view.address import design_url
 
 # What others do is seen in the drawing first; the panels say it when there is time.
-_DRAWING_S = 0.02
-_PANELS_S = 0.1
+_CANVAS_DELAY_S = 0.02
+_PANELS_DELAY_S = 0.1
 
 
 class DesignPage:
     """One window on one design; everything in it can be rebuilt from the document."""
 
     def __init__(
-        self, library: Library, workspace: Workspace, document: Document, way: Way, keeper: Keeper | None
+        self,
+        library: Library,
+        workspace: Workspace,
+        document: DocumentSession,
+        way: PageRequest,
+        keeper: AutosaveService | None,
     ) -> None:
         """Build the page for the browser that asks for it."""
-        person = greet_visitor(library.people)
-        hand = Document(document.sheet, person.id)
-        self.desk = desk = Desk(workspace=workspace, document=hand, client=ui.context.client)
-        theme = Theme(desk.code_editors, add_look())
-        problems = Problems(desk)
+        person = identify_user(library.users)
+        hand = DocumentSession(document.shared, person.id)
+        self.context = desk = WindowContext(workspace=workspace, document=hand, client=ui.context.client)
+        theme = Theme(desk.code_editors, apply_theme())
+        problems = FindingNavigator(desk)
         with ui.element("div").classes("shell"):
             skip = ui.element("a").classes("skip-link")
-            desk.offer_undo = UndoBar().offer
-            dialogs = DesignDialogs(say=say, offer_undo=desk.offer_undo)
+            desk.offer_undo = UndoBar().show
+            dialogs = DesignDialogs(show_toast=show_toast, offer_undo=desk.offer_undo)
             head = ui.element("header").classes("head")
             self.designs = DesignsList(library, (workspace.key, document.design.component), dialogs)
-            with ui.element("main").classes("stage").props("tabindex=-1") as main:
-                self.stage = Stage(desk)
-            self.beside = Beside(desk, self.stage.drawing.canvas, problems)
-        self.keeping = Keeping(desk, keeper)
-        self.tour = Tour(desk, lambda: self.stage.shows_table, begins=way.tour)
-        going = Going(desk, way.index, way.trail)
-        new = Command("new-design", "New design", lambda: dialogs.ask_new(workspace), Place.DESIGN, icon="add")
-        own = (new, *problems.commands(), *going.commands(), *self.keeping.commands(), *self.tour.commands())
+            with ui.element("main").classes("design-view").props("tabindex=-1") as main:
+                self.view = DesignView(desk)
+            self.side_panels = SidePanels(desk, self.view.canvas_controller.canvas, problems)
+        self.autosave = AutosaveControls(desk, keeper)
+        self.tour = Tour(desk, lambda: self.view.is_table_shown, starts_automatically=way.tour)
+        going = Navigator(desk, way.index, way.trail)
+        new = Command("new-design", "New design", lambda: dialogs.ask_new(workspace), MenuGroup.DESIGN, icon="add")
+        own = (new, *problems.commands(), *going.commands(), *self.autosave.commands(), *self.tour.commands())
         commands = self._commands(theme, own)
         going.palette.commands = commands
         with head:
             self.header = Header(desk, commands, way.trail)
         with skip.props(f"href=#{main.html_id}"):
             ui.label("Skip to the design")
-        Meeting(desk, person, self.stage.drawing.canvas, self.header.people)
-        listen_to_keys(commands)
-        arrived = going.start(way.select)
-        desk.listen(self._refresh)
+        PresenceSync(desk, person, self.view.canvas_controller.canvas, self.header.presence_bar)
+        register_shortcuts(commands)
+        arrived = going.select_initial(way.select)
+        desk.subscribe(self._refresh)
         self._refresh()
-        self.stage.drawing.canvas.on_shown = self.beside.begin
+        self.view.canvas_controller.canvas.on_ready = self.side_panels.build
         if arrived:
-            self.stage.drawing.arrive_at(arrived)
-        self._is_due: set[Callable[[], None]] = set()
-        ui.context.client.on_delete(hand.watch(self._hear))
+            self.view.canvas_controller.scroll_to_initial(arrived)
+        self._scheduled: set[Callable[[], None]] = set()
+        ui.context.client.on_delete(hand.subscribe(self._on_change))
         ui.timer(1.0, self._follow_disk)
 
     def _commands(self, theme: Theme, others: tuple[Command, ...]) -> tuple[Command, ...]:
         """All that can be asked of this page, in the order in which it is listed."""
-        actions = Actions(self.desk, self.stage.drawing, theme)
-        commands = (*actions.commands(), *others, *self.stage.commands())
-        commands += ExportDialog(self.desk, lambda: actions.links_shown).commands()
-        commands += (page_command(self.desk),)
-        help_ = Command("help", "Keys and gestures", lambda: show_help(commands), Place.VIEW, icon="help", keys=("?",))
-        commands += (*self.beside.commands(), help_)
-        return (*commands, *self.stage.drawing.commands(commands))
+        actions = PageCommands(self.context, self.view.canvas_controller, theme)
+        commands = (*actions.commands(), *others, *self.view.commands())
+        commands += ExportDialog(self.context, lambda: actions.links_shown).commands()
+        commands += (docs_command(self.context),)
+        help_ = Command(
+            "help", "Keys and gestures", lambda: show_help(commands), MenuGroup.VIEW, icon="help", keys=("?",)
+        )
+        commands += (*self.side_panels.commands(), help_)
+        return (*commands, *self.view.canvas_controller.commands(commands))
 
     def _follow_disk(self) -> None:
         # The folder itself may go while the editor is open; what is open here stays, and can be saved elsewhere.
         with contextlib.suppress(OSError):
-            self.desk.workspace.glance()
+            self.context.workspace.poll_disk()
         self.designs.refresh()
-        became = self.desk.workspace.gone.get(self.desk.design.component)
+        became = self.context.workspace.removed_components.get(self.context.design.component)
         if became is not None:
-            key = self.desk.workspace.key
+            key = self.context.workspace.key
             # The home offers to put back what was thrown away: the offer here goes with the page.
-            away = f"{HOME}?gone={quote(key)}/{quote(self.desk.design.component)}"
-            ui.navigate.to(design_address(key, became) if became else away)
+            away = f"{HOME}?gone={quote(key)}/{quote(self.context.design.component)}"
+            ui.navigate.to(design_url(key, became) if became else away)
 
-    def _hear(self, by: Document) -> None:
+    def _on_change(self, by: DocumentSession) -> None:
         """Follow a change: at once if it was made here, else a moment later, so that many come as one."""
-        if by is self.desk.document:
-            self._draw()
-            self._tell()
+        if by is self.context.document:
+            self._refresh_canvas()
+            self._refresh_panels()
         else:
-            self._later(_DRAWING_S, self._draw)
-            self._later(_PANELS_S, self._tell)
+            self._schedule(_CANVAS_DELAY_S, self._refresh_canvas)
+            self._schedule(_PANELS_DELAY_S, self._refresh_panels)
 
-    def _later(self, pause_s: float, act: Callable[[], None]) -> None:
-        if act not in self._is_due and core.loop is not None:
-            self._is_due.add(act)
+    def _schedule(self, pause_s: float, act: Callable[[], None]) -> None:
+        if act not in self._scheduled and core.loop is not None:
+            self._scheduled.add(act)
             # The more windows there are, the more edits each takes at once. Generating reads beside the event loop.
-            pause_s *= max(1.0, len(self.desk.company.all) / 12)
+            pause_s *= max(1.0, len(self.context.presence.presences) / 12)
             core.loop.call_soon_threadsafe(core.loop.call_later, pause_s, act)
 
-    def _draw(self) -> None:
-        self._is_due.discard(self._draw)
-        if not self.stage.drawing.canvas.is_deleted:
-            with self.stage.drawing.canvas.client:
-                self.stage.follow()
+    def _refresh_canvas(self) -> None:
+        self._scheduled.discard(self._refresh_canvas)
+        if not self.view.canvas_controller.canvas.is_deleted:
+            with self.view.canvas_controller.canvas.client:
+                self.view.update()
 
-    def _tell(self) -> None:
-        self._is_due.discard(self._tell)
-        if not self.stage.drawing.canvas.is_deleted:
-            with self.stage.drawing.canvas.client:
-                self.beside.design_changed()
-                self.desk.tell()
+    def _refresh_panels(self) -> None:
+        self._scheduled.discard(self._refresh_panels)
+        if not self.view.canvas_controller.canvas.is_deleted:
+            with self.view.canvas_controller.canvas.client:
+                self.side_panels.design_changed()
+                self.context.notify_listeners()
 
     def _refresh(self) -> None:
-        for panel in (self.stage, self.header, self.beside, self.keeping, self.tour):
+        for panel in (self.view, self.header, self.side_panels, self.autosave, self.tour):
             panel.refresh()

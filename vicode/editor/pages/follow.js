@@ -2,21 +2,21 @@
 (() => {
   "use strict";
 
-  const mark = `"${document.currentScript.dataset.mark}"`;
+  const version = `"${document.currentScript.dataset.version}"`;
   const PAUSE_MS = 1000;
 
   // Who looks for something goes on.
-  const isSearched = () => Boolean(document.activeElement?.matches("#search") && document.activeElement.value);
+  const isSearchActive = () => Boolean(document.activeElement?.matches("#search") && document.activeElement.value);
 
-  async function look() {
+  async function poll() {
     try {
-      const isOld = !document.hidden && !isSearched() && (await fetch(location.pathname, { method: "HEAD" })).headers.get("etag") !== mark;
-      if (isOld && !isSearched()) return location.reload();
+      const isOld = !document.hidden && !isSearchActive() && (await fetch(location.pathname, { method: "HEAD" })).headers.get("etag") !== version;
+      if (isOld && !isSearchActive()) return location.reload();
     } catch {
       // The editor was ended. What is shown stays.
     }
-    setTimeout(look, PAUSE_MS);
+    setTimeout(poll, PAUSE_MS);
   }
 
-  setTimeout(look, PAUSE_MS);
+  setTimeout(poll, PAUSE_MS);
 })();

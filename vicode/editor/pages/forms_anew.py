@@ -19,13 +19,13 @@ from nicegui import ui
 _SCRIPT = Path(__file__).with_name("forms_anew.js")
 
 
-def carry_on_in_new_forms() -> None:
+def preserve_form_input() -> None:
     """Add to the page what watches over its forms."""
     client = ui.context.client
 
     def hear_press(number: object) -> None:
         if isinstance(number, int) and number not in client.elements:
-            ui.run_javascript(f"pressAgain({number})")
+            ui.run_javascript(f"repeatPress({number})")
 
-    ui.on("pressed", lambda event: hear_press(event.args))
+    ui.on("button-pressed", lambda event: hear_press(event.args))
     ui.add_body_html(f"<script>\n{_SCRIPT.read_text(encoding='utf-8')}</script>")

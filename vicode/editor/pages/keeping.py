@@ -5,77 +5,85 @@ import time
 
 from nicegui import app, run
 
-from vicode.editor.panels.command import Command, Place
-from vicode.editor.panels.desk import Desk
-from vicode.editor.panels.save_dialog import ask_about_disk
-from vicode.editor.session.keeper import Keeper
+from vicode.editor.panels.command import Command, MenuGroup
+from vicode.editor.panels.desk import WindowContext
+from vicode.editor.panels.save_dialog import ask_to_resolve_conflict
+from vicode.editor.session.keeper import AutosaveService
 
 _TICK_S = 0.5
 # Journals take a tenth of the time at most, however large the designs are and however many work on them.
 _SHARE = 9
 
 
-def keep_all(keeper: Keeper) -> None:
+def run_autosave(autosave: AutosaveService) -> None:
     """Let a keeper look after the designs for as long as the server runs."""
     rests_until_s = 0.0
 
     async def look() -> None:
         nonlocal rests_until_s
-        keeper.save_rested()
+        autosave.save_idle_documents()
         begun_s = time.perf_counter()
         if begun_s < rests_until_s:
             return
-        for snapshot in keeper.due():
+        for snapshot in autosave.pending_snapshots():
             # Writing a large design takes a while; the next look waits for it.
             with contextlib.suppress(OSError):
-                await run.io_bound(keeper.recovery.write, snapshot)
+                await run.io_bound(autosave.recovery.write, snapshot)
         ended_s = time.perf_counter()
         rests_until_s = ended_s + _SHARE * (ended_s - begun_s)
 
     app.timer(_TICK_S, look)
-    app.on_shutdown(keeper.close)
+    app.on_shutdown(autosave.close)
 
 
-class Keeping:
+class AutosaveControls:
     """Offers in one window what was lost, and tells there what others did to the whole design."""
 
-    def __init__(self, desk: Desk, keeper: Keeper | None) -> None:
+    def __init__(self, context: WindowContext, keeper: AutosaveService | None) -> None:
         """Begin with the news of now; an offer, if there is something to recover, comes with the page."""
-        self.desk, self.keeper = desk, keeper
-        self.told = desk.document.sheet.news
+        self.context, self.autosave = context, keeper
+        self.shown_notice = context.document.shared.notice
         if keeper is not None:
             from vicode.editor.panels.recovery_dialog import offer_recovery
 
-            offer_recovery(desk, keeper)
+            offer_recovery(context, keeper)
 
     def commands(self) -> tuple[Command, ...]:
         """What can be asked of it."""
         return (
-            Command("autosave", "Save by itself, or only when asked", self.toggle, Place.DESIGN, icon="update"),
-            Command("clash", "Choose between your work and the file", self.ask, Place.DESIGN, icon="difference"),
+            Command(
+                "autosave", "Save by itself, or only when asked", self.toggle_autosave, MenuGroup.DESIGN, icon="update"
+            ),
+            Command(
+                "conflict",
+                "Choose between your work and the file",
+                self.resolve_conflict,
+                MenuGroup.DESIGN,
+                icon="difference",
+            ),
         )
 
-    def toggle(self) -> None:
+    def toggle_autosave(self) -> None:
         """Save this project by itself from now on, or no more; for everybody who works on it."""
-        workspace = self.desk.workspace
-        if self.keeper is None:
+        workspace = self.context.workspace
+        if self.autosave is None:
             workspace.autosave = not workspace.autosave
         else:
-            self.keeper.set_autosave(workspace, is_on=not workspace.autosave)
+            self.autosave.set_autosave(workspace, is_on=not workspace.autosave)
         words = "saves by itself now" if workspace.autosave else "is saved only when asked now"
-        self.desk.say(f"{workspace.project.name} {words}", "info")
-        self.desk.tell()
+        self.context.show_toast(f"{workspace.project.name} {words}", "info")
+        self.context.notify_listeners()
 
-    def ask(self) -> None:
+    def resolve_conflict(self) -> None:
         """Show what both this program and another changed in the file."""
-        if self.desk.document.sheet.clash is None:
-            self.desk.say("Nothing to choose: the file was not changed where you work", "info")
-        ask_about_disk(self.desk)
+        if self.context.document.shared.disk_conflict is None:
+            self.context.show_toast("Nothing to choose: the file was not changed where you work", "info")
+        ask_to_resolve_conflict(self.context)
 
     def refresh(self) -> None:
         """Tell what others did to the whole design: merges from disk, jumps in the history."""
-        news = self.desk.document.sheet.news
-        if news != self.told:
-            self.told = news
-            if news.person != self.desk.document.person:
-                self.desk.say(news.text, "info")
+        news = self.context.document.shared.notice
+        if news != self.shown_notice:
+            self.shown_notice = news
+            if news.user_id != self.context.document.user_id:
+                self.context.show_toast(news.text, "info")

@@ -5,14 +5,14 @@ from collections.abc import Sequence
 
 from nicegui import ui
 
-from vicode.editor.pages.forms_anew import carry_on_in_new_forms
+from vicode.editor.pages.forms_anew import preserve_form_input
 from vicode.editor.panels.command import Command
 
-PRESSED_BY_ESCAPE = "data-pressed-by-escape"
+ESCAPE_ATTRIBUTE = "data-escape-clicks"
 """The attribute of a button that Escape presses while it is seen, wherever the focus is."""
 
 # Part of the page, so that no key comes too early for it. Text fields and the canvas undo in ways of their own.
-_LISTEN = """
+_SHORTCUT_SCRIPT = """
 <script>
 // A dialog that was asked for by keys comes a moment later. Escape pressed meanwhile was meant for it.
 let askedMs = -Infinity, isCalledOff = false;
@@ -43,7 +43,7 @@ document.addEventListener("keydown", (event) => {
   const isSign = event.key.length === 1 && !/[\\p{L} ]/u.test(event.key);
   const held = [["Ctrl", event.ctrlKey || event.metaKey], ["Alt", event.altKey], ["Shift", event.shiftKey && !isSign]];
   const key = event.key.length === 1 ? event.key.toUpperCase() : event.key;
-  const wish = (WISHES)[[...held.filter(([, is]) => is).map(([name]) => name), key].join("+")];
+  const wish = (COMMANDS)[[...held.filter(([, is]) => is).map(([name]) => name), key].join("+")];
   const types = event.target.closest?.("input, textarea, [contenteditable=true], .canvas");
   // In the table a letter begins to type into the cell.
   const writes = event.key.length === 1 && !event.ctrlKey && !event.metaKey && !event.altKey;
@@ -51,7 +51,7 @@ document.addEventListener("keydown", (event) => {
   event.preventDefault();
   askedMs = performance.now();
   // What can begin in the browser alone does so, and calls the event off.
-  if (!dispatchEvent(new CustomEvent("vicode-wish", { detail: wish.name, cancelable: true }))) return;
+  if (!dispatchEvent(new CustomEvent("vicode-command", { detail: wish.name, cancelable: true }))) return;
   // A page is seen a moment before it can speak to the server; what is asked then is asked a moment later.
   const ask = () => (window.did_handshake ? emitEvent("command-" + wish.name) : setTimeout(ask, 10));
   // A field tells what is typed after a pause; now it tells at once, at the end of this task, and then it is asked.
@@ -67,7 +67,7 @@ addEventListener("beforeunload", () => {
 """
 
 
-def listen_to_keys(commands: Sequence[Command]) -> None:
+def register_shortcuts(commands: Sequence[Command]) -> None:
     """Do each command on its keys."""
     wishes = {}
     for command in commands:
@@ -76,6 +76,6 @@ def listen_to_keys(commands: Sequence[Command]) -> None:
         for keys in command.keys:
             wishes[keys] = {"name": command.name, "typing": command.while_typing}
         if command.keys:
-            ui.on(f"command-{command.name}", command.act)
-    carry_on_in_new_forms()
-    ui.add_body_html(_LISTEN.replace("WISHES", json.dumps(wishes)).replace("ESCAPE", PRESSED_BY_ESCAPE))
+            ui.on(f"command-{command.name}", command.handler)
+    preserve_form_input()
+    ui.add_body_html(_SHORTCUT_SCRIPT.replace("COMMANDS", json.dumps(wishes)).replace("ESCAPE", ESCAPE_ATTRIBUTE))

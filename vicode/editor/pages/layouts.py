@@ -6,38 +6,38 @@ from dataclasses import dataclass, field
 from nicegui import run, ui
 from nicegui.events import ClickEventArguments, Handler
 
-from vicode.diagram import Placement
-from vicode.diagram.layout import LayoutService, Method
-from vicode.editor.canvas.gesture import Place as Spot
-from vicode.editor.pages.drawing import Drawing
-from vicode.editor.pages.keys import PRESSED_BY_ESCAPE
-from vicode.editor.panels.command import Command, Place
-from vicode.editor.panels.desk import Desk
+from vicode.diagram import NodeLayout
+from vicode.diagram.layout import LayoutMethod, LayoutService
+from vicode.editor.canvas.gesture import NodePosition as Spot
+from vicode.editor.pages.drawing import CanvasController
+from vicode.editor.pages.keys import ESCAPE_ATTRIBUTE
+from vicode.editor.panels.command import Command, MenuGroup
+from vicode.editor.panels.desk import WindowContext
 from vicode.editor.panels.rows import primary_button
-from vicode.editor.session import take_places
+from vicode.editor.session import apply_layout
 from vicode.model.design import Design
 
 # Beyond so many states Graphviz needs longer, and a person expects it.
 _MANY = 500
 _LIMIT_S, _LONG_LIMIT_S = 5.0, 15.0
-_WORDS = {Method.GRAPHVIZ: "by Graphviz", Method.LAYERS: "in layers"}
+_WORDS = {LayoutMethod.GRAPHVIZ: "by Graphviz", LayoutMethod.LAYERS: "in layers"}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Proposal:
+class LayoutProposal:
     """Places that are shown and not yet taken."""
 
-    placement: Placement
+    placement: NodeLayout
     only: tuple[str, ...] | None
 
 
 @dataclass(eq=False)
-class Layouts:
+class AutoLayout:
     """The bar over the canvas that tells of a layout under way, and asks whether its places are wanted."""
 
-    desk: Desk
-    drawing: Drawing
-    proposal: Proposal | None = None
+    context: WindowContext
+    canvas_controller: CanvasController
+    proposal: LayoutProposal | None = None
     service: LayoutService | None = None
     bar: ui.element = field(init=False)
 
@@ -45,86 +45,86 @@ class Layouts:
         """Build the bar, which is not seen before there is something to tell."""
         self.bar = ui.element("div").classes("layout-bar").props('role="region" aria-label="Layout"')
         self.bar.set_visibility(False)
-        self.drawing.on_preview = self.decide
+        self.canvas_controller.on_preview = self.finish_preview
 
     def commands(self) -> tuple[Command, ...]:
         """What can be asked of it."""
         label = "Lay out what is selected, or everything"
-        return (Command("lay-out", label, self.start, Place.EDIT, icon="auto_awesome_mosaic"),)
+        return (Command("lay-out", label, self.start, MenuGroup.EDIT, icon="auto_awesome_mosaic"),)
 
     def start(self) -> None:
         """Find places for the selected states, or for everything, and show them."""
         if self.service is None:
-            self.drop()
-            self.desk.begin(self._propose(), "lay out")
+            self.discard_preview()
+            self.context.run_in_background(self._propose(), "lay out")
 
-    async def stop(self) -> None:
+    async def cancel(self) -> None:
         """Give up looking for places."""
         service, self.service = self.service, None
         self.bar.set_visibility(False)
         if service is not None:
             await run.io_bound(service.close)
 
-    def decide(self, *, wanted: bool) -> None:
+    def finish_preview(self, *, accepted: bool) -> None:
         """Take the places that are shown, as one edit, or leave everything as it was."""
-        if not wanted:
-            self.drop()
+        if not accepted:
+            self.discard_preview()
             return
         proposal, self.proposal = self.proposal, None
         if proposal is None:
             return
         self.bar.set_visibility(False)
-        self.desk.edit("lay out", lambda design: take_places(design, proposal.placement, proposal.only))
-        self.drawing.canvas.end_preview()
+        self.context.edit("lay out", lambda design: apply_layout(design, proposal.placement, proposal.only))
+        self.canvas_controller.canvas.end_preview()
 
-    def drop(self) -> None:
+    def discard_preview(self) -> None:
         """End a preview: it is not wanted, or the design it was made for changed."""
         if self.proposal is not None:
             self.proposal = None
             self.bar.set_visibility(False)
-            self.drawing.canvas.preview([])
+            self.canvas_controller.canvas.show_preview([])
 
     async def _propose(self) -> None:
-        design, rev = self.desk.design, self.desk.document.rev
-        only = tuple(thing.id for thing in self.desk.selected if thing.of == "states") or None
+        design, rev = self.context.design, self.context.document.rev
+        only = tuple(thing.id for thing in self.context.selected if thing.kind == "states") or None
         count = len(only or design.states)
         limit_s = _LIMIT_S if count <= _MANY else _LONG_LIMIT_S
-        self._tell_waiting(_count(count), limit_s)
+        self._show_progress(_count(count), limit_s)
         self.service = service = LayoutService()
-        layout = await run.io_bound(service.lay_out, design, only=only, timeout_s=limit_s)
+        layout = await run.io_bound(service.compute, design, only=only, timeout_s=limit_s)
         is_wanted, self.service = self.service is service, None
         await run.io_bound(service.close)
-        if layout is None or self.drawing.canvas.is_deleted or not is_wanted:
+        if layout is None or self.canvas_controller.canvas.is_deleted or not is_wanted:
             return
         self.bar.set_visibility(False)
-        if self.desk.document.rev != rev:
-            self.desk.say("The design changed meanwhile: lay it out again", "info")
+        if self.context.document.rev != rev:
+            self.context.show_toast("The design changed meanwhile: lay it out again", "info")
             return
-        self.proposal = Proposal(placement=layout.placement, only=only)
-        self.drawing.canvas.preview(list(_spots(design, layout.placement, only)))
-        self._ask(f"{_count(count)} {_WORDS[Method(layout.method)]}", layout.note)
+        self.proposal = LayoutProposal(placement=layout.layout, only=only)
+        self.canvas_controller.canvas.show_preview(list(_node_positions(design, layout.layout, only)))
+        self._show_preview(f"{_count(count)} {_WORDS[LayoutMethod(layout.method)]}", layout.note)
 
-    def _tell_waiting(self, what: str, limit_s: float) -> None:
+    def _show_progress(self, what: str, limit_s: float) -> None:
         self.bar.clear()
         with self.bar:
             ui.label(f"Laying out {what}, {limit_s:g} s at most").classes("layout-words").props('role="status"')
             ui.element("div").classes("layout-progress").style(f"--limit: {limit_s:g}s")
-            self._cancel_button(self.stop)
+            self._cancel_button(self.cancel)
         self.bar.set_visibility(True)
 
     def _cancel_button(self, leave: Handler[ClickEventArguments]) -> None:
-        button = ui.button("Cancel", on_click=leave, color=None).props(f"flat no-caps dense {PRESSED_BY_ESCAPE}")
+        button = ui.button("Cancel", on_click=leave, color=None).props(f"flat no-caps dense {ESCAPE_ATTRIBUTE}")
         button.tooltip("Escape")
 
-    def _ask(self, what: str, note: str) -> None:
+    def _show_preview(self, what: str, note: str) -> None:
         self.bar.clear()
         with self.bar:
             with ui.element("div").classes("layout-words").props('role="status"'):
                 ui.label(f"Preview: {what}")
                 if note:
                     ui.label(note).classes("small")
-            primary_button("Apply", lambda: self.decide(wanted=True)).tooltip("Enter")
-            self._cancel_button(self.drop)
+            primary_button("Apply", lambda: self.finish_preview(accepted=True)).tooltip("Enter")
+            self._cancel_button(self.discard_preview)
         self.bar.set_visibility(True)
 
 
@@ -132,7 +132,7 @@ def _count(states: int) -> str:
     return f"{states} state" + ("" if states == 1 else "s")
 
 
-def _spots(design: Design, placement: Placement, only: Collection[str] | None) -> Iterator[Spot]:
+def _node_positions(design: Design, placement: NodeLayout, only: Collection[str] | None) -> Iterator[Spot]:
     """The places of a layout as the canvas wants them."""
     for name, (x, y) in placement.states.items():
         if only is None or name in only:

@@ -6,7 +6,7 @@ from pathlib import Path
 from nicegui import ui
 from nicegui.events import GenericEventArguments
 
-from vicode.editor.panels.code_editor import CodeEditors
+from vicode.editor.panels.code_editor import CodeEditorFactory
 
 _SHEET = Path(__file__).parent / "look.css"
 _ABOUT = "vicode: state machines of robots, drawn, checked, simulated and turned into code"
@@ -14,7 +14,7 @@ _COOKIE = "vicode_colours"
 _MODES = {"dark": True, "light": False}
 _NEXT = {None: True, True: False, False: None}
 _WORDS = {None: "Colours follow the system", True: "Dark colours", False: "Light colours"}
-_TELL_SYSTEM = """
+_REPORT_SYSTEM_MODE = """
 const query = matchMedia("(prefers-color-scheme: dark)");
 const tell = () => emitEvent("system-dark", query.matches);
 query.addEventListener("change", tell);
@@ -30,18 +30,18 @@ _FIRST_PAINT = {
 }
 
 
-def add_look() -> ui.dark_mode:
+def apply_theme() -> ui.dark_mode:
     """Give the page its style sheet and its colours; returns what switches between light and dark."""
     request = ui.context.client.request
     chosen = _MODES.get(request.cookies.get(_COOKIE, ""))
     ui.add_head_html(f'<style>{_FIRST_PAINT[chosen]}</style><meta name="description" content="{_ABOUT}">')
     ui.colors(primary="#1d4ed8", negative="#b91c1c", positive="#166534", warning="#92400e", info="#1d4ed8")
     ui.add_css(_SHEET.read_text(encoding="utf-8"))
-    _open_the_frame()
+    _replace_main_tag()
     return ui.dark_mode(chosen)
 
 
-def _open_the_frame() -> None:
+def _replace_main_tag() -> None:
     """Make a plain box of the `main` that NiceGUI lays around a page, as ours have a `main` of their own."""
     slot = ui.context.client.content.parent_slot
     assert slot is not None
@@ -51,13 +51,13 @@ def _open_the_frame() -> None:
 class Theme:
     """Light or dark in one window: what was chosen, else what the system prefers."""
 
-    def __init__(self, code_editors: CodeEditors, mode: ui.dark_mode) -> None:
+    def __init__(self, code_editors: CodeEditorFactory, mode: ui.dark_mode) -> None:
         """Follow the choice this browser remembers, else the system."""
         self._mode = mode
         self._code_editors = code_editors
         self._system_is_dark = False
-        ui.on("system-dark", self._hear_system)
-        ui.timer(0.05, lambda: ui.run_javascript(_TELL_SYSTEM), once=True)
+        ui.on("system-dark", self._on_system_mode)
+        ui.timer(0.05, lambda: ui.run_javascript(_REPORT_SYSTEM_MODE), once=True)
         self._show()
 
     def toggle(self) -> str:
@@ -69,7 +69,7 @@ class Theme:
         self._show()
         return _WORDS[self._mode.value]
 
-    def _hear_system(self, event: GenericEventArguments) -> None:
+    def _on_system_mode(self, event: GenericEventArguments) -> None:
         self._system_is_dark = bool(event.args)
         self._show()
 

@@ -5,69 +5,69 @@ from typing import cast
 from nicegui import core, ui
 
 from vicode.editor.canvas import Canvas
-from vicode.editor.canvas.gesture import Item, Other
-from vicode.editor.pages.visitor import keep_name
-from vicode.editor.panels.desk import Desk
-from vicode.editor.panels.people_chips import PeopleChips
-from vicode.editor.session import Person, Presence
+from vicode.editor.canvas.gesture import RemoteUser, SceneItem
+from vicode.editor.pages.visitor import store_name
+from vicode.editor.panels.desk import WindowContext
+from vicode.editor.panels.people_chips import PresenceBar
+from vicode.editor.session import Presence, User
 
-_BREATH_S = 0.04
+_UPDATE_DELAY_S = 0.04
 
 
-class Meeting:
+class PresenceSync:
     """Keeps the company informed of this window, and this window of the company."""
 
-    def __init__(self, desk: Desk, person: Person, canvas: Canvas, chips: PeopleChips) -> None:
+    def __init__(self, context: WindowContext, person: User, canvas: Canvas, chips: PresenceBar) -> None:
         """Come in when the browser connects; go when it is closed, or loses the server."""
-        self.desk, self.person, self.canvas, self.chips = desk, person, canvas, chips
+        self.context, self.person, self.canvas, self.presence_bar = context, person, canvas, chips
         chips.rename = self.rename
-        self.typing: object = None
-        self.is_behind = False
+        self.shown_typing: object = None
+        self.is_update_scheduled = False
         client = ui.context.client
-        client.on_connect(self._come)
-        client.on_disconnect(lambda: desk.company.leave(desk.window))
-        client.on_delete(lambda: desk.company.leave(desk.window))
-        client.on_delete(desk.company.watch(self._hear))
-        desk.listen(lambda: desk.company.turn(desk.window, selected=desk.selected))
+        client.on_connect(self._join)
+        client.on_disconnect(lambda: context.presence.leave(context.window))
+        client.on_delete(lambda: context.presence.leave(context.window))
+        client.on_delete(context.presence.subscribe(self._on_presence_change))
+        context.subscribe(lambda: context.presence.update(context.window, selected=context.selected))
 
     def rename(self, name: str) -> None:
         """Give this person another name, here and in the browser's memory."""
-        keep_name(name)
-        self.person = self.desk.document.sheet.people.greet(self.person.id, name)
-        for presence in self.desk.company.all:
-            if presence.person.id == self.person.id:
-                self.desk.company.turn(presence.window, person=self.person)
+        store_name(name)
+        self.person = self.context.document.shared.users.get_or_create_user(self.person.id, name)
+        for presence in self.context.presence.presences:
+            if presence.user.id == self.person.id:
+                self.context.presence.update(presence.window, person=self.person)
 
-    def _come(self) -> None:
-        self.desk.company.enter(self.desk.window, self.person)
-        self.desk.company.turn(self.desk.window, selected=self.desk.selected)
+    def _join(self) -> None:
+        self.context.presence.join(self.context.window, self.person)
+        self.context.presence.update(self.context.window, selected=self.context.selected)
 
-    def _hear(self) -> None:
-        if not self.is_behind and core.loop is not None:
-            self.is_behind = True
+    def _on_presence_change(self) -> None:
+        if not self.is_update_scheduled and core.loop is not None:
+            self.is_update_scheduled = True
             # Where many are, news of people may wait; edits do not.
-            core.loop.call_later(_BREATH_S * max(1, len(self.desk.company.all) / 4), self._show)
+            core.loop.call_later(_UPDATE_DELAY_S * max(1, len(self.context.presence.presences) / 4), self._show)
 
     def _show(self) -> None:
-        self.is_behind = False
+        self.is_update_scheduled = False
         if self.canvas.is_deleted:
             return
-        others = self.desk.company.others(self.desk.window)
-        typing = [(each.person.name, each.typing_in) for each in others if each.typing_in]
+        others = self.context.presence.others(self.context.window)
+        typing = [(each.user.name, each.editing_path) for each in others if each.editing_path]
         with self.canvas.client:
-            self.canvas.show_people([_other(each) for each in others if each.person.id != self.person.id])
-            self.chips.refresh()
-            if typing != self.typing:
-                self.typing = typing
-                self.desk.tell()
+            self.canvas.show_presence([_other_user(each) for each in others if each.user.id != self.person.id])
+            self.presence_bar.refresh()
+            if typing != self.shown_typing:
+                self.shown_typing = typing
+                self.context.notify_listeners()
 
 
-def _other(presence: Presence) -> Other:
-    items = [{"of": thing.of, "id": thing.id} for thing in presence.selected if thing.of != "design"]
+def _other_user(presence: Presence) -> RemoteUser:
+    items = [{"of": thing.kind, "id": thing.id} for thing in presence.selected if thing.kind != "design"]
     point = presence.pointer
     return {
-        "name": presence.person.name,
-        "colour": presence.person.colour,
-        "items": cast("list[Item]", items),
+        "name": presence.user.name,
+        "colour": presence.user.colour,
+        "items": cast("list[SceneItem]", items),
         "pointer": {"x": point[0], "y": point[1]} if point else None,
     }

@@ -5,20 +5,20 @@ from urllib.parse import quote, unquote
 
 from nicegui import app, ui
 
-from vicode.editor.session import People, Person
+from vicode.editor.session import User, UserDirectory
 from vicode.editor.session.people import clean_name
 
-COOKIE = "vicode_name"
+NAME_COOKIE = "vicode_name"
 _YEAR_S = 365 * 24 * 3600
 
 
-def greet_visitor(people: People) -> Person:
+def identify_user(people: UserDirectory) -> User:
     """The person at the browser that asks for the page being built."""
-    name = unquote(ui.context.client.request.cookies.get(COOKIE, ""))
-    return people.greet(str(app.storage.browser["id"]), name)
+    name = unquote(ui.context.client.request.cookies.get(NAME_COOKIE, ""))
+    return people.get_or_create_user(str(app.storage.browser["id"]), name)
 
 
-def keep_name(name: str) -> None:
+def store_name(name: str) -> None:
     """Let the browser remember a name."""
-    cookie = f"{COOKIE}={quote(clean_name(name), safe='')}; path=/; max-age={_YEAR_S}; samesite=strict"
+    cookie = f"{NAME_COOKIE}={quote(clean_name(name), safe='')}; path=/; max-age={_YEAR_S}; samesite=strict"
     ui.run_javascript(f"document.cookie = {json.dumps(cookie)}")

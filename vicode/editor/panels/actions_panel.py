@@ -6,13 +6,13 @@ from dataclasses import replace
 from nicegui import ui
 
 from vicode.editor.panels.code_field import code_field, pairs_field
-from vicode.editor.panels.desk import Desk
-from vicode.editor.panels.fields import Bound, Field
-from vicode.editor.panels.rows import add_button, row_of_buttons
-from vicode.findings import Path
+from vicode.editor.panels.desk import WindowContext
+from vicode.editor.panels.fields import Field, FieldBinding
+from vicode.editor.panels.rows import add_button, reorder_buttons
+from vicode.findings import DesignPath
 from vicode.model.design import Action, Assign, Call, Code, Declaration, Design, RunCode
 from vicode.model.edits import update_actions
-from vicode.model.expressions import scope_of
+from vicode.model.expressions import build_scope
 
 # Whoever adds an action types it next; without the focus the letters would be commands of the drawing.
 _FOCUS_LAST = """
@@ -24,34 +24,36 @@ _FOCUS_LAST = """
 """
 
 
-def actions_panel(desk: Desk, path: Path, actions: tuple[Action, ...], *, calls: bool = True) -> list[Field]:
+def actions_panel(
+    context: WindowContext, path: DesignPath, actions: tuple[Action, ...], *, calls: bool = True
+) -> list[Field]:
     """Show the actions a path leads to, each editable, with buttons to add, move and remove."""
     fields: list[Field] = []
     for index, action in enumerate(actions):
         with ui.column().classes("card"):
             with ui.row().classes("card-head"):
                 ui.label(_title(action)).classes("card-title")
-                row_of_buttons(
+                reorder_buttons(
                     f"{index + 1} {_title(action)}",
-                    up=None if index == 0 else _mover(desk, path, index, -1),
-                    down=None if index == len(actions) - 1 else _mover(desk, path, index, 1),
-                    remove=_remover(desk, path, index),
+                    up=None if index == 0 else _mover(context, path, index, -1),
+                    down=None if index == len(actions) - 1 else _mover(context, path, index, 1),
+                    remove=_remover(context, path, index),
                 )
-            fields += _action_fields(desk, path, index, action)
+            fields += _action_fields(context, path, index, action)
     with ui.row().classes("adders").props(f"data-adds={path[-1]}-{len(actions)}"):
-        _adder(desk, path, "Set", "edit_note", lambda: Assign(values=(_first_assignment(desk),)))
-        if calls and desk.design.uses:
-            _adder(desk, path, "Call", "call_made", lambda: Call(alias=desk.design.uses[0].alias))
-        _adder(desk, path, "Code", "code", lambda: RunCode(code=python("pass\n")))
+        _adder(context, path, "Set", "edit_note", lambda: Assign(values=(_first_assignment(context),)))
+        if calls and context.design.uses:
+            _adder(context, path, "Call", "call_made", lambda: Call(alias=context.design.uses[0].alias))
+        _adder(context, path, "Code", "code", lambda: RunCode(code=python_code("pass\n")))
     return fields
 
 
-def python(text: str) -> Code:
+def python_code(text: str) -> Code:
     """A piece of Python code."""
-    return with_python(None, text)
+    return replace_python(None, text)
 
 
-def with_python(code: Code | None, text: str) -> Code:
+def replace_python(code: Code | None, text: str) -> Code:
     """The same code with another text in Python; what is written in other languages stays."""
     others = tuple(pair for pair in (code.texts if code else ()) if pair[0] != "python")
     # Lines that end are what a block of YAML holds; one line may stand alone.
@@ -59,13 +61,13 @@ def with_python(code: Code | None, text: str) -> Code:
     return Code(texts=((("python", ended), *others) if text.strip() else others))
 
 
-def assignments(text: str) -> tuple[tuple[str, str], ...]:
+def parse_assignments(text: str) -> tuple[tuple[str, str], ...]:
     """Lines `name = expression` (or `name: expression`) as pairs."""
     halves = (line.partition("=" if "=" in line else ":") for line in text.splitlines())
     return tuple((name.strip(), value.strip()) for name, _sign, value in halves if name.strip())
 
 
-def lines_of(pairs: tuple[tuple[str, str], ...]) -> str:
+def format_assignments(pairs: tuple[tuple[str, str], ...]) -> str:
     """Pairs as lines `name = expression`."""
     return "\n".join(f"{name} = {value}" for name, value in pairs)
 
@@ -80,7 +82,7 @@ def _title(action: Action) -> str:
             return "Code"
 
 
-def _action_fields(desk: Desk, path: Path, index: int, action: Action) -> list[Field]:
+def _action_fields(context: WindowContext, path: DesignPath, index: int, action: Action) -> list[Field]:
     here = (*path, index)
 
     def read(design: Design) -> Action | None:
@@ -99,47 +101,47 @@ def _action_fields(desk: Desk, path: Path, index: int, action: Action) -> list[F
 
     match action:
         case RunCode():
-            bound = Bound(
+            bound = FieldBinding(
                 label="Python", path=(*here, "code"), read=lambda design: _code_of(read(design)), write=write(_set_code)
             )
-            return [code_field(desk, bound)]
+            return [code_field(context, bound)]
         case Assign():
-            bound = Bound(
+            bound = FieldBinding(
                 label="name = expression, a line each",
                 path=(*here, "set"),
                 read=lambda design: _values_of(read(design)),
                 write=write(_set_values),
             )
-            return [pairs_field(desk, bound, lambda: settable_of(desk))]
+            return [pairs_field(context, bound, lambda: settable_declarations(context))]
         case Call():
-            bound = Bound(
+            bound = FieldBinding(
                 label="parameter = expression, a line each",
                 path=(*here, "with"),
                 read=lambda design: _values_of(read(design)),
                 write=write(_set_values),
-                hint=", ".join(each.name for each in parameters_of(desk, action.alias)),
+                hint=", ".join(each.name for each in component_parameters(context, action.alias)),
             )
-            return [pairs_field(desk, bound, lambda: parameters_of(desk, action.alias))]
+            return [pairs_field(context, bound, lambda: component_parameters(context, action.alias))]
 
 
-def settable_of(desk: Desk) -> tuple[Declaration, ...]:
+def settable_declarations(context: WindowContext) -> tuple[Declaration, ...]:
     """What may be set: own variables and outputs, and variables of used components as `alias.variable`."""
-    found = [*desk.design.variables, *desk.design.outputs]
-    for use in desk.design.uses:
-        interface = desk.workspace.project.interface(use.component)
+    found = [*context.design.variables, *context.design.outputs]
+    for use in context.design.uses:
+        interface = context.workspace.project.interface(use.component)
         variables = interface.variables if interface else ()
         found += [replace(each, name=f"{use.alias}.{each.name}") for each in variables]
     return tuple(found)
 
 
-def parameters_of(desk: Desk, alias: str) -> tuple[Declaration, ...]:
+def component_parameters(context: WindowContext, alias: str) -> tuple[Declaration, ...]:
     """The parameters that a used component takes."""
-    use = desk.design.use(alias)
-    interface = desk.workspace.project.interface(use.component) if use else None
+    use = context.design.use(alias)
+    interface = context.workspace.project.interface(use.component) if use else None
     return interface.parameters if interface else ()
 
 
-def _actions_at(design: Design, path: Path) -> tuple[Action, ...]:
+def _actions_at(design: Design, path: DesignPath) -> tuple[Action, ...]:
     if path[0] == "common":
         return design.common.actions
     state = design.state(str(path[1]))
@@ -154,17 +156,17 @@ def _code_of(action: Action | None) -> str:
 def _values_of(action: Action | None) -> str:
     match action:
         case Assign(values=pairs) | Call(arguments=pairs):
-            return lines_of(pairs)
+            return format_assignments(pairs)
         case _:
             return ""
 
 
 def _set_code(action: Action, text: str) -> Action:
-    return replace(action, code=with_python(action.code, text)) if isinstance(action, RunCode) else action
+    return replace(action, code=replace_python(action.code, text)) if isinstance(action, RunCode) else action
 
 
 def _set_values(action: Action, text: str) -> Action:
-    pairs = assignments(text)
+    pairs = parse_assignments(text)
     match action:
         case Assign():
             return replace(action, values=pairs) if pairs else action
@@ -174,40 +176,40 @@ def _set_values(action: Action, text: str) -> Action:
             return action
 
 
-def _first_assignment(desk: Desk) -> tuple[str, str]:
+def _first_assignment(context: WindowContext) -> tuple[str, str]:
     """What a new assignment begins with: the first that may be set, and a value of its type."""
-    settable = settable_of(desk)
+    settable = settable_declarations(context)
     if not settable:
         return ("name", "0")
-    scope = scope_of(desk.workspace.project, desk.design)
+    scope = build_scope(context.workspace.project, context.design)
     type_ = scope.type_of(settable[0])
     elements = scope.enumerations.get(type_, ())
     zero = f"{type_}.{elements[0]}" if elements else {"bool": "False"}.get(type_, "0")
     return (settable[0].name, zero)
 
 
-def _adder(desk: Desk, path: Path, label: str, icon: str, make: Callable[[], Action]) -> None:
+def _adder(context: WindowContext, path: DesignPath, label: str, icon: str, make: Callable[[], Action]) -> None:
     def add() -> None:
         action, client = make(), ui.context.client
-        desk.edit(f"add {label.lower()}", lambda design: update_actions(design, path, lambda old: (*old, action)))
+        context.edit(f"add {label.lower()}", lambda design: update_actions(design, path, lambda old: (*old, action)))
         # The form with the new action comes a moment later.
-        count = len(_actions_at(desk.design, path))
+        count = len(_actions_at(context.design, path))
         client.run_javascript(_FOCUS_LAST.replace("LIST", f"{path[-1]}-{count}"))
 
     add_button(label, f"Add to {path[-1]}: {label}", add, icon=icon)
 
 
-def _mover(desk: Desk, path: Path, index: int, by: int) -> Callable[[], None]:
+def _mover(context: WindowContext, path: DesignPath, index: int, by: int) -> Callable[[], None]:
     def change(actions: tuple[Action, ...]) -> tuple[Action, ...]:
         moved = list(actions)
         moved.insert(index + by, moved.pop(index))
         return tuple(moved)
 
-    return lambda: desk.edit("move action", lambda design: update_actions(design, path, change))
+    return lambda: context.edit("move action", lambda design: update_actions(design, path, change))
 
 
-def _remover(desk: Desk, path: Path, index: int) -> Callable[[], None]:
+def _remover(context: WindowContext, path: DesignPath, index: int) -> Callable[[], None]:
     def change(actions: tuple[Action, ...]) -> tuple[Action, ...]:
         return actions[:index] + actions[index + 1 :]
 
-    return lambda: desk.edit("remove action", lambda design: update_actions(design, path, change))
+    return lambda: context.edit("remove action", lambda design: update_actions(design, path, change))

@@ -6,17 +6,17 @@ from vicode.editor.panels.design_dialogs import DesignDialogs
 from vicode.editor.panels.design_menu import add_design_menu
 from vicode.editor.panels.thumbnails import thumbnail_address
 from vicode.editor.session import Workspace
-from vicode.editor.session.overview import Broken, Card, HandWritten
-from vicode.editor.view import Selected
-from vicode.editor.view.address import broken_address, design_address
+from vicode.editor.session.overview import BrokenFile, DesignCard, HandWrittenComponent
+from vicode.editor.view import ItemRef
+from vicode.editor.view.address import broken_file_url, design_url
 from vicode.findings import Severity
 
 _ICONS = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.NOTE: "info"}
 
 
-def design_card(workspace: Workspace, card: Card, dialogs: DesignDialogs) -> None:
+def design_card(workspace: Workspace, card: DesignCard, dialogs: DesignDialogs) -> None:
     """A design: the picture and the name lead to it."""
-    address = design_address(workspace.key, card.component)
+    address = design_url(workspace.key, card.component)
     with ui.element("article").classes("design-card") as whole:
         whole.props["aria-label"] = card.component
         with ui.link(target=address).classes("card-picture").props('tabindex="-1" aria-hidden="true"'):
@@ -32,7 +32,7 @@ def design_card(workspace: Workspace, card: Card, dialogs: DesignDialogs) -> Non
         add_design_menu(workspace, card.component, dialogs, whole)
 
 
-def _facts(card: Card) -> None:
+def _facts(card: DesignCard) -> None:
     if card.is_unsaved:
         ui.label("● Unsaved").classes("fact unsaved")
     for severity, count in card.counts.items():
@@ -48,7 +48,7 @@ def _facts(card: Card) -> None:
         ui.label("Starts here").classes("fact root")
 
 
-def broken_card(workspace: Workspace, broken: Broken) -> None:
+def broken_card(workspace: Workspace, broken: BrokenFile) -> None:
     """A file that holds no design that can be read, with what is wrong first."""
     with ui.element("article").classes("design-card is-broken") as whole:
         whole.props["aria-label"] = broken.file
@@ -58,14 +58,14 @@ def broken_card(workspace: Workspace, broken: Broken) -> None:
             with ui.element("div").classes("card-line").props('role="heading" aria-level="2"'):
                 ui.label(broken.file).classes("card-name")
             line = f"Line {broken.line}: " if broken.line else ""
-            ui.label(line + broken.why).classes("card-doc")
+            ui.label(line + broken.reason).classes("card-doc")
             with ui.row().classes("card-facts"), ui.row().classes("fact error"):
                 ui.icon("error").props('aria-hidden="true"')
                 ui.label("Cannot be read")
-            ui.link("Mend its text", broken_address(workspace.key, broken.file))
+            ui.link("Mend its text", broken_file_url(workspace.key, broken.file))
 
 
-def hand_written_row(workspace: Workspace, row: HandWritten) -> None:
+def hand_written_row(workspace: Workspace, row: HandWrittenComponent) -> None:
     """A component without a design, with the designs that use it."""
     with ui.element("li").classes("component-row"):
         ui.label(row.component).classes("component-name")
@@ -77,4 +77,4 @@ def hand_written_row(workspace: Workspace, row: HandWritten) -> None:
                 design = workspace.project.design(user)
                 uses = design.uses if design else ()
                 alias = next((use.alias for use in uses if use.component == row.component), "")
-                ui.link(user, design_address(workspace.key, user, Selected(of="components", id=alias)))
+                ui.link(user, design_url(workspace.key, user, ItemRef(kind="components", id=alias)))

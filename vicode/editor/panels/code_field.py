@@ -8,76 +8,80 @@ from typing import Any
 from nicegui import ui
 from nicegui.events import CodeMirrorFocusChangeEventArguments
 
-from vicode.editor.code import CodeAid
-from vicode.editor.panels.desk import Desk
+from vicode.editor.code import CodeAssist
+from vicode.editor.panels.desk import WindowContext
 from vicode.editor.panels.dialogs import titled_dialog
-from vicode.editor.panels.fields import Bound, Field
+from vicode.editor.panels.fields import Field, FieldBinding
 from vicode.editor.panels.rows import icon_button
 from vicode.editor.session.completing import (
-    Completion,
+    CompletionResult,
+    complete_assignments,
     complete_expression,
-    complete_pairs,
     complete_python,
 )
-from vicode.editor.session.marking import Mark, marks_of_pairs, marks_of_text
-from vicode.findings import Path
+from vicode.editor.session.marking import CodeMark, mark_assignments, mark_text
+from vicode.findings import DesignPath
 from vicode.model.design import Declaration
 
 _SHOWN_MESSAGES = 6
-_TELL_LAST = """
+_SEND_LAST_INPUT = """
 const text = getElement({large})?.editor?.state.doc.toString();
-if (text !== undefined) emitEvent("typed-and-left", {{ number: {small}, text }});
+if (text !== undefined) emitEvent("delayed-input", {{ number: {small}, text }});
 return true;
 """
-_LONGEST_S = 5
+_ANSWER_TIMEOUT_S = 5
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Writing:
+class CodeFieldSpec:
     """What is written in a field: what completes it, where its mistakes are, how it looks."""
 
-    complete: Callable[[str, int], Completion]
-    mark: Callable[[str], Sequence[Mark]]
-    style: str
+    complete: Callable[[str, int], CompletionResult]
+    find_marks: Callable[[str], Sequence[CodeMark]]
+    css_class: str
     is_expression: bool = True
-    lint_path: Path = ()
+    lint_path: DesignPath = ()
 
 
-def code_field(desk: Desk, bound: Bound) -> Field:
+def code_field(context: WindowContext, binding: FieldBinding) -> Field:
     """Python code; `bound.path` leads to its texts by language."""
-    path = (*bound.path, "python") if bound.path[-1:] == ("code",) else bound.path
-    lint_path = (*bound.path, "python")
-    writing = Writing(
-        complete=lambda text, at: complete_python(desk.workspace.project, desk.design, text, at),
-        mark=lambda text: marks_of_text(text, path, desk.document.findings, desk.lints.of(lint_path, text)),
-        style="code-field",
+    path = (*binding.path, "python") if binding.path[-1:] == ("code",) else binding.path
+    lint_path = (*binding.path, "python")
+    writing = CodeFieldSpec(
+        complete=lambda text, at: complete_python(context.workspace.project, context.design, text, at),
+        find_marks=lambda text: mark_text(
+            text, path, context.document.findings, context.linter.lints_for(lint_path, text)
+        ),
+        css_class="code-field",
         is_expression=False,
         lint_path=lint_path,
     )
-    return _build(desk, bound, writing)
+    return _build(context, binding, writing)
 
 
-def expression_field(desk: Desk, bound: Bound) -> Field:
+def expression_field(context: WindowContext, binding: FieldBinding) -> Field:
     """One expression, in as many lines as it needs."""
-    writing = Writing(
-        complete=lambda text, at: complete_expression(desk.workspace.project, desk.design, text, at),
-        mark=lambda text: marks_of_text(text, bound.path, desk.document.findings),
-        style="code-field expression-field",
+    writing = CodeFieldSpec(
+        complete=lambda text, at: complete_expression(context.workspace.project, context.design, text, at),
+        find_marks=lambda text: mark_text(text, binding.path, context.document.findings),
+        css_class="code-field expression-field",
     )
-    return _build(desk, bound, writing)
+    return _build(context, binding, writing)
 
 
-def pairs_field(desk: Desk, bound: Bound, settable: Callable[[], Iterable[Declaration]]) -> Field:
+def pairs_field(context: WindowContext, binding: FieldBinding, settable: Callable[[], Iterable[Declaration]]) -> Field:
     """Lines `name = expression`; `settable` are what the names may be."""
-    writing = Writing(
-        complete=lambda text, at: complete_pairs(desk.workspace.project, desk.design, settable(), text, at),
-        mark=lambda text: marks_of_pairs(text, bound.path, desk.document.findings),
-        style="code-field expression-field",
+    writing = CodeFieldSpec(
+        complete=lambda text, at: complete_assignments(context.workspace.project, context.design, settable(), text, at),
+        find_marks=lambda text: mark_assignments(text, binding.path, context.document.findings),
+        css_class="code-field expression-field",
     )
-    return _build(desk, bound, writing)
+    return _build(context, binding, writing)
 
 
-def _build(desk: Desk, bound: Bound, writing: Writing, *, is_large: bool = False) -> "CodeField":
+def _build(
+    context: WindowContext, binding: FieldBinding, writing: CodeFieldSpec, *, is_large: bool = False
+) -> "CodeField":
     made: list[CodeField] = []
 
     def focus(event: CodeMirrorFocusChangeEventArguments) -> None:
@@ -87,52 +91,52 @@ def _build(desk: Desk, bound: Bound, writing: Writing, *, is_large: bool = False
     with ui.column().classes("field"):
         with ui.row().classes("field-head"):
             if not is_large:
-                ui.label(bound.label).classes("field-label")
-                icon_button("open_in_full", f"Enlarge: {bound.label}", lambda: _enlarge(made[0], writing))
-        editor = desk.code_editors.make(on_focus=focus, language=None if writing.is_expression else "Python")
-        editor.classes(writing.style + (" is-large" if is_large else ""))
-        aid = CodeAid(
+                ui.label(binding.label).classes("field-label")
+                icon_button("open_in_full", f"Enlarge: {binding.label}", lambda: _enlarge(made[0], writing))
+        editor = context.code_editors.create(on_focus=focus, language=None if writing.is_expression else "Python")
+        editor.classes(writing.css_class + (" is-large" if is_large else ""))
+        aid = CodeAssist(
             editor,
-            label=bound.label,
+            label=binding.label,
             complete=writing.complete,
             is_expression=writing.is_expression,
-            hint=bound.hint,
+            hint=binding.hint,
         )
         messages = ui.column().classes("field-messages").props('role="status"')
-    made.append(CodeField(desk, bound, editor, writing=writing, aid=aid, messages=messages))
+    made.append(CodeField(context, binding, editor, spec=writing, code_assist=aid, messages=messages))
     return made[0]
 
 
-def _enlarge(small: Field, writing: Writing) -> None:
+def _enlarge(small: Field, writing: CodeFieldSpec) -> None:
     """The same text in a wide editor; both follow each other, as long as there is a place for it."""
-    desk, bound = small.desk, small.bound
+    desk, bound = small.context, small.binding
     with titled_dialog(bound.label, "code-dialog") as dialog:
         large = _build(desk, bound, writing, is_large=True)
         with ui.row().classes("dialog-buttons"):
             ui.button("Close", on_click=dialog.close).props("flat no-caps")
 
     def follow() -> None:
-        if large.leads_there():
+        if large.is_path_valid():
             large.refresh()
             return
         stop()
-        desk.say("Somebody else removed, renamed or moved what this code belongs to", "warning")
+        desk.show_toast("Somebody else removed, renamed or moved what this code belongs to", "warning")
         large.is_closing = True
         # What was typed till now belongs to where the code is by now, if it is anywhere.
-        small.go_on_from(large)
-        desk.begin(tell_last(), "last words")
+        small.transfer_input_from(large)
+        desk.run_in_background(tell_last(), "last words")
 
     async def tell_last() -> None:
         with suppress(TimeoutError):
-            script = _TELL_LAST.format(small=small.element.id, large=large.element.id)
-            await dialog.client.run_javascript(script, timeout=_LONGEST_S)
+            script = _SEND_LAST_INPUT.format(small=small.element.id, large=large.element.id)
+            await dialog.client.run_javascript(script, timeout=_ANSWER_TIMEOUT_S)
         dialog.close()
 
     def close() -> None:
         stop()
         dialog.delete()
 
-    stop = desk.listen(follow)
+    stop = desk.subscribe(follow)
     dialog.on("hide", close)
 
 
@@ -144,8 +148,8 @@ class CodeField(Field):
     sends its value along, which is older than what stands in the browser. The aid sends marks, and nothing else.
     """
 
-    writing: Writing = field(kw_only=True)
-    aid: CodeAid = field(kw_only=True)
+    spec: CodeFieldSpec = field(kw_only=True)
+    code_assist: CodeAssist = field(kw_only=True)
     messages: ui.column = field(kw_only=True)
     is_closing: bool = False
     """Whether its dialog is about to close: what is typed here is taken over another way."""
@@ -153,44 +157,44 @@ class CodeField(Field):
 
     def __post_init__(self) -> None:
         """Watch for typing; the editor tells its focus in a way of its own."""
-        self.element.on_value_change(lambda event: self._typed(event.value))
-        if self.writing.lint_path:
-            self.desk.lints.follow(self)
+        self.element.on_value_change(lambda event: self._on_typed(event.value))
+        if self.spec.lint_path:
+            self.context.linter.subscribe(self)
         self.refresh()
 
     @property
-    def is_gone(self) -> bool:
+    def is_deleted(self) -> bool:
         """Whether the form it stood in was built anew."""
         return self.element.is_deleted
 
     def refresh(self) -> None:
         """Show what the design holds, and what is wrong with it."""
         super().refresh()
-        if self.is_gone:
+        if self.is_deleted:
             return
         text = str(self.element.value or "")
-        marks = tuple(self.writing.mark(text))
-        self.aid.show_marks(text, marks)
-        if (marks, self.refused) != self._shown:
-            self._shown = (marks, self.refused)
-            self._tell(marks, is_long="\n" in text.rstrip("\n"))
+        marks = tuple(self.spec.find_marks(text))
+        self.code_assist.show_marks(text, marks)
+        if (marks, self.error) != self._shown:
+            self._shown = (marks, self.error)
+            self._show_messages(marks, is_long="\n" in text.rstrip("\n"))
 
-    def _typed(self, value: Any) -> None:
+    def _on_typed(self, value: Any) -> None:
         if not self.is_closing:
-            super()._typed(value)
+            super()._on_typed(value)
 
-    def _tell(self, marks: tuple[Mark, ...], *, is_long: bool) -> None:
+    def _show_messages(self, marks: tuple[CodeMark, ...], *, is_long: bool) -> None:
         self.messages.clear()
         with self.messages:
-            if self.refused:
-                ui.label(self.refused).classes("field-finding")
+            if self.error:
+                ui.label(self.error).classes("field-finding")
             for mark in marks[:_SHOWN_MESSAGES]:
                 self._message(mark, f"Line {mark.line}: " if is_long else "")
             if len(marks) > _SHOWN_MESSAGES:
                 ui.label(f"and {len(marks) - _SHOWN_MESSAGES} more").classes("empty")
 
-    def _message(self, mark: Mark, line: str) -> None:
+    def _message(self, mark: CodeMark, line: str) -> None:
         button = ui.element("button").classes(f"field-message {mark.severity}").props('type="button"')
         with button:
             ui.label(f"{line}{mark.message}")
-        button.on("click", lambda: self.aid.go_to(mark.start))
+        button.on("click", lambda: self.code_assist.go_to(mark.start))

@@ -4,10 +4,10 @@ from collections.abc import Callable
 from dataclasses import KW_ONLY, dataclass
 from enum import StrEnum
 
-Act = Callable[[], object]
+CommandHandler = Callable[[], object]
 
 
-class Place(StrEnum):
+class MenuGroup(StrEnum):
     """Under which heading a command is listed."""
 
     DESIGN = "Design"
@@ -26,8 +26,8 @@ class Command:
 
     name: str
     label: str
-    act: Act
-    place: Place
+    handler: CommandHandler
+    menu_group: MenuGroup
     _: KW_ONLY
     icon: str = ""
     keys: tuple[str, ...] = ()

@@ -8,18 +8,18 @@ from nicegui import ui
 from vicode.editor.panels.dialogs import titled_dialog
 from vicode.editor.panels.rows import primary_button
 from vicode.editor.session import Workspace, renaming, templates, trash
-from vicode.editor.session.workspace import ThrownAway
-from vicode.editor.view.address import design_address
-from vicode.model.names import is_name, name_like
+from vicode.editor.session.workspace import TrashedDesign
+from vicode.editor.view.address import design_url
+from vicode.model.names import is_valid_name, name_from_text
 
-Say = Callable[[str, str], None]
+ShowToast = Callable[[str, str], None]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class DesignDialogs:
     """The dialogs of one page; `offer_undo` shows words with a button that takes back what was done."""
 
-    say: Say
+    show_toast: ShowToast
     offer_undo: Callable[[str, Callable[[], object]], None]
 
     def ask_new(self, workspace: Workspace) -> None:
@@ -34,42 +34,46 @@ class DesignDialogs:
             def create() -> None:
                 wanted = name.value.strip()
                 template = next(each for each in choices if each.name == begin.value)
-                refused = trash.refuse_name(workspace, wanted)
-                if refused or not self._does(lambda: workspace.create(wanted, _text_of(template, wanted, workspace))):
-                    self._refuse(refused)
-                    _offer_like(name)
+                refused = trash.validate_component_name(workspace, wanted)
+                if refused or not self._run_file_operation(
+                    lambda: workspace.create(wanted, _text_of(template, wanted, workspace))
+                ):
+                    self._show_error(refused)
+                    _suggest_valid_name(name)
                     return
                 dialog.close()
-                ui.navigate.to(design_address(workspace.key, wanted))
+                ui.navigate.to(design_url(workspace.key, wanted))
 
             _buttons(dialog, "Create", create, name)
 
-    def ask_copy(self, workspace: Workspace, component: str) -> None:
+    def ask_duplicate(self, workspace: Workspace, component: str) -> None:
         """A copy under another name."""
         with titled_dialog(f"Duplicate {component}") as dialog:
-            name = _name_field("Name of the copy", trash.name_for_copy(workspace, component), "")
+            name = _name_field("Name of the copy", trash.copy_name(workspace, component), "")
 
             def copy() -> None:
                 wanted = name.value.strip()
-                refused = trash.refuse_name(workspace, wanted)
-                if refused or not self._does(lambda: trash.duplicate(workspace, component, wanted)):
-                    self._refuse(refused)
-                    _offer_like(name)
+                refused = trash.validate_component_name(workspace, wanted)
+                if refused or not self._run_file_operation(
+                    lambda: trash.duplicate_design(workspace, component, wanted)
+                ):
+                    self._show_error(refused)
+                    _suggest_valid_name(name)
                     return
                 dialog.close()
-                self.say(f"{wanted} is a copy of {component}", "positive")
+                self.show_toast(f"{wanted} is a copy of {component}", "positive")
 
             _buttons(dialog, "Duplicate", copy, name)
 
-    def ask_name(self, workspace: Workspace, component: str) -> None:
+    def ask_rename(self, workspace: Workspace, component: str) -> None:
         """Another name, with all that changes listed while it is typed."""
         with titled_dialog(f"Rename {component}") as dialog:
             name = _name_field("New name", component, "")
             ui.label("What changes").classes("field-label")
             listed = ui.column().classes("change-list").props('aria-live="polite"')
 
-            def plan() -> renaming.Renaming:
-                return renaming.plan_renaming(workspace, component, name.value.strip())
+            def plan() -> renaming.ComponentRenamePlan:
+                return renaming.plan_component_rename(workspace, component, name.value.strip())
 
             def show() -> None:
                 planned = plan()
@@ -77,18 +81,18 @@ class DesignDialogs:
                 with listed:
                     for change in planned.changes:
                         ui.label(change.file.name).classes("mono")
-                        ui.label(change.words)
-                    if planned.changes and workspace.broken:
-                        unread = f"Not looked into, as it cannot be read: {', '.join(workspace.broken)}"
+                        ui.label(change.summary)
+                    if planned.changes and workspace.broken_file_names:
+                        unread = f"Not looked into, as it cannot be read: {', '.join(workspace.broken_file_names)}"
                         ui.label(unread).classes("empty")
-                    if planned.refused:
-                        ui.label(f"Not possible: {planned.refused}").classes("empty")
+                    if planned.error:
+                        ui.label(f"Not possible: {planned.error}").classes("empty")
 
             def rename() -> None:
                 planned = plan()
-                if planned.refused or not self._rename(workspace, planned):
-                    self._refuse(planned.refused)
-                    _offer_like(name)
+                if planned.error or not self._rename(workspace, planned):
+                    self._show_error(planned.error)
+                    _suggest_valid_name(name)
                     return
                 dialog.close()
 
@@ -96,13 +100,13 @@ class DesignDialogs:
             show()
             _buttons(dialog, "Rename everywhere", rename, name)
 
-    def ask_removal(self, workspace: Workspace, component: str) -> None:
+    def ask_move_to_trash(self, workspace: Workspace, component: str) -> None:
         """Move a design to the trash."""
-        refused = trash.refuse_throwing_away(workspace, component)
+        refused = trash.validate_move_to_trash(workspace, component)
         if refused:
-            self.say(_sentence(refused), "warning")
+            self.show_toast(_capitalize(refused), "warning")
             return
-        users = trash.users_of(workspace, component)
+        users = trash.find_dependents(workspace, component)
         with titled_dialog(f"Move {component} to the trash?") as dialog:
             ui.label(f"{workspace.files[component].name} goes to the trash of this computer; Undo puts it back.")
             if users:
@@ -110,57 +114,57 @@ class DesignDialogs:
 
             def remove() -> None:
                 dialog.close()
-                self._does(lambda: self._throw_away(workspace, component))
+                self._run_file_operation(lambda: self._move_to_trash(workspace, component))
 
             _buttons(dialog, "Move to trash", remove, None)
 
-    def _throw_away(self, workspace: Workspace, component: str) -> None:
-        self.offer_back(workspace, trash.throw_away(workspace, component))
+    def _move_to_trash(self, workspace: Workspace, component: str) -> None:
+        self.offer_restore(workspace, trash.move_to_trash(workspace, component))
 
-    def offer_back(self, workspace: Workspace, thrown: ThrownAway) -> None:
+    def offer_restore(self, workspace: Workspace, thrown: TrashedDesign) -> None:
         """Offer to put a design back that was thrown away."""
 
         def undo() -> None:
-            refused = trash.put_back(workspace, thrown)
-            self.say(_sentence(refused) or f"{thrown.component} is back", "warning" if refused else "positive")
+            refused = trash.restore_from_trash(workspace, thrown)
+            self.show_toast(_capitalize(refused) or f"{thrown.component} is back", "warning" if refused else "positive")
 
         self.offer_undo(f"{thrown.component} is in the trash", undo)
 
-    def _rename(self, workspace: Workspace, planned: renaming.Renaming) -> bool:
+    def _rename(self, workspace: Workspace, planned: renaming.ComponentRenamePlan) -> bool:
         def rename() -> None:
-            refused = renaming.rename_component(workspace, planned)
+            refused = renaming.apply_component_rename(workspace, planned)
             if refused:
-                self._refuse(refused)
+                self._show_error(refused)
                 return
-            back = renaming.plan_renaming(workspace, planned.new, planned.old)
+            back = renaming.plan_component_rename(workspace, planned.new, planned.old)
             self.offer_undo(f"{planned.old} is {planned.new} now", lambda: self._rename_back(workspace, back))
 
-        return self._does(rename)
+        return self._run_file_operation(rename)
 
-    def _rename_back(self, workspace: Workspace, planned: renaming.Renaming) -> None:
-        again = renaming.plan_renaming(workspace, planned.old, planned.new)
-        refused = again.refused
-        if refused or not self._does(lambda: renaming.rename_component(workspace, again)):
-            self._refuse(refused)
+    def _rename_back(self, workspace: Workspace, planned: renaming.ComponentRenamePlan) -> None:
+        again = renaming.plan_component_rename(workspace, planned.old, planned.new)
+        refused = again.error
+        if refused or not self._run_file_operation(lambda: renaming.apply_component_rename(workspace, again)):
+            self._show_error(refused)
             return
-        self.say(f"It is {planned.new} again", "positive")
+        self.show_toast(f"It is {planned.new} again", "positive")
 
-    def _refuse(self, refused: str) -> None:
+    def _show_error(self, refused: str) -> None:
         if refused:
-            self.say(_sentence(refused), "warning")
+            self.show_toast(_capitalize(refused), "warning")
 
-    def _does(self, act: Callable[[], object]) -> bool:
+    def _run_file_operation(self, act: Callable[[], object]) -> bool:
         """Do something to files; what the system has against it is told."""
         try:
             act()
         except OSError as error:
-            self.say(f"Not done: {error}", "negative")
+            self.show_toast(f"Not done: {error}", "negative")
             return False
         return True
 
 
 def _text_of(template: templates.Template, component: str, workspace: Workspace) -> str:
-    return templates.text_from_template(template, component, workspace.project)
+    return templates.instantiate_template(template, component, workspace.project)
 
 
 def _name_field(label: str, value: str, example: str) -> ui.input:
@@ -169,11 +173,11 @@ def _name_field(label: str, value: str, example: str) -> ui.input:
     return field
 
 
-def _offer_like(field: ui.input) -> None:
+def _suggest_valid_name(field: ui.input) -> None:
     """Put the nearest name there is into a field whose text is none; one press more takes it."""
     wanted = str(field.value).strip()
-    if not is_name(wanted) and name_like(wanted):
-        field.set_value(name_like(wanted))
+    if not is_valid_name(wanted) and name_from_text(wanted):
+        field.set_value(name_from_text(wanted))
 
 
 def _buttons(dialog: ui.dialog, label: str, act: Callable[[], object], field: ui.input | None) -> None:
@@ -184,5 +188,5 @@ def _buttons(dialog: ui.dialog, label: str, act: Callable[[], object], field: ui
         primary_button(label, act)
 
 
-def _sentence(words: str) -> str:
+def _capitalize(words: str) -> str:
     return words[:1].upper() + words[1:]

@@ -27,9 +27,9 @@ def add_design_menu(workspace: Workspace, component: str, dialogs: DesignDialogs
 
 def _menu(workspace: Workspace, component: str, dialogs: DesignDialogs) -> ui.menu:
     asked = (
-        ("Rename everywhere…", dialogs.ask_name),
-        ("Duplicate…", dialogs.ask_copy),
-        ("Move to trash…", dialogs.ask_removal),
+        ("Rename everywhere…", dialogs.ask_rename),
+        ("Duplicate…", dialogs.ask_duplicate),
+        ("Move to trash…", dialogs.ask_move_to_trash),
     )
     # Quasar would open it at each click on the button as well, and shut what was just opened.
     with ui.menu().props("no-parent-event") as menu:

@@ -5,13 +5,13 @@ from dataclasses import replace
 
 from nicegui import ui
 
-from vicode.editor.panels.actions_panel import actions_panel, with_python
+from vicode.editor.panels.actions_panel import actions_panel, replace_python
 from vicode.editor.panels.code_field import code_field
 from vicode.editor.panels.decisions_list import decisions_list
 from vicode.editor.panels.declarations import SECTIONS, declarations_form
-from vicode.editor.panels.desk import Desk
-from vicode.editor.panels.fields import Bound, Field, choice_field, flag_field, state_names, text_field
-from vicode.editor.panels.folds import fold
+from vicode.editor.panels.desk import WindowContext
+from vicode.editor.panels.fields import Field, FieldBinding, checkbox_field, choice_field, state_names, text_field
+from vicode.editor.panels.folds import collapsible_section
 from vicode.editor.panels.project.form import project_form
 from vicode.editor.panels.rows import add_button, heading, icon_button, panel_title
 from vicode.editor.session import numbers
@@ -19,48 +19,50 @@ from vicode.model.design import COMMON
 from vicode.model.edits import add_use, remove_uses
 
 
-def design_panel(desk: Desk) -> list[Field]:
+def design_panel(context: WindowContext) -> list[Field]:
     """Build the form of the design."""
-    panel_title("Component", desk.design.component)
+    panel_title("Component", context.design.component)
     fields = [
-        text_field(desk, _bound("Doc", "doc"), lines=True),
-        text_field(desk, _frequency(), monospace=True),
-        choice_field(desk, _bound("Initial state", "initial"), state_names),
-        flag_field(desk, _bound("Resume: go on where it was left", "resume")),
+        text_field(context, _attribute_binding("Doc", "doc"), multiline=True),
+        text_field(context, _frequency(), monospace=True),
+        choice_field(context, _attribute_binding("Initial state", "initial"), state_names),
+        checkbox_field(context, _attribute_binding("Resume: go on where it was left", "resume")),
     ]
-    _xabsl(desk, fields)
+    _xabsl(context, fields)
     heading("Uses", hint="components it requires or modulates")
-    _uses(desk)
+    _uses(context)
     for section, title, hint in SECTIONS:
         heading(title, hint=hint)
-        declarations_form(desk, section, fields)
-    fields += common_panel(desk)
-    _code(desk, fields)
-    project_form(desk, fields)
+        declarations_form(context, section, fields)
+    fields += common_panel(context)
+    _code(context, fields)
+    project_form(context, fields)
     return fields
 
 
-def _xabsl(desk: Desk, fields: list[Field]) -> None:
+def _xabsl(context: WindowContext, fields: list[Field]) -> None:
     """How it is called in XABSL, and what it takes over from there: few need it."""
-    design = desk.design
+    design = context.design
     said = [f"{design.xabsl_name} in XABSL"] if design.xabsl_name else []
     said += ["calculates as XABSL"] if design.arithmetic else []
     said += [f"times in {design.time_unit}"] if design.time_unit else []
 
     def build() -> None:
-        fields.append(text_field(desk, _bound("Name in XABSL", "xabsl_name"), monospace=True))
-        fields.append(choice_field(desk, _bound("Arithmetic", "arithmetic"), lambda _design: ["xabsl"]))
+        fields.append(text_field(context, _attribute_binding("Name in XABSL", "xabsl_name"), monospace=True))
+        fields.append(choice_field(context, _attribute_binding("Arithmetic", "arithmetic"), lambda _design: ["xabsl"]))
         fields[-1].element.props("clearable")
         ui.label("xabsl: calculates and restarts as XABSL does; empty: as every design.").classes("empty")
-        fields.append(choice_field(desk, _bound("Unit of times", "time_unit"), lambda _design: ["s", "ms"]))
+        fields.append(
+            choice_field(context, _attribute_binding("Unit of times", "time_unit"), lambda _design: ["s", "ms"])
+        )
         fields[-1].element.props("clearable")
         ui.label("Of state_time and component_time in expressions; empty: seconds.").classes("empty")
 
-    fold(desk, "xabsl", "XABSL", "; ".join(said) or "name, arithmetic, unit of times", build)
+    collapsible_section(context, "xabsl", "XABSL", "; ".join(said) or "name, arithmetic, unit of times", build)
 
 
-def _common_doc() -> Bound:
-    return Bound(
+def _common_doc() -> FieldBinding:
+    return FieldBinding(
         label="Doc of what is common",
         path=("common", "doc"),
         read=lambda design: design.common.doc,
@@ -68,28 +70,30 @@ def _common_doc() -> Bound:
     )
 
 
-def _code(desk: Desk, fields: list[Field]) -> None:
+def _code(context: WindowContext, fields: list[Field]) -> None:
     """The code for module and class, built when it is opened: code editors are a large script to load."""
-    written = [name for name, code in (("module", desk.design.module), ("members", desk.design.members)) if code.texts]
+    written = [
+        name for name, code in (("module", context.design.module), ("members", context.design.members)) if code.texts
+    ]
     hint = f"written: {', '.join(written)}" if written else "for the top of the module, and for the class"
 
     def build() -> None:
-        fields.extend([code_field(desk, _module_code()), code_field(desk, _member_code())])
+        fields.extend([code_field(context, _module_code()), code_field(context, _member_code())])
 
-    fold(desk, "code", "Code", hint, build)
+    collapsible_section(context, "code", "Code", hint, build)
 
 
-def common_panel(desk: Desk) -> list[Field]:
+def common_panel(context: WindowContext) -> list[Field]:
     """Build the form of what is common to all states."""
     heading("Common transitions", hint="tested before those of every state")
-    decisions_list(desk, COMMON, ("common", "transitions"), desk.design.common.transitions)
+    decisions_list(context, COMMON, ("common", "transitions"), context.design.common.transitions)
     heading("Common actions", hint="done before those of every state")
-    fields = actions_panel(desk, ("common", "actions"), desk.design.common.actions)
-    return [*fields, text_field(desk, _common_doc(), lines=True)]
+    fields = actions_panel(context, ("common", "actions"), context.design.common.actions)
+    return [*fields, text_field(context, _common_doc(), multiline=True)]
 
 
-def _bound(label: str, attribute: str) -> Bound:
-    return Bound(
+def _attribute_binding(label: str, attribute: str) -> FieldBinding:
+    return FieldBinding(
         label=label,
         path=(attribute,),
         read=lambda design: getattr(design, attribute),
@@ -97,54 +101,54 @@ def _bound(label: str, attribute: str) -> Bound:
     )
 
 
-def _frequency() -> Bound:
-    return Bound(
+def _frequency() -> FieldBinding:
+    return FieldBinding(
         label="Frequency, Hz",
         path=("frequency",),
-        read=lambda design: numbers.text_of(design.frequency_hz),
-        write=lambda design, text: replace(design, frequency_hz=numbers.frequency_of(text)),
+        read=lambda design: numbers.format_number(design.frequency_hz),
+        write=lambda design, text: replace(design, frequency_hz=numbers.parse_frequency(text)),
         hint="at every step",
-        refuse=numbers.refuse_frequency,
+        validate=numbers.validate_frequency,
     )
 
 
-def _module_code() -> Bound:
-    return Bound(
+def _module_code() -> FieldBinding:
+    return FieldBinding(
         label="Module",
         path=("module",),
         read=lambda design: design.module.in_language("python") or "",
-        write=lambda design, value: replace(design, module=with_python(design.module, value)),
+        write=lambda design, value: replace(design, module=replace_python(design.module, value)),
     )
 
 
-def _member_code() -> Bound:
-    return Bound(
+def _member_code() -> FieldBinding:
+    return FieldBinding(
         label="Members",
         path=("members",),
         read=lambda design: design.members.in_language("python") or "",
-        write=lambda design, value: replace(design, members=with_python(design.members, value)),
+        write=lambda design, value: replace(design, members=replace_python(design.members, value)),
     )
 
 
-def _uses(desk: Desk) -> None:
-    for use in desk.design.uses:
+def _uses(context: WindowContext) -> None:
+    for use in context.design.uses:
         with ui.row().classes("use-row"):
             ui.label(use.alias).classes("mono alias")
             ui.label(use.component).classes("component-name")
-            icon_button("close", f"Stop using {use.alias}", _use_remover(desk, use.alias))
-    used = {use.component for use in desk.design.uses} | {desk.design.component}
-    free = sorted(name for name in desk.workspace.project.interfaces() if name not in used)
+            icon_button("close", f"Stop using {use.alias}", _use_remover(context, use.alias))
+    used = {use.component for use in context.design.uses} | {context.design.component}
+    free = sorted(name for name in context.workspace.project.interfaces() if name not in used)
     with ui.row().classes("adders"), add_button("Component", "Use one more component") as button:
         if not free:
             button.disable()
         with ui.menu().props("auto-close"):
             for name in free:
-                ui.menu_item(name, on_click=_use_adder(desk, name)).classes("mono")
+                ui.menu_item(name, on_click=_use_adder(context, name)).classes("mono")
 
 
-def _use_adder(desk: Desk, component: str) -> Callable[[], None]:
-    return lambda: desk.edit(f"use {component}", lambda design: add_use(design, component))
+def _use_adder(context: WindowContext, component: str) -> Callable[[], None]:
+    return lambda: context.edit(f"use {component}", lambda design: add_use(design, component))
 
 
-def _use_remover(desk: Desk, alias: str) -> Callable[[], None]:
-    return lambda: desk.edit(f"stop using {alias}", lambda design: remove_uses(design, [alias]))
+def _use_remover(context: WindowContext, alias: str) -> Callable[[], None]:
+    return lambda: context.edit(f"stop using {alias}", lambda design: remove_uses(design, [alias]))

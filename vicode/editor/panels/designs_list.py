@@ -10,10 +10,10 @@ from vicode.editor.panels.design_dialogs import DesignDialogs
 from vicode.editor.panels.design_menu import add_design_menu
 from vicode.editor.panels.rows import icon_button
 from vicode.editor.session import Library, Workspace
-from vicode.editor.view.address import broken_address, design_address
+from vicode.editor.view.address import broken_file_url, design_url
 
-_LONG = 18
-_MANY = 25
+_MAX_SOLID_NAME = 18
+_FILTER_THRESHOLD = 25
 """Of more designs, one is found by typing a part of its name."""
 
 
@@ -27,7 +27,7 @@ class _Row:
 
 
 @dataclass(frozen=True, slots=True)
-class _Mark:
+class _UnsavedMark:
     """What tells in the line of a design that it is unsaved: it comes and goes, and the line stays."""
 
     workspace: Workspace
@@ -36,15 +36,15 @@ class _Mark:
     dot: ui.label
 
     def refresh(self) -> None:
-        is_unsaved = self.component in self.workspace.unsaved
+        is_unsaved = self.component in self.workspace.unsaved_components
         if is_unsaved == self.dot.visible:
             return
         self.dot.set_visibility(is_unsaved)
-        self.tell()
+        self.update_label()
 
-    def tell(self) -> None:
+    def update_label(self) -> None:
         """A name in parts is read out as one."""
-        if len(self.component) > _LONG:
+        if len(self.component) > _MAX_SOLID_NAME:
             self.link.props["aria-label"] = self.component + (", unsaved" if self.dot.visible else "")
 
 
@@ -52,13 +52,13 @@ class DesignsList:
     """The designs; built anew when files come or go."""
 
     def __init__(self, library: Library, here: tuple[str, str], dialogs: DesignDialogs) -> None:
-        """Build it; `here` is the project's key and the component that is open."""
-        self.library, self.here, self.dialogs = library, here, dialogs
-        self.shape: object = None
+        """Build it; `current` is the project's key and the component that is open."""
+        self.library, self.current, self.dialogs = library, here, dialogs
+        self.rendered_key: object = None
         self._rows: list[_Row] = []
-        self._marks: list[_Mark] = []
+        self._marks: list[_UnsavedMark] = []
         with ui.element("nav").classes("designs").props('aria-label="Designs"'):
-            self._filter = ui.input(placeholder="Filter", on_change=self._narrow).classes("designs-filter")
+            self._filter = ui.input(placeholder="Filter", on_change=self._apply_filter).classes("designs-filter")
             self._filter.props('dense borderless clearable debounce=150 aria-label="Filter designs"')
             # What stands in the field is told at once, its value only when nobody types any more.
             told = "(event) => emit(event.target.value)"
@@ -69,33 +69,35 @@ class DesignsList:
 
     def refresh(self) -> None:
         """Show what there is now."""
-        shape = [(each.key, sorted(each.project.interfaces()), each.broken) for each in self.library.workspaces]
-        if shape == self.shape:
+        shape = [
+            (each.key, sorted(each.project.interfaces()), each.broken_file_names) for each in self.library.workspaces
+        ]
+        if shape == self.rendered_key:
             for mark in self._marks:
                 mark.refresh()
             return
-        self.shape = shape
+        self.rendered_key = shape
         self._rows, self._marks = [], []
         self.body.clear()
         with self.body:
             for workspace in self.library.workspaces:
                 self._project(workspace)
-        self._filter.set_visibility(len(self._rows) > _MANY)
-        self._narrow()
+        self._filter.set_visibility(len(self._rows) > _FILTER_THRESHOLD)
+        self._apply_filter()
 
-    def _narrow(self) -> None:
+    def _apply_filter(self) -> None:
         """Show the designs with all typed parts in their names."""
-        found = self._found(str(self._filter.value or ""))
+        found = self._matching_rows(str(self._filter.value or ""))
         for row in self._rows:
             row.element.set_visibility(row in found)
         self._none.set_visibility(bool(self._rows) and not found)
 
-    def _found(self, text: str) -> list[_Row]:
+    def _matching_rows(self, text: str) -> list[_Row]:
         parts = text.casefold().split() if self._filter.visible else []
         return [row for row in self._rows if all(part in row.name.casefold() for part in parts)]
 
     def _open_first(self, text: str) -> None:
-        found = self._found(text)
+        found = self._matching_rows(text)
         if found:
             ui.navigate.to(found[0].address)
 
@@ -107,12 +109,12 @@ class DesignsList:
             listed.props["aria-label"] = workspace.project.name
             for design in sorted(workspace.project.designs, key=lambda each: each.component.casefold()):
                 self._design(workspace, design.component)
-            for file in workspace.broken:
-                self._rows.append(_Row(file, broken_address(workspace.key, file), _broken(workspace, file)))
+            for file in workspace.broken_file_names:
+                self._rows.append(_Row(file, broken_file_url(workspace.key, file), _broken(workspace, file)))
 
     def _design(self, workspace: Workspace, component: str) -> None:
-        address = design_address(workspace.key, component)
-        is_here = self.here == (workspace.key, component)
+        address = design_url(workspace.key, component)
+        is_here = self.current == (workspace.key, component)
         with ui.element("div").classes("design-row").props("role=listitem") as row:
             link = ui.link(target=address)
             link.classes("design-link" + (" is-open" if is_here else ""))
@@ -121,8 +123,8 @@ class DesignsList:
             with link:
                 _name(component)
                 dot = ui.label("●").classes("unsaved-mark").props('aria-label="unsaved" role="img"')
-            mark = _Mark(workspace, component, link, dot)
-            mark.tell()
+            mark = _UnsavedMark(workspace, component, link, dot)
+            mark.update_label()
             mark.refresh()
             self._marks.append(mark)
             add_design_menu(workspace, component, self.dialogs, row)
@@ -131,7 +133,7 @@ class DesignsList:
 
 def _name(component: str) -> None:
     """A name, which breaks between its words where it is long."""
-    if len(component) <= _LONG:
+    if len(component) <= _MAX_SOLID_NAME:
         ui.label(component).classes("design-name")
     else:
         parts = re.split(r"(?<=_)(?=[^_])|(?<=[a-z0-9])(?=[A-Z])", component)
@@ -139,7 +141,7 @@ def _name(component: str) -> None:
 
 
 def _broken(workspace: Workspace, file: str) -> ui.element:
-    address = broken_address(workspace.key, file)
+    address = broken_file_url(workspace.key, file)
     with ui.element("div").props("role=listitem") as row, ui.link(target=address).classes("design-link is-broken"):
         ui.icon("error").props('aria-hidden="true"')
         ui.label(file).classes("design-name")

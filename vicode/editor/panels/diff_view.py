@@ -4,11 +4,11 @@ from html import escape
 
 from nicegui import ui
 
-from vicode.editor.session.diffing import Change, Row, side_by_side
+from vicode.editor.session.diffing import DiffRow, LineStatus, side_by_side
 
-_SIGNS = {Change.ADDED: "+", Change.REMOVED: "−", Change.CHANGED: "±"}
-_WORDS = {Change.ADDED: "added", Change.REMOVED: "removed", Change.CHANGED: "changed"}
-_MOST_ROWS = 2000
+_SIGNS = {LineStatus.ADDED: "+", LineStatus.REMOVED: "−", LineStatus.CHANGED: "±"}
+_WORDS = {LineStatus.ADDED: "added", LineStatus.REMOVED: "removed", LineStatus.CHANGED: "changed"}
+_MAX_ROWS = 2000
 
 
 def diff_view(old: str | None, new: str | None) -> ui.html:
@@ -16,9 +16,9 @@ def diff_view(old: str | None, new: str | None) -> ui.html:
     rows = side_by_side(old or "", new or "")
     # Where nothing stands on the left, all the room belongs to the right.
     is_new = old is None
-    body = "".join(_row(row, is_new=is_new) for row in rows[:_MOST_ROWS])
-    if len(rows) > _MOST_ROWS:
-        body += f'<tr class="gap"><td colspan="5">and {len(rows) - _MOST_ROWS} more lines</td></tr>'
+    body = "".join(_row(row, is_new=is_new) for row in rows[:_MAX_ROWS])
+    if len(rows) > _MAX_ROWS:
+        body += f'<tr class="gap"><td colspan="5">and {len(rows) - _MAX_ROWS} more lines</td></tr>'
     left = "" if is_new else '<th scope="col" colspan="2">on disk</th>'
     right = "generated" if new is not None else "will be deleted"
     head = f'<tr>{left}<td></td><th scope="col" colspan="2">{right}</th></tr>'
@@ -31,14 +31,14 @@ def diff_view(old: str | None, new: str | None) -> ui.html:
     )
 
 
-def _row(row: Row, *, is_new: bool) -> str:
-    if row.change is Change.GAP:
+def _row(row: DiffRow, *, is_new: bool) -> str:
+    if row.status is LineStatus.GAP:
         return f'<tr class="gap"><td colspan="5">{escape(row.old)}</td></tr>'
-    sign = _SIGNS.get(row.change, "")
-    word = _WORDS.get(row.change, "")
+    sign = _SIGNS.get(row.status, "")
+    word = _WORDS.get(row.status, "")
     left = f'<td class="number">{row.old_number or ""}</td><td class="old">{escape(row.old)}</td>'
     return (
-        f'<tr class="{row.change}">{"" if is_new else left}'
+        f'<tr class="{row.status}">{"" if is_new else left}'
         f'<td class="sign" title="{word}">{sign}</td>'
         f'<td class="number">{row.new_number or ""}</td><td class="new">{escape(row.new)}</td></tr>'
     )

@@ -6,15 +6,15 @@ from pathlib import PurePath
 
 from nicegui import ui
 
-from vicode.editor.panels.desk import Desk
-from vicode.editor.panels.problems import Problems
-from vicode.editor.session.fixes import may_be_fixed
-from vicode.editor.session.problems import grouped, matching
-from vicode.editor.view import words_of_path
+from vicode.editor.panels.desk import WindowContext
+from vicode.editor.panels.problems import FindingNavigator
+from vicode.editor.session.fixes import is_fixable
+from vicode.editor.session.problems import filter_findings, group_by_severity
+from vicode.editor.view import item_label
 from vicode.findings import Finding, Severity
 
 _ICONS = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.NOTE: "info"}
-_SHOWN_AT_MOST = 200
+_MAX_SHOWN = 200
 _Row = tuple[Finding, str, bool, bool]
 """A finding, what it is about, whether it is the first about that, and whether it is the one at hand."""
 
@@ -22,10 +22,10 @@ _Row = tuple[Finding, str, bool, bool]
 class FindingsPanel:
     """The list below the canvas."""
 
-    def __init__(self, desk: Desk, problems: Problems) -> None:
+    def __init__(self, context: WindowContext, problems: FindingNavigator) -> None:
         """Build it; `refresh` fills it."""
-        self.desk, self.problems = desk, problems
-        self.hidden: set[Severity] = set()
+        self.context, self.navigator = context, problems
+        self.hidden_severities: set[Severity] = set()
         self.shown: object = None
         self.rows: dict[_Row, ui.element] = {}
         with ui.row().classes("findings-head"):
@@ -41,13 +41,13 @@ class FindingsPanel:
 
     def refresh(self) -> None:
         """Show the findings of the design as it is now."""
-        findings = self.desk.document.findings
-        wanted = matching(findings, self.filter.value or "", self.hidden)
-        shown = (findings, wanted, self.problems.current)
+        findings = self.context.document.findings
+        wanted = filter_findings(findings, self.filter.value or "", self.hidden_severities)
+        shown = (findings, wanted, self.navigator.current)
         if shown == self.shown:
             return
         self.shown = shown
-        self.summary.set_text(summary_of(findings, len(wanted)))
+        self.summary.set_text(summarize_findings(findings, len(wanted)))
         for severity, button in self.toggles.items():
             count = sum(each.severity is severity for each in findings)
             button.set_visibility(bool(count))
@@ -56,7 +56,7 @@ class FindingsPanel:
 
     def _fill(self, wanted: tuple[Finding, ...]) -> None:
         """Make what is new and take away what is gone: when many work at once, most of it stays."""
-        rows = dict.fromkeys(islice(self._rows_of(wanted), _SHOWN_AT_MOST))
+        rows = dict.fromkeys(islice(self._rows_of(wanted), _MAX_SHOWN))
         for row in [row for row in self.rows if row not in rows]:
             self.rows.pop(row).delete()
         for index, row in enumerate(rows):
@@ -65,16 +65,16 @@ class FindingsPanel:
                     self.rows[row] = self._build(row)
             if self.list.default_slot.children[index] is not self.rows[row]:
                 self.rows[row].move(target_index=index)
-        left = len(wanted) - _SHOWN_AT_MOST
+        left = len(wanted) - _MAX_SHOWN
         self.more.set_text(f"and {left} more: type into the filter to find them")
         self.more.set_visibility(left > 0)
 
     def _rows_of(self, wanted: tuple[Finding, ...]) -> Iterator[_Row]:
-        for _severity, findings in grouped(wanted):
+        for _severity, findings in group_by_severity(wanted):
             before = ""
             for finding in findings:
-                words = words_of_path(self.desk.design, finding.thing.path) if finding.thing else ""
-                yield finding, words, words != before, finding == self.problems.current
+                words = item_label(self.context.design, finding.subject.path) if finding.subject else ""
+                yield finding, words, words != before, finding == self.navigator.current
                 before = words
 
     def _build(self, row_: _Row) -> ui.element:
@@ -87,11 +87,15 @@ class FindingsPanel:
                 ui.label(f"{severity} {finding.rule.code}").classes("finding-code mono")
                 ui.label(words).classes("finding-thing" + ("" if is_first else " is-same"))
                 # What was wrong when the file was read stands in the file, not in the drawing.
-                line = f"{PurePath(finding.place.file).name}, line {finding.place.line}: " if finding.place else ""
+                line = (
+                    f"{PurePath(finding.location.file).name}, line {finding.location.line}: "
+                    if finding.location
+                    else ""
+                )
                 ui.label(line + finding.message).classes("finding-message")
-                ui.label(finding.mend).classes("finding-mend")
-            row.on("click", lambda: self.problems.open(finding))
-            if may_be_fixed(finding):
+                ui.label(finding.fix).classes("finding-hint")
+            row.on("click", lambda: self.navigator.select_finding(finding))
+            if is_fixable(finding):
                 self._fix_button(finding)
         return whole
 
@@ -100,24 +104,24 @@ class FindingsPanel:
         button.classes("finding-fix").props["aria-label"] = f"Fix: {finding.message}"
         with button, ui.menu().props("auto-close") as menu:
             pass
-        menu.on("before-show", lambda: self.problems.fill_menu(menu, finding))
+        menu.on("before-show", lambda: self.navigator.fill_fix_menu(menu, finding))
 
     def _toggle(self, severity: Severity) -> ui.button:
-        button = ui.button("0", icon=_ICONS[severity], on_click=lambda: self._flip(severity), color=None)
+        button = ui.button("0", icon=_ICONS[severity], on_click=lambda: self._toggle_severity(severity), color=None)
         button.props(f'flat dense no-caps size=sm aria-label="Show {severity}s" aria-pressed="true"')
         button.classes(f"severity-toggle {severity}")
         with button:
             ui.tooltip(f"Show or hide {severity}s")
         return button
 
-    def _flip(self, severity: Severity) -> None:
-        self.hidden ^= {severity}
-        is_shown = severity not in self.hidden
+    def _toggle_severity(self, severity: Severity) -> None:
+        self.hidden_severities ^= {severity}
+        is_shown = severity not in self.hidden_severities
         self.toggles[severity].props(f'aria-pressed="{str(is_shown).lower()}"')
         self.refresh()
 
 
-def summary_of(findings: tuple[Finding, ...], shown: int | None = None) -> str:
+def summarize_findings(findings: tuple[Finding, ...], shown: int | None = None) -> str:
     """The number of findings in words."""
     if not findings:
         return "No findings: the design is sound"

@@ -4,7 +4,7 @@ from collections.abc import Callable
 
 from nicegui import ui
 
-from vicode.editor.panels.desk import Desk
+from vicode.editor.panels.desk import WindowContext
 
 # What was opened at the lower edge is not looked for below it. Folds open at once, as what is in them comes a moment
 # later anyway: what is about to be pressed would move away under the hand.
@@ -20,7 +20,9 @@ _BRING_UP = """
 """
 
 
-def fold(desk: Desk, key: str, title: str, caption: str, build: Callable[[], None]) -> ui.expansion:
+def collapsible_section(
+    context: WindowContext, key: str, title: str, caption: str, build: Callable[[], None]
+) -> ui.expansion:
     """A fold under a title; `caption` says what is in it, `key` tells it from the others of the design."""
     built: list[bool] = []
 
@@ -32,16 +34,19 @@ def fold(desk: Desk, key: str, title: str, caption: str, build: Callable[[], Non
 
     def turn(*, is_open: bool) -> None:
         if is_open:
-            desk.open_folds.add(key)
+            context.open_sections.add(key)
             fill()
             ui.run_javascript(_BRING_UP % whole.id)
         else:
-            desk.open_folds.discard(key)
+            context.open_sections.discard(key)
 
     whole = ui.expansion(
-        title, caption=caption, value=key in desk.open_folds, on_value_change=lambda event: turn(is_open=event.value)
+        title,
+        caption=caption,
+        value=key in context.open_sections,
+        on_value_change=lambda event: turn(is_open=event.value),
     )
     whole.classes("section").props("dense duration=0")
-    if key in desk.open_folds:
+    if key in context.open_sections:
         fill()
     return whole

@@ -8,27 +8,27 @@ from nicegui import ui
 from vicode.editor.panels.dialogs import titled_dialog
 from vicode.editor.panels.diff_view import diff_view
 from vicode.editor.panels.rows import primary_button
-from vicode.editor.session.generating import Prepared
-from vicode.output import Difference, Status
+from vicode.editor.session.generating import PendingOutput
+from vicode.output import FileDiff, FileStatus
 
-_ICONS = {Status.NEW: "add_circle", Status.CHANGED: "change_circle", Status.STALE: "remove_circle"}
-_WORDS = {Status.NEW: "new", Status.CHANGED: "changed", Status.STALE: "no longer generated"}
+_ICONS = {FileStatus.NEW: "add_circle", FileStatus.CHANGED: "change_circle", FileStatus.STALE: "remove_circle"}
+_WORDS = {FileStatus.NEW: "new", FileStatus.CHANGED: "changed", FileStatus.STALE: "no longer generated"}
 _KEY = "vicode-generate-unasked"
 
 
 # A browser that is too busy to answer would not show the question either.
-_PATIENCE_S = 60.0
+_ANSWER_TIMEOUT_S = 60.0
 
 
-async def is_unasked() -> bool:
+async def is_confirmation_disabled() -> bool:
     """Whether the person chose, in this browser, not to be asked before code is written."""
     try:
-        return bool(await ui.run_javascript(f'localStorage.getItem("{_KEY}") === "yes"', timeout=_PATIENCE_S))
+        return bool(await ui.run_javascript(f'localStorage.getItem("{_KEY}") === "yes"', timeout=_ANSWER_TIMEOUT_S))
     except TimeoutError:
         return False
 
 
-def ask_before_writing(prepared: Prepared, component: str, write: Callable[[bool], None]) -> None:
+def confirm_writing(prepared: PendingOutput, component: str, write: Callable[[bool], None]) -> None:
     """Show what would change; `write` is called with whether edited files are to be set aside, or not at all.
 
     The files of the open component come first, as it is what was worked on.
@@ -40,9 +40,9 @@ def ask_before_writing(prepared: Prepared, component: str, write: Callable[[bool
         ui.label(f"{_count(len(changes))} in {prepared.folder.name}/{rest}.").classes("small")
         with ui.element("div").classes("generate-files"):
             _files(prepared, changes)
-        if prepared.spared:
-            ui.label(prepared.spared).classes("field-finding")
-        for path, findings in prepared.edits.items():
+        if prepared.skipped:
+            ui.label(prepared.skipped).classes("field-finding")
+        for path, findings in prepared.manual_edits.items():
             for finding in findings[:3]:
                 ui.label(f"{path}: {finding.message}").classes("field-finding")
         unasked = ui.checkbox("Do not ask again in this browser").props("dense")
@@ -51,16 +51,16 @@ def ask_before_writing(prepared: Prepared, component: str, write: Callable[[bool
             if unasked.value:
                 ui.run_javascript(f'localStorage.setItem("{_KEY}", "yes")')
             dialog.close()
-            write(bool(prepared.edits))
+            write(bool(prepared.manual_edits))
 
         with ui.row().classes("dialog-buttons"):
             ui.button("Cancel", on_click=dialog.close).props("flat no-caps")
-            label = "Keep the edits as .edited, and write" if prepared.edits else "Write"
+            label = "Keep the edits as .edited, and write" if prepared.manual_edits else "Write"
             primary_button(label, answer).props("autofocus")
     dialog.on("hide", dialog.delete)
 
 
-def _files(prepared: Prepared, changes: tuple[Difference, ...]) -> None:
+def _files(prepared: PendingOutput, changes: tuple[FileDiff, ...]) -> None:
     """The list of files to the left, the differences of the chosen one to the right."""
     listed = ui.column().classes("generate-list").props('role="list"')
     shown = ui.element("div").classes("generate-diff")
@@ -75,12 +75,12 @@ def _files(prepared: Prepared, changes: tuple[Difference, ...]) -> None:
 
     with listed:
         for at, change in enumerate(changes):
-            buttons.append(_file(change, is_edited=change.path in prepared.edits))
+            buttons.append(_file(change, is_edited=change.path in prepared.manual_edits))
             buttons[-1].on("click", lambda at=at: show(at))
     show(0)
 
 
-def _file(change: Difference, *, is_edited: bool) -> ui.element:
+def _file(change: FileDiff, *, is_edited: bool) -> ui.element:
     with ui.element("div").props('role="listitem"'):
         button = ui.element("button").classes("generate-file").props('type="button"')
         with button:

@@ -3,7 +3,7 @@
 from nicegui import ui
 
 # Part of the page, so that the sizes are right before anything is drawn. The server need not know them.
-_GRIPS = """
+_SPLITTER_SCRIPT = """
 <script>
 (() => {
   const GRIPS = {
@@ -22,12 +22,12 @@ _GRIPS = """
     const clamp = (size) => Math.round(Math.max(grip.least, Math.min(most(), size)));
     const kept = () => { try { return Number(localStorage.getItem(key)) || 0; } catch { return 0; } };
     const keep = (size) => { try { localStorage.setItem(key, size); } catch { /* a private window keeps nothing */ } };
-    const onGrip = (event) => event.target.closest?.(`.${name}-grip`);
+    const onGrip = (event) => event.target.closest?.(`.${name}-splitter`);
     let size = 0;
     const show = (wanted) => {
       size = clamp(wanted);
       document.documentElement.style.setProperty(`--${name}`, size + "px");
-      document.querySelector(`.${name}-grip`)?.setAttribute("aria-valuenow", size);
+      document.querySelector(`.${name}-splitter`)?.setAttribute("aria-valuenow", size);
     };
     show(kept() || grip.usual());
     document.addEventListener("pointerdown", (event) => {
@@ -61,23 +61,23 @@ _GRIPS = """
 """
 
 
-def add_grips() -> None:
+def add_splitters() -> None:
     """Give the page the sizes that its browser keeps; once, before the panels."""
-    ui.add_body_html(_GRIPS)
+    ui.add_body_html(_SPLITTER_SCRIPT)
 
 
-def side_grip() -> None:
+def side_splitter() -> None:
     """Build the grip at the left edge of the side panel."""
-    grip = _grip("side", "vertical", "Width of the side panel")
+    grip = _splitter("side", "vertical", "Width of the side panel")
     grip.props('aria-valuemin="280" aria-valuemax="1200" aria-valuenow="368"')
 
 
-def dock_grip() -> None:
+def dock_splitter() -> None:
     """Build the grip at the upper edge of the dock."""
-    grip = _grip("dock", "horizontal", "Height of the panels below")
+    grip = _splitter("dock", "horizontal", "Height of the panels below")
     grip.props('aria-valuemin="64" aria-valuemax="640" aria-valuenow="104"')
 
 
-def _grip(name: str, direction: str, label: str) -> ui.element:
-    grip = ui.element("div").classes(f"{name}-grip")
+def _splitter(name: str, direction: str, label: str) -> ui.element:
+    grip = ui.element("div").classes(f"{name}-splitter")
     return grip.props(f'role="separator" tabindex="0" aria-orientation="{direction}" aria-label="{label}"')

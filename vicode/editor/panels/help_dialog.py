@@ -4,35 +4,35 @@ from collections.abc import Iterable, Sequence
 
 from nicegui import ui
 
-from vicode.editor.canvas.commands import BY_HAND, CANVAS_COMMANDS, Group
-from vicode.editor.panels.command import Command, Place
+from vicode.editor.canvas.commands import CANVAS_COMMANDS, GESTURE_HELP, CommandGroup
+from vicode.editor.panels.command import Command, MenuGroup
 from vicode.editor.panels.dialogs import titled_dialog
 
-_PAGE = {Place.DESIGN: "Design", Place.EDIT: "Edit", Place.VIEW: "View"}
+_PAGE = {MenuGroup.DESIGN: "Design", MenuGroup.EDIT: "Edit", MenuGroup.VIEW: "View"}
 
 
 def show_help(commands: Sequence[Command]) -> None:
     """Show it; Escape closes it."""
     with titled_dialog("Keys and gestures", "help") as dialog:
         with ui.element("div").classes("help-scroll"), ui.element("div").classes("help-columns"):
-            for group in Group:
+            for group in CommandGroup:
                 _section(f"Canvas: {group.lower()}", _canvas_rows(group))
             for place, title in _PAGE.items():
                 _section(f"Page: {title.lower()}", _page_rows(commands, place))
-            _section("Canvas: by hand", BY_HAND)
+            _section("Canvas: by hand", GESTURE_HELP)
         with ui.row().classes("dialog-buttons"):
             ui.button("Close", on_click=dialog.close).props("flat no-caps autofocus")
     dialog.on("hide", dialog.delete)
 
 
-def _canvas_rows(group: Group) -> list[tuple[str, str]]:
-    here = (each for each in CANVAS_COMMANDS if each.group is group and (each.keys or each.shown))
-    return [(each.shown or " or ".join(each.keys), each.label) for each in here]
+def _canvas_rows(group: CommandGroup) -> list[tuple[str, str]]:
+    here = (each for each in CANVAS_COMMANDS if each.group is group and (each.keys or each.keys_label))
+    return [(each.keys_label or " or ".join(each.keys), each.label) for each in here]
 
 
-def _page_rows(commands: Iterable[Command], place: Place) -> list[tuple[str, str]]:
+def _page_rows(commands: Iterable[Command], place: MenuGroup) -> list[tuple[str, str]]:
     own = {each.name for each in CANVAS_COMMANDS}
-    here = (each for each in commands if each.place == place and each.keys and each.name not in own)
+    here = (each for each in commands if each.menu_group == place and each.keys and each.name not in own)
     return [(" or ".join(each.keys), each.label) for each in here]
 
 

@@ -5,11 +5,11 @@ from collections.abc import Callable
 
 from nicegui import ui
 
-from vicode.editor.panels.desk import Desk
+from vicode.editor.panels.desk import WindowContext
 from vicode.editor.panels.dialogs import titled_dialog
 from vicode.editor.panels.rows import primary_button
-from vicode.editor.session.history_lines import HistoryLine, lines_of_history
-from vicode.editor.session.people import DISK
+from vicode.editor.session.history_lines import HistoryRow, list_history_rows
+from vicode.editor.session.people import DISK_USER
 
 _PAGE = 60
 _WALK = """(event) => {
@@ -22,11 +22,11 @@ _WALK = """(event) => {
 class HistoryPanel:
     """Builds the list; `refresh` adds new steps and marks where the design is."""
 
-    def __init__(self, desk: Desk) -> None:
+    def __init__(self, context: WindowContext) -> None:
         """Build it empty."""
-        self.desk = desk
-        self.most = _PAGE
-        self.shown: dict[int, HistoryLine] = {}
+        self.context = context
+        self.limit = _PAGE
+        self.shown: dict[int, HistoryRow] = {}
         self.rows: dict[int, ui.element] = {}
         self.list = ui.element("div").classes("history-list").props('role="group" aria-label="History"')
         self.list.on("keydown", js_handler=_WALK)
@@ -34,8 +34,8 @@ class HistoryPanel:
 
     def refresh(self) -> None:
         """Show the history as it is now; only what changed is built."""
-        history = self.desk.document.history
-        lines = {line.step.id: line for line in lines_of_history(history, self.most)}
+        history = self.context.document.history
+        lines = {line.entry.id: line for line in list_history_rows(history, self.limit)}
         for id_ in [each for each in self.shown if each not in lines]:
             self.rows.pop(id_).delete()
             del self.shown[id_]
@@ -45,68 +45,68 @@ class HistoryPanel:
                     self.rows[id_] = self._row(line)
                     self.rows[id_].move(target_index=place)
                 elif self.shown[id_] != line:
-                    self._mark(self.rows[id_], line)
+                    self._style_row(self.rows[id_], line)
         self.shown = lines
-        self.more.set_visibility(len(history.steps) > len(lines))
+        self.more.set_visibility(len(history.entries) > len(lines))
 
-    def _row(self, line: HistoryLine) -> ui.element:
-        step, people = line.step, self.desk.document.sheet.people
+    def _row(self, line: HistoryRow) -> ui.element:
+        step, people = line.entry, self.context.document.shared.users
         row = ui.element("button").classes("history-row").props('type="button"')
         with row:
             ui.icon("play_arrow").classes("history-now").props('aria-hidden="true"')
             ui.label(time.strftime("%H:%M:%S", time.localtime(step.at_s))).classes("history-time mono")
             ui.label(step.label).classes("history-label")
-            ui.label(people.name_of(step.person) if step.person else "").classes("history-person")
-        row.on("click", self._goer(step.id))
-        self._mark(row, line)
+            ui.label(people.name_of(step.user_id) if step.user_id else "").classes("history-person")
+        row.on("click", self._jump_handler(step.id))
+        self._style_row(row, line)
         return row
 
-    def _mark(self, row: ui.element, line: HistoryLine) -> None:
-        row.classes(add="is-now" if line.is_now else None, remove=None if line.is_now else "is-now")
+    def _style_row(self, row: ui.element, line: HistoryRow) -> None:
+        row.classes(add="is-now" if line.is_current else None, remove=None if line.is_current else "is-now")
         row.classes(add="is-ahead" if line.is_ahead else None, remove=None if line.is_ahead else "is-ahead")
         row.style(f"--depth: {min(line.depth, 8)}")
-        row.props('aria-current="step"') if line.is_now else row.props(remove="aria-current")
+        row.props('aria-current="step"') if line.is_current else row.props(remove="aria-current")
 
     def _show_more(self) -> None:
-        self.most += _PAGE
+        self.limit += _PAGE
         self.refresh()
 
-    def _goer(self, step: int) -> Callable[[], None]:
+    def _jump_handler(self, step: int) -> Callable[[], None]:
         def go() -> None:
-            left = self._left_by(step)
+            left = self._describe_left_steps(step)
             if left:
                 self._ask(step, left)
             else:
-                self._go(step)
+                self._jump(step)
 
         return go
 
-    def _go(self, step: int) -> None:
-        refused = self.desk.document.jump(step)
+    def _jump(self, step: int) -> None:
+        refused = self.context.document.jump_to(step)
         if refused:
-            self.desk.say(refused, "warning")
+            self.context.show_toast(refused, "warning")
 
-    def _left_by(self, step: int) -> str:
+    def _describe_left_steps(self, step: int) -> str:
         """Whose steps a jump would leave, and how many: "3 steps of Ana"; nothing if only one's own."""
-        document = self.desk.document
-        kept = {each.id for each in document.history.jumped(step).path}
+        document = self.context.document
+        kept = {each.id for each in document.history.moved_to(step).path}
         left = [each for each in document.history.path if each.id not in kept]
         counts: dict[str, int] = {}
         for each in left:
-            if each.person not in ("", DISK, document.person):
-                counts[each.person] = counts.get(each.person, 0) + 1
-        name = document.sheet.people.name_of
+            if each.user_id not in ("", DISK_USER, document.user_id):
+                counts[each.user_id] = counts.get(each.user_id, 0) + 1
+        name = document.shared.users.name_of
         return " and ".join(
             f"{count} {'step' if count == 1 else 'steps'} of {name(who)}" for who, count in counts.items()
         )
 
     def _ask(self, step: int, left: str) -> None:
-        label = self.desk.document.history.steps[step].label
+        label = self.context.document.history.entries[step].label
         with titled_dialog(f"Go to “{label}”?") as dialog:
             ui.label(f"This leaves {left}, for everybody here. They stay in the history.")
 
             def go() -> None:
-                self._go(step)
+                self._jump(step)
                 dialog.close()
 
             with ui.row().classes("dialog-buttons"):

@@ -5,46 +5,46 @@ from weakref import WeakSet
 
 from nicegui import background_tasks, run
 
-from vicode.editor.session.document import Document
-from vicode.editor.session.linting import Lint, Lints, lint_design
+from vicode.editor.session.document import DocumentSession
+from vicode.editor.session.linting import LintWarning, LintWarnings, lint_design
 from vicode.editor.session.workspace import Workspace
-from vicode.findings import Path
-from vicode.model.texts import walk_texts
+from vicode.findings import DesignPath
+from vicode.model.texts import iter_texts
 
 
-class Follower(Protocol):
+class LintSubscriber(Protocol):
     """A field that shows remarks."""
 
     @property
-    def is_gone(self) -> bool:
+    def is_deleted(self) -> bool:
         """Whether it is on no page any more."""
 
     def refresh(self) -> None:
         """Show what there is now."""
 
 
-class CodeLints:
+class CodeLinter:
     """The remarks for one window; asked anew when the design has changed, the newest answer counts."""
 
-    def __init__(self, workspace: Workspace, document: Document) -> None:
+    def __init__(self, workspace: Workspace, document: DocumentSession) -> None:
         """Nothing is known yet, and nothing is asked before a field follows."""
         self._workspace, self._document = workspace, document
-        self._followers: WeakSet[Follower] = WeakSet()
-        self._found: Lints = {}
-        self._texts: dict[Path, str] = {}
+        self._subscribers: WeakSet[LintSubscriber] = WeakSet()
+        self._found: LintWarnings = {}
+        self._texts: dict[DesignPath, str] = {}
         self._linted_rev = -1
         self._is_busy = False
 
-    def follow(self, follower: Follower) -> None:
+    def subscribe(self, follower: LintSubscriber) -> None:
         """Refresh a field whenever there are new remarks, as long as it lives."""
-        self._followers.add(follower)
+        self._subscribers.add(follower)
 
-    def of(self, path: Path, text: str) -> tuple[Lint, ...]:
+    def lints_for(self, path: DesignPath, text: str) -> tuple[LintWarning, ...]:
         """The remarks on the code at a path, if they were made of this very text; asks for newer ones if it is time."""
-        self._ask()
+        self._lint_if_needed()
         return self._found.get(path, ()) if self._texts.get(path) == text else ()
 
-    def _ask(self) -> None:
+    def _lint_if_needed(self) -> None:
         if not self._is_busy and self._linted_rev != self._document.rev:
             self._is_busy = True
             background_tasks.create(self._lint(), name="lint")
@@ -58,9 +58,9 @@ class CodeLints:
                 if found is None:
                     return
                 self._found = found
-                self._texts = {each.path: each.text for each in walk_texts(design) if each.language == "python"}
+                self._texts = {each.path: each.text for each in iter_texts(design) if each.language == "python"}
         finally:
             self._is_busy = False
-        for follower in tuple(self._followers):
-            if not follower.is_gone:
+        for follower in tuple(self._subscribers):
+            if not follower.is_deleted:
                 follower.refresh()

@@ -7,12 +7,12 @@ from nicegui import ui
 _SHORT_MS, _LONG_MS = 3500, 8000
 
 
-def say(text: str, kind: str) -> None:
+def show_toast(text: str, kind: str) -> None:
     """Show a message for a while; `kind` is positive, negative, info or warning. Presses go to what lies under it."""
     timeout = _LONG_MS if kind == "negative" else _SHORT_MS
-    ui.notify(text, type=cast("Any", kind), position="bottom", timeout=timeout, classes="is-told")
+    ui.notify(text, type=cast("Any", kind), position="bottom", timeout=timeout, classes="is-toast")
 
 
-def tell_failure() -> None:
+def show_internal_error() -> None:
     """Say that vicode itself failed at what was asked; the server prints the rest."""
-    say("vicode failed at this: it may not have been done. Where it was started, it says more.", "negative")
+    show_toast("vicode failed at this: it may not have been done. Where it was started, it says more.", "negative")

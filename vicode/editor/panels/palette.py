@@ -7,101 +7,113 @@ from nicegui import ui
 from nicegui.events import GenericEventArguments
 
 from vicode.editor.panels.command import Command
-from vicode.editor.session.finding_things import Goal, Index, Kind, Match, Thing, rank
+from vicode.editor.session.finding_things import (
+    SearchIndex,
+    SearchItem,
+    SearchKind,
+    SearchMatch,
+    SearchTarget,
+    rank_items,
+)
 
-Go = Callable[[Goal], object]
+NavigateTo = Callable[[SearchTarget], object]
 
 _ICONS = {
-    Kind.COMMAND: "bolt",
-    Kind.COMPONENT: "account_tree",
-    Kind.STATE: "crop_16_9",
-    Kind.USE: "hexagon",
-    Kind.DECLARATION: "data_object",
-    Kind.TRANSITION: "trending_flat",
+    SearchKind.COMMAND: "bolt",
+    SearchKind.COMPONENT: "account_tree",
+    SearchKind.STATE: "crop_16_9",
+    SearchKind.USE: "hexagon",
+    SearchKind.DECLARATION: "data_object",
+    SearchKind.TRANSITION: "trending_flat",
 }
-_LONGEST_DETAIL = 160
+_MAX_DETAIL_LENGTH = 160
 
 
-class Palette(ui.element, component="vicode_palette.js"):
+class CommandPalette(ui.element, component="vicode_palette.js"):
     """Opens over the page; `open` shows it.
 
     Args:
         index: what there is to find.
-        go: leads to a thing.
-        here: the design that is open, None on the home page.
+        navigate: leads to a thing.
+        current: the design that is open, None on the home page.
     """
 
-    def __init__(self, index: Index, go: Go, here: Goal | None = None) -> None:
+    def __init__(self, index: SearchIndex, navigate: NavigateTo, current: SearchTarget | None = None) -> None:
         """Build it closed."""
         super().__init__()
-        self._index, self._go, self._here = index, go, here
+        self._index, self._navigate, self._current = index, navigate, current
         self.commands: Sequence[Command] = ()
-        self._things: list[Thing] = []
-        self._told: tuple[str, tuple[Match, ...]] = ("", ())
-        self._opening: object = None
+        self._items: list[SearchItem] = []
+        self._last_result: tuple[str, tuple[SearchMatch, ...]] = ("", ())
+        self._opening_id: object = None
         # Handlers added after the first rendering would make NiceGUI mount the element anew.
-        self.on("ask", self._hear_ask)
-        self.on("choose", self._hear_choose)
+        self.on("ask", self._on_query)
+        self.on("choose", self._on_choose)
 
     def open(self) -> None:
         """Show it."""
         self.run_method("open")
 
-    def _take_stock(self, event: GenericEventArguments) -> None:
+    def _reload_items(self, event: GenericEventArguments) -> None:
         """Look at what there is now, once every time it is opened."""
         opening = event.args.get("opening") if isinstance(event.args, dict) else None
-        if opening == self._opening:
+        if opening == self._opening_id:
             return
-        self._opening = opening
-        self._things = [*self._index.things(), *(_thing_of(command) for command in self.commands)]
-        self._told = ("", ())
+        self._opening_id = opening
+        self._items = [*self._index.items(), *(_command_item(command) for command in self.commands)]
+        self._last_result = ("", ())
 
-    def _hear_ask(self, event: GenericEventArguments) -> None:
-        self._take_stock(event)
+    def _on_query(self, event: GenericEventArguments) -> None:
+        self._reload_items(event)
         text = _text(event)
         matches = self._find(text)
         count = f"{len(matches)} found" if matches else "Nothing found: try fewer or other letters"
         self.run_method("answer", {"text": text, "hits": [_hit(match) for match in matches], "words": count})
 
-    def _hear_choose(self, event: GenericEventArguments) -> None:
-        self._take_stock(event)
+    def _on_choose(self, event: GenericEventArguments) -> None:
+        self._reload_items(event)
         matches = self._find(_text(event))
         index = event.args.get("index")
         if not isinstance(index, int) or not 0 <= index < len(matches):
             return
-        thing = matches[index].thing
-        if thing.goal is not None:
-            self._go(thing.goal)
+        thing = matches[index].item
+        if thing.target is not None:
+            self._navigate(thing.target)
             return
         command = next((each for each in self.commands if each.name == thing.command), None)
         if command is not None:
-            command.act()
+            command.handler()
 
-    def _find(self, text: str) -> tuple[Match, ...]:
-        if not self._told[1] or self._told[0] != text:
-            self._told = text, rank(self._things, text, self._here)
-        return self._told[1]
+    def _find(self, text: str) -> tuple[SearchMatch, ...]:
+        if not self._last_result[1] or self._last_result[0] != text:
+            self._last_result = text, rank_items(self._items, text, self._current)
+        return self._last_result[1]
 
 
 def _text(event: GenericEventArguments) -> str:
     return str(event.args.get("text", "")) if isinstance(event.args, dict) else ""
 
 
-def _thing_of(command: Command) -> Thing:
-    return Thing(
-        Kind.COMMAND, command.label, "", str(command.place), command=command.name, keys=", ".join(command.keys)
+def _command_item(command: Command) -> SearchItem:
+    return SearchItem(
+        SearchKind.COMMAND,
+        command.label,
+        "",
+        str(command.menu_group),
+        command=command.name,
+        keys=", ".join(command.keys),
     )
 
 
-def _hit(match: Match) -> dict[str, Any]:
+def _hit(match: SearchMatch) -> dict[str, Any]:
     """What a line of the list shows; all of it is set as text."""
-    thing = match.thing
+    thing = match.item
     return {
         "icon": _ICONS[thing.kind],
         "kind": str(thing.kind),
-        "parts": _parts(thing.title, match.places),
-        "detail": " ".join(thing.detail.split())[:_LONGEST_DETAIL],
-        "where": thing.where,
+        "parts": _parts(thing.title, match.positions),
+        "detail": " ".join(thing.detail.split())[:_MAX_DETAIL_LENGTH],
+        "where": thing.location,
         "keys": thing.keys,
     }
 

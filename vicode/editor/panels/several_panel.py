@@ -5,7 +5,7 @@ from functools import partial
 
 from nicegui import ui
 
-from vicode.editor.panels.desk import Desk
+from vicode.editor.panels.desk import WindowContext
 from vicode.editor.panels.rows import heading, icon_button, panel_title
 
 _WORDS = {
@@ -35,23 +35,23 @@ _EDIT = (
 )
 
 
-def several_panel(desk: Desk) -> None:
+def multi_selection_panel(context: WindowContext) -> None:
     """Build it for what is selected."""
-    counts = Counter(thing.of for thing in desk.selected)
+    counts = Counter(thing.kind for thing in context.selected)
     parts = [f"{counts[of]} {words[counts[of] > 1]}" for of, words in _WORDS.items() if counts[of]]
     panel_title(", ".join(parts) + " selected")
     boxes = sum(counts[of] for of in ("states", "components", "common"))
     if boxes > 1:
         heading("Line up")
-        _row(desk, _ALIGN)
+        _row(context, _ALIGN)
     if boxes > 2:
         heading("Spread out")
-        _row(desk, _SPREAD)
+        _row(context, _SPREAD)
     heading("All of them")
-    _row(desk, _EDIT)
+    _row(context, _EDIT)
 
 
-def _row(desk: Desk, buttons: tuple[tuple[str, str, str], ...]) -> None:
-    with ui.row().classes("several-row"):
+def _row(context: WindowContext, buttons: tuple[tuple[str, str, str], ...]) -> None:
+    with ui.row().classes("multi-selection-row"):
         for command, icon, label in buttons:
-            icon_button(icon, label, partial(desk.run, command))
+            icon_button(icon, label, partial(context.run_canvas_command, command))

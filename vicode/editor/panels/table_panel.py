@@ -4,11 +4,11 @@ from collections.abc import Callable
 
 from nicegui import ui
 
-from vicode.editor.panels.desk import Desk
+from vicode.editor.panels.desk import WindowContext
 from vicode.editor.panels.rows import icon_button
 from vicode.editor.session.table_edits import Payload, apply_table_edit
 from vicode.editor.table import TableGrid
-from vicode.editor.view import Table, row_of, table_difference, table_of, thing_of_row
+from vicode.editor.view import TableData, diff_tables, item_row_id, make_table, parse_row_id
 
 _BUTTONS = (
     ("arrow_upward", "Earlier (Alt+Up)", {"kind": "move", "by": -1}),
@@ -20,9 +20,9 @@ _BUTTONS = (
 class TablePanel:
     """Builds the table; `refresh` brings it up to date after a change of the design or the selection."""
 
-    def __init__(self, desk: Desk) -> None:
+    def __init__(self, context: WindowContext) -> None:
         """Build it as the design is now."""
-        self.desk = desk
+        self.context = context
         with ui.row().classes("table-bar").props('role="toolbar" aria-label="Table"'):
             self._adder("State", "add-state", "New state (Ctrl+Shift+Enter)")
             self._adder("Transition", "add-transition", "New transition of this state (Ctrl+Enter)")
@@ -30,19 +30,19 @@ class TablePanel:
                 icon_button(icon, label, self._on_selected(wish))
         self.shown = self._table()
         with ui.element("div").classes("table-space"):
-            self.grid = TableGrid(self._hear, self._select)
+            self.grid = TableGrid(self._on_edit, self._select)
         self.grid.load(self.shown)
 
     def refresh(self) -> None:
         """Show the design and the selection as they are now."""
         table = self._table()
         if table != self.shown:
-            self.grid.apply(table, table_difference(self.shown, table))
+            self.grid.apply(table, diff_tables(self.shown, table))
             self.shown = table
-        self.grid.select([row_of(thing) for thing in self.desk.selected])
+        self.grid.select([item_row_id(thing) for thing in self.context.selected])
 
-    def _table(self) -> Table:
-        return table_of(self.desk.design, self.desk.document.findings)
+    def _table(self) -> TableData:
+        return make_table(self.context.design, self.context.document.findings)
 
     def _adder(self, text: str, kind: str, tip: str) -> None:
         button = ui.button(text, icon="add", on_click=self._on_selected({"kind": kind}))
@@ -51,26 +51,26 @@ class TablePanel:
 
     def _on_selected(self, wish: Payload) -> Callable[[], None]:
         def act() -> None:
-            only = self.desk.only
+            only = self.context.single_selection
             if only is None and wish["kind"] != "add-state":
-                self.desk.say("Select a row first", "info")
+                self.context.show_toast("Select a row first", "info")
                 return
-            self._hear({**wish, "row": row_of(only) if only else ""})
+            self._on_edit({**wish, "row": item_row_id(only) if only else ""})
 
         return act
 
     def _select(self, row: str) -> None:
         if row in {each["id"] for each in self.shown["rows"]}:
-            self.desk.select(thing_of_row(row))
+            self.context.select(parse_row_id(row))
 
-    def _hear(self, payload: Payload) -> None:
-        outcome = apply_table_edit(self.desk.document, payload)
-        if outcome.refused:
-            self.grid.refuse(payload, outcome.refused)
+    def _on_edit(self, payload: Payload) -> None:
+        outcome = apply_table_edit(self.context.document, payload)
+        if outcome.error:
+            self.grid.show_error(payload, outcome.error)
             if payload.get("kind") != "set":
-                self.desk.say(outcome.refused, "warning")
-        if outcome.select is None:
+                self.context.show_toast(outcome.error, "warning")
+        if outcome.new_selection is None:
             return
-        self.desk.select(*outcome.select)
+        self.context.select(*outcome.new_selection)
         if str(payload.get("kind")).startswith("add"):
-            self.grid.edit_cell(row_of(outcome.select[0]), "name")
+            self.grid.edit_cell(item_row_id(outcome.new_selection[0]), "name")

@@ -14,25 +14,25 @@ class Panel(Protocol):
 
 
 class Tabs:
-    """A bar of tabs; their panels come with `begin`, so that the page is there before what is behind its tabs.
+    """A bar of tabs; their panels come with `build`, so that the page is there before what is behind its tabs.
 
     Args:
         names: the word on each tab; the first is shown.
-        place: the style class of bar and panels, such as "side".
+        css_prefix: the style class of bar and panels, such as "side".
         label: what the tabs are of, for the ear.
     """
 
-    def __init__(self, names: Sequence[str], place: str, label: str) -> None:
+    def __init__(self, names: Sequence[str], css_prefix: str, label: str) -> None:
         """Build the bar, with room for the panels."""
         self._builders: Mapping[str, Callable[[], Panel]] = {}
         self._panels: dict[str, Panel] = {}
         self._slots: dict[str, ui.tab_panel] = {}
-        with ui.tabs().props("dense no-caps align=left").classes(f"{place}-tabs") as self._bar:
+        with ui.tabs().props("dense no-caps align=left").classes(f"{css_prefix}-tabs") as self._bar:
             self._bar.props["aria-label"] = label
             for name in names:
                 ui.tab(name)
         kept = ui.tab_panels(self._bar, value=names[0], keep_alive=True)
-        with kept.props("animated=false").classes(f"{place}-panels"):
+        with kept.props("animated=false").classes(f"{css_prefix}-panels"):
             for name in names:
                 self._slots[name] = ui.tab_panel(name)
                 self._slots[name].props["aria-label"] = name
@@ -47,7 +47,7 @@ class Tabs:
         """Open a tab."""
         self._bar.set_value(name)
 
-    def begin(self, builders: Mapping[str, Callable[[], Panel]]) -> None:
+    def build(self, builders: Mapping[str, Callable[[], Panel]]) -> None:
         """Build the panel that is shown, and the others once they are; `builders` are by the words on the tabs."""
         if not self._builders:
             self._builders = builders

@@ -1,48 +1,48 @@
 // A field for text that a server shows and changes, too. What is typed here is told with the number of the text it was
 // typed on; a text that was sent before the server heard that is not shown: it would take away what was typed.
 export default {
-  template: `<q-input ref="qRef" v-bind="$attrs" :model-value="text" @update:model-value="tell" @blur="settle" />`,
-  props: { id: String, value: String, number: Number, heard: Number },
+  template: `<q-input ref="qRef" v-bind="$attrs" :model-value="text" @update:model-value="sendText" @blur="showDeferred" />`,
+  props: { id: String, value: String, serverSeq: Number, ackedSeq: Number },
   data() {
-    return { text: this.value, on: this.number, told: this.heard, late: null };
+    return { text: this.value, baseSeq: this.serverSeq, clientSeq: this.ackedSeq, deferred: null };
   },
   mounted() {
-    this.note();
+    this.recordNative();
   },
   beforeUnmount() {
     // Who comes back to it finds what was here: a tab, for one.
     const element = mounted_app.elements[this.id.slice(1)];
-    if (element) Object.assign(element.props, { value: this.text, number: this.on, heard: this.told });
+    if (element) Object.assign(element.props, { value: this.text, serverSeq: this.baseSeq, ackedSeq: this.clientSeq });
   },
   methods: {
-    tell(text) {
+    sendText(text) {
       this.text = text;
-      this.told += 1;
-      this.late = null;
-      this.plain = this.$refs.qRef?.nativeEl?.value;
-      this.$emit("update:value", { text, on: this.on, told: this.told });
+      this.clientSeq += 1;
+      this.deferred = null;
+      this.nativeText = this.$refs.qRef?.nativeEl?.value;
+      this.$emit("update:value", { text, base_seq: this.baseSeq, client_seq: this.clientSeq });
     },
-    /** Shows text `number`, sent by a server that had heard so much. */
-    show(text, number, heard) {
-      if (heard < this.told || number <= this.on) return;
-      if (this.plain !== this.$refs.qRef?.nativeEl?.value) {
-        this.late = [text, number, heard];
+    /** Shows text number `serverSeq`, sent by a server that had heard so much. */
+    show(text, serverSeq, ackedSeq) {
+      if (ackedSeq < this.clientSeq || serverSeq <= this.baseSeq) return;
+      if (this.nativeText !== this.$refs.qRef?.nativeEl?.value) {
+        this.deferred = [text, serverSeq, ackedSeq];
         return;
       }
-      this.late = null;
+      this.deferred = null;
       this.text = text;
-      this.on = number;
-      this.$nextTick(this.note);
+      this.baseSeq = serverSeq;
+      this.$nextTick(this.recordNative);
     },
     /** What was typed and taken back is not told: what came meanwhile can be shown. */
-    settle() {
-      const late = this.late;
-      this.late = null;
-      if (late) this.show(...late);
+    showDeferred() {
+      const { deferred } = this;
+      this.deferred = null;
+      if (deferred) this.show(...deferred);
     },
     /** A browser has a spelling of its own: of the ends of lines, for one. */
-    note() {
-      this.plain = this.$refs.qRef?.nativeEl?.value;
+    recordNative() {
+      this.nativeText = this.$refs.qRef?.nativeEl?.value;
     },
   },
 };

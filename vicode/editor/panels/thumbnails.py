@@ -40,6 +40,6 @@ def thumbnail_address(workspace: Workspace, component: str, *, dark: bool) -> st
 
 @lru_cache(maxsize=512)
 def _drawn(design: Design, dark: bool) -> str:
-    from vicode.diagram.thumbnail import thumbnail  # noqa: PLC0415 - the first page shows none
+    from vicode.diagram.thumbnail import render_thumbnail  # noqa: PLC0415 - the first page shows none
 
-    return thumbnail(design, dark=dark)
+    return render_thumbnail(design, dark=dark)

@@ -12,7 +12,7 @@ class UndoBar:
 
     def __init__(self) -> None:
         """Build it hidden."""
-        self._act: Callable[[], object] = lambda: None
+        self._undo_action: Callable[[], object] = lambda: None
         with ui.element("div").classes("undo-bar").props('role="status"') as self._bar:
             self._words = ui.label()
             # Without a colour of Quasar's, which is too dark to be read on the bar of a light page.
@@ -20,15 +20,15 @@ class UndoBar:
             icon_button("close", "Dismiss", self._hide)
         self._hide()
 
-    def offer(self, words: str, act: Callable[[], object]) -> None:
-        """Say what was done; `act` takes it back."""
-        self._act = act
-        self._words.set_text(words)
+    def show(self, text: str, undo: Callable[[], object]) -> None:
+        """Say what was done; `undo` takes it back."""
+        self._undo_action = undo
+        self._words.set_text(text)
         self._bar.set_visibility(True)
 
     def _undo(self) -> None:
         self._hide()
-        self._act()
+        self._undo_action()
 
     def _hide(self) -> None:
         self._bar.set_visibility(False)

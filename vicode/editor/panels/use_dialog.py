@@ -8,8 +8,8 @@ from vicode.editor.panels.dialogs import titled_dialog
 from vicode.model.project import Interface
 
 
-def ask_for_component(interfaces: Sequence[Interface], take: Callable[[str], None]) -> None:
-    """Show the components of a project; `take` is called with the name of the chosen one."""
+def ask_for_component(interfaces: Sequence[Interface], on_chosen: Callable[[str], None]) -> None:
+    """Show the components of a project; `on_chosen` is called with the name of the chosen one."""
     with titled_dialog("Use a component", "use-dialog") as dialog:
         wanted = (
             ui.input("Component", placeholder="a part of its name")
@@ -24,7 +24,7 @@ def ask_for_component(interfaces: Sequence[Interface], take: Callable[[str], Non
 
     def choose(component: str) -> None:
         dialog.close()
-        take(component)
+        on_chosen(component)
 
     def show() -> None:
         rows.clear()

@@ -2,61 +2,61 @@
 
 from nicegui import ui
 
-from vicode.editor.panels.desk import Desk
-from vicode.editor.panels.fields import Bound, Field
-from vicode.editor.panels.name_field import name_field, rename_by_gesture
+from vicode.editor.panels.desk import WindowContext
+from vicode.editor.panels.fields import Field, FieldBinding
+from vicode.editor.panels.name_field import name_field, rename_node
 from vicode.editor.panels.project.components import component_form
 from vicode.editor.panels.rows import heading, panel_title
 from vicode.editor.session import numbers
-from vicode.editor.session.project_spots import Spot
-from vicode.editor.view import Selected
+from vicode.editor.session.project_spots import ProjectNodePath
+from vicode.editor.view import ItemRef
 from vicode.model.design import Declaration, Use
-from vicode.model.edits import remove_uses, unlink
+from vicode.model.edits import remove_link, remove_uses
 from vicode.model.project import INTERNAL, WORLD, Interface
 
 
-def use_panel(desk: Desk, alias: str) -> list[Field]:
+def use_panel(context: WindowContext, alias: str) -> list[Field]:
     """Build the panel of a used component: the name it has here, and what it shows."""
-    use = desk.design.use(alias)
+    use = context.design.use(alias)
     if use is None:
         return []
-    project = desk.workspace.project
+    project = context.workspace.project
     interface = project.interface(use.component)
     panel_title("Component", use.component)
-    fields: list[Field] = [_alias(desk, alias)]
+    fields: list[Field] = [_alias(context, alias)]
     if interface is None:
         ui.label("Nothing in the project declares it.").classes("field-finding")
         return fields
     if project.design(use.component) is None:
-        _hand_written(desk, use, fields)
+        _hand_written(context, use, fields)
     else:
-        _designed(desk, use, interface)
+        _designed(context, use, interface)
 
     def remove() -> None:
-        desk.edit(f"stop using {alias}", lambda design: remove_uses(design, [alias]))
-        desk.select()
+        context.edit(f"stop using {alias}", lambda design: remove_uses(design, [alias]))
+        context.select()
 
     ui.button("Stop using it", icon="delete", on_click=remove).props("flat dense no-caps color=negative")
     return fields
 
 
-def _hand_written(desk: Desk, use: Use, fields: list[Field]) -> None:
+def _hand_written(context: WindowContext, use: Use, fields: list[Field]) -> None:
     """Of a component without a design the form: what it shows stands in project.yaml."""
-    components = desk.workspace.project.components
+    components = context.workspace.project.components
     number = next(at for at, each in enumerate(components) if each.component == use.component)
     ui.label(_ORIGINS.get(components[number].implementation, "Written by hand")).classes("small")
     ui.label("Of all designs; a change is written into project.yaml at once.").classes("empty")
-    component_form(desk, Spot.of("components", number), fields, alias=use.alias)
+    component_form(context, ProjectNodePath.top_level("components", number), fields, alias=use.alias)
 
 
-def _designed(desk: Desk, use: Use, interface: Interface) -> None:
+def _designed(context: WindowContext, use: Use, interface: Interface) -> None:
     """Of a component with a design what it shows: its form is elsewhere."""
     alias = use.alias
     if interface.title:
         ui.label(interface.title).classes("interface-title")
     ui.label(interface.doc).classes("doc")
     ui.label(_facts(interface)).classes("small")
-    ui.button("Open its design", icon="open_in_new", on_click=lambda: desk.open(use.component)).props(
+    ui.button("Open its design", icon="open_in_new", on_click=lambda: context.open_component(use.component)).props(
         "flat no-caps dense"
     )
     heading(f"Outputs, read as {alias}.…")
@@ -65,22 +65,26 @@ def _designed(desk: Desk, use: Use, interface: Interface) -> None:
     _table(interface.parameters)
 
 
-def _alias(desk: Desk, alias: str) -> Field:
+def _alias(context: WindowContext, alias: str) -> Field:
     def take(old: str, new: str) -> str:
-        return rename_by_gesture(desk, Selected(of="components", id=old), new)
+        return rename_node(context, ItemRef(kind="components", id=old), new)
 
-    bound = Bound(
+    bound = FieldBinding(
         label="Used here as",
         read=lambda design: alias if design.use(alias) else "",
         write=lambda design, _value: design,
         path=("uses", alias),
     )
-    return name_field(desk, bound, take)
+    return name_field(context, bound, take)
 
 
 def _facts(interface: Interface) -> str:
     """What project.yaml says of it beside its declarations."""
-    rate = f"Works at {numbers.text_of(interface.frequency_hz)} Hz" if interface.frequency_hz else "Works at every step"
+    rate = (
+        f"Works at {numbers.format_number(interface.frequency_hz)} Hz"
+        if interface.frequency_hz
+        else "Works at every step"
+    )
     return rate + (f", in XABSL {interface.xabsl_name}" if interface.xabsl_name else "")
 
 
@@ -91,7 +95,7 @@ def _about(declaration: Declaration) -> str:
         f"takes {', '.join(each.name for each in given) or 'nothing'}" if given is not None else "",
         declaration.type,
         declaration.unit,
-        f"{numbers.text_of(declaration.range[0])} to {numbers.text_of(declaration.range[1])}"
+        f"{numbers.format_number(declaration.range[0])} to {numbers.format_number(declaration.range[1])}"
         if declaration.range
         else "",
         f"= {declaration.initial}" if declaration.initial else "",
@@ -113,17 +117,19 @@ def _table(declarations: tuple[Declaration, ...]) -> None:
             ui.label(declaration.doc).classes("interface-doc")
 
 
-def link_panel(desk: Desk, key: str) -> list[Field]:
+def link_panel(context: WindowContext, key: str) -> list[Field]:
     """Build the panel of a link between a state and a component."""
     kind, state, alias = key.split("/")
     panel_title(f"{state} {kind}", alias)
-    ui.button("Open the state", on_click=lambda: desk.select(Selected(of="states", id=state))).props(
+    ui.button("Open the state", on_click=lambda: context.select(ItemRef(kind="states", id=state))).props(
         "flat dense no-caps"
     )
 
     def remove() -> None:
-        desk.edit(f"{state}: no {alias}", lambda design: unlink(design, state, alias, modulates=kind == "modulates"))
-        desk.select()
+        context.edit(
+            f"{state}: no {alias}", lambda design: remove_link(design, state, alias, modulates=kind == "modulates")
+        )
+        context.select()
 
     ui.button("Remove", icon="delete", on_click=remove).props("flat dense no-caps color=negative")
     return []

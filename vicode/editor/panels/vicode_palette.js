@@ -1,18 +1,18 @@
 // The search palette: a field and a list in a dialog of the browser's own. It holds what was found last; Python finds.
 export default {
   template: `
-    <dialog ref="box" class="palette" aria-label="Find anything" @click="leave">
+    <dialog ref="box" class="palette" aria-label="Find anything" @click="onBackdropClick">
       <div class="palette-frame">
         <div class="palette-top">
           <i class="q-icon material-icons" aria-hidden="true">search</i>
           <input ref="field" class="palette-field" type="text" role="combobox" aria-expanded="true" aria-autocomplete="list"
             autocomplete="off" spellcheck="false" aria-label="Find states, transitions, components and commands"
             placeholder="Find states, transitions, components, commands"
-            :aria-controls="$.uid + '-list'" :aria-activedescendant="hits.length ? idOf(at) : null"
-            v-model="text" @input="ask" @keydown="press">
+            :aria-controls="$.uid + '-list'" :aria-activedescendant="hits.length ? optionId(at) : null"
+            v-model="text" @input="sendQuery" @keydown="onKeyDown">
         </div>
         <ul ref="list" class="palette-list" role="listbox" :id="$.uid + '-list'" aria-label="Found">
-          <li v-for="(hit, index) in hits" :key="index" :id="idOf(index)" role="option" class="palette-hit"
+          <li v-for="(hit, index) in hits" :key="index" :id="optionId(index)" role="option" class="palette-hit"
             :aria-selected="index === at" @mousemove="at = index" @click="choose(index, shown)">
             <i class="q-icon material-icons" aria-hidden="true">{{ hit.icon }}</i>
             <span class="palette-title"><template v-for="part in hit.parts"><mark v-if="part.found">{{ part.text }}</mark><template v-else>{{ part.text }}</template></template></span>
@@ -28,15 +28,15 @@ export default {
   data: () => ({ text: "", shown: "", hits: [], at: 0, words: "", opening: 0 }),
   mounted() {
     // Its keys open it here and now: what is typed next must not fall on the drawing below.
-    this.hear = (event) => {
+    this.onCommand = (event) => {
       if (event.detail !== "find") return;
       event.preventDefault();
       this.open();
     };
-    addEventListener("vicode-wish", this.hear);
+    addEventListener("vicode-command", this.onCommand);
   },
   unmounted() {
-    removeEventListener("vicode-wish", this.hear);
+    removeEventListener("vicode-command", this.onCommand);
   },
   methods: {
     open() {
@@ -45,25 +45,25 @@ export default {
       this.opening += 1;
       this.$refs.box.showModal();
       this.$refs.field.focus();
-      this.ask();
+      this.sendQuery();
     },
     /** What Python found for a text. Questions asked before the page could speak may be heard in any order. */
     answer({ text, hits, words }) {
       if (text !== this.text) return;
       // Who went down the list before this answer came stays on what was chosen, if it is still there.
-      const chosen = this.at && nameOf(this.hits[this.at]);
+      const chosen = this.at && hitKey(this.hits[this.at]);
       this.shown = text;
       this.hits = hits;
       this.words = words;
-      this.at = chosen ? Math.max(0, hits.findIndex((hit) => nameOf(hit) === chosen)) : 0;
+      this.at = chosen ? Math.max(0, hits.findIndex((hit) => hitKey(hit) === chosen)) : 0;
       if (this.at) this.show();
       else if (this.$refs.list) this.$refs.list.scrollTop = 0;
     },
-    ask() {
+    sendQuery() {
       this.at = 0;
       this.$emit("ask", { text: this.text, opening: this.opening });
     },
-    press(event) {
+    onKeyDown(event) {
       const steps = { ArrowDown: 1, ArrowUp: -1, PageDown: 8, PageUp: -8 };
       if (event.isComposing) return;
       if (event.key === "Enter") this.choose(this.at, this.at ? this.shown : this.text);
@@ -80,24 +80,24 @@ export default {
       this.show();
     },
     show() {
-      this.$nextTick(() => document.getElementById(this.idOf(this.at))?.scrollIntoView({ block: "nearest" }));
+      this.$nextTick(() => document.getElementById(this.optionId(this.at))?.scrollIntoView({ block: "nearest" }));
     },
     /** Python finds again by the text: of the one in the field the first is wanted, though it may not be shown yet. */
     choose(index, text) {
       this.$refs.box.close();
       this.$emit("choose", { text, opening: this.opening, index });
     },
-    leave(event) {
+    onBackdropClick(event) {
       if (event.target === this.$refs.box) this.$refs.box.close();
     },
-    idOf(index) {
+    optionId(index) {
       return `${this.$.uid}-hit-${index}`;
     },
   },
 };
 
 /** By what one thing found is told from the others. */
-function nameOf(hit) {
+function hitKey(hit) {
   const title = hit.parts.map((part) => part.text).join("");
   return [hit.kind, hit.where, hit.detail, title].join("\n");
 }

@@ -15,10 +15,10 @@ export default {
       <div class="tour-buttons">
         <button type="button" class="tour-quiet" @click="end">Do not show again</button>
         <button v-if="at > 0" type="button" class="tour-quiet" @click="go(at - 1)">Back</button>
-        <button ref="next" type="button" class="tour-next" @click="next">{{ at + 1 < steps.length ? (step.done ? "Skip" : "Next") : "Done" }}</button>
+        <button ref="next" type="button" class="tour-next" @click="next">{{ at + 1 < steps.length ? (step.completed_by ? "Skip" : "Next") : "Done" }}</button>
       </div>
     </section>`,
-  props: { steps: Array, begins: Boolean, facts: Object },
+  props: { steps: Array, startsAutomatically: Boolean, facts: Object },
   data: () => ({ at: -1, ring: {}, place: {} }),
   computed: {
     step() {
@@ -27,13 +27,13 @@ export default {
   },
   watch: {
     facts(now) {
-      if (this.step && isDone(this.step.done, { now, here: this.here, before: this.before })) this.next();
+      if (this.step && isDone(this.step.completed_by, { now, stepFacts: this.stepFacts, startFacts: this.startFacts })) this.next();
     },
   },
   mounted() {
-    this.escape = (event) => this.heard(event);
+    this.escape = (event) => this.onKeyDown(event);
     document.addEventListener("keydown", this.escape, true);
-    if (this.begins && !isOver()) this.waiting = setInterval(() => drawing() && this.start(), WATCH_MS);
+    if (this.startsAutomatically && !isDismissed()) this.waiting = setInterval(() => findCanvas() && this.start(), WATCH_MS);
   },
   unmounted() {
     document.removeEventListener("keydown", this.escape, true);
@@ -44,17 +44,17 @@ export default {
     start() {
       clearInterval(this.waiting);
       clearInterval(this.watching);
-      this.before = this.facts;
-      this.watching = setInterval(() => this.arrange(), WATCH_MS);
+      this.startFacts = this.facts;
+      this.watching = setInterval(() => this.updatePosition(), WATCH_MS);
       this.go(0);
     },
     go(at) {
       this.at = at;
-      this.here = this.facts;
+      this.stepFacts = this.facts;
       this.$nextTick(() => {
-        this.arrange();
+        this.updatePosition();
         // What is done on the drawing by keys is done there; else the card's own button is at hand.
-        if (this.step?.done && at > 0) drawing()?.focus();
+        if (this.step?.completed_by && at > 0) findCanvas()?.focus();
         else this.$refs.next?.focus({ preventScroll: true });
       });
     },
@@ -70,29 +70,29 @@ export default {
       } catch {
         // A private window keeps nothing: it comes again in the next one.
       }
-      drawing()?.focus();
+      findCanvas()?.focus();
     },
     /** Escape ends the tour, but what is being typed has it first. */
-    heard(event) {
+    onKeyDown(event) {
       if (event.key !== "Escape" || !this.step || document.querySelector(".q-dialog, dialog[open], .q-menu")) return;
       if (event.composedPath()[0].closest?.("input, textarea, [contenteditable=true]")) return;
       event.preventDefault();
       event.stopPropagation();
       this.end();
     },
-    arrange() {
+    updatePosition() {
       const card = this.$refs.card;
-      const target = this.step?.at && document.querySelector(this.step.at);
+      const target = this.step?.target && document.querySelector(this.step.target);
       if (!card || !target) return;
       const box = target.getBoundingClientRect();
       this.ring = { left: `${box.left + 2}px`, top: `${box.top + 2}px`, width: `${box.width - 4}px`, height: `${box.height - 4}px` };
-      const { left, top } = placeBeside(box, card.getBoundingClientRect());
+      const { left, top } = placeCard(box, card.getBoundingClientRect());
       this.place = { left: `${left}px`, top: `${top}px` };
     },
   },
 };
 
-const isOver = () => {
+const isDismissed = () => {
   try {
     return localStorage.getItem(KEY) === "over";
   } catch {
@@ -100,22 +100,22 @@ const isOver = () => {
   }
 };
 
-const drawing = () => document.querySelector(".vicode-canvas[data-ready]")?.shadowRoot?.querySelector(".stage");
+const findCanvas = () => document.querySelector(".vicode-canvas[data-ready]")?.shadowRoot?.querySelector(".stage");
 
 /** Whether what a step asks for was done; facts are compared with those of its begin, and of the tour's. */
-function isDone(wish, { now, here, before }) {
+function isDone(wish, { now, stepFacts, startFacts }) {
   const checks = {
-    selected: () => now.selected >= 0 && now.selected < here.states,
-    "state-more": () => now.states > here.states,
-    "transition-more": () => now.transitions > here.transitions,
-    "as-at-start": () => now.states === before.states && now.transitions === before.transitions,
+    selected: () => now.selected >= 0 && now.selected < stepFacts.states,
+    "state-added": () => now.states > stepFacts.states,
+    "transition-added": () => now.transitions > stepFacts.transitions,
+    restored: () => now.states === startFacts.states && now.transitions === startFacts.transitions,
     table: () => now.table,
   };
   return checks[wish]?.() ?? false;
 }
 
 /** Left of a part at the right, above one at the bottom, below a bar at the top; inside a large one, where it hides least. */
-function placeBeside(box, card) {
+function placeCard(box, card) {
   const clampX = (x) => Math.max(GAP, Math.min(innerWidth - card.width - GAP, x));
   const clampY = (y) => Math.max(GAP, Math.min(innerHeight - card.height - GAP, y));
   if (box.left > card.width + 2 * GAP && box.height > innerHeight / 2) return { left: clampX(box.left - card.width - GAP), top: clampY(box.top + 56) };

@@ -1,29 +1,29 @@
 """Open designs: history, edits by gesture, saving and generating. Knows no NiceGUI."""
 
-from vicode.editor.session.document import Document, Sheet
-from vicode.editor.session.following import follow, follow_gesture
-from vicode.editor.session.gestures import Outcome, apply_gesture, take_places
-from vicode.editor.session.history import History, Step
+from vicode.editor.session.document import DocumentSession, SharedDocument
+from vicode.editor.session.following import rebase_gesture, rebase_selection
+from vicode.editor.session.gestures import EditResult, apply_gesture, apply_layout
+from vicode.editor.session.history import HistoryEntry, UndoHistory
 from vicode.editor.session.library import Library
-from vicode.editor.session.people import DISK, Company, People, Person, Presence
-from vicode.editor.session.workspace import ChangedOnDiskError, Workspace
+from vicode.editor.session.people import DISK_USER, Presence, PresenceRoom, User, UserDirectory
+from vicode.editor.session.workspace import DiskConflictError, Workspace
 
 __all__ = [
-    "DISK",
-    "ChangedOnDiskError",
-    "Company",
-    "Document",
-    "History",
+    "DISK_USER",
+    "DiskConflictError",
+    "DocumentSession",
+    "EditResult",
+    "HistoryEntry",
     "Library",
-    "Outcome",
-    "People",
-    "Person",
     "Presence",
-    "Sheet",
-    "Step",
+    "PresenceRoom",
+    "SharedDocument",
+    "UndoHistory",
+    "User",
+    "UserDirectory",
     "Workspace",
     "apply_gesture",
-    "follow",
-    "follow_gesture",
-    "take_places",
+    "apply_layout",
+    "rebase_gesture",
+    "rebase_selection",
 ]

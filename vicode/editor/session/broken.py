@@ -3,25 +3,25 @@
 from dataclasses import dataclass
 from pathlib import Path
 
-from vicode.editor.session.marking import Mark
+from vicode.editor.session.marking import CodeMark
 from vicode.findings import Finding
 from vicode.store import read_design, write_text
 
 
-class ChangedMeanwhileError(Exception):
+class FileModifiedError(Exception):
     """Another program wrote the file since its text was read here."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Reading:
+class ParsedText:
     """A text as it would be read: what is wrong, at which characters, and the component if there is one."""
 
     findings: tuple[Finding, ...]
-    marks: tuple[Mark, ...]
+    marks: tuple[CodeMark, ...]
     component: str
 
 
-def open_text(file: Path) -> str:
+def read_file_text(file: Path) -> str:
     """The text of a file.
 
     Raises:
@@ -31,16 +31,16 @@ def open_text(file: Path) -> str:
     return file.read_bytes().decode("utf-8")
 
 
-def read_text(text: str, name: str) -> Reading:
+def parse_text(text: str, name: str) -> ParsedText:
     """Read a text as the file of this name would be."""
     read = read_design(text, name)
     starts = _line_starts(text)
-    marks = tuple(_mark(text, starts, finding) for finding in read.findings if finding.place is not None)
+    marks = tuple(_mark(text, starts, finding) for finding in read.findings if finding.location is not None)
     component = read.design.component if read.design else ""
-    return Reading(findings=read.findings, marks=marks, component=component)
+    return ParsedText(findings=read.findings, marks=marks, component=component)
 
 
-def write_mended(file: Path, text: str, opened: str) -> None:
+def write_fixed_text(file: Path, text: str, original: str) -> None:
     """Put a text in the place of the one that was opened, in one step.
 
     Raises:
@@ -48,11 +48,11 @@ def write_mended(file: Path, text: str, opened: str) -> None:
         OSError: It cannot be written.
     """
     try:
-        now = open_text(file)
+        now = read_file_text(file)
     except (FileNotFoundError, UnicodeDecodeError):
-        raise ChangedMeanwhileError from None
-    if now != opened:
-        raise ChangedMeanwhileError
+        raise FileModifiedError from None
+    if now != original:
+        raise FileModifiedError
     write_text(file, text)
 
 
@@ -63,12 +63,12 @@ def _line_starts(text: str) -> list[int]:
     return starts
 
 
-def _mark(text: str, starts: list[int], finding: Finding) -> Mark:
-    place = finding.place
+def _mark(text: str, starts: list[int], finding: Finding) -> CodeMark:
+    place = finding.location
     assert place is not None
     line = max(1, min(place.line, len(starts)))
     start = min(starts[line - 1] + max(0, place.column - 1), len(text))
     end = min(start + max(1, place.length), len(text))
-    mend = f" – {finding.mend}" if finding.mend else ""
+    mend = f" – {finding.fix}" if finding.fix else ""
     message = f"{finding.message}{mend}"
-    return Mark(start=start, end=end, severity=str(finding.severity), message=message, line=line)
+    return CodeMark(start=start, end=end, severity=str(finding.severity), message=message, line=line)

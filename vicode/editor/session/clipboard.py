@@ -8,28 +8,35 @@ from collections.abc import Collection, Iterable, Mapping
 from dataclasses import replace
 from typing import Any
 
-from vicode.diagram import place
-from vicode.editor.session.document import Document
-from vicode.editor.session.gestures import Outcome, point_of
-from vicode.editor.view import Selected, path_of_key, transition_key
+from vicode.diagram import complete_layout
+from vicode.editor.session.document import DocumentSession
+from vicode.editor.session.gestures import EditResult, parse_point
+from vicode.editor.view import ItemRef, parse_transition_key, transition_key
 from vicode.findings import Severity
 from vicode.model.design import Design, Point
-from vicode.model.names import is_name, is_state_name
-from vicode.model.parts import Joined, Wanted, append_decisions, part_of, put_in, repeat_decision
-from vicode.model.walks import decision_at
+from vicode.model.names import is_valid_name, is_valid_state_name
+from vicode.model.parts import (
+    FragmentSelection,
+    InsertResult,
+    append_decisions,
+    duplicate_decision,
+    extract_fragment,
+    insert_fragment,
+)
+from vicode.model.walks import find_decision
 from vicode.store import read_design, save_design
 
-MOST_CHARACTERS = 400_000
+MAX_CHARACTERS = 400_000
 _HEAD = "vicode: 1\ncomponent: Part\n"
 _SECTION = re.compile(r"^(states|common|uses) *:", re.MULTILINE)
 _NOTHING = "the clipboard holds no part of a design"
-_BESIDE = (40, 90)
+_PASTE_OFFSET = (40, 90)
 _GRID = 10
 
 
-def copied(design: Design, items: Iterable[Mapping[str, Any]]) -> str | None:
+def copy_as_text(design: Design, items: Iterable[Mapping[str, Any]]) -> str | None:
     """The selected things as text; None when there is nothing among them that can be copied."""
-    part = _with_places(part_of(design, _wanted(items)), design)
+    part = _with_places(extract_fragment(design, _parse_selection(items)), design)
     if not part.states and not part.common.transitions:
         return None
     try:
@@ -39,86 +46,92 @@ def copied(design: Design, items: Iterable[Mapping[str, Any]]) -> str | None:
         return None
 
 
-def duplicate(document: Document, payload: Mapping[str, Any]) -> Outcome:
+def duplicate_items(document: DocumentSession, payload: Mapping[str, Any]) -> EditResult:
     """Make the selected states once more, a little beside, or else the selected transitions."""
     design = document.design
-    wanted = _wanted(payload["items"])
-    part = _with_places(part_of(design, replace(wanted, common=False, aliases=())), design)
+    wanted = _parse_selection(payload["items"])
+    part = _with_places(extract_fragment(design, replace(wanted, common=False, aliases=())), design)
     if part.states:
-        joined = put_in(design, part, known=(), by=_free_shift(design, part, _BESIDE))
-        document.edit(f"duplicate {_count(joined)}", lambda _design: joined.design)
-        return _selecting(joined)
-    paths = sorted((path for path in wanted.decisions if decision_at(design, path)), key=str, reverse=True)
+        joined = insert_fragment(design, part, available=(), offset=_free_offset(design, part, _PASTE_OFFSET))
+        document.edit(f"duplicate {_describe_inserted(joined)}", lambda _design: joined.design)
+        return _select_inserted(joined)
+    paths = sorted((path for path in wanted.decisions if find_decision(design, path)), key=str, reverse=True)
     if not paths:
-        return Outcome(refused="select states or transitions to duplicate them")
+        return EditResult(error="select states or transitions to duplicate them")
 
     def change(old: Design) -> Design:
         for path in paths:
-            old = repeat_decision(old, path)
+            old = duplicate_decision(old, path)
         return old
 
     document.edit("duplicate transition" if len(paths) == 1 else f"duplicate {len(paths)} transitions", change)
     if len(paths) > 1:
-        return Outcome()
-    return Outcome(select=(Selected(of="transitions", id=transition_key((*paths[0][:-1], int(paths[0][-1]) + 1))),))
+        return EditResult()
+    return EditResult(
+        new_selection=(ItemRef(kind="transitions", id=transition_key((*paths[0][:-1], int(paths[0][-1]) + 1))),)
+    )
 
 
-def paste(document: Document, payload: Mapping[str, Any], known: Collection[str], onto: Iterable[Selected]) -> Outcome:
+def paste(
+    document: DocumentSession, payload: Mapping[str, Any], known_components: Collection[str], targets: Iterable[ItemRef]
+) -> EditResult:
     """Put a text from the clipboard into the design, its middle where the hand is.
 
     Args:
         document: where it goes.
         payload: the text and the place.
-        known: the components of the project.
-        onto: what is selected; transitions that have left their state go to the states among it.
+        known_components: the components of the project.
+        targets: what is selected; transitions that have left their state go to the states among it.
     """
     part = _read_part(payload["text"])
     if isinstance(part, str):
-        return Outcome(refused=part)
+        return EditResult(error=part)
     design = document.design
     if not part.states and part.common.at is None:
-        return _paste_decisions(document, part, known, [each.id for each in onto if each.of == "states"])
+        return _paste_decisions(
+            document, part, known_components, [each.id for each in targets if each.kind == "states"]
+        )
     placed = _with_places(part, part)
     middle = _middle([state.at for state in placed.states if state.at is not None])
-    x, y = point_of(payload)
+    x, y = parse_point(payload)
     by = (_to_grid(x - middle[0]), _to_grid(y - middle[1]))
-    joined = put_in(design, placed, known=known, by=_free_shift(design, placed, by))
-    document.edit(f"paste {_count(joined)}", lambda _design: joined.design)
-    return _selecting(joined)
+    joined = insert_fragment(design, placed, available=known_components, offset=_free_offset(design, placed, by))
+    document.edit(f"paste {_describe_inserted(joined)}", lambda _design: joined.design)
+    return _select_inserted(joined)
 
 
-def _paste_decisions(document: Document, part: Design, known: Collection[str], names: list[str]) -> Outcome:
+def _paste_decisions(document: DocumentSession, part: Design, known: Collection[str], names: list[str]) -> EditResult:
     names = [name for name in names if document.design.state(name) is not None]
     if not names:
-        return Outcome(refused="select the states that shall get these transitions, then paste")
-    joined = append_decisions(document.design, part, names, known=known)
+        return EditResult(error="select the states that shall get these transitions, then paste")
+    joined = append_decisions(document.design, part, names, available=known)
     document.edit("paste transitions", lambda _design: joined.design)
-    return replace(_selecting(joined), select=None)
+    return replace(_select_inserted(joined), new_selection=None)
 
 
 def _read_part(text: object) -> Design | str:
     """The design a text holds, or in words why it holds none."""
-    if not isinstance(text, str) or len(text) > MOST_CHARACTERS or not _SECTION.search(text):
+    if not isinstance(text, str) or len(text) > MAX_CHARACTERS or not _SECTION.search(text):
         return _NOTHING
     read = read_design(text if re.search(r"^vicode *:", text, re.MULTILINE) else _HEAD + text, "clipboard")
     errors = [finding for finding in read.findings if finding.severity is Severity.ERROR]
     if read.design is None or errors:
         return f"{_NOTHING}: {errors[0].message}" if errors else _NOTHING
     design = read.design
-    wrong = [each.name for each in design.states if not is_state_name(each.name)]
-    wrong += [use.alias for use in design.uses if not is_name(use.alias)]
+    wrong = [each.name for each in design.states if not is_valid_state_name(each.name)]
+    wrong += [use.alias for use in design.uses if not is_valid_name(use.alias)]
     if wrong:
         return f"{_NOTHING}: '{wrong[0][:40]}' is no name"
     return design if design.states or design.common.transitions else _NOTHING
 
 
-def _wanted(items: Iterable[Mapping[str, Any]]) -> Wanted:
+def _parse_selection(items: Iterable[Mapping[str, Any]]) -> FragmentSelection:
     named: dict[str, list[str]] = {"states": [], "transitions": [], "components": [], "links": [], "common": []}
     for item in items:
         named[item["of"]].append(str(item["id"]))
-    return Wanted(
+    return FragmentSelection(
         states=named["states"],
-        decisions=[path_of_key(key) for key in named["transitions"]],
+        decisions=[parse_transition_key(key) for key in named["transitions"]],
         aliases=named["components"],
         common=bool(named["common"]),
     )
@@ -126,17 +139,17 @@ def _wanted(items: Iterable[Mapping[str, Any]]) -> Wanted:
 
 def _with_places(part: Design, whole: Design) -> Design:
     """The part with places for all that the file leaves to the drawing."""
-    places = place(whole)
+    places = complete_layout(whole)
     states = (replace(state, at=_rounded(places.states[state.name])) for state in part.states)
     uses = (replace(use, at=_rounded(places.uses[use.alias])) for use in part.uses)
     return replace(part, states=tuple(states), uses=tuple(uses))
 
 
-def _free_shift(design: Design, part: Design, by: Point) -> Point:
+def _free_offset(design: Design, part: Design, by: Point) -> Point:
     """A shift that hides no state exactly behind the pasted ones."""
-    taken = {_rounded(at) for at in place(design).states.values()}
+    taken = {_rounded(at) for at in complete_layout(design).states.values()}
     while any(state.at is not None and (state.at[0] + by[0], state.at[1] + by[1]) in taken for state in part.states):
-        by = (by[0] + _BESIDE[0], by[1] + _BESIDE[1])
+        by = (by[0] + _PASTE_OFFSET[0], by[1] + _PASTE_OFFSET[1])
     return by
 
 
@@ -155,7 +168,7 @@ def _to_grid(value: float) -> float:
     return round(value / _GRID) * _GRID
 
 
-def _count(joined: Joined) -> str:
+def _describe_inserted(joined: InsertResult) -> str:
     match joined.states:
         case []:
             return "common transitions"
@@ -165,7 +178,7 @@ def _count(joined: Joined) -> str:
             return f"{len(names)} states"
 
 
-def _selecting(joined: Joined) -> Outcome:
+def _select_inserted(joined: InsertResult) -> EditResult:
     words = ", ".join(dict.fromkeys(joined.missing))
     note = f"Not to be had in this project: {words}" if words else ""
-    return Outcome(select=tuple(Selected(of="states", id=name) for name in joined.states), note=note)
+    return EditResult(new_selection=tuple(ItemRef(kind="states", id=name) for name in joined.states), note=note)

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from vicode.bica import Component
 from vicode.model.design import Declaration, Design
-from vicode.model.expressions import FUNCTIONS, Scope, scope_of
+from vicode.model.expressions import FUNCTIONS, Scope, build_scope
 from vicode.model.project import Enumeration, Interface, Project
 
 # What is being typed: a name, perhaps with what stands before its dots.
@@ -18,12 +18,12 @@ _STATUSES = (
     ("action_done", "whether a design that the state calls is done"),
     ("conflict", "whether as many robots of the team are in the state as may be"),
 )
-_WORDS = ("and", "or", "not", "if", "else", "True", "False")
-_OF_COMPONENTS = ("is_done", "state", "state_time", "component_time", "step", "restart")
+_KEYWORDS = ("and", "or", "not", "if", "else", "True", "False")
+_RUNTIME_MEMBERS = ("is_done", "state", "state_time", "component_time", "step", "restart")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Option:
+class CompletionOption:
     """A name to choose; `kind` picks its icon, `detail` stands beside it, `doc` explains it."""
 
     label: str
@@ -33,51 +33,55 @@ class Option:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Completion:
+class CompletionResult:
     """The names that fit from the character `start` to where was asked."""
 
     start: int
-    options: tuple[Option, ...]
+    options: tuple[CompletionOption, ...]
 
 
-def complete_expression(project: Project, design: Design, text: str, offset: int) -> Completion:
+def complete_expression(project: Project, design: Design, text: str, offset: int) -> CompletionResult:
     """What an expression may say at a character."""
-    scope = scope_of(project, design)
+    scope = build_scope(project, design)
     typed = _typed_before(text, offset)
     owner, start = typed["owner"], offset - len(typed["word"] or "")
     if owner:
-        return Completion(start=start, options=tuple(_below(owner, scope, project)))
+        return CompletionResult(start=start, options=tuple(_owner_members(owner, scope, project)))
     if re.search(r"\bdone\(\s*\Z", text[:start]):
-        return Completion(start=start, options=tuple(_aliases(design, scope)))
-    return Completion(start=start, options=tuple(_names_in_expressions(project, design, scope)))
+        return CompletionResult(start=start, options=tuple(_aliases(design, scope)))
+    return CompletionResult(start=start, options=tuple(_names_in_expressions(project, design, scope)))
 
 
-def complete_pairs(
+def complete_assignments(
     project: Project, design: Design, settable: Iterable[Declaration], text: str, offset: int
-) -> Completion:
+) -> CompletionResult:
     """What a line `name = expression` may say: a name that can be given a value, or an expression behind the sign."""
     before = text[:offset].rpartition("\n")[2]
     if "=" in before or ":" in before:
         return complete_expression(project, design, text, offset)
     word = _LINE_START.search(before)
     start = offset - len((word and word["word"]) or "")
-    scope = scope_of(project, design)
-    return Completion(start=start, options=tuple(_declared(each, scope, "variable") for each in settable))
+    scope = build_scope(project, design)
+    return CompletionResult(start=start, options=tuple(_declared(each, scope, "variable") for each in settable))
 
 
-def complete_python(project: Project, design: Design, text: str, offset: int) -> Completion:
+def complete_python(project: Project, design: Design, text: str, offset: int) -> CompletionResult:
     """What Python code may say of this design; the language's own words come from the editor."""
-    scope = scope_of(project, design)
+    scope = build_scope(project, design)
     typed = _typed_before(text, offset)
     owner, start = typed["owner"], offset - len(typed["word"] or "")
     if owner == "self":
-        return Completion(start=start, options=tuple(_members(design, scope)))
+        return CompletionResult(start=start, options=tuple(_members(design, scope)))
     if owner and owner.startswith("self."):
-        return Completion(start=start, options=tuple(_below(owner.removeprefix("self."), scope, project, in_code=True)))
+        return CompletionResult(
+            start=start, options=tuple(_owner_members(owner.removeprefix("self."), scope, project, in_code=True))
+        )
     if owner:
-        return Completion(start=start, options=tuple(_below_name(owner, project)))
+        return CompletionResult(start=start, options=tuple(_below_name(owner, project)))
     shared = [*_constants(project, scope), *_enumerations(project)]
-    return Completion(start=start, options=(Option(label="self", kind="keyword", detail="this component"), *shared))
+    return CompletionResult(
+        start=start, options=(CompletionOption(label="self", kind="keyword", detail="this component"), *shared)
+    )
 
 
 def _typed_before(text: str, offset: int) -> re.Match[str]:
@@ -86,42 +90,46 @@ def _typed_before(text: str, offset: int) -> re.Match[str]:
     return typed
 
 
-def _names_in_expressions(project: Project, design: Design, scope: Scope) -> Iterator[Option]:
+def _names_in_expressions(project: Project, design: Design, scope: Scope) -> Iterator[CompletionOption]:
     for section, declaration in design.declarations():
         yield _declared(declaration, scope, "variable", section.removesuffix("s"))
     yield from _aliases(design, scope)
     yield from _constants(project, scope)
     yield from _enumerations(project)
     unit = design.time_unit or "s"
-    yield from (Option(label=name, kind="property", detail=unit, doc=doc) for name, doc in _TIMES)
-    yield from (Option(label=name, kind="property", detail="bool", doc=doc) for name, doc in _STATUSES)
-    yield Option(label="done", kind="function", detail="(component) bool", doc="whether a component is done")
+    yield from (CompletionOption(label=name, kind="property", detail=unit, doc=doc) for name, doc in _TIMES)
+    yield from (CompletionOption(label=name, kind="property", detail="bool", doc=doc) for name, doc in _STATUSES)
+    yield CompletionOption(label="done", kind="function", detail="(component) bool", doc="whether a component is done")
     for function in FUNCTIONS.values():
-        takes = ", ".join(function.takes) + (", …" if function.more else "")
-        yield Option(label=function.name, kind="function", detail=f"({takes}) {function.gives}", doc=function.doc)
-    yield from (Option(label=word, kind="keyword") for word in _WORDS)
+        takes = ", ".join(function.parameter_types) + (", …" if function.is_variadic else "")
+        yield CompletionOption(
+            label=function.name, kind="function", detail=f"({takes}) {function.return_type}", doc=function.doc
+        )
+    yield from (CompletionOption(label=word, kind="keyword") for word in _KEYWORDS)
 
 
-def _members(design: Design, scope: Scope) -> Iterator[Option]:
+def _members(design: Design, scope: Scope) -> Iterator[CompletionOption]:
     for section, declaration in design.declarations():
         yield _declared(declaration, scope, "property", section.removesuffix("s"))
     yield from _aliases(design, scope)
-    yield from _of_runtime()
+    yield from _runtime_members()
 
 
-def _of_runtime() -> Iterator[Option]:
-    for name in _OF_COMPONENTS:
+def _runtime_members() -> Iterator[CompletionOption]:
+    for name in _RUNTIME_MEMBERS:
         doc = (getattr(Component, name, None).__doc__ or "").strip().split("\n")[0]
-        yield Option(label=name, kind="property", detail="runtime", doc=doc)
+        yield CompletionOption(label=name, kind="property", detail="runtime", doc=doc)
 
 
-def _aliases(design: Design, scope: Scope) -> Iterator[Option]:
+def _aliases(design: Design, scope: Scope) -> Iterator[CompletionOption]:
     for use in design.uses:
         interface = scope.uses.get(use.alias)
-        yield Option(label=use.alias, kind="class", detail=use.component, doc=interface.doc if interface else "")
+        yield CompletionOption(
+            label=use.alias, kind="class", detail=use.component, doc=interface.doc if interface else ""
+        )
 
 
-def _below(owner: str, scope: Scope, project: Project, *, in_code: bool = False) -> Iterator[Option]:
+def _owner_members(owner: str, scope: Scope, project: Project, *, in_code: bool = False) -> Iterator[CompletionOption]:
     """What stands behind the dot of a used component or an enumeration."""
     interface: Interface | None = scope.uses.get(owner)
     if interface is not None:
@@ -129,29 +137,32 @@ def _below(owner: str, scope: Scope, project: Project, *, in_code: bool = False)
         yield from (_declared(variable, scope, "property", "variable") for variable in interface.variables)
         if in_code:
             yield from (_declared(each, scope, "property", "parameter") for each in interface.parameters)
-            yield from _of_runtime()
+            yield from _runtime_members()
     elif not in_code:
         yield from _below_name(owner, project)
 
 
-def _below_name(owner: str, project: Project) -> Iterator[Option]:
+def _below_name(owner: str, project: Project) -> Iterator[CompletionOption]:
     enumeration: Enumeration | None = project.enumeration(owner)
     for name, doc in enumeration.elements if enumeration else ():
-        yield Option(label=name, kind="enum", detail=owner, doc=doc)
+        yield CompletionOption(label=name, kind="enum", detail=owner, doc=doc)
 
 
-def _constants(project: Project, scope: Scope) -> Iterator[Option]:
+def _constants(project: Project, scope: Scope) -> Iterator[CompletionOption]:
     return (_declared(constant, scope, "constant", f"= {constant.initial}") for constant in project.constants)
 
 
-def _enumerations(project: Project) -> Iterator[Option]:
-    return (Option(label=each.name, kind="enum", detail="enumeration", doc=each.doc) for each in project.enumerations)
+def _enumerations(project: Project) -> Iterator[CompletionOption]:
+    return (
+        CompletionOption(label=each.name, kind="enum", detail="enumeration", doc=each.doc)
+        for each in project.enumerations
+    )
 
 
-def _declared(declaration: Declaration, scope: Scope, kind: str, what: str = "") -> Option:
+def _declared(declaration: Declaration, scope: Scope, kind: str, what: str = "") -> CompletionOption:
     facts = (scope.type_of(declaration), declaration.unit, what)
     detail = " ".join(fact for fact in facts if fact)
     doc = declaration.doc
     if declaration.range:
         doc = f"{doc} ({declaration.range[0]:g} to {declaration.range[1]:g})".strip()
-    return Option(label=declaration.name, kind=kind, detail=detail, doc=doc)
+    return CompletionOption(label=declaration.name, kind=kind, detail=detail, doc=doc)

@@ -6,7 +6,7 @@ from difflib import SequenceMatcher
 from enum import StrEnum
 
 
-class Change(StrEnum):
+class LineStatus(StrEnum):
     """What became of a line."""
 
     SAME = "same"
@@ -17,25 +17,25 @@ class Change(StrEnum):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Row:
+class DiffRow:
     """A line of the old text beside one of the new; a number is 0 where there is no line.
 
     A gap says in `old` how many lines are left out.
     """
 
-    change: Change
+    status: LineStatus
     old_number: int = 0
     old: str = ""
     new_number: int = 0
     new: str = ""
 
 
-def side_by_side(old: str, new: str, context: int = 3) -> tuple[Row, ...]:
+def side_by_side(old: str, new: str, context: int = 3) -> tuple[DiffRow, ...]:
     """The changed lines with some unchanged ones around; nothing for equal texts."""
     olds, news = old.splitlines(), new.splitlines()
     # Without its guesses about frequent lines: generated code is full of them.
     matcher = SequenceMatcher(None, olds, news, autojunk=False)
-    rows: list[Row] = []
+    rows: list[DiffRow] = []
     before = 0
     for group in matcher.get_grouped_opcodes(context):
         first = group[0][1]
@@ -48,22 +48,22 @@ def side_by_side(old: str, new: str, context: int = 3) -> tuple[Row, ...]:
     return tuple(rows)
 
 
-def _gap(count: int) -> Row:
-    return Row(change=Change.GAP, old=f"{count} unchanged line{'s' * (count != 1)}")
+def _gap(count: int) -> DiffRow:
+    return DiffRow(status=LineStatus.GAP, old=f"{count} unchanged line{'s' * (count != 1)}")
 
 
-def _rows(olds: list[str], news: list[str], part: tuple[str, int, int, int, int]) -> Iterator[Row]:
+def _rows(olds: list[str], news: list[str], part: tuple[str, int, int, int, int]) -> Iterator[DiffRow]:
     tag, old_from, old_to, new_from, new_to = part
     for at in range(max(old_to - old_from, new_to - new_from)):
         has_old, has_new = old_from + at < old_to, new_from + at < new_to
         if tag == "equal":
-            change = Change.SAME
+            change = LineStatus.SAME
         elif has_old and has_new:
-            change = Change.CHANGED
+            change = LineStatus.CHANGED
         else:
-            change = Change.REMOVED if has_old else Change.ADDED
-        yield Row(
-            change=change,
+            change = LineStatus.REMOVED if has_old else LineStatus.ADDED
+        yield DiffRow(
+            status=change,
             old_number=old_from + at + 1 if has_old else 0,
             old=olds[old_from + at] if has_old else "",
             new_number=new_from + at + 1 if has_new else 0,

@@ -7,49 +7,49 @@ from pathlib import Path
 from vicode.check import check_project
 from vicode.findings import Finding, Severity
 from vicode.model.project import Project
-from vicode.output import Difference, Status, apply, compare, set_aside
-from vicode.regions import is_sealed
-from vicode.sync import find_edits_by_file
+from vicode.output import FileDiff, FileStatus, apply_diffs, back_up_edited, compare_files
+from vicode.regions import has_header
+from vicode.sync import find_hand_edits_by_file
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Generated:
+class GenerationResult:
     """What came of it, in words; `files` were written."""
 
-    words: str
-    is_sound: bool
+    message: str
+    is_complete: bool
     files: tuple[Path, ...] = ()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Job:
+class GenerationInput:
     """What to generate from: a project, its files by component, and what was wrong with them when they were read."""
 
     project: Project
-    sources: Mapping[str, str]
-    reading: Mapping[str, tuple[Finding, ...]]
+    source_paths: Mapping[str, str]
+    parse_findings: Mapping[str, tuple[Finding, ...]]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Prepared:
-    """What would be written into a folder; `refused` says why nothing would, `edits` what a person edited there.
+class PendingOutput:
+    """What would be written into a folder; `error` says why nothing would, `manual_edits` what a person edited there.
 
-    `spared` says why a language is left out where others are not.
+    `skipped` says why a language is left out where others are not.
     """
 
     folder: Path
-    refused: str = ""
-    spared: str = ""
-    differences: tuple[Difference, ...] = ()
-    edits: Mapping[str, tuple[Finding, ...]]
+    error: str = ""
+    skipped: str = ""
+    differences: tuple[FileDiff, ...] = ()
+    manual_edits: Mapping[str, tuple[Finding, ...]]
 
     @property
-    def changes(self) -> tuple[Difference, ...]:
+    def changes(self) -> tuple[FileDiff, ...]:
         """The files that are not yet as they should be."""
-        return tuple(each for each in self.differences if each.status is not Status.UNCHANGED)
+        return tuple(each for each in self.differences if each.status is not FileStatus.UNCHANGED)
 
 
-def prepare(folder: Path, job: Job, component: str) -> Prepared:
+def prepare_output(folder: Path, job: GenerationInput, component: str) -> PendingOutput:
     """Find out what generating a component, and all it uses, would write into a folder; nothing is written.
 
     Raises:
@@ -59,44 +59,46 @@ def prepare(folder: Path, job: Job, component: str) -> Prepared:
 
     project = job.project
     wanted = collect_components(project, (component,))
-    read = [finding for name in ("", *wanted) for finding in job.reading.get(name, ())]
+    read = [finding for name in ("", *wanted) for finding in job.parse_findings.get(name, ())]
     errors = [each for each in (*read, *check_project(project, wanted)) if each.severity is Severity.ERROR]
     languages = [each for each in GENERATORS if each in project.languages]
-    sound = [each for each in languages if not any(error.concerns(each) for error in errors)]
+    sound = [each for each in languages if not any(error.applies_to(each) for error in errors)]
     reason = _reason(errors, component) if errors else ""
     if errors and not sound:
-        return Prepared(folder=folder, refused=f"Nothing generated. {reason}", edits={})
-    files = generate(project, components=(component,), languages=sound, sources=job.sources)
-    differences = compare(files, folder, keep=list_outputs(project), is_ours=is_sealed)
+        return PendingOutput(folder=folder, error=f"Nothing generated. {reason}", manual_edits={})
+    files = generate(project, components=(component,), languages=sound, sources=job.source_paths)
+    differences = compare_files(files, folder, kept_paths=list_outputs(project), is_generated=has_header)
     left_out = [each for each in languages if each not in sound]
     spared = f"Nothing generated for {' and '.join(left_out)}. {reason}" if left_out else ""
-    return Prepared(folder=folder, spared=spared, differences=differences, edits=find_edits_by_file(differences))
+    return PendingOutput(
+        folder=folder, skipped=spared, differences=differences, manual_edits=find_hand_edits_by_file(differences)
+    )
 
 
 def _reason(errors: Sequence[Finding], component: str) -> str:
     first = errors[0]
-    where = f"{first.thing.component}: " if first.thing and first.thing.component != component else ""
+    where = f"{first.subject.component}: " if first.subject and first.subject.component != component else ""
     more = f" (and {len(errors) - 1} more)" if len(errors) > 1 else ""
     return f"{where}{first.message}{more}"
 
 
-def write(prepared: Prepared, *, is_forced: bool = False) -> Generated:
+def write_output(prepared: PendingOutput, *, is_forced: bool = False) -> GenerationResult:
     """Write all of it, or nothing if a person's edits would be lost; with force those are set aside first.
 
     Raises:
         OSError: A file cannot be written.
     """
-    if prepared.refused:
-        return Generated(words=prepared.refused, is_sound=False)
-    if prepared.edits and not is_forced:
-        first = next(iter(prepared.edits.values()))[0]
-        return Generated(words=f"Nothing generated. {first.message}: {first.mend}", is_sound=False)
-    for path in prepared.edits:
-        set_aside(prepared.folder / path)
-    touched = apply(prepared.differences, prepared.folder)
+    if prepared.error:
+        return GenerationResult(message=prepared.error, is_complete=False)
+    if prepared.manual_edits and not is_forced:
+        first = next(iter(prepared.manual_edits.values()))[0]
+        return GenerationResult(message=f"Nothing generated. {first.message}: {first.fix}", is_complete=False)
+    for path in prepared.manual_edits:
+        back_up_edited(prepared.folder / path)
+    touched = apply_diffs(prepared.differences, prepared.folder)
     words = f"Generated code in {prepared.folder.name} is up to date"
     if touched:
         names = ", ".join(path.name for path in touched[:4]) + (", …" if len(touched) > 4 else "")
         words = f"Generated {names} in {touched[0].parent}"
-    words = f"{words}. {prepared.spared}" if prepared.spared else words
-    return Generated(words=words, is_sound=not prepared.spared, files=touched)
+    words = f"{words}. {prepared.skipped}" if prepared.skipped else words
+    return GenerationResult(message=words, is_complete=not prepared.skipped, files=touched)

@@ -3,71 +3,71 @@
 from dataclasses import dataclass, field, replace
 from typing import Any
 
-from vicode.model.merging import merge_typing
+from vicode.model.merging import merge_characters
 
-_MOST_SENT = 64
+_MAX_SENT = 64
 
 
 @dataclass(slots=True)
-class Keystrokes:
+class FieldMerge:
     """One field in one window: the value it shows, and what the design would hold if that alone had been written."""
 
     shown: Any = None
-    alone: Any = field(default=None)
+    own_value: Any = field(default=None)
 
-    def show(self, value: Any) -> None:
+    def set_shown(self, value: Any) -> None:
         """The design's value is shown."""
-        self.shown = self.alone = value
+        self.shown = self.own_value = value
 
-    def bring_in(self, typed: Any, now: Any) -> Any:
+    def merge_typed(self, typed: Any, now: Any) -> Any:
         """The value to write: what was typed since, together with what others made of the design's value.
 
         What others typed is in the design from the first time on, but is not shown as long as one types: it is brought
         in with every value that is written. The design may spell a value in a way of its own (blanks around a sign):
         that is nobody's change.
         """
-        if now == self.alone:
+        if now == self.own_value:
             return typed
         if isinstance(typed, str) and isinstance(self.shown, str) and isinstance(now, str):
-            theirs = merge_typing(str(self.alone), self.shown, now)
-            return merge_typing(self.shown, typed, theirs)
+            theirs = merge_characters(str(self.own_value), self.shown, now)
+            return merge_characters(self.shown, typed, theirs)
         if isinstance(typed, list) and isinstance(self.shown, list) and isinstance(now, list):
             kept = [each for each in now if each in typed or each not in self.shown]
             return kept + [each for each in typed if each not in self.shown and each not in kept]
         return typed
 
-    def sent(self, typed: Any, alone: Any) -> None:
-        """The browser shows what was typed; `alone` is how the design spells that, without what others made of it."""
-        self.shown, self.alone = typed, alone
+    def record_sent(self, typed: Any, alone: Any) -> None:
+        """The browser shows what was typed; `own_value` is how the design spells that, without what others made of it."""
+        self.shown, self.own_value = typed, alone
 
 
 @dataclass(slots=True)
-class Shown:
+class SentValues:
     """What a browser shows in a field, as far as is known: one of the values that were sent to it lately.
 
     What somebody types tells which one it was. Those sent since are not shown.
     """
 
-    keystrokes: Keystrokes = field(default_factory=Keystrokes)
-    _sent: dict[int, Keystrokes] = field(default_factory=dict)
+    field_merge: FieldMerge = field(default_factory=FieldMerge)
+    _sent: dict[int, FieldMerge] = field(default_factory=dict)
     _latest: int = -1
 
-    def show(self, value: Any, number: int = 0) -> None:
+    def record_shown(self, value: Any, number: int = 0) -> None:
         """A value of the design is sent with a number, a greater one than any before, or is what was sent last."""
         if number > self._latest:
             self._latest = number
-            self.keystrokes = self._sent[number] = Keystrokes()
-            if len(self._sent) > _MOST_SENT:
+            self.field_merge = self._sent[number] = FieldMerge()
+            if len(self._sent) > _MAX_SENT:
                 del self._sent[next(iter(self._sent))]
-        self.keystrokes.show(value)
+        self.field_merge.set_shown(value)
 
-    def typed_on(self, number: int) -> None:
+    def select_base(self, number: int) -> None:
         """Something is typed on what was sent with a number."""
         known = self._sent.get(number)
         if known is not None:
-            self.keystrokes, self._sent = known, {number: known}
+            self.field_merge, self._sent = known, {number: known}
 
-    def go_on_from(self, other: "Shown") -> None:
+    def transfer_input_from(self, other: "SentValues") -> None:
         """Whatever of it is shown, what is typed goes on from what the other one showed."""
-        self.keystrokes = replace(other.keystrokes)
-        self._sent = dict.fromkeys(self._sent, self.keystrokes)
+        self.field_merge = replace(other.field_merge)
+        self._sent = dict.fromkeys(self._sent, self.field_merge)

@@ -3,38 +3,38 @@
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from vicode.editor.session.overview import Overview
-from vicode.editor.session.people import People
+from vicode.editor.session.overview import ProjectOverview
+from vicode.editor.session.people import UserDirectory
 from vicode.editor.session.workspace import Workspace
 from vicode.store import find_projects
 
 
 @dataclass(eq=False)
 class Library:
-    """The projects of a folder, or the one project of a design file; `first` is what to open first."""
+    """The projects of a folder, or the one project of a design file; `initial_design` is what to open first."""
 
     path: Path
-    people: People = field(init=False, default_factory=People)
+    users: UserDirectory = field(init=False, default_factory=UserDirectory)
     workspaces: list[Workspace] = field(init=False)
-    _overviews: dict[str, Overview] = field(init=False, default_factory=dict)
+    _overviews: dict[str, ProjectOverview] = field(init=False, default_factory=dict)
 
     def __post_init__(self) -> None:
         """Read them all."""
         found = find_projects(self.path)
-        self.workspaces = [Workspace(each, _key(each, self.folder), self.people) for each in found]
+        self.workspaces = [Workspace(each, _key(each, self.folder), self.users) for each in found]
 
     def workspace(self, key: str) -> Workspace | None:
         """The project of a key."""
         return next((each for each in self.workspaces if each.key == key), None)
 
-    def overview(self, workspace: Workspace) -> Overview:
+    def overview(self, workspace: Workspace) -> ProjectOverview:
         """What the home page shows of a project, shared by all windows."""
-        return self._overviews.setdefault(workspace.key, Overview(workspace))
+        return self._overviews.setdefault(workspace.key, ProjectOverview(workspace))
 
-    def begin(self) -> Workspace:
+    def ensure_project(self) -> Workspace:
         """The project of a folder that holds none yet."""
         if not self.workspaces:
-            self.workspaces.append(Workspace(self.folder, _key(self.folder, self.folder), self.people))
+            self.workspaces.append(Workspace(self.folder, _key(self.folder, self.folder), self.users))
         return self.workspaces[0]
 
     @property
@@ -43,10 +43,10 @@ class Library:
         return self.path if self.path.is_dir() else self.path.parent
 
     @property
-    def first(self) -> tuple[Workspace, str] | None:
+    def initial_design(self) -> tuple[Workspace, str] | None:
         """The design to open first: the file given, else the first agent's root, else any design."""
         for workspace in self.workspaces:
-            component = workspace.component_of_file(self.path) if self.path.is_file() else None
+            component = workspace.component_in_file(self.path) if self.path.is_file() else None
             if component:
                 return workspace, component
         for workspace in self.workspaces:

@@ -10,11 +10,11 @@ import textwrap
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 
-from vicode.check.code import python_problem
-from vicode.findings import Path
+from vicode.check.code import validate_python
+from vicode.findings import DesignPath
 from vicode.model.design import Design
 from vicode.model.project import Project
-from vicode.model.walks import PlacedCode, walk_code
+from vicode.model.walks import LocatedCode, iter_code
 
 TIME_LIMIT_S = 2.0
 _MAXIMUM_LENGTH = 400_000
@@ -24,7 +24,7 @@ _IGNORED = "F401,F811,B018"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Lint:
+class LintWarning:
     """A remark about characters of one piece of code."""
 
     start: int
@@ -34,10 +34,10 @@ class Lint:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class _Piece:
+class _CodeBlock:
     """A piece of code in the module: where its lines begin there, and how far each was moved."""
 
-    path: Path
+    path: DesignPath
     text: str
     first: int
     shifts: tuple[int, ...]
@@ -48,34 +48,34 @@ class _Module:
     """The module as it grows."""
 
     lines: list[str] = field(default_factory=list)
-    pieces: list[_Piece] = field(default_factory=list)
+    blocks: list[_CodeBlock] = field(default_factory=list)
 
-    def add(self, placed: PlacedCode, text: str, indent: str) -> None:
+    def add(self, placed: LocatedCode, text: str, indent: str) -> None:
         """Add a piece, indented, without the margin it has by itself."""
         lines = text.replace("\r\n", "\n").split("\n")
         straight = textwrap.dedent("\n".join(lines)).split("\n")
         shifts = tuple(len(indent) - (len(old) - len(new)) for old, new in zip(lines, straight, strict=True))
         path = (*placed.path, "python")
-        self.pieces.append(_Piece(path=path, text=text, first=len(self.lines), shifts=shifts))
+        self.blocks.append(_CodeBlock(path=path, text=text, first=len(self.lines), shifts=shifts))
         self.lines += [indent + line if line.strip() else "" for line in straight]
 
 
-Lints = Mapping[Path, tuple[Lint, ...]]
-RunLinter = Callable[[str, tuple[str, ...]], str]
+LintWarnings = Mapping[DesignPath, tuple[LintWarning, ...]]
+Linter = Callable[[str, tuple[str, ...]], str]
 """Lints a module with further names that are known in it; the linter's JSON, empty if there is none."""
 
 
-def lint_design(project: Project, design: Design, run: RunLinter | None = None) -> Lints:
+def lint_design(project: Project, design: Design, run: Linter | None = None) -> LintWarnings:
     """The remarks on every piece of Python in a design, by its path; none where the linter cannot be had."""
     module = _module_of(design)
     source = "\n".join(module.lines) + "\n"
-    if not module.pieces or len(source) > _MAXIMUM_LENGTH:
+    if not module.blocks or len(source) > _MAXIMUM_LENGTH:
         return {}
     known = [each.name for each in project.enumerations] + [each.name for each in project.constants]
     known += [use.component for use in design.uses] + ["arithmetic", "Component", "State", "Root"]
-    found: dict[Path, list[Lint]] = {}
+    found: dict[DesignPath, list[LintWarning]] = {}
     for row in _rows((run or run_ruff)(source, tuple(known))):
-        for path, lint in _located(row, module):
+        for path, lint in _map_to_code(row, module):
             found.setdefault(path, []).append(lint)
     return {path: tuple(lints) for path, lints in found.items()}
 
@@ -103,8 +103,8 @@ def run_ruff(source: str, known: tuple[str, ...]) -> str:
 def _module_of(design: Design) -> _Module:
     """The code of a design as a module; what does not parse is left out, as a finding tells of it."""
     module = _Module()
-    placed = [(each, each.code.in_language("python")) for each in walk_code(design)]
-    sound = [(each, text) for each, text in placed if text is not None and python_problem(text, each.role) is None]
+    placed = [(each, each.code.in_language("python")) for each in iter_code(design)]
+    sound = [(each, text) for each, text in placed if text is not None and validate_python(text, each.role) is None]
     for each, text in sound:
         if each.role == "module":
             module.add(each, text, "")
@@ -131,15 +131,15 @@ def _rows(text: str) -> list[Mapping[str, object]]:
     return [row for row in rows if isinstance(row, dict)] if isinstance(rows, list) else []
 
 
-def _located(row: Mapping[str, object], module: _Module) -> Iterator[tuple[Path, Lint]]:
+def _map_to_code(row: Mapping[str, object], module: _Module) -> Iterator[tuple[DesignPath, LintWarning]]:
     """The remark at its characters of the piece it is about; what is about our own lines is nobody's."""
     begin, end = _point(row.get("location")), _point(row.get("end_location"))
-    for piece in module.pieces:
+    for piece in module.blocks:
         if begin is not None and piece.first <= begin[0] - 1 < piece.first + len(piece.shifts):
             start = _offset(piece, *begin)
             stop = _offset(piece, *end) if end is not None else start + 1
             code, message = str(row.get("code") or "E999"), str(row.get("message", ""))
-            yield piece.path, Lint(start=start, end=max(start + 1, stop), code=code, message=message)
+            yield piece.path, LintWarning(start=start, end=max(start + 1, stop), code=code, message=message)
             return
 
 
@@ -150,7 +150,7 @@ def _point(place: object) -> tuple[int, int] | None:
     return (row, column) if isinstance(row, int) and isinstance(column, int) else None
 
 
-def _offset(piece: _Piece, row: int, column: int) -> int:
+def _offset(piece: _CodeBlock, row: int, column: int) -> int:
     """The character of a piece for a row and a column, both from 1, of the module."""
     lines = piece.text.split("\n")
     at = min(row - 1 - piece.first, len(lines) - 1)

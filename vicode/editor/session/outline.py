@@ -2,39 +2,39 @@
 
 from collections.abc import Iterable
 
-from vicode.editor.view import Selected, path_of_key
-from vicode.findings import Path
-from vicode.model.design import Action, Call, Decision, Design, Group
-from vicode.model.walks import decision_at, walk_decisions
+from vicode.editor.view import ItemRef, parse_transition_key
+from vicode.findings import DesignPath
+from vicode.model.design import Action, Call, Decision, DecisionGroup, Design
+from vicode.model.walks import find_decision, iter_decisions
 
-MANY_STATES = 60
+MAX_STATES_IN_MENU = 60
 """Of more, one is found by typing instead of in a menu."""
 
 
-def outline_of(design: Design, thing: Selected | None) -> object:
+def form_structure_key(design: Design, thing: ItemRef | None) -> object:
     """A value that changes exactly when the form of `thing` must be built anew (None: the form of the design)."""
     uses = tuple((use.alias, use.component) for use in design.uses)
-    is_crowded = len(design.states) > MANY_STATES
+    is_crowded = len(design.states) > MAX_STATES_IN_MENU
     match thing:
-        case Selected(of="states", id=name):
+        case ItemRef(kind="states", id=name):
             state = design.state(name)
             if state is None:
                 return None
             phases = (_actions(state.enter), _actions(state.actions), _actions(state.leave))
             calls = tuple(call.alias for call in state.modulates)
             return (uses, is_crowded, phases, calls, state.transitions)
-        case Selected(of="transitions", id=key):
-            located = decision_at(design, path_of_key(key))
+        case ItemRef(kind="transitions", id=key):
+            located = find_decision(design, parse_transition_key(key))
             return located and (located.source, _decision(located.decision))
-        case Selected(of="components" | "links", id=key):
+        case ItemRef(kind="components" | "links", id=key):
             return (uses, key)
-        case Selected(of="common"):
+        case ItemRef(kind="common"):
             return (uses, is_crowded, _actions(design.common.actions), design.common.transitions)
         case _:
             return (uses, is_crowded, _declarations(design), _actions(design.common.actions), design.common.transitions)
 
 
-def is_same_place(before: Design, now: Design, path: Path) -> bool:
+def has_same_structure(before: Design, now: Design, path: DesignPath) -> bool:
     """Whether nothing came, went or moved where a path leads; names alone may have changed."""
     match path:
         case (("parameters" | "outputs" | "variables") as section, *_):
@@ -44,7 +44,7 @@ def is_same_place(before: Design, now: Design, path: Path) -> bool:
             return _order_around(before, path) == _order_around(now, path)
 
 
-def _order_around(design: Design, path: Path) -> object:
+def _order_around(design: Design, path: DesignPath) -> object:
     """What the numbers in a path count."""
     match path:
         case ("states", name, ("enter" | "actions" | "leave") as phase, *_):
@@ -53,7 +53,7 @@ def _order_around(design: Design, path: Path) -> object:
         case ("common", "actions", *_):
             return _actions(design.common.actions)
         case ("states" | "common", *_):
-            located = ((at.path, type(at.decision), getattr(at.decision, "to", "")) for at in walk_decisions(design))
+            located = ((at.path, type(at.decision), getattr(at.decision, "to", "")) for at in iter_decisions(design))
             return tuple(each for each in located if each[0][:2] == path[:2])
         case _:
             return None
@@ -65,7 +65,7 @@ def _actions(actions: Iterable[Action]) -> tuple[tuple[type, str], ...]:
 
 def _decision(decision: Decision) -> object:
     has_code = decision.guard.code is not None
-    if isinstance(decision, Group):
+    if isinstance(decision, DecisionGroup):
         return (has_code, decision.then, decision.otherwise)
     return (type(decision), has_code)
 

@@ -11,7 +11,7 @@ from vicode.model.project import Project
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Card:
+class DesignCard:
     """One design; `counts` are its findings by severity, those it has any of."""
 
     component: str
@@ -24,16 +24,16 @@ class Card:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Broken:
+class BrokenFile:
     """A file that holds no design that can be read; `why` in words, `line` 0 when no line is to blame."""
 
     file: str
-    why: str
+    reason: str
     line: int = 0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class HandWritten:
+class HandWrittenComponent:
     """A component without a design."""
 
     component: str
@@ -43,19 +43,23 @@ class HandWritten:
 
 
 @dataclass(eq=False)
-class Overview:
+class ProjectOverview:
     """Of one project, for all windows; a design is checked again only when it, or what it sees of others, changed."""
 
     workspace: Workspace
     _checked: dict[str, tuple[object, tuple[Finding, ...]]] = field(init=False, default_factory=dict)
 
-    def cards(self) -> tuple[Card, ...]:
+    def cards(self) -> tuple[DesignCard, ...]:
         """The designs by name."""
-        project, sources, unsaved = self.workspace.project, self.workspace.sources, self.workspace.unsaved
+        project, sources, unsaved = (
+            self.workspace.project,
+            self.workspace.source_paths,
+            self.workspace.unsaved_components,
+        )
         roots = {agent.root for agent in project.agents}
-        surroundings = _surroundings(project)
+        surroundings = _check_dependencies(project)
         return tuple(
-            Card(
+            DesignCard(
                 component=design.component,
                 doc=" ".join(design.doc.split()),
                 file=sources.get(design.component, ""),
@@ -67,15 +71,15 @@ class Overview:
             for design in sorted(project.designs, key=lambda each: each.component.casefold())
         )
 
-    def broken(self) -> tuple[Broken, ...]:
+    def broken_files(self) -> tuple[BrokenFile, ...]:
         """The files that cannot be read, each with what is wrong first."""
-        return tuple(self._broken(name) for name in self.workspace.broken)
+        return tuple(self._broken(name) for name in self.workspace.broken_file_names)
 
-    def hand_written(self) -> tuple[HandWritten, ...]:
+    def hand_written_components(self) -> tuple[HandWrittenComponent, ...]:
         """The components declared in project.yaml, by name."""
         project = self.workspace.project
         return tuple(
-            HandWritten(
+            HandWrittenComponent(
                 component=each.component,
                 doc=each.doc,
                 implementation=each.implementation,
@@ -90,27 +94,27 @@ class Overview:
 
     def _findings(self, design: Design, surroundings: object) -> tuple[Finding, ...]:
         workspace, name = self.workspace, design.component
-        known = workspace.open_findings(name)
+        known = workspace.findings_if_open(name)
         if known is not None:
             return known
         interfaces = tuple(workspace.project.interface(use.component) for use in design.uses)
-        seen = (surroundings, interfaces, workspace.reading.get(name, ()))
+        seen = (surroundings, interfaces, workspace.parse_findings.get(name, ()))
         cached = self._checked.get(name)
         if cached is None or cached[0] != (id(design), seen):
             checked = check_design(workspace.project, design)
-            cached = (id(design), seen), tuple(dict.fromkeys((*workspace.reading.get(name, ()), *checked)))
+            cached = (id(design), seen), tuple(dict.fromkeys((*workspace.parse_findings.get(name, ()), *checked)))
             self._checked[name] = cached
         return cached[1]
 
-    def _broken(self, file: str) -> Broken:
-        every = (finding for findings in self.workspace.reading.values() for finding in findings)
+    def _broken(self, file: str) -> BrokenFile:
+        every = (finding for findings in self.workspace.parse_findings.values() for finding in findings)
         for finding in every:
-            if finding.place is not None and finding.place.file.endswith(file):
-                return Broken(file=file, why=finding.message, line=finding.place.line)
-        return Broken(file=file, why="it holds no design that can be read")
+            if finding.location is not None and finding.location.file.endswith(file):
+                return BrokenFile(file=file, reason=finding.message, line=finding.location.line)
+        return BrokenFile(file=file, reason="it holds no design that can be read")
 
 
-def _surroundings(project: Project) -> object:
+def _check_dependencies(project: Project) -> object:
     """What every design of a project may be judged by: common declarations, and who uses whom."""
     uses = tuple((design.component, design.uses) for design in project.designs)
     return (project.enumerations, project.constants, uses)

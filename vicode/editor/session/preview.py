@@ -4,51 +4,57 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
-from vicode.editor.view import Selected, thing_of_path
-from vicode.generators import GENERATORS, Origin, UnsoundDesignError, generate, origins_of
+from vicode.editor.view import ItemRef, item_at_path
+from vicode.generators import GENERATORS, Origin, UnsoundDesignError, generate, list_origins
 from vicode.model.design import Design
 from vicode.model.project import Project
 from vicode.output import OutputFile
-from vicode.regions import checksum_of, comment_of, find, is_edited, is_sealed
+from vicode.regions import compute_checksum, find_regions, get_comment_prefix, has_header, is_edited
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PreviewFile:
-    """A file as it would be written; `edited` are the regions that were edited by hand in the one on disk."""
+    """A file as it would be written; `edited_regions` are the regions that were edited by hand in the one on disk."""
 
     path: str
     language: str
     text: str
     origins: tuple[Origin, ...] = ()
-    edited: tuple[str, ...] = ()
+    edited_regions: tuple[str, ...] = ()
 
-    def lines_of(self, thing: Selected) -> tuple[int, int]:
+    def item_lines(self, thing: ItemRef) -> tuple[int, int]:
         """First and last line of what a thing of the drawing became, (0, 0) if it is not in here."""
-        found = [origin for origin in self.origins if thing_of_path(origin.path) == thing]
+        found = [origin for origin in self.origins if item_at_path(origin.path) == thing]
         # A state's lines hold those of its code; a transition has its own.
         return (found[0].first, found[0].last) if found else (0, 0)
 
-    def thing_at(self, line: int) -> Selected | None:
+    def item_at(self, line: int) -> ItemRef | None:
         """The smallest thing of the drawing that a line comes from."""
         around = [origin for origin in self.origins if origin.first <= line <= origin.last]
         smallest = min(around, key=lambda origin: origin.last - origin.first, default=None)
-        return thing_of_path(smallest.path) if smallest else None
+        return item_at_path(smallest.path) if smallest else None
 
     def edited_lines(self) -> tuple[int, ...]:
         """The lines of the regions that are another text on disk."""
-        regions = (region for region in find(self.text, comment_of(self.path)).regions if region.id in self.edited)
+        regions = (
+            region
+            for region in find_regions(self.text, get_comment_prefix(self.path)).regions
+            if region.id in self.edited_regions
+        )
         return tuple(line for region in regions for line in range(region.line, region.end_line + 1))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Preview:
+class CodePreview:
     """The files to choose from, the component's own first; `note` says why there are none, or none of a language."""
 
     note: str = ""
     files: tuple[PreviewFile, ...] = field(default=())
 
 
-def preview_of(project: Project, design: Design, sources: Mapping[str, str], folder: Path | None = None) -> Preview:
+def preview_code(
+    project: Project, design: Design, sources: Mapping[str, str], folder: Path | None = None
+) -> CodePreview:
     """What `vicode gen` would write for a design; no file is written.
 
     Args:
@@ -61,7 +67,7 @@ def preview_of(project: Project, design: Design, sources: Mapping[str, str], fol
     whole = replace(project, designs=designs)
     languages = [language for language in GENERATORS if language in project.languages]
     if not languages:
-        return Preview(note=f"No code: this project generates {', '.join(project.languages) or 'nothing'}")
+        return CodePreview(note=f"No code: this project generates {', '.join(project.languages) or 'nothing'}")
     files: list[PreviewFile] = []
     notes: list[str] = []
     for language in languages:
@@ -70,8 +76,8 @@ def preview_of(project: Project, design: Design, sources: Mapping[str, str], fol
         except UnsoundDesignError as error:
             which = f" for {language}" if len(languages) > 1 else ""
             notes.append(f"No code{which} yet: {error}")
-    edited = (replace(file, edited=_edited(file, folder)) if folder else file for file in files)
-    return Preview(note="; ".join(dict.fromkeys(notes)), files=tuple(edited))
+    edited = (replace(file, edited_regions=_edited(file, folder)) if folder else file for file in files)
+    return CodePreview(note="; ".join(dict.fromkeys(notes)), files=tuple(edited))
 
 
 def _files(project: Project, component: str, language: str, sources: Mapping[str, str]) -> list[PreviewFile]:
@@ -79,7 +85,7 @@ def _files(project: Project, component: str, language: str, sources: Mapping[str
     others = {each.component for each in project.designs} - {component}
 
     def write(without: set[str]) -> tuple[OutputFile, ...]:
-        return generate(project, components=(component,), leave_out=without, languages=(language,), sources=sources)
+        return generate(project, components=(component,), exclude=without, languages=(language,), sources=sources)
 
     files, shared = write(others), {file.path for file in write({component, *others})}
     return [
@@ -87,7 +93,7 @@ def _files(project: Project, component: str, language: str, sources: Mapping[str
             path=file.path,
             language=language,
             text=file.text,
-            origins=() if file.path in shared else origins_of(project, component, language, file.text),
+            origins=() if file.path in shared else list_origins(project, component, language, file.text),
         )
         for file in sorted(files, key=lambda file: file.path in shared)
     ]
@@ -99,11 +105,14 @@ def _edited(file: PreviewFile, folder: Path) -> tuple[str, ...]:
         old = (folder / file.path).read_bytes().decode("utf-8")
     except (OSError, UnicodeDecodeError):
         return ()
-    if not is_sealed(old):
+    if not has_header(old):
         return ()
-    fresh = {region.id: checksum_of(region.body) for region in find(file.text, comment_of(file.path)).regions}
+    fresh = {
+        region.id: compute_checksum(region.body)
+        for region in find_regions(file.text, get_comment_prefix(file.path)).regions
+    }
     return tuple(
         region.id
-        for region in find(old, comment_of(file.path)).regions
-        if is_edited(region) and checksum_of(region.body) != fresh.get(region.id)
+        for region in find_regions(old, get_comment_prefix(file.path)).regions
+        if is_edited(region) and compute_checksum(region.body) != fresh.get(region.id)
     )

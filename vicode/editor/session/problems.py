@@ -3,38 +3,40 @@
 from collections.abc import Collection, Sequence
 from itertools import groupby
 
-from vicode.editor.view import Selected, thing_of_path
+from vicode.editor.view import ItemRef, item_at_path
 from vicode.findings import Finding, Severity
 
-Group = tuple[Severity, tuple[Finding, ...]]
+FindingsOfSeverity = tuple[Severity, tuple[Finding, ...]]
 
 
-def ordered(findings: Collection[Finding]) -> tuple[Finding, ...]:
+def sort_findings(findings: Collection[Finding]) -> tuple[Finding, ...]:
     """The worst first; of one severity what is about one thing together, else as they were found."""
-    firsts: dict[tuple[Severity, Selected | None], int] = {}
+    firsts: dict[tuple[Severity, ItemRef | None], int] = {}
     for at, finding in enumerate(findings):
         firsts.setdefault(_key(finding), at)
     ranks = list(Severity)
     return tuple(sorted(findings, key=lambda each: (ranks.index(each.severity), firsts[_key(each)])))
 
 
-def grouped(findings: Collection[Finding]) -> tuple[Group, ...]:
+def group_by_severity(findings: Collection[Finding]) -> tuple[FindingsOfSeverity, ...]:
     """The ordered findings by severity."""
-    groups = groupby(ordered(findings), key=lambda each: each.severity)
+    groups = groupby(sort_findings(findings), key=lambda each: each.severity)
     return tuple((severity, tuple(found)) for severity, found in groups)
 
 
-def matching(findings: Collection[Finding], text: str, hidden: Collection[Severity]) -> tuple[Finding, ...]:
+def filter_findings(findings: Collection[Finding], text: str, hidden: Collection[Severity]) -> tuple[Finding, ...]:
     """The findings of a severity that is not hidden, in whose words, code or place every word of a text is found."""
     words = text.casefold().split()
     return tuple(
-        each for each in findings if each.severity not in hidden and all(word in _said_by(each) for word in words)
+        each
+        for each in findings
+        if each.severity not in hidden and all(word in _searchable_text(each) for word in words)
     )
 
 
-def following(findings: Sequence[Finding], current: Finding | None, step: int) -> Finding | None:
+def next_finding(findings: Sequence[Finding], current: Finding | None, step: int) -> Finding | None:
     """The finding that is `step` (1 or -1) further, round and round; None if there are none."""
-    listed = ordered(findings)
+    listed = sort_findings(findings)
     if not listed:
         return None
     if current not in listed:
@@ -42,11 +44,11 @@ def following(findings: Sequence[Finding], current: Finding | None, step: int) -
     return listed[(listed.index(current) + step) % len(listed)]
 
 
-def _key(finding: Finding) -> tuple[Severity, Selected | None]:
-    return (finding.severity, thing_of_path(finding.thing.path) if finding.thing else None)
+def _key(finding: Finding) -> tuple[Severity, ItemRef | None]:
+    return (finding.severity, item_at_path(finding.subject.path) if finding.subject else None)
 
 
-def _said_by(finding: Finding) -> str:
-    path = finding.thing.path if finding.thing else ()
-    said = (finding.severity, finding.rule.code, finding.rule.name, finding.message, finding.mend, *path)
+def _searchable_text(finding: Finding) -> str:
+    path = finding.subject.path if finding.subject else ()
+    said = (finding.severity, finding.rule.code, finding.rule.name, finding.message, finding.fix, *path)
     return " ".join(map(str, said)).casefold()

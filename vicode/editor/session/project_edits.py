@@ -6,58 +6,65 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from vicode.editor.session.declared_names import errors_of, refuse_outcome
-from vicode.editor.session.document import Document
-from vicode.editor.session.people import DISK
-from vicode.editor.session.project_spots import Spot
-from vicode.editor.session.wording import reason_of
+from vicode.editor.session.declared_names import describe_new_errors, find_errors
+from vicode.editor.session.document import DocumentSession
+from vicode.editor.session.people import DISK_USER
+from vicode.editor.session.project_spots import ProjectNodePath
+from vicode.editor.session.wording import error_reason
 from vicode.editor.session.workspace import Workspace
 from vicode.model.design import Declaration
-from vicode.model.edits import free_name
+from vicode.model.edits import unique_name
 from vicode.model.merging import merge_lines
 from vicode.model.project import INTERNAL, WORLD, Agent, Enumeration, Interface, Project
-from vicode.store import ReadProject, is_read_only, project_file_in, read_project_file, save_project_file, write_text
+from vicode.store import (
+    ProjectReadResult,
+    find_project_file,
+    is_read_only,
+    read_project_file,
+    save_project_file,
+    write_text,
+)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Written:
-    """What became of project.yaml; `refused` says in words why nothing did.
+class ProjectEditResult:
+    """What became of project.yaml; `error` says in words why nothing did.
 
-    `edit` is None where it is the same as before. `broken` are the designs that have errors by it.
+    `edit` is None where it is the same as before. `broken_designs` are the designs that have errors by it.
     """
 
     edit: "ProjectEdit | None" = None
-    refused: str = ""
-    broken: tuple[str, ...] = ()
+    error: str = ""
+    broken_designs: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ProjectEdit:
     """A change of project.yaml, which histories take back and do again; what others wrote into it meanwhile stays.
 
-    `what` says in a few words what was changed. `old` is None where there was no file.
+    `summary` says in a few words what was changed. `old` is None where there was no file.
     """
 
     workspace: Workspace
-    what: str
+    summary: str
     old: str | None
     new: str
 
     @property
     def label(self) -> str:
         """What the histories call it."""
-        return f"project.yaml: {self.what}"
+        return f"project.yaml: {self.summary}"
 
-    def take_back(self, _person: str) -> str:
+    def undo(self, _person: str) -> str:
         """Write what stood there before; returns why not, if the same lines were changed since."""
-        return self._bring(self.new, self.old or "")
+        return self._merge_and_write(self.new, self.old or "")
 
-    def do_again(self, _person: str) -> str:
+    def redo(self, _person: str) -> str:
         """Write the change once more; returns why not."""
-        return self._bring(self.old or "", self.new)
+        return self._merge_and_write(self.old or "", self.new)
 
-    def _bring(self, base: str, wanted: str) -> str:
-        file = project_file_in(self.workspace.folder)
+    def _merge_and_write(self, base: str, wanted: str) -> str:
+        file = find_project_file(self.workspace.folder)
         try:
             now = file.read_bytes().decode("utf-8") if file else ""
             text = merge_lines(base, now, wanted)
@@ -65,82 +72,82 @@ class ProjectEdit:
                 return "Not done: project.yaml was changed since, in the same lines"
             _put(self.workspace, file, None if self.old is None and not text else text)
         except (OSError, ValueError) as error:
-            return f"Not done: {reason_of(error)}"
+            return f"Not done: {error_reason(error)}"
         return ""
 
 
-def change_project_file(
+def edit_project_file(
     workspace: Workspace,
     change: Callable[[Project], Project],
-    spot: Spot | None = None,
+    node: ProjectNodePath | None = None,
     *,
-    what: str = "changed",
-    is_agreed: bool = False,
-) -> Written:
+    summary: str = "changed",
+    allow_errors: bool = False,
+) -> ProjectEditResult:
     """Write another project.yaml, patching its text; comments and the order of keys stay. Without a file one is made.
 
-    `what` says in a few words what changes. With a `spot` what stands there must still be called as it is shown. What
+    `summary` says in a few words what changes. With a `node` what stands there must still be called as it is shown. What
     brings errors to the file itself is refused unless somebody agreed to it.
 
     Raises:
         OSError: The file cannot be read or written.
     """
-    file = project_file_in(workspace.folder)
+    file = find_project_file(workspace.folder)
     if file is not None and is_read_only(file):
-        return Written(refused=f"{file.name} cannot be changed: read-only")
+        return ProjectEditResult(error=f"{file.name} cannot be changed: read-only")
     known = workspace.project
     content = file.read_bytes() if file else b""
     read = read_project_file(content, file.name) if file else None
     project = known if read is None else read.project
     if project is None:
-        return Written(refused=f"project.yaml cannot be read{_first_reason(read)}")
+        return ProjectEditResult(error=f"project.yaml cannot be read{_first_reason(read)}")
     old = content.decode("utf-8") if file else None
     project = replace(project, designs=known.designs)
-    if spot is not None and spot.names(project) != spot.names(known):
-        return Written(refused="project.yaml was just changed by another program: look again")
+    if node is not None and node.names(project) != node.names(known):
+        return ProjectEditResult(error="project.yaml was just changed by another program: look again")
     changed = change(project)
-    refused = "" if is_agreed else refuse_outcome(project, changed, ())
+    refused = "" if allow_errors else describe_new_errors(project, changed, ())
     if refused:
-        return Written(refused=refused)
+        return ProjectEditResult(error=refused)
     try:
         new = save_project_file(changed, old or "")
     except ValueError as error:
-        return Written(refused=f"no file can hold that: {error}")
+        return ProjectEditResult(error=f"no file can hold that: {error}")
     if new == old:
-        return Written()
+        return ProjectEditResult()
     _put(workspace, file, new)
-    edit = ProjectEdit(workspace=workspace, what=what, old=old, new=new)
-    return Written(edit=edit, broken=_broken_by(project, changed))
+    edit = ProjectEdit(workspace=workspace, summary=summary, old=old, new=new)
+    return ProjectEditResult(edit=edit, broken_designs=_newly_broken(project, changed))
 
 
 def add_enumeration(project: Project) -> Project:
     """One more enumeration, of one element."""
-    made = Enumeration(name=free_name("Kind", _shared_names(project)), elements=(("first", ""),))
+    made = Enumeration(name=unique_name("Kind", _shared_names(project)), elements=(("first", ""),))
     return replace(project, enumerations=(*project.enumerations, made))
 
 
 def add_element(enumeration: Enumeration) -> Enumeration:
     """One more element."""
-    name = free_name("element", set(enumeration.element_names))
+    name = unique_name("element", set(enumeration.element_names))
     return replace(enumeration, elements=(*enumeration.elements, (name, "")))
 
 
 def add_constant(project: Project) -> Project:
     """One more constant."""
-    made = Declaration(name=free_name("constant", _shared_names(project)), initial="0")
+    made = Declaration(name=unique_name("constant", _shared_names(project)), initial="0")
     return replace(project, constants=(*project.constants, made))
 
 
 def add_component(project: Project) -> Project:
     """One more component without a design: of the world, or a memory where there is none."""
-    name = free_name("Component", _shared_names(project))
+    name = unique_name("Component", _shared_names(project))
     made = Interface(component=name, implementation=WORLD if project.world else INTERNAL)
     return replace(project, components=(*project.components, made))
 
 
 def add_agent(project: Project, root: str) -> Project:
     """One more agent."""
-    made = Agent(name=free_name("agent", {each.name for each in project.agents}), root=root)
+    made = Agent(name=unique_name("agent", {each.name for each in project.agents}), root=root)
     return replace(project, agents=(*project.agents, made))
 
 
@@ -148,14 +155,14 @@ def add_declaration(component: Interface, section: str) -> Interface:
     """One more parameter, output or variable of a component."""
     known: tuple[Declaration, ...] = getattr(component, section)
     beside = (*component.readable, *component.parameters)
-    made = Declaration(name=free_name(section.removesuffix("s"), {each.name for each in beside}), type="float")
+    made = Declaration(name=unique_name(section.removesuffix("s"), {each.name for each in beside}), type="float")
     changes: dict[str, Any] = {section: (*known, made)}
     return replace(component, **changes)
 
 
-def _first_reason(read: ReadProject | None) -> str:
+def _first_reason(read: ProjectReadResult | None) -> str:
     found = next(iter(read.findings), None) if read is not None else None
-    return f": {found.message}{found.mend and f'; {found.mend}'}" if found is not None else ""
+    return f": {found.message}{found.fix and f'; {found.fix}'}" if found is not None else ""
 
 
 def _shared_names(project: Project) -> set[str]:
@@ -163,9 +170,11 @@ def _shared_names(project: Project) -> set[str]:
     return enumerations | constants | set(project.interfaces())
 
 
-def _broken_by(before: Project, after: Project) -> tuple[str, ...]:
+def _newly_broken(before: Project, after: Project) -> tuple[str, ...]:
     """What has more errors than before: designs, and the file itself."""
-    old, new = (Counter(each.thing.component for each in errors_of(every) if each.thing) for every in (before, after))
+    old, new = (
+        Counter(each.subject.component for each in find_errors(every) if each.subject) for every in (before, after)
+    )
     names = ("", *(each.component for each in after.designs))
     return tuple(name or "project.yaml" for name in names if new[name] > old[name])
 
@@ -176,6 +185,6 @@ def _put(workspace: Workspace, file: Path | None, text: str | None) -> None:
         write_text(file or workspace.folder / "project.yaml", text)
     elif file is not None:
         file.unlink()
-    workspace.follow_disk()
+    workspace.sync_from_disk()
     for document in workspace.documents:
-        document.sheet.tell(Document(document.sheet, DISK))
+        document.shared.notify_listeners(DocumentSession(document.shared, DISK_USER))

@@ -4,15 +4,15 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Any
 
-from vicode.findings import Path
+from vicode.findings import DesignPath
 from vicode.model.project import Interface, Project
-from vicode.model.renaming import Declared
+from vicode.model.renaming import SymbolRef
 
-Change = Callable[[Any], Any]
+NodeUpdate = Callable[[Any], Any]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Spot:
+class ProjectNodePath:
     """Where a thing stands: the keys that lead to it, each with a number, such as ("components", 0), ("outputs", 3).
 
     None lead to the project itself.
@@ -24,13 +24,13 @@ class Spot:
     steps: tuple[tuple[str, int], ...]
 
     @staticmethod
-    def of(section: str, number: int) -> "Spot":
+    def top_level(section: str, number: int) -> "ProjectNodePath":
         """A thing of the project itself."""
-        return Spot(steps=((section, number),))
+        return ProjectNodePath(steps=((section, number),))
 
-    def inner(self, section: str, number: int) -> "Spot":
+    def child(self, section: str, number: int) -> "ProjectNodePath":
         """A thing that stands in this one."""
-        return Spot(steps=(*self.steps, (section, number)))
+        return ProjectNodePath(steps=(*self.steps, (section, number)))
 
     @property
     def section(self) -> str:
@@ -42,7 +42,7 @@ class Spot:
         """What it is, in a word."""
         return self.section.removesuffix("s")
 
-    def read(self, project: Project) -> Any:
+    def get(self, project: Project) -> Any:
         """The thing; None when it is gone."""
         thing: Any = project
         for section, number in self.steps:
@@ -54,24 +54,24 @@ class Spot:
 
     def name(self, project: Project) -> str:
         """Its name; "" when it is gone."""
-        return _name_of(self.read(project))
+        return _name_of(self.get(project))
 
     def names(self, project: Project) -> tuple[str, ...]:
         """The names of all that it stands in, and its own."""
-        ways = (Spot(steps=self.steps[: end + 1]) for end in range(len(self.steps)))
+        ways = (ProjectNodePath(steps=self.steps[: end + 1]) for end in range(len(self.steps)))
         return tuple(way.name(project) for way in ways)
 
-    def path(self, project: Project) -> Path:
+    def path(self, project: Project) -> DesignPath:
         """Where it stands in the file."""
         names = self.names(project)
         return tuple(step for (section, _), name in zip(self.steps, names, strict=True) for step in (section, name))
 
-    def write(self, project: Project, change: Change) -> Project:
+    def update(self, project: Project, change: NodeUpdate) -> Project:
         """The project with another thing there."""
         changed: Project = _updated(project, self.steps, change)
         return changed
 
-    def without(self, project: Project) -> Project:
+    def remove(self, project: Project) -> Project:
         """The project without the thing."""
         *outer, (section, number) = self.steps
         name = self.name(project)
@@ -86,7 +86,7 @@ class Spot:
         changed: Project = _updated(project, tuple(outer), change)
         return changed
 
-    def earlier(self, project: Project) -> Project:
+    def move_up(self, project: Project) -> Project:
         """The project with the thing before the one that stands before it; the first stays."""
         *outer, (section, number) = self.steps
 
@@ -100,21 +100,21 @@ class Spot:
         changed: Project = _updated(project, tuple(outer), change)
         return changed
 
-    def declared(self, project: Project) -> Declared:
+    def symbol_ref(self, project: Project) -> SymbolRef:
         """It as a thing that can be renamed, and is said elsewhere."""
         names = self.names(project)
         match [section for section, _number in self.steps]:
             case ["enumerations", "elements"]:
-                return Declared(section="elements", owner=names[0], name=names[1])
+                return SymbolRef(section="elements", owner=names[0], name=names[1])
             case ["components", section]:
-                return Declared(component=names[0], section=section, name=names[1])
+                return SymbolRef(component=names[0], section=section, name=names[1])
             case ["components", "outputs", "arguments"]:
-                return Declared(component=names[0], section="arguments", owner=names[1], name=names[2])
+                return SymbolRef(component=names[0], section="arguments", owner=names[1], name=names[2])
             case _:
-                return Declared(section=self.section, name=names[0])
+                return SymbolRef(section=self.section, name=names[0])
 
 
-def outline_of_project(project: Project) -> object:
+def project_structure_key(project: Project) -> object:
     """What decides which fields the forms of a project have, as opposed to what stands in them."""
     parts = (
         (
@@ -136,7 +136,7 @@ def _name_of(thing: Any) -> str:
     return thing.name if thing is not None else ""
 
 
-def _updated(thing: Any, steps: tuple[tuple[str, int], ...], change: Change) -> Any:
+def _updated(thing: Any, steps: tuple[tuple[str, int], ...], change: NodeUpdate) -> Any:
     if not steps:
         return change(thing)
     (section, number), rest = steps[0], steps[1:]

@@ -7,9 +7,9 @@ import math
 import re
 from dataclasses import dataclass
 
-_BEFORE, _INSIDE, _BEHIND = -0.005, -0.01, -0.005
-_FOLLOWS, _WORD, _CAPITAL, _DOT = 1.0, 0.8, 0.7, 0.6
-_LONGEST = 120
+_GAP_LEADING, _GAP_INNER, _GAP_TRAILING = -0.005, -0.01, -0.005
+_MATCH_CONSECUTIVE, _MATCH_WORD, _MATCH_CAPITAL, _MATCH_DOT = 1.0, 0.8, 0.7, 0.6
+_MAX_TEXT_LENGTH = 120
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -17,10 +17,10 @@ class Alignment:
     """How well a query fits, and which letters of the text it took."""
 
     score: float
-    places: tuple[int, ...]
+    positions: tuple[int, ...]
 
 
-def subsequence(word: str) -> re.Pattern[str]:
+def subsequence_pattern(word: str) -> re.Pattern[str]:
     """Finds the letters of a word in their order in small letters, without ever going back."""
     letters = [re.escape(letter) for letter in word]
     return re.compile("".join(f"[^{letter}\n]*{letter}" for letter in letters))
@@ -28,19 +28,19 @@ def subsequence(word: str) -> re.Pattern[str]:
 
 def align(word: str, text: str) -> Alignment | None:
     """The best way to find the letters of a word (in small letters) in a text; None if there is none."""
-    text = text[:_LONGEST]
+    text = text[:_MAX_TEXT_LENGTH]
     low = text.lower()
-    if len(low) != len(text) or not subsequence(word).match(low):
+    if len(low) != len(text) or not subsequence_pattern(word).match(low):
         return None
     bonus = _bonuses(text)
     ends: list[list[float]] = []
     bests: list[list[float]] = []
     for row, letter in enumerate(word):
-        gap = _BEHIND if row == len(word) - 1 else _INSIDE
+        gap = _GAP_TRAILING if row == len(word) - 1 else _GAP_INNER
         end, best = _row(letter, low, bonus, (ends[-1], bests[-1]) if ends else None, gap=gap)
         ends.append(end)
         bests.append(best)
-    return Alignment(score=bests[-1][-1], places=_places(ends, bests))
+    return Alignment(score=bests[-1][-1], positions=_trace_positions(ends, bests))
 
 
 def _row(
@@ -53,16 +53,16 @@ def _row(
         score = -math.inf
         if found == letter:
             if above is None:
-                score = at * _BEFORE + bonus[at]
+                score = at * _GAP_LEADING + bonus[at]
             elif at:
-                score = max(above[1][at - 1] + bonus[at], above[0][at - 1] + _FOLLOWS)
+                score = max(above[1][at - 1] + bonus[at], above[0][at - 1] + _MATCH_CONSECUTIVE)
         running = max(score, running + gap)
         end.append(score)
         best.append(running)
     return end, best
 
 
-def _places(ends: list[list[float]], bests: list[list[float]]) -> tuple[int, ...]:
+def _trace_positions(ends: list[list[float]], bests: list[list[float]]) -> tuple[int, ...]:
     """Walk back from the best end, letter by letter."""
     places: list[int] = []
     at = len(ends[0]) - 1
@@ -71,7 +71,7 @@ def _places(ends: list[list[float]], bests: list[list[float]]) -> tuple[int, ...
         while not (ends[row][at] > -math.inf and (must or ends[row][at] == bests[row][at])):
             at -= 1
         # Whether the letter before has to stand right before this one.
-        must = row > 0 and at > 0 and bests[row][at] == ends[row - 1][at - 1] + _FOLLOWS
+        must = row > 0 and at > 0 and bests[row][at] == ends[row - 1][at - 1] + _MATCH_CONSECUTIVE
         places.append(at)
         at -= 1
     return tuple(reversed(places))
@@ -82,11 +82,11 @@ def _bonuses(text: str) -> list[float]:
     bonuses = []
     for letter in text:
         if before in "/_- →(:":
-            bonuses.append(_WORD)
+            bonuses.append(_MATCH_WORD)
         elif before == ".":
-            bonuses.append(_DOT)
+            bonuses.append(_MATCH_DOT)
         elif letter.isupper() and not before.isupper():
-            bonuses.append(_CAPITAL)
+            bonuses.append(_MATCH_CAPITAL)
         else:
             bonuses.append(0.0)
         before = letter

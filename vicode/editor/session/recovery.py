@@ -13,36 +13,36 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TextIO
 
-from vicode.editor.session.document import Sheet
+from vicode.editor.session.document import SharedDocument
 from vicode.model.design import Design
 from vicode.output import write_atomically
 from vicode.store import save_design
 
-STATE = "VICODE_STATE"
+STATE_VARIABLE = "VICODE_STATE"
 _AUTOSAVED = "autosaved"
-_LARGEST_BYTES = 20_000_000
-_MOST_JOURNALS = 200
+_MAX_JOURNAL_BYTES = 20_000_000
+_MAX_JOURNALS = 200
 
 
 def state_folder(environment: Mapping[str, str] = os.environ) -> Path:
     """Where the editor keeps what outlives it: VICODE_STATE, else `vicode` in the user's state folder."""
-    given = environment.get(STATE)
+    given = environment.get(STATE_VARIABLE)
     if given:
         return Path(given)
     home = environment.get("XDG_STATE_HOME")
     return (Path(home) if home else Path.home() / ".local" / "state") / "vicode"
 
 
-def open_recovery() -> "Recovery":
+def open_recovery_store() -> "RecoveryStore":
     """The journals in the state folder; in one for temporary files where nothing else can be written."""
     try:
-        return Recovery(state_folder())
+        return RecoveryStore(state_folder())
     except OSError:
-        return Recovery(Path(tempfile.gettempdir()) / f"vicode-state-{os.getuid()}")
+        return RecoveryStore(Path(tempfile.gettempdir()) / f"vicode-state-{os.getuid()}")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Lost:
+class RecoverableDesign:
     """Unsaved work that a server left behind: `base_text` is what its file held, `text` what the design became."""
 
     journal: Path
@@ -53,7 +53,7 @@ class Lost:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Snapshot:
+class JournalSnapshot:
     """What is to be written into a journal; no design: nothing is unsaved any more."""
 
     project: Path
@@ -64,11 +64,11 @@ class Snapshot:
 
 
 @dataclass(eq=False)
-class Recovery:
+class RecoveryStore:
     """The journals of this server, and those that servers left which are gone."""
 
     folder: Path
-    _own: Path = field(init=False)
+    _own_folder: Path = field(init=False)
     _lock: TextIO = field(init=False)
     _seen: dict[tuple[Path, str], tuple[Design, str]] = field(init=False, default_factory=dict)
 
@@ -78,14 +78,14 @@ class Recovery:
         Raises:
             OSError: Nothing can be written there.
         """
-        self._own = self.folder / "unsaved" / secrets.token_hex(8)
-        self._own.mkdir(parents=True, mode=0o700)
-        self._lock = (self._own / "lock").open("w")
+        self._own_folder = self.folder / "unsaved" / secrets.token_hex(8)
+        self._own_folder.mkdir(parents=True, mode=0o700)
+        self._lock = (self._own_folder / "lock").open("w")
         fcntl.flock(self._lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
 
-    def due(self, project: Path, component: str, sheet: Sheet) -> Snapshot | None:
+    def next_snapshot(self, project: Path, component: str, sheet: SharedDocument) -> JournalSnapshot | None:
         """What a journal must be told of a design, None when it knows."""
-        design, key = sheet.history.present.design, (project, component)
+        design, key = sheet.history.current.design, (project, component)
         is_saved = design == sheet.saved
         last = self._seen.get(key)
         if (last is None and is_saved) or last == (design, sheet.disk_text):
@@ -94,10 +94,12 @@ class Recovery:
         if is_saved:
             del self._seen[key]
         wanted = None if is_saved else design
-        at_s = sheet.history.present.at_s
-        return Snapshot(project=project, component=component, at_s=at_s, base_text=sheet.disk_text, design=wanted)
+        at_s = sheet.history.current.at_s
+        return JournalSnapshot(
+            project=project, component=component, at_s=at_s, base_text=sheet.disk_text, design=wanted
+        )
 
-    def write(self, snapshot: Snapshot) -> None:
+    def write(self, snapshot: JournalSnapshot) -> None:
         """Bring a journal up to date; slow for large designs, and safe beside the event loop.
 
         Raises:
@@ -109,46 +111,46 @@ class Recovery:
             self._seen.pop((snapshot.project, snapshot.component), None)
             raise
 
-    def lost(self, project: Path) -> tuple[Lost, ...]:
+    def recoverable(self, project: Path) -> tuple[RecoverableDesign, ...]:
         """The unsaved work on a project that was left behind, the newest of each design, by component."""
-        wanted, found = str(project.resolve()), dict[str, Lost]()
-        for journal in self._left_behind():
+        wanted, found = str(project.resolve()), dict[str, RecoverableDesign]()
+        for journal in self._orphaned_journals():
             lost = _read(journal, wanted)
             if lost is not None and lost.at_s >= (found[lost.component].at_s if lost.component in found else 0):
                 found[lost.component] = lost
         return tuple(found[name] for name in sorted(found))
 
-    def forget(self, lost: Lost) -> None:
+    def discard(self, lost: RecoverableDesign) -> None:
         """Give up what was recovered or discarded."""
         lost.journal.unlink(missing_ok=True)
-        self._tidy(lost.journal.parent)
+        self._remove_if_empty(lost.journal.parent)
 
     def close(self) -> None:
         """End in order: what is still unsaved stays to be recovered."""
         self._lock.close()
-        self._tidy(self._own)
+        self._remove_if_empty(self._own_folder)
 
     @property
-    def saving_by_themselves(self) -> frozenset[str]:
+    def autosaved_projects(self) -> frozenset[str]:
         """The projects that are saved by themselves, as they were noted last."""
         try:
             return frozenset((self.folder / _AUTOSAVED).read_text(encoding="utf-8").splitlines())
         except (OSError, UnicodeDecodeError):
             return frozenset()
 
-    def note_autosave(self, project: Path, *, is_on: bool) -> None:
+    def set_autosave(self, project: Path, *, is_on: bool) -> None:
         """Note for the next servers whether a project is saved by itself.
 
         Raises:
             OSError: It cannot be written.
         """
         own = frozenset({str(project.resolve())})
-        known = self.saving_by_themselves
+        known = self.autosaved_projects
         noted = known | own if is_on else known - own
         write_atomically(self.folder / _AUTOSAVED, "".join(f"{each}\n" for each in sorted(noted)))
 
-    def _write(self, snapshot: Snapshot) -> None:
-        file = self._own / _name(snapshot.project, snapshot.component)
+    def _write(self, snapshot: JournalSnapshot) -> None:
+        file = self._own_folder / _name(snapshot.project, snapshot.component)
         if snapshot.design is None:
             file.unlink(missing_ok=True)
             return
@@ -166,16 +168,16 @@ class Recovery:
         }
         write_atomically(file, json.dumps(said))
 
-    def _left_behind(self) -> list[Path]:
+    def _orphaned_journals(self) -> list[Path]:
         """The journals in folders that no living server holds."""
         journals: list[Path] = []
         for folder in (self.folder / "unsaved").iterdir():
-            if folder != self._own and _is_abandoned(folder):
-                self._tidy(folder)
+            if folder != self._own_folder and _is_abandoned(folder):
+                self._remove_if_empty(folder)
                 journals += folder.glob("*.json")
-        return journals[:_MOST_JOURNALS]
+        return journals[:_MAX_JOURNALS]
 
-    def _tidy(self, folder: Path) -> None:
+    def _remove_if_empty(self, folder: Path) -> None:
         if not any(folder.glob("*.json")):
             shutil.rmtree(folder, ignore_errors=True)
 
@@ -192,10 +194,10 @@ def _is_abandoned(folder: Path) -> bool:
     return False
 
 
-def _read(journal: Path, project: str) -> Lost | None:
+def _read(journal: Path, project: str) -> RecoverableDesign | None:
     """The work in a journal of a project; None for one of another, and for a file that is none."""
     try:
-        if journal.stat().st_size > _LARGEST_BYTES:
+        if journal.stat().st_size > _MAX_JOURNAL_BYTES:
             return None
         said = json.loads(journal.read_text(encoding="utf-8"))
         if said["project"] != project:
@@ -204,4 +206,6 @@ def _read(journal: Path, project: str) -> Lost | None:
         at_s = float(said["at"])
     except (OSError, ValueError, KeyError, TypeError):
         return None
-    return Lost(journal=journal, component=texts["component"], at_s=at_s, base_text=texts["base"], text=texts["text"])
+    return RecoverableDesign(
+        journal=journal, component=texts["component"], at_s=at_s, base_text=texts["base"], text=texts["text"]
+    )

@@ -6,17 +6,17 @@ from time import monotonic
 
 import regex
 
-from vicode.findings import Path
+from vicode.findings import DesignPath
 from vicode.model.design import Design
-from vicode.model.texts import PlacedText, TextKind, rewrite_text, walk_texts
+from vicode.model.texts import LocatedText, TextKind, iter_texts, rewrite_text
 
 TIME_LIMIT_S = 1.0
-MOST_HITS = 2000
-_BEFORE = 36
+MAX_MATCHES = 2000
+_MAX_CONTEXT_LENGTH = 36
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Query:
+class TextQuery:
     """What is searched for, and where."""
 
     text: str
@@ -27,37 +27,37 @@ class Query:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Hit:
+class TextMatch:
     """A place that was found: characters `start` to `end` of a text, and the line around them."""
 
-    path: Path
+    path: DesignPath
     kind: TextKind
     start: int
     end: int
     line: int
     before: str
-    found: str
+    matched: str
     after: str
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Found:
-    """All hits in the order of the design; `mistake` says in words why there are none, or not all."""
+class TextSearchResult:
+    """All hits in the order of the design; `error` says in words why there are none, or not all."""
 
-    hits: tuple[Hit, ...] = ()
-    mistake: str = ""
+    matches: tuple[TextMatch, ...] = ()
+    error: str = ""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Replaced:
+class ReplaceResult:
     """The design with the replacements, how many there were, and a mistake if there is none."""
 
     design: Design
     count: int = 0
-    mistake: str = ""
+    error: str = ""
 
 
-class _MistakeError(Exception):
+class _SearchError(Exception):
     """A mistake of the person who searches, in words."""
 
 
@@ -82,34 +82,36 @@ class _Search:
                 if match.end() > match.start():
                     yield match
         except TimeoutError:
-            raise _MistakeError("this pattern takes too long: make it simpler") from None
+            raise _SearchError("this pattern takes too long: make it simpler") from None
 
 
-def find(design: Design, query: Query) -> Found:
+def find_text(design: Design, query: TextQuery) -> TextSearchResult:
     """Every place where a design says what is searched for."""
     if not query.text:
-        return Found()
-    hits: list[Hit] = []
+        return TextSearchResult()
+    hits: list[TextMatch] = []
     try:
         search = _Search(_compiled(query))
         for placed in _texts(design, query):
             hits += [_hit(placed, *match.span()) for match in search.matches(placed.text)]
-            if len(hits) > MOST_HITS:
-                return Found(hits=tuple(hits[:MOST_HITS]), mistake=f"only the first {MOST_HITS} are listed")
-    except _MistakeError as mistake:
-        return Found(hits=tuple(hits), mistake=str(mistake))
-    return Found(hits=tuple(hits))
+            if len(hits) > MAX_MATCHES:
+                return TextSearchResult(
+                    matches=tuple(hits[:MAX_MATCHES]), error=f"only the first {MAX_MATCHES} are listed"
+                )
+    except _SearchError as mistake:
+        return TextSearchResult(matches=tuple(hits), error=str(mistake))
+    return TextSearchResult(matches=tuple(hits))
 
 
-def replace_hits(
-    design: Design, query: Query, replacement: str, only: Collection[tuple[Path, int]] | None = None
-) -> Replaced:
+def replace_matches(
+    design: Design, query: TextQuery, replacement: str, only: Collection[tuple[DesignPath, int]] | None = None
+) -> ReplaceResult:
     r"""Put a text in the place of every hit, or of those that begin at a character of a path.
 
     In the replacement of a pattern `\1` and `\g<name>` stand for groups; else it is taken as it is written.
     """
     if not query.text:
-        return Replaced(design=design)
+        return ReplaceResult(design=design)
     changed, count = design, 0
     try:
         search = _Search(_compiled(query))
@@ -121,20 +123,20 @@ def replace_hits(
                 text = _replaced(placed.text, wanted, query, replacement)
                 changed = _with_text(changed, placed.path, text)
                 count += len(wanted)
-    except _MistakeError as mistake:
-        return Replaced(design=design, mistake=str(mistake))
-    return Replaced(design=changed, count=count)
+    except _SearchError as mistake:
+        return ReplaceResult(design=design, error=str(mistake))
+    return ReplaceResult(design=changed, count=count)
 
 
-def _with_text(design: Design, path: Path, text: str) -> Design:
+def _with_text(design: Design, path: DesignPath, text: str) -> Design:
     return rewrite_text(design, path, lambda _old: text)
 
 
-def _texts(design: Design, query: Query) -> Iterator[PlacedText]:
-    return (placed for placed in walk_texts(design) if placed.kind in query.kinds)
+def _texts(design: Design, query: TextQuery) -> Iterator[LocatedText]:
+    return (placed for placed in iter_texts(design) if placed.kind in query.kinds)
 
 
-def _compiled(query: Query) -> "regex.Pattern[str]":
+def _compiled(query: TextQuery) -> "regex.Pattern[str]":
     source = query.text if query.is_pattern else regex.escape(query.text, special_only=True)
     if query.whole_word:
         source = rf"(?<!\w)(?:{source})(?!\w)"
@@ -142,10 +144,10 @@ def _compiled(query: Query) -> "regex.Pattern[str]":
     try:
         return regex.compile(source, flags)
     except (regex.error, RecursionError, OverflowError) as error:
-        raise _MistakeError(f"this is no pattern: {getattr(error, 'msg', error)}") from None
+        raise _SearchError(f"this is no pattern: {getattr(error, 'msg', error)}") from None
 
 
-def _replaced(text: str, matches: "list[regex.Match[str]]", query: Query, replacement: str) -> str:
+def _replaced(text: str, matches: "list[regex.Match[str]]", query: TextQuery, replacement: str) -> str:
     parts, end = [], 0
     for match in matches:
         parts += [text[end : match.start()], _expanded(match, query, replacement)]
@@ -153,32 +155,32 @@ def _replaced(text: str, matches: "list[regex.Match[str]]", query: Query, replac
     return "".join((*parts, text[end:]))
 
 
-def _expanded(match: "regex.Match[str]", query: Query, replacement: str) -> str:
+def _expanded(match: "regex.Match[str]", query: TextQuery, replacement: str) -> str:
     if not query.is_pattern:
         return replacement
     try:
         return str(match.expand(replacement))
     except (regex.error, IndexError, KeyError, ValueError) as error:
-        raise _MistakeError(f"this cannot be put in: {getattr(error, 'msg', error)}") from None
+        raise _SearchError(f"this cannot be put in: {getattr(error, 'msg', error)}") from None
 
 
-def _hit(placed: PlacedText, start: int, end: int) -> Hit:
+def _hit(placed: LocatedText, start: int, end: int) -> TextMatch:
     text = placed.text
     line_start = text.rfind("\n", 0, start) + 1
     line_end = text.find("\n", end)
     line_end = len(text) if line_end < 0 else line_end
-    return Hit(
+    return TextMatch(
         path=placed.path,
         kind=placed.kind,
         start=start,
         end=end,
         line=text.count("\n", 0, start) + 1,
         before=_shortened(text[line_start:start].lstrip()),
-        found=text[start:end][:200],
+        matched=text[start:end][:200],
         after=text[end:line_end][:120],
     )
 
 
 def _shortened(text: str) -> str:
     """The end of a text, so that what was found behind it is in view."""
-    return text if len(text) <= _BEFORE else f"…{text[-_BEFORE:]}"
+    return text if len(text) <= _MAX_CONTEXT_LENGTH else f"…{text[-_MAX_CONTEXT_LENGTH:]}"

@@ -2,28 +2,28 @@
 
 from dataclasses import replace
 
-from vicode.editor.session.workspace import ThrownAway, Workspace
-from vicode.model.edits import free_name
-from vicode.model.names import is_name, name_like, snake_case
+from vicode.editor.session.workspace import TrashedDesign, Workspace
+from vicode.model.edits import unique_name
+from vicode.model.names import is_valid_name, name_from_text, snake_case
 from vicode.store import save_design, write_text
 
 
-def refuse_throwing_away(workspace: Workspace, component: str) -> str:
+def validate_move_to_trash(workspace: Workspace, component: str) -> str:
     """Why a design cannot be taken away, in words; empty if it can."""
     if workspace.project.design(component) is None:
         return f"there is no design of {component} any more"
-    if component in workspace.unsaved:
+    if component in workspace.unsaved_components:
         return f"{component} has unsaved changes: save or undo them first, so that what is in the trash is whole"
     return ""
 
 
-def users_of(workspace: Workspace, component: str) -> tuple[str, ...]:
+def find_dependents(workspace: Workspace, component: str) -> tuple[str, ...]:
     """The components whose designs use this one."""
     designs = workspace.project.designs
     return tuple(each.component for each in designs if any(use.component == component for use in each.uses))
 
 
-def throw_away(workspace: Workspace, component: str) -> ThrownAway:
+def move_to_trash(workspace: Workspace, component: str) -> TrashedDesign:
     """Move the file of a design to the trash.
 
     Raises:
@@ -32,15 +32,15 @@ def throw_away(workspace: Workspace, component: str) -> ThrownAway:
     from send2trash import send2trash  # type: ignore[import-untyped]  # noqa: PLC0415 - slow, and wanted rarely
 
     file = workspace.files[component]
-    thrown = ThrownAway(component=component, file=file, content=file.read_bytes())
+    thrown = TrashedDesign(component=component, file=file, content=file.read_bytes())
     send2trash(file.resolve())
-    workspace.thrown_away[component] = thrown
-    workspace.forget(component)
-    workspace.follow_disk()
+    workspace.trashed_designs[component] = thrown
+    workspace.drop_document(component)
+    workspace.sync_from_disk()
     return thrown
 
 
-def put_back(workspace: Workspace, thrown: ThrownAway) -> str:
+def restore_from_trash(workspace: Workspace, thrown: TrashedDesign) -> str:
     """Put a design back where it was; returns why not, in words.
 
     Raises:
@@ -49,27 +49,29 @@ def put_back(workspace: Workspace, thrown: ThrownAway) -> str:
     if thrown.file.exists():
         return f"there is another {thrown.file.name} now; {thrown.component} is still in the trash"
     write_text(thrown.file, thrown.content.decode("utf-8"))
-    workspace.thrown_away.pop(thrown.component, None)
-    workspace.follow_disk()
+    workspace.trashed_designs.pop(thrown.component, None)
+    workspace.sync_from_disk()
     return ""
 
 
-def name_for_copy(workspace: Workspace, component: str) -> str:
+def copy_name(workspace: Workspace, component: str) -> str:
     """A free name for a copy."""
-    return free_name(component, set(workspace.project.interfaces()))
+    return unique_name(component, set(workspace.project.interfaces()))
 
 
-def refuse_name(workspace: Workspace, name: str) -> str:
+def validate_component_name(workspace: Workspace, name: str) -> str:
     """Why a new design cannot be called so, in words; empty if it can."""
-    if not is_name(name):
-        return f"a component is named in letters, digits and underscores, such as {name_like(name) or 'FollowBall'}"
+    if not is_valid_name(name):
+        return (
+            f"a component is named in letters, digits and underscores, such as {name_from_text(name) or 'FollowBall'}"
+        )
     if workspace.project.interface(name) is not None:
         return f"there is already a component {name}"
     file = workspace.folder / f"{snake_case(name)}.yaml"
     return f"there is already a file {file.name}" if file.exists() else ""
 
 
-def duplicate(workspace: Workspace, component: str, name: str) -> None:
+def duplicate_design(workspace: Workspace, component: str, name: str) -> None:
     """Make a copy of a design as it is now, under another name and in a file of its own.
 
     Raises:

@@ -3,8 +3,8 @@
 from dataclasses import fields, is_dataclass
 
 from vicode.editor.session.people import Presence
-from vicode.editor.view import Selected, path_of_key
-from vicode.findings import Path
+from vicode.editor.view import ItemRef, parse_transition_key
+from vicode.findings import DesignPath
 
 _KINDS = {
     "states": "state",
@@ -17,7 +17,7 @@ _ATTRIBUTES = {"at": "place", "to": "target", "doc": "doc", "frequency": "freque
 _LONGEST = 400
 
 
-def words_of_path(path: Path) -> str:
+def describe_path(path: DesignPath) -> str:
     """What a path leads to: "doc of state Kick", "transition 2 of state Kick, when"."""
     if not path:
         return "the design"
@@ -29,16 +29,16 @@ def words_of_path(path: Path) -> str:
     return _within(list(path), "the design")
 
 
-def words_of_presence(presence: Presence) -> str:
+def describe_presence(presence: Presence) -> str:
     """What somebody is at: the field being typed in, else what is selected; nothing if neither."""
-    if presence.typing_in:
-        return f"types {words_of_path(presence.typing_in)}"
+    if presence.editing_path:
+        return f"types {describe_path(presence.editing_path)}"
     if len(presence.selected) > 1:
         return f"{len(presence.selected)} things"
     return next((_words_of_thing(thing) for thing in presence.selected), "")
 
 
-def words_of_value(value: object) -> str:
+def describe_value(value: object) -> str:
     """A value as a short text; of a thing only what is said of it."""
     if value is None:
         return "(removed)"
@@ -46,14 +46,14 @@ def words_of_value(value: object) -> str:
     return text if len(text) <= _LONGEST else f"{text[:_LONGEST]} …"
 
 
-def _words_of_thing(thing: Selected) -> str:
-    match thing.of:
+def _words_of_thing(thing: ItemRef) -> str:
+    match thing.kind:
         case "states":
             return f"state {thing.id}"
         case "components":
             return f"component {thing.id}"
         case "transitions":
-            return words_of_path(path_of_key(thing.id))
+            return describe_path(parse_transition_key(thing.id))
         case _:
             return ""
 
@@ -84,6 +84,6 @@ def _text(value: object) -> str:
     return str(value) if value != "" else "(empty)"
 
 
-def reason_of(error: OSError | ValueError) -> str:
+def error_reason(error: OSError | ValueError) -> str:
     """Why something could not be done, in words."""
     return (error.strerror or str(error)) if isinstance(error, OSError) else str(error)

@@ -6,12 +6,12 @@ from typing import Any
 from nicegui import ui
 from nicegui.events import GenericEventArguments
 
-from vicode.editor.scripts import TABLE
+from vicode.editor.scripts import TABLE_JS
 
 Payload = Mapping[str, Any]
 
 
-class TableGrid(ui.element, component=TABLE / "vicode_table.js"):
+class TableGrid(ui.element, component=TABLE_JS / "vicode_table.js"):
     """The rows of a design (see `vicode.editor.view.table`), as a tree grid that keys alone can steer.
 
     Args:
@@ -25,11 +25,11 @@ class TableGrid(ui.element, component=TABLE / "vicode_table.js"):
         self._table: dict[str, Any] = {"rows": [], "states": [], "uses": []}
         self._selected: list[str] = []
         self._is_mounted = False
-        self._wants_focus = False
+        self._is_focus_pending = False
         # Handlers added after the first rendering would make NiceGUI mount the element anew.
-        self.on("edit", self._hear_edit)
-        self.on("select", self._hear_select)
-        self.on("ready", self._hear_ready)
+        self.on("edit", self._on_edit_event)
+        self.on("select", self._on_select_event)
+        self.on("ready", self._on_ready)
 
     def load(self, table: Mapping[str, Any]) -> None:
         """Show a whole table."""
@@ -54,31 +54,31 @@ class TableGrid(ui.element, component=TABLE / "vicode_table.js"):
         """Open a cell for typing."""
         self._call("editCell", row, column)
 
-    def refuse(self, payload: Payload, words: str) -> None:
+    def show_error(self, payload: Payload, words: str) -> None:
         """Tell why an edit was not done; what was typed stays to be mended."""
-        self._call("refuse", dict(payload), words)
+        self._call("showError", dict(payload), words)
 
-    def take_focus(self) -> None:
+    def focus_grid(self) -> None:
         """Let the keys work here."""
-        self._wants_focus = not self._is_mounted
-        self._call("takeFocus")
+        self._is_focus_pending = not self._is_mounted
+        self._call("focusGrid")
 
     def _call(self, method: str, *arguments: object) -> None:
-        # Before the element is mounted a call would be lost; `_hear_ready` sends everything then.
+        # Before the element is mounted a call would be lost; `_on_ready` sends everything then.
         if self._is_mounted:
             self.run_method(method, *arguments)
 
-    def _hear_edit(self, event: GenericEventArguments) -> None:
+    def _on_edit_event(self, event: GenericEventArguments) -> None:
         if isinstance(event.args, dict):
             self._on_edit(event.args)
 
-    def _hear_select(self, event: GenericEventArguments) -> None:
+    def _on_select_event(self, event: GenericEventArguments) -> None:
         self._selected = [str(event.args)]
         self._on_select(str(event.args))
 
-    def _hear_ready(self) -> None:
+    def _on_ready(self) -> None:
         self._is_mounted = True
         self._call("load", self._table)
         self._call("select", self._selected)
-        if self._wants_focus:
-            self.take_focus()
+        if self._is_focus_pending:
+            self.focus_grid()

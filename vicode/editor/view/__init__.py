@@ -1,29 +1,29 @@
 """From a design and its findings to the plain dicts that the canvas draws, and their difference."""
 
-from vicode.diagram.labels import guard_label, label_of
-from vicode.editor.view.difference import difference
-from vicode.editor.view.peek import peek_of
-from vicode.editor.view.scene import Scene, scene_of
-from vicode.editor.view.selection import Selected, path_of_key, thing_of_path, transition_key
-from vicode.editor.view.table import Table, row_of, table_difference, table_of, thing_of_row
-from vicode.editor.view.wording import words_of_part, words_of_path
+from vicode.diagram.labels import guard_label, transition_label
+from vicode.editor.view.difference import diff_scenes
+from vicode.editor.view.peek import tooltip_sections
+from vicode.editor.view.scene import Scene, make_scene
+from vicode.editor.view.selection import ItemRef, item_at_path, parse_transition_key, transition_key
+from vicode.editor.view.table import TableData, diff_tables, item_row_id, make_table, parse_row_id
+from vicode.editor.view.wording import item_label, part_label
 
 __all__ = [
+    "ItemRef",
     "Scene",
-    "Selected",
-    "Table",
-    "difference",
+    "TableData",
+    "diff_scenes",
+    "diff_tables",
     "guard_label",
-    "label_of",
-    "path_of_key",
-    "peek_of",
-    "row_of",
-    "scene_of",
-    "table_difference",
-    "table_of",
-    "thing_of_path",
-    "thing_of_row",
+    "item_at_path",
+    "item_label",
+    "item_row_id",
+    "make_scene",
+    "make_table",
+    "parse_row_id",
+    "parse_transition_key",
+    "part_label",
+    "tooltip_sections",
     "transition_key",
-    "words_of_part",
-    "words_of_path",
+    "transition_label",
 ]

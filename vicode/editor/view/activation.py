@@ -4,17 +4,17 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from vicode.editor.view.guard_rows import show_value
-from vicode.editor.view.selection import Selected, path_of_key
-from vicode.editor.view.wording import words_of_path
+from vicode.editor.view.guard_rows import format_value
+from vicode.editor.view.selection import ItemRef, parse_transition_key
+from vicode.editor.view.wording import item_label
 from vicode.model.design import Design
-from vicode.model.walks import decision_at
+from vicode.model.walks import find_decision
 
 _LINKS = {"requires": "requires", "modulates": "modulates"}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class TreeRow:
+class ActivationRow:
     """One step of a component; `depth` in the activation tree."""
 
     depth: int
@@ -22,18 +22,18 @@ class TreeRow:
     component: str
     state: str
     detail: str
-    worked: bool
+    has_run: bool
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Mistake:
+class CodeErrorView:
     """An error of user code in words, and the thing of the design it belongs to (None: it is elsewhere)."""
 
-    words: str
-    thing: Selected | None = None
+    text: str
+    item: ItemRef | None = None
 
 
-def tree_rows(tree: Sequence[Mapping[str, Any]]) -> tuple[TreeRow, ...]:
+def activation_rows(tree: Sequence[Mapping[str, Any]]) -> tuple[ActivationRow, ...]:
     """The steps of an iteration, each below the one that it was made by."""
     depths: dict[str, int] = {}
     rows = []
@@ -42,31 +42,31 @@ def tree_rows(tree: Sequence[Mapping[str, Any]]) -> tuple[TreeRow, ...]:
         depth = depths.get(str(step.get("by")), -1) + 1
         depths[component] = depth
         rows.append(
-            TreeRow(
+            ActivationRow(
                 depth=depth,
                 link=_LINKS.get(str(step.get("link")), ""),
                 component=component,
                 state=str(step.get("state", "")),
                 detail=_pairs(step.get("parameters")),
-                worked=bool(step.get("worked")),
+                has_run=bool(step.get("worked")),
             )
         )
     return tuple(rows)
 
 
-def mistake_of(design: Design, record: Mapping[str, Any]) -> Mistake:
+def code_error_view(design: Design, record: Mapping[str, Any]) -> CodeErrorView:
     """An error record in words: component, state, body and line, without the names of generated files."""
     component, state = str(record.get("component", "")), str(record.get("state", ""))
     region, body, line = (str(record.get(name, "")) for name in ("region", "body", "line"))
-    decision = decision_at(design, path_of_key(region)) if region and component == design.component else None
-    where = region or body if decision is None else f"guard of {words_of_path(design, decision.path)}"
+    decision = find_decision(design, parse_transition_key(region)) if region and component == design.component else None
+    where = region or body if decision is None else f"guard of {item_label(design, decision.path)}"
     words = ", ".join(part for part in (component, f"state {state}" if state else "", where) if part)
     text = f"{words}, line {line}: {record.get('message', '')}"
     if component != design.component:
-        return Mistake(words=text)
+        return CodeErrorView(text=text)
     if decision is not None:
-        return Mistake(words=text, thing=Selected(of="transitions", id=region))
-    return Mistake(words=text, thing=Selected(of="states", id=state) if design.state(state) else None)
+        return CodeErrorView(text=text, item=ItemRef(kind="transitions", id=region))
+    return CodeErrorView(text=text, item=ItemRef(kind="states", id=state) if design.state(state) else None)
 
 
 def value_rows(tree: Sequence[Mapping[str, Any]], component: str) -> tuple[tuple[str, str], ...]:
@@ -75,9 +75,9 @@ def value_rows(tree: Sequence[Mapping[str, Any]], component: str) -> tuple[tuple
     for step in tree:
         if step.get("component") == component:
             found = step.get("values") or {}
-    return tuple((name, show_value(value)) for name, value in found.items())
+    return tuple((name, format_value(value)) for name, value in found.items())
 
 
 def _pairs(values: Any) -> str:
     pairs = values.items() if isinstance(values, dict) else ()
-    return ", ".join(f"{name} {show_value(value)}" for name, value in pairs)
+    return ", ".join(f"{name} {format_value(value)}" for name, value in pairs)

@@ -5,7 +5,7 @@ from typing import Any
 _LISTS = ("states", "transitions", "components", "links")
 
 
-def difference(old: dict[str, Any], new: dict[str, Any]) -> dict[str, Any]:
+def diff_scenes(old: dict[str, Any], new: dict[str, Any]) -> dict[str, Any]:
     """The changes from one scene to the next: {"rev", "upsert": {list: […]}, "remove": {list: [ids]}, "common"?}."""
     changes: dict[str, Any] = {"rev": new["rev"], "upsert": {}, "remove": {}}
     for name in _LISTS:

@@ -2,32 +2,32 @@
 
 from collections.abc import Iterable, Sequence
 
-from vicode.editor.view.selection import Selected, path_of_key
+from vicode.editor.view.selection import ItemRef, parse_transition_key
 from vicode.model.design import Action, Assign, Call, Code, Design, RunCode
-from vicode.model.walks import decision_at
+from vicode.model.walks import find_decision
 
 Sections = list[dict[str, str]]
-_MOST_LINES = 12
-_LONGEST_LINE = 90
+_MAX_LINES = 12
+_MAX_LINE_LENGTH = 90
 
 
-def peek_of(design: Design, thing: Selected, languages: Sequence[str]) -> Sections:
+def tooltip_sections(design: Design, thing: ItemRef, languages: Sequence[str]) -> Sections:
     """The code of a state, a transition or the common part: sections {"name", "text"} no longer than a card."""
-    if thing.of == "transitions":
+    if thing.kind == "transitions":
         return _guard(design, thing.id, languages)
     texts = ((name, "\n".join(_lines(actions, languages))) for name, actions in _phases(design, thing))
     return [{"name": name, "text": _cut(text)} for name, text in texts if text]
 
 
-def _phases(design: Design, thing: Selected) -> tuple[tuple[str, tuple[Action, ...]], ...]:
-    state = design.state(thing.id) if thing.of == "states" else None
+def _phases(design: Design, thing: ItemRef) -> tuple[tuple[str, tuple[Action, ...]], ...]:
+    state = design.state(thing.id) if thing.kind == "states" else None
     if state is not None:
         return (("enter", state.enter), ("do", state.all_actions), ("leave", state.leave))
-    return (("do", design.common.actions),) if thing.of == "common" else ()
+    return (("do", design.common.actions),) if thing.kind == "common" else ()
 
 
 def _guard(design: Design, key: str, languages: Sequence[str]) -> Sections:
-    located = decision_at(design, path_of_key(key))
+    located = find_decision(design, parse_transition_key(key))
     code = located.decision.guard.code if located else None
     return [{"name": "holds when", "text": _cut(_text(code, languages))}] if code else []
 
@@ -50,7 +50,9 @@ def _text(code: Code, languages: Sequence[str]) -> str:
 
 
 def _cut(text: str) -> str:
-    lines = [line if len(line) <= _LONGEST_LINE else line[: _LONGEST_LINE - 1] + "…" for line in text.splitlines()]
-    if len(lines) <= _MOST_LINES:
+    lines = [
+        line if len(line) <= _MAX_LINE_LENGTH else line[: _MAX_LINE_LENGTH - 1] + "…" for line in text.splitlines()
+    ]
+    if len(lines) <= _MAX_LINES:
         return "\n".join(lines)
-    return "\n".join([*lines[: _MOST_LINES - 1], f"… {len(lines) - _MOST_LINES + 1} more lines"])
+    return "\n".join([*lines[: _MAX_LINES - 1], f"… {len(lines) - _MAX_LINES + 1} more lines"])

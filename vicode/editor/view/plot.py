@@ -6,15 +6,15 @@ from dataclasses import dataclass
 from html import escape
 
 WIDTH, STRIP, GAP, BAND = 600, 52, 6, 18
-_NAME = 14
+_NAME_HEIGHT = 14
 """The room above each curve for its name."""
-_MOST_POINTS = 300
-_NARROWEST_NAME = 46
+_MAX_POINTS = 300
+_MIN_LABEL_WIDTH = 46
 _COLOURS = 6
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Curve:
+class PlotSeries:
     """One value over all moments, nan where it was not there."""
 
     name: str
@@ -22,7 +22,7 @@ class Curve:
     unit: str = ""
 
 
-def plot_svg(curves: Sequence[Curve], states: Sequence[str], cursor: int) -> str:
+def render_plot(curves: Sequence[PlotSeries], states: Sequence[str], cursor: int) -> str:
     """Draw curves and states; `cursor` is the number of the moment that is shown, 0 before the first.
 
     The drawing has a fixed width that is stretched; texts stand outside of what is stretched.
@@ -40,7 +40,7 @@ def plot_svg(curves: Sequence[Curve], states: Sequence[str], cursor: int) -> str
     )
 
 
-def _strip(curve: Curve, index: int, count: int) -> str:
+def _strip(curve: PlotSeries, index: int, count: int) -> str:
     top = index * (STRIP + GAP)
     known = [value for value in curve.values if math.isfinite(value)]
     low, high = (min(known), max(known)) if known else (0.0, 1.0)
@@ -48,7 +48,7 @@ def _strip(curve: Curve, index: int, count: int) -> str:
     middle = 0.5 if high == low else 0.0
 
     def y_of(value: float) -> float:
-        return top + STRIP - 4 - (STRIP - _NAME - 8) * ((value - low) / span + middle)
+        return top + STRIP - 4 - (STRIP - _NAME_HEIGHT - 8) * ((value - low) / span + middle)
 
     path = _path(curve.values, count, y_of)
     ground = f'<rect class="plot-ground" x="0" y="{top}" width="{WIDTH}" height="{STRIP}"/>'
@@ -59,7 +59,7 @@ def _path(values: Sequence[float], count: int, y_of: Callable[[float], float]) -
     """Steps, since a value holds until the next iteration; of many moments the lowest and highest of each part."""
     commands: list[str] = []
     pen_down = False
-    for number, value in _thinned(values):
+    for number, value in _downsample(values):
         if not math.isfinite(value):
             pen_down = False
             continue
@@ -69,10 +69,10 @@ def _path(values: Sequence[float], count: int, y_of: Callable[[float], float]) -
     return "".join(commands)
 
 
-def _thinned(values: Sequence[float]) -> list[tuple[int, float]]:
-    if len(values) <= _MOST_POINTS:
+def _downsample(values: Sequence[float]) -> list[tuple[int, float]]:
+    if len(values) <= _MAX_POINTS:
         return list(enumerate(values))
-    size = math.ceil(len(values) / (_MOST_POINTS / 2))
+    size = math.ceil(len(values) / (_MAX_POINTS / 2))
     kept: list[tuple[int, float]] = []
     for start in range(0, len(values), size):
         part = [(start + index, value) for index, value in enumerate(values[start : start + size])]
@@ -112,5 +112,5 @@ def band_labels(states: Sequence[str]) -> list[tuple[str, float]]:
     return [
         (state, 100 * start / count)
         for state, start, end in state_runs(states)
-        if WIDTH * (end - start) / count >= _NARROWEST_NAME
+        if WIDTH * (end - start) / count >= _MIN_LABEL_WIDTH
     ]

@@ -4,27 +4,27 @@ from collections import Counter, defaultdict
 from collections.abc import Iterable
 from typing import Any
 
-from vicode.diagram import place
-from vicode.diagram.labels import kind_of, label_of, short_label
-from vicode.editor.view.selection import Selected, thing_of_path, transition_key
+from vicode.diagram import complete_layout
+from vicode.diagram.labels import guard_kind, short_transition_label, transition_label
+from vicode.editor.view.selection import ItemRef, item_at_path, transition_key
 from vicode.findings import Finding, Severity, worst_severity
 from vicode.model.design import COMMON, Call, Design, State, Transition
-from vicode.model.enabling import disabled_states, is_working
+from vicode.model.enabling import disabled_states, is_enabled
 from vicode.model.project import Project
-from vicode.model.walks import Located, walk_transitions
+from vicode.model.walks import LocatedDecision, iter_transitions
 
 Scene = dict[str, Any]
-_Findings = dict[Selected, list[Finding]]
+_Findings = dict[ItemRef, list[Finding]]
 
 
-def scene_of(project: Project, design: Design, findings: Iterable[Finding], rev: int) -> Scene:
+def make_scene(project: Project, design: Design, findings: Iterable[Finding], rev: int) -> Scene:
     """Draw a design: {"rev", "component", "doc", "states", "transitions", "components", "links", "common"}."""
     by_thing: _Findings = defaultdict(list)
     for finding in findings:
-        if finding.thing is not None and finding.thing.component == design.component:
-            by_thing[thing_of_path(finding.thing.path)].append(finding)
-    placement = place(design)
-    transitions = list(walk_transitions(design))
+        if finding.subject is not None and finding.subject.component == design.component:
+            by_thing[item_at_path(finding.subject.path)].append(finding)
+    placement = complete_layout(design)
+    transitions = list(iter_transitions(design))
     return {
         "rev": rev,
         "component": design.component,
@@ -37,7 +37,7 @@ def scene_of(project: Project, design: Design, findings: Iterable[Finding], rev:
                 "name": use.component,
                 "design": project.design(use.component) is not None,
                 "parameters": _parameters(project, use.component),
-                **_marks(by_thing, Selected(of="components", id=use.alias)),
+                **_marks(by_thing, ItemRef(kind="components", id=use.alias)),
                 **_at(placement.uses[use.alias]),
             }
             for use in design.uses
@@ -56,7 +56,7 @@ def _at(point: tuple[float, float]) -> dict[str, float]:
     return {"x": point[0], "y": point[1]}
 
 
-def _marks(by_thing: _Findings, thing: Selected) -> dict[str, Any]:
+def _marks(by_thing: _Findings, thing: ItemRef) -> dict[str, Any]:
     found = by_thing.get(thing)
     if found is None:
         return {"severity": None, "messages": []}
@@ -78,11 +78,11 @@ def _state(design: Design, state: State, by_thing: _Findings) -> dict[str, Any]:
         "requires": len(state.requires),
         "modulates": len(called),
         "doc": state.doc,
-        **_marks(by_thing, Selected(of="states", id=state.name)),
+        **_marks(by_thing, ItemRef(kind="states", id=state.name)),
     }
 
 
-def _transitions(design: Design, transitions: list[Located], by_thing: _Findings) -> Iterable[dict[str, Any]]:
+def _transitions(design: Design, transitions: list[LocatedDecision], by_thing: _Findings) -> Iterable[dict[str, Any]]:
     counts = Counter(located.source for located in transitions)
     orders: Counter[str] = Counter()
     off, unit = disabled_states(design), design.time_unit
@@ -95,14 +95,14 @@ def _transitions(design: Design, transitions: list[Located], by_thing: _Findings
             "id": key,
             "source": "@common" if located.source == COMMON else located.source,
             "target": transition.to,
-            "label": short_label(located, unit),
+            "label": short_transition_label(located, unit),
             "order": orders[located.source],
             "of": counts[located.source],
-            "disabled": not is_working(located, off),
+            "disabled": not is_enabled(located, off),
             "label_at": list(transition.label_at) if transition.label_at else None,
-            "kind": str(kind_of(located)),
-            "doc": "\n".join(part for part in (label_of(located, unit), transition.doc) if part),
-            **_marks(by_thing, Selected(of="transitions", id=key)),
+            "kind": str(guard_kind(located)),
+            "doc": "\n".join(part for part in (transition_label(located, unit), transition.doc) if part),
+            **_marks(by_thing, ItemRef(kind="transitions", id=key)),
         }
 
 
@@ -120,6 +120,6 @@ def _common(design: Design, by_thing: _Findings, at: tuple[float, float]) -> dic
     common = design.common
     if not common.transitions and not common.actions:
         return None
-    count = sum(1 for located in walk_transitions(design) if located.source == COMMON)
-    marks = _marks(by_thing, Selected(of="common", id="@common"))
+    count = sum(1 for located in iter_transitions(design) if located.source == COMMON)
+    marks = _marks(by_thing, ItemRef(kind="common", id="@common"))
     return {**_at(at), "transitions": count, "actions": bool(common.actions), **marks}

@@ -2,46 +2,46 @@
 
 from dataclasses import dataclass
 
-from vicode.findings import Path
+from vicode.findings import DesignPath
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Selected:
+class ItemRef:
     """A thing that can be selected: `of` is states, transitions, components, links, common or design."""
 
-    of: str
+    kind: str
     id: str = ""
 
 
-def thing_of_path(path: Path) -> Selected:
+def item_at_path(path: DesignPath) -> ItemRef:
     """The smallest drawn thing that holds what a path leads to."""
     match path:
         case ("states", _, "transitions", int(), *_) | ("common", "transitions", int(), *_):
-            return Selected(of="transitions", id=transition_key(decision_path(path)))
+            return ItemRef(kind="transitions", id=transition_key(decision_path(path)))
         case ("states", str(name), *_):
-            return Selected(of="states", id=name)
+            return ItemRef(kind="states", id=name)
         case ("common", *_):
-            return Selected(of="common", id="@common")
+            return ItemRef(kind="common", id="@common")
         case ("uses", str(alias), *_):
-            return Selected(of="components", id=alias)
+            return ItemRef(kind="components", id=alias)
         case _:
-            return Selected(of="design")
+            return ItemRef(kind="design")
 
 
-def decision_path(path: Path) -> Path:
+def decision_path(path: DesignPath) -> DesignPath:
     """The path cut behind the innermost decision in it."""
     last = max(index for index, part in enumerate(path) if isinstance(part, int))
     return path[: last + 1]
 
 
-def transition_key(path: Path) -> str:
+def transition_key(path: DesignPath) -> str:
     """The canvas id of a decision: "Kick/0", "Kick/2/then/1", "@common/0"."""
     source, rest = ("@common", path[2:]) if path[0] == "common" else (path[1], path[3:])
     return "/".join(str(part) for part in (source, *rest))
 
 
-def path_of_key(key: str) -> Path:
+def parse_transition_key(key: str) -> DesignPath:
     """The path of a decision from its canvas id."""
     source, *rest = key.split("/")
-    start: Path = ("common", "transitions") if source == "@common" else ("states", source, "transitions")
+    start: DesignPath = ("common", "transitions") if source == "@common" else ("states", source, "transitions")
     return (*start, *(int(part) if part.isdecimal() else part for part in rest))

@@ -4,30 +4,30 @@ from collections import defaultdict
 from collections.abc import Iterable
 from typing import Any
 
-from vicode.editor.view.selection import Selected, thing_of_path, transition_key
-from vicode.findings import Finding, Path, worst_severity
-from vicode.model.design import COMMON, Code, Common, Decision, Design, Group, State, Transition
-from vicode.model.walks import Located, walk_decisions
+from vicode.editor.view.selection import ItemRef, item_at_path, transition_key
+from vicode.findings import DesignPath, Finding, worst_severity
+from vicode.model.design import COMMON, Code, CommonSection, Decision, DecisionGroup, Design, State, Transition
+from vicode.model.walks import LocatedDecision, iter_decisions
 
-Row = dict[str, Any]
-Table = dict[str, Any]
+RowData = dict[str, Any]
+TableData = dict[str, Any]
 
 COMMON_NAME = "every state"
 _PHASES = ("enter", "actions", "leave")
 
 
-def table_of(design: Design, findings: Iterable[Finding]) -> Table:
+def make_table(design: Design, findings: Iterable[Finding]) -> TableData:
     """Tabulate a design: {"rows", "states", "uses"}, the rows in the order in which decisions are tested.
 
     A row is {"id", "kind", "level", "lead", "cells", "severity", "messages"}. A cell that is left out means nothing
     in this kind of row; `lead` stands before the name and cannot be changed.
     """
-    found: dict[Selected, list[Finding]] = defaultdict(list)
+    found: dict[ItemRef, list[Finding]] = defaultdict(list)
     for finding in findings:
-        if finding.thing is not None and finding.thing.component == design.component:
-            found[thing_of_path(finding.thing.path)].append(finding)
-    decisions: dict[str, list[Located]] = defaultdict(list)
-    for located in walk_decisions(design):
+        if finding.subject is not None and finding.subject.component == design.component:
+            found[item_at_path(finding.subject.path)].append(finding)
+    decisions: dict[str, list[LocatedDecision]] = defaultdict(list)
+    for located in iter_decisions(design):
         decisions[located.source].append(located)
     rows = [_common_row(design.common, found)] if decisions[COMMON] or design.common.actions else []
     rows += [_decision_row(located, found) for located in decisions[COMMON]]
@@ -41,11 +41,11 @@ def table_of(design: Design, findings: Iterable[Finding]) -> Table:
     }
 
 
-def table_difference(old: Table, new: Table) -> Table:
+def diff_tables(old: TableData, new: TableData) -> TableData:
     """What changed between two tables: {"upsert", "remove", "order"?, "states"?, "uses"?}."""
     before = {row["id"]: row for row in old["rows"]}
     after = {row["id"]: row for row in new["rows"]}
-    changes: Table = {
+    changes: TableData = {
         "upsert": [row for key, row in after.items() if before.get(key) != row],
         "remove": [key for key in before if key not in after],
     }
@@ -55,21 +55,21 @@ def table_difference(old: Table, new: Table) -> Table:
     return changes
 
 
-def row_of(thing: Selected) -> str:
+def item_row_id(thing: ItemRef) -> str:
     """The id of the row that shows a thing."""
-    return f"{thing.of}/{thing.id}"
+    return f"{thing.kind}/{thing.id}"
 
 
-def thing_of_row(row: str) -> Selected:
+def parse_row_id(row: str) -> ItemRef:
     """The thing a row shows."""
     of, _slash, identity = row.partition("/")
-    return Selected(of=of, id=identity)
+    return ItemRef(kind=of, id=identity)
 
 
-def _row(thing: Selected, kind: str, cells: dict[str, Any], found: dict[Selected, list[Finding]]) -> Row:
+def _row(thing: ItemRef, kind: str, cells: dict[str, Any], found: dict[ItemRef, list[Finding]]) -> RowData:
     severity = worst_severity(found.get(thing, ()))
     return {
-        "id": row_of(thing),
+        "id": item_row_id(thing),
         "kind": kind,
         "level": 1,
         "lead": "",
@@ -79,7 +79,7 @@ def _row(thing: Selected, kind: str, cells: dict[str, Any], found: dict[Selected
     }
 
 
-def _state_row(design: Design, state: State, found: dict[Selected, list[Finding]]) -> Row:
+def _state_row(design: Design, state: State, found: dict[ItemRef, list[Finding]]) -> RowData:
     cells = {
         "name": state.name,
         "initial": state.name == design.initial,
@@ -90,15 +90,15 @@ def _state_row(design: Design, state: State, found: dict[Selected, list[Finding]
         "code": ", ".join(phase for phase in _PHASES if getattr(state, phase)),
         "doc": state.doc,
     }
-    return _row(Selected(of="states", id=state.name), "state", cells, found)
+    return _row(ItemRef(kind="states", id=state.name), "state", cells, found)
 
 
-def _common_row(common: Common, found: dict[Selected, list[Finding]]) -> Row:
+def _common_row(common: CommonSection, found: dict[ItemRef, list[Finding]]) -> RowData:
     cells = {"name": COMMON_NAME, "code": "actions" if common.actions else "", "doc": common.doc}
-    return _row(Selected(of="common", id=COMMON), "common", cells, found)
+    return _row(ItemRef(kind="common", id=COMMON), "common", cells, found)
 
 
-def _decision_row(located: Located, found: dict[Selected, list[Finding]]) -> Row:
+def _decision_row(located: LocatedDecision, found: dict[ItemRef, list[Finding]]) -> RowData:
     decision, guard = located.decision, located.decision.guard
     cells = {
         "name": decision.to if isinstance(decision, Transition) else "",
@@ -108,17 +108,17 @@ def _decision_row(located: Located, found: dict[Selected, list[Finding]]) -> Row
         "code": _predicate(guard.code),
         "doc": decision.doc,
     }
-    row = _row(Selected(of="transitions", id=transition_key(located.path)), _kind(decision), cells, found)
+    row = _row(ItemRef(kind="transitions", id=transition_key(located.path)), _kind(decision), cells, found)
     return {**row, "level": 2 + len(located.groups), "lead": _lead(located.path, decision)}
 
 
 def _kind(decision: Decision) -> str:
-    if isinstance(decision, Group):
+    if isinstance(decision, DecisionGroup):
         return "group"
     return "transition" if isinstance(decision, Transition) else "stay"
 
 
-def _lead(path: Path, decision: Decision) -> str:
+def _lead(path: DesignPath, decision: Decision) -> str:
     """Order number, side of its group, and what is decided: "2 →", "else 1 →", "3 stay"."""
     index = path[-1]
     assert isinstance(index, int)

@@ -1,9 +1,9 @@
 """What a path inside a design leads to, in words for lists and dialogs."""
 
 from vicode.editor.view.selection import decision_path
-from vicode.findings import Path
-from vicode.model.design import Design, Group, Transition
-from vicode.model.walks import decision_at
+from vicode.findings import DesignPath
+from vicode.model.design import DecisionGroup, Design, Transition
+from vicode.model.walks import find_decision
 
 _PARTS = {
     "when": "guard",
@@ -20,7 +20,7 @@ _PARTS = {
 _SECTIONS = {"parameters": "parameter", "outputs": "output", "variables": "variable", "uses": "component"}
 
 
-def words_of_path(design: Design, path: Path) -> str:
+def item_label(design: Design, path: DesignPath) -> str:
     """The thing that a path leads to: "Kick → Wait", "state Kick", "variable tries"."""
     match path:
         case ("states", _, "transitions", int(), *_) | ("common", "transitions", int(), *_):
@@ -39,22 +39,22 @@ def words_of_path(design: Design, path: Path) -> str:
             return "design"
 
 
-def words_of_part(path: Path) -> str:
+def part_label(path: DesignPath) -> str:
     """Which text of the thing a path leads to: "guard", "enter", "code"; empty where the thing says it."""
     named = [_PARTS[str(part)] for part in path if isinstance(part, str) and part in _PARTS]
     is_code = "code" in path[1:]
     return " ".join([*named[-1:], *(["code"] if is_code else [])])
 
 
-def _words_of_decision(design: Design, path: Path) -> str:
-    located = decision_at(design, path)
+def _words_of_decision(design: Design, path: DesignPath) -> str:
+    located = find_decision(design, path)
     if located is None:
         return "a transition"
     source = "every state" if located.source.startswith("@") else located.source
     match located.decision:
         case Transition(to=to):
             return f"{source} → {to}"
-        case Group():
+        case DecisionGroup():
             return f"group in {source}"
         case _:
             return f"stay in {source}"

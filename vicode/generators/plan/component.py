@@ -3,33 +3,33 @@
 from collections.abc import Mapping
 from dataclasses import replace
 
-from vicode.findings import Path
-from vicode.generators.plan.bodies import Bodies
+from vicode.findings import DesignPath
+from vicode.generators.plan.bodies import CodePlanner
 from vicode.generators.plan.expressions import (
     UnsoundDesignError,
-    initial_of,
-    nanoseconds_of,
-    tree_of,
+    initial_value,
+    literal_nanoseconds,
+    typed_tree,
 )
-from vicode.generators.plan.naming import Names, stem_of
+from vicode.generators.plan.naming import NameAllocator, identifier_stem
 from vicode.generators.plan.values import (
-    After,
-    Alternative,
+    ActionStep,
+    AssignStep,
     Branch,
-    CallComponent,
-    Change,
+    CallStep,
+    CodeCondition,
+    CodeStep,
     ComponentPlan,
     Condition,
-    Function,
-    Holds,
-    Keep,
-    Predicate,
-    Run,
-    Set,
+    DecisionPlan,
+    ExpressionCondition,
+    FunctionPlan,
+    NoChange,
+    StateChange,
     StatePlan,
-    Step,
+    TimerCondition,
     UsedComponent,
-    Value,
+    ValuePlan,
 )
 from vicode.model.design import (
     COMMON,
@@ -37,18 +37,18 @@ from vicode.model.design import (
     Assign,
     Call,
     Decision,
+    DecisionGroup,
     Declaration,
     Design,
-    Group,
     RunCode,
     State,
     Stay,
     Transition,
 )
-from vicode.model.enabling import enabled_part
-from vicode.model.expressions import BOOL, FLOAT, Node, Scope, scope_of
+from vicode.model.enabling import strip_disabled
+from vicode.model.expressions import BOOL, FLOAT, Expr, Scope, build_scope
 from vicode.model.project import Project
-from vicode.model.walks import always_holds, walk_expressions
+from vicode.model.walks import is_exhaustive, iter_expressions
 
 
 def plan_component(project: Project, design: Design, modules: Mapping[str, str], source: str) -> ComponentPlan:
@@ -63,12 +63,12 @@ def plan_component(project: Project, design: Design, modules: Mapping[str, str],
     Raises:
         UnsoundDesignError: The design has mistakes.
     """
-    design = enabled_part(design)
+    design = strip_disabled(design)
     initial = design.state(design.initial)
     if initial is None:
         raise UnsoundDesignError(f"{design.component} has no initial state")
-    planner = _Planner(project, design)
-    stems = Names()
+    planner = _ComponentPlanner(project, design)
+    stems = NameAllocator()
     states = [initial, *(state for state in design.states if state is not initial)]
     return ComponentPlan(
         project=project,
@@ -81,26 +81,26 @@ def plan_component(project: Project, design: Design, modules: Mapping[str, str],
         resume=design.resume,
         time_unit=design.time_unit or "s",
         arithmetic=design.arithmetic,
-        asks_done=planner.asks_done(),
+        uses_action_done=planner.uses_action_done(),
         uses=tuple(_plan_use(project, modules, use.alias, use.component) for use in design.uses),
         parameters=plan_values(design.parameters, planner.scope),
         outputs=plan_values(design.outputs, planner.scope),
         variables=plan_values(design.variables, planner.scope),
-        module_code=planner.bodies.whole("module", design.module),
-        members=planner.bodies.whole("members", design.members),
-        decide_first=planner.plan_decisions(design.common.transitions, COMMON, ("common", "transitions")),
-        act_first=planner.plan_steps(design.common.actions, COMMON, "actions"),
-        states=tuple(planner.plan_state(state, stems.give(stem_of(state.name))) for state in states),
+        module_code=planner.code.plan_section("module", design.module),
+        members=planner.code.plan_section("members", design.members),
+        common_decisions=planner.plan_decisions(design.common.transitions, COMMON, ("common", "transitions")),
+        common_actions=planner.plan_steps(design.common.actions, COMMON, "actions"),
+        states=tuple(planner.plan_state(state, stems.allocate(identifier_stem(state.name))) for state in states),
     )
 
 
-def plan_values(declarations: tuple[Declaration, ...], scope: Scope) -> tuple[Value, ...]:
+def plan_values(declarations: tuple[Declaration, ...], scope: Scope) -> tuple[ValuePlan, ...]:
     """Declarations with their types and first values; those that take arguments are functions, written by hand."""
     return tuple(
-        Value(
+        ValuePlan(
             name=declaration.name,
             type=scope.type_of(declaration),
-            initial=initial_of(declaration, scope),
+            initial=initial_value(declaration, scope),
             unit=declaration.unit,
             range=declaration.range,
             doc=declaration.doc,
@@ -111,10 +111,10 @@ def plan_values(declarations: tuple[Declaration, ...], scope: Scope) -> tuple[Va
     )
 
 
-def plan_functions(declarations: tuple[Declaration, ...], scope: Scope) -> tuple[Function, ...]:
+def plan_functions(declarations: tuple[Declaration, ...], scope: Scope) -> tuple[FunctionPlan, ...]:
     """Those declarations that take arguments."""
     return tuple(
-        Function(
+        FunctionPlan(
             result=plan_values((replace(each, arguments=None),), scope)[0],
             arguments=plan_values(each.arguments, scope),
         )
@@ -127,10 +127,10 @@ def _plan_use(project: Project, modules: Mapping[str, str], alias: str, componen
     interface = project.interface(component)
     if interface is None:
         raise UnsoundDesignError(f"nothing declares the component '{component}'")
-    functions = plan_functions(interface.readable, scope_of(project, None))
+    functions = plan_functions(interface.readable, build_scope(project, None))
     if component in modules:
         return UsedComponent(alias=alias, component=component, module=modules[component])
-    module = INTERFACES if interface.is_handed_on else ""
+    module = INTERFACES_MODULE if interface.is_generated else ""
     return UsedComponent(
         alias=alias,
         component=component,
@@ -140,17 +140,17 @@ def _plan_use(project: Project, modules: Mapping[str, str], alias: str, componen
     )
 
 
-INTERFACES = "interfaces"
+INTERFACES_MODULE = "interfaces"
 """The module of the components that vicode writes without a design."""
 
 
-class _Planner:
+class _ComponentPlanner:
     """Plans the parts of one design, which share a scope and names."""
 
     def __init__(self, project: Project, design: Design) -> None:
         self.project, self.design = project, design
-        self.scope = scope_of(project, design)
-        self.bodies = Bodies(design)
+        self.scope = build_scope(project, design)
+        self.code = CodePlanner(design)
 
     def plan_state(self, state: State, stem: str) -> StatePlan:
         return StatePlan(
@@ -160,71 +160,73 @@ class _Planner:
             final=state.final,
             requires=state.requires,
             enter=self.plan_steps(state.enter, state.name, "enter"),
-            decisions=self._decisions_of(state),
-            act=self.plan_steps(state.all_actions, state.name, "actions"),
+            decisions=self._state_decisions(state),
+            actions=self.plan_steps(state.all_actions, state.name, "actions"),
             leave=self.plan_steps(state.leave, state.name, "leave"),
-            calls=self._calls(state),
+            calls=self._called_designs(state),
             capacity=None if state.capacity is None else int(state.capacity),
             synchronized=None if state.synchronized is None else int(state.synchronized),
         )
 
-    def _decisions_of(self, state: State) -> tuple[Alternative, ...]:
+    def _state_decisions(self, state: State) -> tuple[DecisionPlan, ...]:
         planned = self.plan_decisions(state.transitions, state.name, ("states", state.name, "transitions"))
         is_cooperative = state.capacity is not None or state.synchronized is not None
-        if not is_cooperative or any(always_holds(item) for item in state.transitions):
+        if not is_cooperative or any(is_exhaustive(item) for item in state.transitions):
             return planned
         # Who stays asks the others as well, also where no transition says so.
-        return (*planned, Alternative(conditions=(), outcome=Keep()))
+        return (*planned, DecisionPlan(conditions=(), outcome=NoChange()))
 
-    def asks_done(self) -> bool:
+    def uses_action_done(self) -> bool:
         """Whether an expression of the design says `action_done`."""
-        return any("action_done" in each.text for each in walk_expressions(self.design))
+        return any("action_done" in each.text for each in iter_expressions(self.design))
 
-    def _calls(self, state: State) -> tuple[str, ...]:
+    def _called_designs(self, state: State) -> tuple[str, ...]:
         actions = (*self.design.common.actions, *state.all_actions)
         called = (action.alias for action in actions if isinstance(action, Call))
         components = {use.alias: use.component for use in self.design.uses}
         designs = {design.component for design in self.project.designs}
         return tuple(dict.fromkeys(alias for alias in called if components.get(alias) in designs))
 
-    def plan_steps(self, actions: tuple[Action, ...], source: str, phase: str) -> tuple[Step, ...]:
+    def plan_steps(self, actions: tuple[Action, ...], source: str, phase: str) -> tuple[ActionStep, ...]:
         return tuple(step for action in actions for step in self._plan_action(action, source, phase))
 
-    def _plan_action(self, action: Action, source: str, phase: str) -> tuple[Step, ...]:
+    def _plan_action(self, action: Action, source: str, phase: str) -> tuple[ActionStep, ...]:
         match action:
             case Assign(values=values):
                 return tuple(self._plan_set(name, text) for name, text in values)
             case Call(alias=alias, arguments=arguments):
                 pairs = tuple((name, self._argument(alias, name, text)) for name, text in arguments)
-                return (CallComponent(alias=alias, arguments=pairs, defaults=self._defaults(alias, dict(pairs))),)
+                return (CallStep(alias=alias, arguments=pairs, defaults=self._defaults(alias, dict(pairs))),)
             case RunCode(code=code, id=given_id):
-                return (Run(body=self.bodies.action(source, phase, code, given_id)),)
+                return (CodeStep(code=self.code.plan_action(source, phase, code, given_id)),)
 
-    def _plan_set(self, name: str, text: str) -> Set:
-        declaration = self.scope.settable(name)
+    def _plan_set(self, name: str, text: str) -> AssignStep:
+        declaration = self.scope.find_assignable(name)
         if declaration is None:
             raise UnsoundDesignError(f"'{name}' is not declared")
         alias, _dot, own = name.rpartition(".")
-        return Set(name=own, value=tree_of(text, self.scope, self.scope.type_of(declaration)), alias=alias)
+        return AssignStep(name=own, value=typed_tree(text, self.scope, self.scope.type_of(declaration)), alias=alias)
 
-    def _argument(self, alias: str, name: str, text: str) -> Node:
+    def _argument(self, alias: str, name: str, text: str) -> Expr:
         interface = self.scope.uses.get(alias)
         parameter = interface.parameter(name) if interface else None
         if parameter is None:
             raise UnsoundDesignError(f"'{alias}' has no parameter '{name}'")
-        return tree_of(text, self.scope, self.scope.type_of(parameter))
+        return typed_tree(text, self.scope, self.scope.type_of(parameter))
 
-    def _defaults(self, alias: str, given: Mapping[str, Node]) -> tuple[tuple[str, Node], ...]:
+    def _defaults(self, alias: str, given: Mapping[str, Expr]) -> tuple[tuple[str, Expr], ...]:
         """What a call leaves out of a hand-written component; a design's own `modulate` has its defaults."""
         interface = self.scope.uses.get(alias)
         if interface is None or not interface.implementation:
             return ()
-        scope = scope_of(self.project, None)
+        scope = build_scope(self.project, None)
         left_out = (each for each in interface.parameters if each.name not in given)
-        return tuple((each.name, initial_of(each, scope)) for each in left_out)
+        return tuple((each.name, initial_value(each, scope)) for each in left_out)
 
-    def plan_decisions(self, decisions: tuple[Decision, ...], source: str, path: Path) -> tuple[Alternative, ...]:
-        planned: list[Alternative] = []
+    def plan_decisions(
+        self, decisions: tuple[Decision, ...], source: str, path: DesignPath
+    ) -> tuple[DecisionPlan, ...]:
+        planned: list[DecisionPlan] = []
         for index, decision in enumerate(decisions):
             alternative = self._plan_decision(decision, source, (*path, index))
             if isinstance(alternative.outcome, Branch) and not alternative.conditions:
@@ -232,37 +234,37 @@ class _Planner:
             else:
                 planned.append(alternative)
             # What follows a decision that always ends is never reached, and nobody would write it.
-            if always_holds(decision):
+            if is_exhaustive(decision):
                 break
         return tuple(planned)
 
-    def _plan_decision(self, decision: Decision, source: str, path: Path) -> Alternative:
+    def _plan_decision(self, decision: Decision, source: str, path: DesignPath) -> DecisionPlan:
         conditions = self._plan_conditions(decision, source)
         match decision:
-            case Group(then=then, otherwise=otherwise):
-                outcome: Change | Keep | Branch = Branch(
+            case DecisionGroup(then=then, otherwise=otherwise):
+                outcome: StateChange | NoChange | Branch = Branch(
                     then=self.plan_decisions(then, source, (*path, "then")),
                     otherwise=self.plan_decisions(otherwise, source, (*path, "else")),
-                    then_ends=any(always_holds(item) for item in then),
+                    then_always_ends=any(is_exhaustive(item) for item in then),
                 )
             case Transition(to=to, id=given_id) if to != source:
-                outcome = Change(state=to, transition=given_id)
+                outcome = StateChange(state=to, transition=given_id)
             case _:
-                outcome = Keep()
-        return Alternative(conditions=conditions, outcome=outcome, doc=decision.doc, id=decision.id, path=path)
+                outcome = NoChange()
+        return DecisionPlan(conditions=conditions, outcome=outcome, doc=decision.doc, id=decision.id, path=path)
 
     def _plan_conditions(self, decision: Decision, source: str) -> tuple[Condition, ...]:
         guard = decision.guard
         conditions: list[Condition] = []
         if guard.after:
-            seconds = tree_of(guard.after, self.scope, FLOAT)
-            conditions.append(After(time=seconds, ns=nanoseconds_of(seconds, self.design.time_unit)))
+            seconds = typed_tree(guard.after, self.scope, FLOAT)
+            conditions.append(TimerCondition(time=seconds, ns=literal_nanoseconds(seconds, self.design.time_unit)))
         if guard.when:
-            conditions.append(Holds(expression=tree_of(guard.when, self.scope, BOOL)))
+            conditions.append(ExpressionCondition(expression=typed_tree(guard.when, self.scope, BOOL)))
         if guard.code is not None:
             outcome = _outcome_name(decision)
-            body = self.bodies.predicate(source, outcome, guard.code, given_id=decision.id, doc=decision.doc)
-            conditions.append(Predicate(body=body))
+            body = self.code.plan_guard(source, outcome, guard.code, given_id=decision.id, doc=decision.doc)
+            conditions.append(CodeCondition(code=body))
         return tuple(conditions)
 
 
@@ -272,5 +274,5 @@ def _outcome_name(decision: Decision) -> str:
             return to
         case Stay():
             return "stay"
-        case Group():
+        case DecisionGroup():
             return "group"

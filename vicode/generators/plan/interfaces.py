@@ -2,20 +2,20 @@
 
 from vicode.generators.plan.component import plan_functions, plan_values
 from vicode.generators.plan.values import InterfacePlan
-from vicode.model.expressions import scope_of
+from vicode.model.expressions import build_scope
 from vicode.model.project import INTERNAL, Interface, Project
-from vicode.model.xabsl.names import is_behavior
+from vicode.model.xabsl.names import is_basic_behavior
 
 
 def plan_interface(project: Project, interface: Interface) -> InterfacePlan:
     """What a component hands on to the world, or keeps."""
-    scope = scope_of(project, None)
+    scope = build_scope(project, None)
     return InterfacePlan(
         component=interface.component,
         xabsl_name=interface.xabsl_name,
         doc=interface.doc or interface.title,
         is_internal=interface.implementation == INTERNAL,
-        acts=is_behavior(interface),
+        is_behavior=is_basic_behavior(interface),
         parameters=plan_values(interface.parameters, scope),
         outputs=plan_values(interface.outputs, scope),
         functions=plan_functions(interface.readable, scope),

@@ -5,14 +5,14 @@ import re
 from vicode.model.names import snake_case
 
 
-class Names:
+class NameAllocator:
     """Gives names out, none twice; case does not tell two apart."""
 
     def __init__(self, taken: frozenset[str] = frozenset()) -> None:
         """Begin with names that nobody gets."""
         self._taken = {name.casefold() for name in taken}
 
-    def give(self, wanted: str, separator: str = "_") -> str:
+    def allocate(self, wanted: str, separator: str = "_") -> str:
         """The name, or the first of name_2, name_3 … that is free."""
         name, number = wanted, 1
         while name.casefold() in self._taken:
@@ -22,12 +22,12 @@ class Names:
         return name
 
 
-def stem_of(text: str) -> str:
+def identifier_stem(text: str) -> str:
     """A piece of an identifier from any text."""
     return re.sub(r"[^a-z0-9]+", "_", snake_case(text), flags=re.ASCII).strip("_") or "x"
 
 
-def package_of(name: str) -> str:
+def package_name(name: str) -> str:
     """The name of a package from a project's name, which may be any text."""
-    stem = stem_of(name)
+    stem = identifier_stem(name)
     return f"project_{stem}" if stem[0].isdigit() else stem

@@ -3,11 +3,11 @@
 from collections.abc import Collection, Mapping
 
 from vicode.generators.plan.component import plan_component, plan_values
-from vicode.generators.plan.expressions import UnsoundDesignError, literal_of
+from vicode.generators.plan.expressions import UnsoundDesignError, literal_value
 from vicode.generators.plan.interfaces import plan_interface
-from vicode.generators.plan.naming import Names, package_of, stem_of
+from vicode.generators.plan.naming import NameAllocator, identifier_stem, package_name
 from vicode.generators.plan.values import PackagePlan, ProjectPlan
-from vicode.model.expressions import scope_of
+from vicode.model.expressions import build_scope
 from vicode.model.project import Project
 
 
@@ -23,7 +23,7 @@ def plan_project(
         reserved: Names no module may have in a language.
     """
     package = plan_package(project, reserved)
-    constants = plan_values(project.constants, scope_of(project, None))
+    constants = plan_values(project.constants, build_scope(project, None))
     return ProjectPlan(
         project=project,
         name=project.name,
@@ -31,26 +31,26 @@ def plan_project(
         package=package,
         enumerations=project.enumerations,
         constants=constants,
-        never_zero=frozenset(constant.name for constant in constants if literal_of(constant.initial)),
+        nonzero_constants=frozenset(constant.name for constant in constants if literal_value(constant.initial)),
         components=tuple(
             plan_component(project, design, package.modules, sources.get(design.component, ""))
             for design in project.designs
             if design.component in components
         ),
-        interfaces=tuple(plan_interface(project, each) for each in project.components if each.is_handed_on),
+        interfaces=tuple(plan_interface(project, each) for each in project.components if each.is_generated),
     )
 
 
 def plan_package(project: Project, reserved: frozenset[str]) -> PackagePlan:
     """Names that depend on the names in the project alone: they are known of designs with mistakes too."""
-    names = Names(reserved)
+    names = NameAllocator(reserved)
     components = sorted(design.component for design in project.designs)
     return PackagePlan(
         project=project,
-        package=package_of(project.name),
-        modules={component: names.give(stem_of(component)) for component in components},
+        name=package_name(project.name),
+        modules={component: names.allocate(identifier_stem(component)) for component in components},
         has_declarations=bool(project.enumerations or project.constants),
-        interfaces=frozenset(each.component for each in project.components if each.is_handed_on),
+        interfaces=frozenset(each.component for each in project.components if each.is_generated),
     )
 
 

@@ -3,19 +3,19 @@
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from vicode.findings import Path
+from vicode.findings import DesignPath
 from vicode.model.design import Code, Design
-from vicode.model.expressions import Node
+from vicode.model.expressions import Expr
 from vicode.model.project import Enumeration, Project
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Value:
+class ValuePlan:
     """A declared name with its type and first value, which is already of that type."""
 
     name: str
     type: str
-    initial: Node
+    initial: Expr
     unit: str = ""
     range: tuple[float, float] | None = None
     doc: str = ""
@@ -23,11 +23,11 @@ class Value:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Function:
+class FunctionPlan:
     """An output with arguments; `result` tells its type, the arguments have defaults."""
 
-    result: Value
-    arguments: tuple[Value, ...]
+    result: ValuePlan
+    arguments: tuple[ValuePlan, ...]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -41,64 +41,64 @@ class UsedComponent:
     component: str
     module: str = ""
     implementation: str = ""
-    functions: tuple[Function, ...] = ()
+    functions: tuple[FunctionPlan, ...] = ()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class InterfacePlan:
     """A component that vicode writes without a design: it hands on to the world, or keeps variables (`is_internal`).
 
-    `acts`: it is told its parameters and then does something.
+    `is_behavior`: it is told its parameters and then does something.
     """
 
     component: str
     xabsl_name: str
     doc: str
     is_internal: bool
-    acts: bool
-    parameters: tuple[Value, ...]
-    outputs: tuple[Value, ...]
-    functions: tuple[Function, ...]
-    variables: tuple[Value, ...]
+    is_behavior: bool
+    parameters: tuple[ValuePlan, ...]
+    outputs: tuple[ValuePlan, ...]
+    functions: tuple[FunctionPlan, ...]
+    variables: tuple[ValuePlan, ...]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Body:
+class CodePlan:
     """Hand-written code: the id of its region, a stem for the name of its function, and what it is for."""
 
-    region: str
+    region_id: str
     stem: str
     code: Code
     doc: str = ""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class After:
+class TimerCondition:
     """The time in the state is `time` or more, in the component's unit; `ns` if that is known now."""
 
-    time: Node
+    time: Expr
     ns: int | None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Holds:
+class ExpressionCondition:
     """An expression of type bool."""
 
-    expression: Node
+    expression: Expr
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Predicate:
+class CodeCondition:
     """Code that returns a bool."""
 
-    body: Body
+    code: CodePlan
 
 
-Condition = Holds | After | Predicate
+Condition = ExpressionCondition | TimerCondition | CodeCondition
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Change:
+class StateChange:
     """Ends the decision: to another state, by the transition of this id (empty: it has none)."""
 
     state: str
@@ -106,7 +106,7 @@ class Change:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Keep:
+class NoChange:
     """Ends the decision without a change."""
 
 
@@ -114,54 +114,54 @@ class Keep:
 class Branch:
     """Decides further; a side that is exhausted falls through to what follows, one that `ends` never does."""
 
-    then: "tuple[Alternative, ...]"
-    otherwise: "tuple[Alternative, ...]"
-    then_ends: bool
+    then: "tuple[DecisionPlan, ...]"
+    otherwise: "tuple[DecisionPlan, ...]"
+    then_always_ends: bool
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Alternative:
+class DecisionPlan:
     """If all conditions hold, tested in order (none: always), the outcome is taken.
 
     `id` if it was given one; `path` leads to the decision in the design as it works, which has nothing disabled in it.
     """
 
     conditions: tuple[Condition, ...]
-    outcome: Change | Keep | Branch
+    outcome: StateChange | NoChange | Branch
     doc: str = ""
     id: str = ""
-    path: Path = ()
+    path: DesignPath = ()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Set:
+class AssignStep:
     """Give an own variable or output a value, or with `alias` a variable of a used component."""
 
     name: str
-    value: Node
+    value: Expr
     alias: str = ""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class CallComponent:
+class CallStep:
     """Set the parameters of a used component, and step it; `defaults` are those that the call leaves out.
 
     A design's own component knows its defaults, so that only hand-written ones are told them.
     """
 
     alias: str
-    arguments: tuple[tuple[str, Node], ...]
-    defaults: tuple[tuple[str, Node], ...] = ()
+    arguments: tuple[tuple[str, Expr], ...]
+    defaults: tuple[tuple[str, Expr], ...] = ()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Run:
+class CodeStep:
     """Run hand-written code."""
 
-    body: Body
+    code: CodePlan
 
 
-Step = Set | CallComponent | Run
+ActionStep = AssignStep | CallStep | CodeStep
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -176,10 +176,10 @@ class StatePlan:
     doc: str
     final: bool
     requires: tuple[str, ...]
-    enter: tuple[Step, ...]
-    act: tuple[Step, ...]
-    leave: tuple[Step, ...]
-    decisions: tuple[Alternative, ...]
+    enter: tuple[ActionStep, ...]
+    actions: tuple[ActionStep, ...]
+    leave: tuple[ActionStep, ...]
+    decisions: tuple[DecisionPlan, ...]
     calls: tuple[str, ...] = ()
     capacity: int | None = None
     synchronized: int | None = None
@@ -189,7 +189,7 @@ class StatePlan:
 class ComponentPlan:
     """One component: the initial state first. `source` is the design's file, `module` the stem of what is written.
 
-    `time_unit` is "s" or "ms": what times in expressions count. `arithmetic` is "" or "xabsl". `asks_done` is set
+    `time_unit` is "s" or "ms": what times in expressions count. `arithmetic` is "" or "xabsl". `uses_action_done` is set
     where an expression says `action_done`. `design` is what works of the design, in its `project`.
     """
 
@@ -203,15 +203,15 @@ class ComponentPlan:
     resume: bool
     time_unit: str
     arithmetic: str
-    asks_done: bool
+    uses_action_done: bool
     uses: tuple[UsedComponent, ...]
-    parameters: tuple[Value, ...]
-    outputs: tuple[Value, ...]
-    variables: tuple[Value, ...]
-    module_code: Body | None
-    members: Body | None
-    decide_first: tuple[Alternative, ...]
-    act_first: tuple[Step, ...]
+    parameters: tuple[ValuePlan, ...]
+    outputs: tuple[ValuePlan, ...]
+    variables: tuple[ValuePlan, ...]
+    module_code: CodePlan | None
+    members: CodePlan | None
+    common_decisions: tuple[DecisionPlan, ...]
+    common_actions: tuple[ActionStep, ...]
     states: tuple[StatePlan, ...]
 
 
@@ -223,7 +223,7 @@ class PackagePlan:
     """
 
     project: Project
-    package: str
+    name: str
     modules: Mapping[str, str]
     has_declarations: bool
     interfaces: frozenset[str] = frozenset()
@@ -233,7 +233,7 @@ class PackagePlan:
 class ProjectPlan:
     """All that is to be written; `components` are those asked for.
 
-    A constant in `never_zero` may stand below a line without care.
+    A constant in `nonzero_constants` may stand below a line without care.
     """
 
     project: Project
@@ -241,7 +241,7 @@ class ProjectPlan:
     doc: str
     package: PackagePlan
     enumerations: tuple[Enumeration, ...]
-    constants: tuple[Value, ...]
-    never_zero: frozenset[str]
+    constants: tuple[ValuePlan, ...]
+    nonzero_constants: frozenset[str]
     components: tuple[ComponentPlan, ...]
     interfaces: tuple[InterfacePlan, ...] = ()

@@ -4,21 +4,21 @@ from collections.abc import Callable
 from pathlib import Path
 
 import vicode.bica
-from vicode.generators.origins import ComponentText
-from vicode.generators.plan import INTERFACES, ComponentPlan, PackagePlan, ProjectPlan
+from vicode.generators.origins import ComponentCode
+from vicode.generators.plan import INTERFACES_MODULE, ComponentPlan, PackagePlan, ProjectPlan
 from vicode.generators.python.component import ComponentWriter
-from vicode.generators.python.declarations import declarations_view
-from vicode.generators.python.interfaces import interfaces_view
-from vicode.generators.python.names import RESERVED_MODULES, name_class, name_globals
+from vicode.generators.python.declarations import build_declarations_view
+from vicode.generators.python.interfaces import build_interfaces_view
+from vicode.generators.python.names import RESERVED_MODULES, assign_global_names, component_class_name
 from vicode.generators.python.origins import find_origins
-from vicode.generators.python.probes import PROBES, generate_probes
+from vicode.generators.python.probes import PROBES_MODULE, generate_probes
 from vicode.generators.python.text import docstring
 from vicode.output import OutputFile
-from vicode.regions import seal
+from vicode.regions import add_header
 from vicode.templating import render
 
 __all__ = [
-    "PROBES",
+    "PROBES_MODULE",
     "RESERVED_MODULES",
     "class_path",
     "component_writer",
@@ -34,63 +34,63 @@ RUNTIME = "vicode.bica"
 
 def generate_python(plan: ProjectPlan, *, standalone: bool) -> tuple[OutputFile, ...]:
     """All files of a project; with `standalone` the runtime lies inside the package."""
-    names = name_globals(plan)
+    names = assign_global_names(plan)
     runtime = ".bica" if standalone else RUNTIME
-    folder = f"{LANGUAGE}/{plan.package.package}"
+    folder = f"{LANGUAGE}/{plan.package.name}"
     project = f"the project {plan.name}"
     about = docstring(plan.doc or f"Components of {project}.", 0) + "\n"
-    files = [OutputFile(path=f"{folder}/__init__.py", text=seal(about, project))]
-    shared = declarations_view(plan, names, runtime)
+    files = [OutputFile(path=f"{folder}/__init__.py", text=add_header(about, project))]
+    shared = build_declarations_view(plan, names, runtime)
     if shared is not None:
         text = render("python/declarations.py.jinja", view=shared)
-        files.append(OutputFile(path=f"{folder}/declarations.py", text=seal(text, project)))
-    handed_on = interfaces_view(plan, names, runtime)
+        files.append(OutputFile(path=f"{folder}/declarations.py", text=add_header(text, project)))
+    handed_on = build_interfaces_view(plan, names, runtime)
     if handed_on is not None:
         text = render("python/interfaces.py.jinja", view=handed_on)
-        files.append(OutputFile(path=f"{folder}/{INTERFACES}.py", text=seal(text, project)))
+        files.append(OutputFile(path=f"{folder}/{INTERFACES_MODULE}.py", text=add_header(text, project)))
     files += [
         _module(ComponentWriter(project=plan, component=each, names=names, runtime=runtime)) for each in plan.components
     ]
     return (*files, *(_copy_runtime(folder) if standalone else ()))
 
 
-def component_writer(plan: ProjectPlan) -> Callable[[ComponentPlan], ComponentText]:
+def component_writer(plan: ProjectPlan) -> Callable[[ComponentPlan], ComponentCode]:
     """What writes the modules of a project's components, one at a time."""
-    names = name_globals(plan)
+    names = assign_global_names(plan)
 
-    def write(component: ComponentPlan) -> ComponentText:
+    def write(component: ComponentPlan) -> ComponentCode:
         file = _module(ComponentWriter(project=plan, component=component, names=names, runtime=RUNTIME))
-        return ComponentText(file=file, origins=find_origins(component, file.text))
+        return ComponentCode(file=file, origins=find_origins(component, file.text))
 
     return write
 
 
 def list_paths(package: PackagePlan, *, standalone: bool) -> tuple[str, ...]:
     """Every path that `generate_python` may write for the whole project."""
-    folder = f"{LANGUAGE}/{package.package}"
+    folder = f"{LANGUAGE}/{package.name}"
     modules = ["__init__"]
     modules += ["declarations"] if package.has_declarations else []
-    modules += [INTERFACES] if package.interfaces else []
+    modules += [INTERFACES_MODULE] if package.interfaces else []
     paths = [f"{folder}/{module}.py" for module in (*modules, *package.modules.values())]
     return (*paths, *(file.path for file in (_copy_runtime(folder) if standalone else ())))
 
 
 def class_path(package: PackagePlan, component: str) -> str:
     """Where the class of a design's component is found: "package.module:Class"."""
-    module = INTERFACES if component in package.interfaces else package.modules[component]
-    return f"{package.package}.{module}:{name_class(component)}"
+    module = INTERFACES_MODULE if component in package.interfaces else package.modules[component]
+    return f"{package.name}.{module}:{component_class_name(component)}"
 
 
 def _module(writer: ComponentWriter) -> OutputFile:
     component = writer.component
-    text = render("python/component.py.jinja", view=writer.view())
-    path = f"{LANGUAGE}/{writer.project.package.package}/{component.module}.py"
-    return OutputFile(path=path, text=seal(text, component.source or f"the design of {component.component}"))
+    text = render("python/component.py.jinja", view=writer.build_view())
+    path = f"{LANGUAGE}/{writer.project.package.name}/{component.module}.py"
+    return OutputFile(path=path, text=add_header(text, component.source or f"the design of {component.component}"))
 
 
 def _copy_runtime(folder: str) -> tuple[OutputFile, ...]:
     sources = sorted(Path(vicode.bica.__file__).parent.glob("*.py"))
     return tuple(
-        OutputFile(path=f"{folder}/bica/{source.name}", text=seal(source.read_text("utf-8"), "vicode.bica"))
+        OutputFile(path=f"{folder}/bica/{source.name}", text=add_header(source.read_text("utf-8"), "vicode.bica"))
         for source in sources
     )

@@ -3,32 +3,32 @@
 from dataclasses import dataclass, replace
 
 from vicode.generators.plan import (
-    Body,
+    CodePlan,
     ComponentPlan,
     ProjectPlan,
     StatePlan,
     UnsoundDesignError,
     UsedComponent,
 )
-from vicode.generators.python.imports import Import, import_lines
+from vicode.generators.python.imports import Import, format_imports
 from vicode.generators.python.layout import (
     Doc,
-    IfBroken,
-    Line,
+    IfBreak,
+    SoftLine,
     bracketed,
-    call,
-    joined,
-    render,
-    separated,
+    call_doc,
+    concat,
+    join_docs,
+    render_doc,
 )
-from vicode.generators.python.methods import BODY, METHOD, MethodWriter, python_code
-from vicode.generators.python.names import name_class, words_in_code
+from vicode.generators.python.methods import BODY_INDENT, METHOD_INDENT, MethodWriter, python_code
+from vicode.generators.python.names import component_class_name, names_in_code
 from vicode.generators.python.parameters import modulate_method
-from vicode.generators.python.pieces import statement
-from vicode.generators.python.spelling import Speller, functions_of, spell_number
-from vicode.generators.python.text import described, docstring, quoted, section
-from vicode.generators.python.views import ComponentView, MethodView
-from vicode.regions import wrap
+from vicode.generators.python.pieces import format_statement
+from vicode.generators.python.spelling import PythonExpressionPrinter, format_number, functions_by_output
+from vicode.generators.python.text import declaration_description, docstring, quoted, section
+from vicode.generators.python.views import ComponentModuleView, MethodView
+from vicode.regions import wrap_region
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -41,35 +41,35 @@ class ComponentWriter:
     runtime: str
 
     @property
-    def speller(self) -> Speller:
+    def expression_printer(self) -> PythonExpressionPrinter:
         """Spells this component's expressions."""
-        return Speller(
+        return PythonExpressionPrinter(
             names=self.names,
-            never_zero=self.project.never_zero,
+            nonzero_constants=self.project.nonzero_constants,
             time_unit=self.component.time_unit,
-            is_xabsl=self.component.arithmetic == "xabsl",
-            functions=functions_of(self.component),
+            uses_xabsl_arithmetic=self.component.arithmetic == "xabsl",
+            functions=functions_by_output(self.component),
         )
 
-    def view(self) -> ComponentView:
+    def build_view(self) -> ComponentModuleView:
         """What the template of a component sees."""
         plan = self.component
         methods = (
             self._write_constructor(),
-            *modulate_method(plan.parameters, self.speller),
-            *MethodWriter(component=plan, speller=self.speller).write_states(),
+            *modulate_method(plan.parameters, self.expression_printer),
+            *MethodWriter(component=plan, expression_printer=self.expression_printer).write_states(),
         )
-        view = ComponentView(
+        view = ComponentModuleView(
             docstring=docstring(f"The component {plan.component} of the project {self.project.name}.", 0),
             imports=(),
-            imports_for_types=tuple(import_lines([Import(module=self.runtime, name="Root")])),
-            module_code=_whole(plan.module_code, ""),
-            class_name=name_class(plan.component),
+            imports_for_types=tuple(format_imports([Import(module=self.runtime, name="Root")])),
+            module_code=_region_text(plan.module_code, ""),
+            class_name=component_class_name(plan.component),
             base=self._base,
             class_docstring=self._write_docstring(),
             settings=self._list_settings(),
             methods=methods,
-            members=_whole(plan.members, " " * METHOD),
+            members=_region_text(plan.members, " " * METHOD_INDENT),
         )
         return replace(view, imports=self._list_imports(view))
 
@@ -80,10 +80,10 @@ class ComponentWriter:
     def _write_docstring(self) -> str:
         plan = self.component
         values = [*plan.parameters, *plan.outputs, *plan.variables]
-        texts = [(value.name, described(value.doc, value.unit, value.range)) for value in values]
+        texts = [(value.name, declaration_description(value.doc, value.unit, value.range)) for value in values]
         entries = [(name, text) for name, text in texts if text]
-        sections = (section("Attributes", entries, METHOD),) if entries else ()
-        return docstring(plan.doc or f"The component {plan.component}.", METHOD, sections)
+        sections = (section("Attributes", entries, METHOD_INDENT),) if entries else ()
+        return docstring(plan.doc or f"The component {plan.component}.", METHOD_INDENT, sections)
 
     def _list_settings(self) -> tuple[str, ...]:
         plan = self.component
@@ -92,28 +92,30 @@ class ComponentWriter:
             settings.append(f"design_file = {quoted(plan.source)}")
         if plan.frequency_hz is not None:
             hertz = plan.frequency_hz
-            settings.append(f"frequency_hz = {spell_number(int(hertz) if hertz == int(hertz) else hertz)}")
+            settings.append(f"frequency_hz = {format_number(int(hertz) if hertz == int(hertz) else hertz)}")
         if plan.resume:
             settings.append("resume = True")
         return tuple(settings)
 
     def _write_constructor(self) -> MethodView:
         plan = self.component
-        margin = " " * BODY
+        margin = " " * BODY_INDENT
         lines = [f"{margin}super().__init__(root)"]
         lines += [f"{margin}self.{use.alias} = root.component({self._class_of(use)})" for use in plan.uses]
         for value in (*plan.parameters, *plan.outputs, *plan.variables):
-            lines += statement(f"self.{value.name} = ", self.speller.spell(value.initial), indent=BODY)
-        states: list[Doc] = [_state(state, asks_done=plan.asks_done) for state in plan.states]
-        lines += render(call("self._set_states", states, is_broken=True), BODY)
+            lines += format_statement(
+                f"self.{value.name} = ", self.expression_printer.to_doc(value.initial), indent=BODY_INDENT
+            )
+        states: list[Doc] = [_state(state, asks_done=plan.uses_action_done) for state in plan.states]
+        lines += render_doc(call_doc("self._set_states", states, must_break=True), BODY_INDENT)
         return MethodView(signature="    def __init__(self, root: Root) -> None:", body="\n".join(lines))
 
     def _class_of(self, use: UsedComponent) -> str:
-        return name_class(use.component)
+        return component_class_name(use.component)
 
-    def _list_imports(self, view: ComponentView) -> tuple[tuple[str, ...], ...]:
+    def _list_imports(self, view: ComponentModuleView) -> tuple[tuple[str, ...], ...]:
         """Sections: the runtime, hand-written modules, the package's own."""
-        written = words_in_code([view.module_code, *self._texts(view)])
+        written = names_in_code([view.module_code, *self._class_source(view)])
         runtime = [Import(module=self.runtime, name=name) for name in (self._base, "State")]
         if "arithmetic" in written:
             runtime.append(Import(module=self.runtime, name="arithmetic"))
@@ -122,9 +124,9 @@ class ComponentWriter:
         own += self._import_declarations(written)
         is_inside = self.runtime.startswith(".")
         sections = ([], hand_written, [*runtime, *own]) if is_inside else (runtime, hand_written, own)
-        return tuple(tuple(import_lines(each)) for each in sections if each)
+        return tuple(tuple(format_imports(each)) for each in sections if each)
 
-    def _texts(self, view: ComponentView) -> list[str]:
+    def _class_source(self, view: ComponentModuleView) -> list[str]:
         """All code of the class, so that what it names can be imported."""
         methods = [f"{method.signature}\n{method.body}" for method in view.methods]
         return ["\n".join([f"class {view.class_name}:", "    pass", *methods, view.members])]
@@ -147,7 +149,7 @@ class ComponentWriter:
 def _state(state: StatePlan, *, asks_done: bool) -> Doc:
     arguments: list[Doc] = [quoted(state.name), f"self._in_{state.stem}"]
     if state.requires:
-        arguments.append(joined("requires=", _tuple([f"self.{alias}" for alias in state.requires])))
+        arguments.append(concat("requires=", _tuple([f"self.{alias}" for alias in state.requires])))
     if state.enter:
         arguments.append(f"enter=self._enter_{state.stem}")
     if state.leave:
@@ -159,16 +161,16 @@ def _state(state: StatePlan, *, asks_done: bool) -> Doc:
     if state.synchronized is not None:
         arguments.append(f"synchronized={state.synchronized}")
     if asks_done and state.calls:
-        arguments.append(joined("calls=", _tuple([f"self.{alias}" for alias in state.calls])))
-    return call("State", arguments)
+        arguments.append(concat("calls=", _tuple([f"self.{alias}" for alias in state.calls])))
+    return call_doc("State", arguments)
 
 
 def _tuple(items: list[str]) -> Doc:
     if len(items) == 1:
         return bracketed("(", f"{items[0]},")
-    inner = joined(separated(list(items), joined(",", Line())), IfBroken(","))
+    inner = concat(join_docs(list(items), concat(",", SoftLine())), IfBreak(","))
     return bracketed("(", inner)
 
 
-def _whole(body: Body | None, indent: str) -> str:
-    return wrap(body.region, python_code(body), indent=indent).removesuffix("\n") if body else ""
+def _region_text(body: CodePlan | None, indent: str) -> str:
+    return wrap_region(body.region_id, python_code(body), indent=indent).removesuffix("\n") if body else ""

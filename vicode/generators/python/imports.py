@@ -4,7 +4,7 @@ import re
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from vicode.generators.python.layout import WIDTH
+from vicode.generators.python.layout import LINE_WIDTH
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -16,7 +16,7 @@ class Import:
     alias: str = ""
 
 
-def import_lines(imports: Iterable[Import]) -> list[str]:
+def format_imports(imports: Iterable[Import]) -> list[str]:
     """One statement a module, sorted; names under another name have a statement each."""
     wanted = set(imports)
     lines: list[str] = []
@@ -31,7 +31,7 @@ def import_lines(imports: Iterable[Import]) -> list[str]:
 
 def _statement(module: str, names: list[str]) -> list[str]:
     line = f"from {module} import {', '.join(names)}"
-    if len(line) <= WIDTH:
+    if len(line) <= LINE_WIDTH:
         return [line]
     return [f"from {module} import (", *(f"    {name}," for name in names), ")"]
 

@@ -6,14 +6,16 @@ import re
 import textwrap
 from collections.abc import Iterable
 
-from vicode.generators.plan import INTERFACES, ProjectPlan
+from vicode.generators.plan import INTERFACES_MODULE, ProjectPlan
 from vicode.model.parsing import parse_module
 
-RESERVED_MODULES = frozenset({*keyword.kwlist, *keyword.softkwlist, "__init__", "bica", "declarations", INTERFACES})
+RESERVED_MODULES = frozenset(
+    {*keyword.kwlist, *keyword.softkwlist, "__init__", "bica", "declarations", INTERFACES_MODULE}
+)
 """What no module of a package may be called."""
 
 # What generated code itself says at the top, in a class body or in a function.
-_OUR_NAMES = frozenset(
+_RESERVED_NAMES = frozenset(
     [
         "Component",
         "Enum",
@@ -43,7 +45,7 @@ _OUR_NAMES = frozenset(
 _WORD = re.compile(r"[A-Za-z_]\w*", re.ASCII)
 
 
-def name_globals(plan: ProjectPlan) -> dict[str, str]:
+def assign_global_names(plan: ProjectPlan) -> dict[str, str]:
     """Names of enumerations, constants and classes in modules; one that is ours gets a `_`.
 
     Classes are found under `class_key`, since a component and a constant may share a name: then the constant yields.
@@ -51,27 +53,27 @@ def name_globals(plan: ProjectPlan) -> dict[str, str]:
     # Of all designs, so that a part of a project finds the names that the whole has.
     used = [use.component for design in plan.project.designs for use in design.uses]
     written = [*plan.package.modules, *sorted(plan.package.interfaces), *used]
-    classes = {class_key(component): name_class(component) for component in written}
+    classes = {class_key(component): component_class_name(component) for component in written}
     names = {"arithmetic": "arithmetic", **classes}
-    taken = _OUR_NAMES | set(classes.values())
+    taken = _RESERVED_NAMES | set(classes.values())
     for declared in (*(each.name for each in plan.enumerations), *(each.name for each in plan.constants)):
-        names[declared] = _free(declared, taken)
+        names[declared] = _unique_name(declared, taken)
     return names
 
 
 def class_key(component: str) -> str:
-    """How `name_globals` calls the class of a component."""
+    """How `assign_global_names` calls the class of a component."""
     return f"class {component}"
 
 
-def name_class(component: str) -> str:
+def component_class_name(component: str) -> str:
     """The name of a component's class."""
-    return _free(component, _OUR_NAMES)
+    return _unique_name(component, _RESERVED_NAMES)
 
 
-def words_in_code(texts: Iterable[str]) -> frozenset[str]:
+def names_in_code(texts: Iterable[str]) -> frozenset[str]:
     """Names that Python code reads; of code that does not parse, every word."""
-    return frozenset(word for text in texts for word in _words_in(text))
+    return frozenset(word for text in texts for word in _names_in(text))
 
 
 def has_statement(text: str) -> bool:
@@ -80,13 +82,13 @@ def has_statement(text: str) -> bool:
     return bool(text.strip()) if tree is None else bool(tree.body)
 
 
-def _free(name: str, taken: frozenset[str]) -> str:
+def _unique_name(name: str, taken: frozenset[str]) -> str:
     while name in taken:
         name += "_"
     return name
 
 
-def _words_in(text: str) -> set[str]:
+def _names_in(text: str) -> set[str]:
     tree = _parse(text)
     if tree is None:
         return set(_WORD.findall(text))

@@ -8,13 +8,13 @@ import ast
 from collections.abc import Iterable, Iterator, Sequence
 
 from vicode import regions
-from vicode.findings import Path
+from vicode.findings import DesignPath
 from vicode.generators.origins import Origin
-from vicode.generators.plan import Alternative, Branch, ComponentPlan, Predicate
+from vicode.generators.plan import Branch, CodeCondition, ComponentPlan, DecisionPlan
 from vicode.model.parsing import parse_module
 
 _OUTCOMES = ("_change_to", "_stay")
-_COMMON: Path = ("common", "transitions")
+_COMMON: DesignPath = ("common", "transitions")
 
 
 def find_origins(plan: ComponentPlan, text: str) -> tuple[Origin, ...]:
@@ -26,74 +26,76 @@ def find_origins(plan: ComponentPlan, text: str) -> tuple[Origin, ...]:
     lines = text.split("\n")
     classes = [node for node in tree.body if isinstance(node, ast.ClassDef)]
     methods = [node for each in classes for node in each.body if isinstance(node, ast.FunctionDef)]
-    found = [*_whole(text), *_states(plan, methods, lines), *_methods(plan, methods, lines)]
+    found = [*_section_origins(text), *_state_origins(plan, methods, lines), *_method_origins(plan, methods, lines)]
     return tuple(sorted(found, key=lambda origin: (origin.first, -origin.last)))
 
 
-def _whole(text: str) -> Iterator[Origin]:
-    for region in regions.find(text).regions:
+def _section_origins(text: str) -> Iterator[Origin]:
+    for region in regions.find_regions(text).regions:
         if region.id in ("module", "members"):
             yield Origin(first=region.line, last=region.end_line, path=(region.id,))
 
 
-def _states(plan: ComponentPlan, methods: Sequence[ast.FunctionDef], lines: Sequence[str]) -> Iterator[Origin]:
+def _state_origins(plan: ComponentPlan, methods: Sequence[ast.FunctionDef], lines: Sequence[str]) -> Iterator[Origin]:
     """All methods of a state, from the first to the one before another state's."""
     by_name = {f"_in_{state.stem}": state.name for state in plan.states}
     own = [at for at, method in enumerate(methods) if method.name in by_name]
     for at, following in zip(own, [*own[1:], len(methods)], strict=True):
         last = [method for method in methods[at:following] if method.name.startswith("_")][-1]
         path = ("states", by_name[methods[at].name])
-        yield Origin(first=methods[at].lineno, last=_end_of(last, lines), path=path)
+        yield Origin(first=methods[at].lineno, last=_last_line(last, lines), path=path)
 
 
-def _methods(plan: ComponentPlan, methods: Sequence[ast.FunctionDef], lines: Sequence[str]) -> Iterator[Origin]:
+def _method_origins(plan: ComponentPlan, methods: Sequence[ast.FunctionDef], lines: Sequence[str]) -> Iterator[Origin]:
     """What is inside the methods of each state, and of those that are common to all."""
     by_stem = {state.stem: state for state in plan.states}
-    predicates = iter(_predicates(plan.decide_first))
-    owner: Path = ("common",)
+    predicates = iter(_predicate_paths(plan.common_decisions))
+    owner: DesignPath = ("common",)
     for method in methods:
-        kind, stem = _parts_of(method.name)
+        kind, stem = _split_method_name(method.name)
         state = by_stem.get(stem)
         if method.name == "_decide_common":
             yield Origin(first=method.lineno, last=_end(method), path=_COMMON)
-            yield from _decisions(method, plan.decide_first, lines)
+            yield from _decision_origins(method, plan.common_decisions, lines)
         elif method.name == "_act_common":
             yield Origin(first=method.lineno, last=_end(method), path=("common", "actions"))
         elif kind == "in" and state is not None:
-            owner, predicates = ("states", state.name), iter(_predicates(state.decisions))
-            yield from _decisions(method, state.decisions, lines)
+            owner, predicates = ("states", state.name), iter(_predicate_paths(state.decisions))
+            yield from _decision_origins(method, state.decisions, lines)
         elif kind in ("enter", "leave") and state is not None:
-            yield Origin(first=method.lineno, last=_end_of(method, lines), path=("states", state.name, kind))
+            yield Origin(first=method.lineno, last=_last_line(method, lines), path=("states", state.name, kind))
         elif kind == "when" and (path := next(predicates, None)):
-            yield Origin(first=method.lineno, last=_end_of(method, lines), path=(*path, "code"))
+            yield Origin(first=method.lineno, last=_last_line(method, lines), path=(*path, "code"))
         elif kind == "do":
-            yield Origin(first=method.lineno, last=_end_of(method, lines), path=(*owner, "actions"))
+            yield Origin(first=method.lineno, last=_last_line(method, lines), path=(*owner, "actions"))
 
 
-def _parts_of(name: str) -> tuple[str, str]:
+def _split_method_name(name: str) -> tuple[str, str]:
     kind, _underscore, stem = name.removeprefix("_").partition("_")
     return (kind, stem)
 
 
-def _predicates(alternatives: Iterable[Alternative]) -> Iterator[Path]:
+def _predicate_paths(alternatives: Iterable[DecisionPlan]) -> Iterator[DesignPath]:
     """The decisions with a predicate of their own, in the order of its methods."""
     for alternative in alternatives:
-        if any(isinstance(condition, Predicate) for condition in alternative.conditions):
+        if any(isinstance(condition, CodeCondition) for condition in alternative.conditions):
             yield alternative.path
         if isinstance(alternative.outcome, Branch):
-            yield from _predicates((*alternative.outcome.then, *alternative.outcome.otherwise))
+            yield from _predicate_paths((*alternative.outcome.then, *alternative.outcome.otherwise))
 
 
-def _leaves(alternatives: Iterable[Alternative]) -> Iterator[Path]:
+def _leaf_paths(alternatives: Iterable[DecisionPlan]) -> Iterator[DesignPath]:
     for alternative in alternatives:
         if isinstance(alternative.outcome, Branch):
-            yield from _leaves((*alternative.outcome.then, *alternative.outcome.otherwise))
+            yield from _leaf_paths((*alternative.outcome.then, *alternative.outcome.otherwise))
         else:
             yield alternative.path
 
 
-def _decisions(method: ast.FunctionDef, alternatives: Iterable[Alternative], lines: Sequence[str]) -> Iterator[Origin]:
-    for (first, last), path in zip(_outcomes(method.body, None), _leaves(alternatives), strict=False):
+def _decision_origins(
+    method: ast.FunctionDef, alternatives: Iterable[DecisionPlan], lines: Sequence[str]
+) -> Iterator[Origin]:
+    for (first, last), path in zip(_outcomes(method.body, None), _leaf_paths(alternatives), strict=False):
         start = first
         # A remark above the test speaks of it.
         while start > 1 and lines[start - 2].strip().startswith("# ") and "vicode>" not in lines[start - 2]:
@@ -121,7 +123,7 @@ def _is_outcome(statement: ast.stmt) -> bool:
             return False
 
 
-def _end_of(method: ast.FunctionDef, lines: Sequence[str]) -> int:
+def _last_line(method: ast.FunctionDef, lines: Sequence[str]) -> int:
     """The last line of a method, which is the end mark if it ends in a region."""
     end = _end(method)
     while end < len(lines) and (not lines[end].strip() or lines[end].strip().startswith("# ")):

@@ -2,40 +2,42 @@
 
 from collections.abc import Iterable
 
-from vicode.generators.plan import Value
-from vicode.generators.python.layout import WIDTH, Doc, Group, call, joined, render, separated
-from vicode.generators.python.methods import BODY, METHOD
-from vicode.generators.python.spelling import Speller
+from vicode.generators.plan import ValuePlan
+from vicode.generators.python.layout import LINE_WIDTH, Doc, DocGroup, call_doc, concat, join_docs, render_doc
+from vicode.generators.python.methods import BODY_INDENT, METHOD_INDENT
+from vicode.generators.python.spelling import PythonExpressionPrinter
 from vicode.generators.python.text import docstring
 from vicode.generators.python.views import MethodView
 from vicode.model.expressions import BOOL, FLOAT, INT
 
 
-def modulate_method(parameters: tuple[Value, ...], speller: Speller) -> list[MethodView]:
+def modulate_method(parameters: tuple[ValuePlan, ...], expression_printer: PythonExpressionPrinter) -> list[MethodView]:
     """The method that takes the parameters of a component; none without parameters."""
     if not parameters:
         return []
-    margin = " " * BODY
-    lines = [docstring("Take the parameters of an activation.", BODY)]
+    margin = " " * BODY_INDENT
+    lines = [docstring("Take the parameters of an activation.", BODY_INDENT)]
     lines += [f"{margin}self.{value.name} = {value.name}" for value in parameters]
-    signature = keyword_signature("modulate", parameters, "None", speller)
+    signature = keyword_signature("modulate", parameters, "None", expression_printer)
     return [MethodView(signature=signature, body="\n".join(lines))]
 
 
-def keyword_signature(name: str, parameters: Iterable[Value], result: str, speller: Speller) -> str:
+def keyword_signature(
+    name: str, parameters: Iterable[ValuePlan], result: str, expression_printer: PythonExpressionPrinter
+) -> str:
     """The lines of a method up to its colon: everything but self is given by keyword and has a default."""
-    given: list[Doc] = [_parameter(value, speller) for value in parameters]
+    given: list[Doc] = [_parameter(value, expression_printer) for value in parameters]
     given = ["self", "*", *given] if given else ["self"]
-    signature = render(Group(joined(f"def {name}(", separated(given, ", "), f") -> {result}:")), METHOD)
-    if len(signature) > 1 or len(signature[0]) > WIDTH:
-        signature = render(joined(call(f"def {name}", given, is_broken=True), f" -> {result}:"), METHOD)
+    signature = render_doc(DocGroup(concat(f"def {name}(", join_docs(given, ", "), f") -> {result}:")), METHOD_INDENT)
+    if len(signature) > 1 or len(signature[0]) > LINE_WIDTH:
+        signature = render_doc(concat(call_doc(f"def {name}", given, must_break=True), f" -> {result}:"), METHOD_INDENT)
     return "\n".join(signature)
 
 
-def type_name(type_: str, speller: Speller) -> str:
+def type_name(type_: str, expression_printer: PythonExpressionPrinter) -> str:
     """How a type is written."""
-    return type_ if type_ in (BOOL, INT, FLOAT) else speller.names[type_]
+    return type_ if type_ in (BOOL, INT, FLOAT) else expression_printer.names[type_]
 
 
-def _parameter(value: Value, speller: Speller) -> Doc:
-    return joined(f"{value.name}: {type_name(value.type, speller)} = ", speller.spell(value.initial).breakable)
+def _parameter(value: ValuePlan, speller: PythonExpressionPrinter) -> Doc:
+    return concat(f"{value.name}: {type_name(value.type, speller)} = ", speller.to_doc(value.initial).breakable)

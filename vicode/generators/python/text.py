@@ -3,23 +3,23 @@
 import textwrap
 import unicodedata
 
-from vicode.generators.python.layout import WIDTH
-from vicode.regions import defuse
+from vicode.generators.python.layout import LINE_WIDTH
+from vicode.regions import escape_marks
 
 
 def docstring(text: str, indent: int, sections: tuple[str, ...] = ()) -> str:
     """A docstring, indented: the text, then finished sections of lines."""
     margin = " " * indent
     lines = [
-        *_wrapped(text, WIDTH - indent - 3),
+        *_wrapped(text, LINE_WIDTH - indent - 3),
         *(line for section in sections for line in ("", *section.split("\n"))),
     ]
     escaped = [_escaped(line) for line in lines]
     if escaped[0].startswith('"'):
         escaped[0] = f"\\{escaped[0]}"
     # The closing quotes stand alone only where they, and they alone, are too much for the line.
-    if len(escaped) == 1 and not WIDTH - 3 < indent + 3 + _columns(escaped[0]) <= WIDTH:
-        return f'{margin}"""{_with_safe_end(escaped[0])}"""'
+    if len(escaped) == 1 and not LINE_WIDTH - 3 < indent + 3 + _columns(escaped[0]) <= LINE_WIDTH:
+        return f'{margin}"""{_escape_last_quote(escaped[0])}"""'
     rest = [margin + line if line else "" for line in escaped[1:]]
     return "\n".join([f'{margin}"""{escaped[0]}', *rest, f'{margin}"""'])
 
@@ -28,7 +28,7 @@ def section(title: str, entries: list[tuple[str, str]], indent: int) -> str:
     """A section of a docstring, such as Args, whose entries are pairs of name and text."""
     lines = [f"{title}:"]
     for name, text in entries:
-        width = WIDTH - indent
+        width = LINE_WIDTH - indent
         lines += textwrap.wrap(
             f"{name}: {_clean(text)}", width, initial_indent="    ", subsequent_indent=" " * 8, break_long_words=False
         )
@@ -42,7 +42,7 @@ def comment(text: str, indent: int) -> list[str]:
     # A remark to a tool would mean something else than the person who wrote it did.
     if clean.lower().startswith(("fmt:", "isort:", "mypy:", "noqa", "pragma:", "pyright:", "ruff:", "type:", "yapf:")):
         clean = f"({clean})"
-    return textwrap.wrap(clean, WIDTH, initial_indent=prefix, subsequent_indent=prefix, break_long_words=False)
+    return textwrap.wrap(clean, LINE_WIDTH, initial_indent=prefix, subsequent_indent=prefix, break_long_words=False)
 
 
 def quoted(text: str) -> str:
@@ -53,7 +53,7 @@ def quoted(text: str) -> str:
     return '"' + escaped.replace('"', '\\"') + '"'
 
 
-def described(doc: str, unit: str, range_: tuple[float, float] | None) -> str:
+def declaration_description(doc: str, unit: str, range_: tuple[float, float] | None) -> str:
     """A declaration in words: its doc, unit and range."""
     facts = [f"in {unit}"] if unit else []
     facts += [f"{range_[0]:g} to {range_[1]:g}"] if range_ else []
@@ -76,7 +76,7 @@ def _wrapped(text: str, width: int) -> list[str]:
 
 def _plain_lines(text: str) -> list[str]:
     # Wrapping would make blanks of vertical tabs and form feeds, after the margin has been measured.
-    blank = defuse(text).replace("\v", " ").replace("\f", " ")
+    blank = escape_marks(text).replace("\v", " ").replace("\f", " ")
     lines = blank.replace("\r\n", "\n").replace("\r", "\n").expandtabs(4).split("\n")
     lines = "\n".join(line.rstrip() for line in lines).strip("\n ").lstrip().split("\n")
     # As Python reads docstrings: the first line may begin anywhere, the others have a margin in common.
@@ -92,7 +92,7 @@ def _columns(text: str) -> int:
 
 def _clean(text: str) -> str:
     """One line of printable characters."""
-    words = defuse(" ".join(text.split())).split()
+    words = escape_marks(" ".join(text.split())).split()
     return " ".join("".join(char if char.isprintable() else "?" for char in word) for word in words)
 
 
@@ -110,6 +110,6 @@ def _escaped_character(char: str) -> str:
     return f"\\x{code:02x}" if code < 0x100 else f"\\u{code:04x}" if code < 0x10000 else f"\\U{code:08x}"
 
 
-def _with_safe_end(line: str) -> str:
+def _escape_last_quote(line: str) -> str:
     """A last quote would belong to the three that end the docstring."""
     return line[:-1] + '\\"' if line.endswith('"') and not line.endswith('\\"') else line

@@ -12,7 +12,7 @@ class MethodView:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class ComponentView:
+class ComponentModuleView:
     """A module with one component; `imports` are the sections of imports, `settings` attributes of the class."""
 
     docstring: str
@@ -28,7 +28,7 @@ class ComponentView:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class ClassView:
+class EnumerationClassView:
     """An enumeration: its members as lines."""
 
     name: str
@@ -37,17 +37,17 @@ class ClassView:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class DeclarationsView:
+class DeclarationsModuleView:
     """A module with the project's enumerations and constants."""
 
     docstring: str
     imports: tuple[str, ...]
-    enumerations: tuple[ClassView, ...]
+    enumerations: tuple[EnumerationClassView, ...]
     constants: tuple[str, ...]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class HandedOnView:
+class InterfaceClassView:
     """A component without a design."""
 
     name: str
@@ -56,17 +56,17 @@ class HandedOnView:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class InterfacesView:
+class InterfacesModuleView:
     """A module with all components that have no design and that nobody wrote; `imports` are its sections."""
 
     docstring: str
     imports: tuple[tuple[str, ...], ...]
     imports_for_types: tuple[str, ...]
-    classes: tuple[HandedOnView, ...]
+    classes: tuple[InterfaceClassView, ...]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class GuardView:
+class GuardProbeView:
     """How one guard is tested: `id` and `reads` are quoted, `conditions` and the values of `reads` are expressions."""
 
     id: str
@@ -75,10 +75,10 @@ class GuardView:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class ProbesView:
+class ProbesModuleView:
     """A module that tests the guards of a component: `sources` are states, quoted, with their guards."""
 
     docstring: str
     imports: tuple[str, ...]
-    sources: tuple[tuple[str, tuple[GuardView, ...]], ...]
+    sources: tuple[tuple[str, tuple[GuardProbeView, ...]], ...]
     enumerations: tuple[tuple[str, str], ...]

@@ -4,112 +4,115 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import partial
 
-from vicode.findings import Path
+from vicode.findings import DesignPath
 from vicode.generators.plan import (
-    Alternative,
-    CallComponent,
+    ActionStep,
+    AssignStep,
+    CallStep,
+    CodeStep,
     ComponentPlan,
-    Keep,
-    Run,
-    Set,
+    DecisionPlan,
+    NoChange,
     StatePlan,
-    Step,
     UnsoundDesignError,
 )
-from vicode.generators.xabsl.decisions import DecisionWriter, is_open
-from vicode.generators.xabsl.expressions import Speller
-from vicode.generators.xabsl.printing import Remark, remark, said
-from vicode.generators.xabsl.symbols import range_text
-from vicode.generators.xabsl.vocabulary import Vocabulary
+from vicode.generators.xabsl.decisions import DecisionTreeBuilder, can_be_common_decision
+from vicode.generators.xabsl.expressions import XabslExpressionBuilder
+from vicode.generators.xabsl.printing import AttachedComment, attach_comment, wrap_description
+from vicode.generators.xabsl.symbols import format_range
+from vicode.generators.xabsl.vocabulary import XabslNameMap
 from vicode.model.design import COMMON
-from vicode.model.xabsl.limits import can_ask_done, find_limits
-from vicode.model.xabsl.names import component_name, plain_name
+from vicode.model.xabsl.limits import find_unsupported_in_design, is_done_expressible
+from vicode.model.xabsl.names import component_name, unqualified_name
 from vicode.xabsl import tree
-from vicode.xabsl.pieces import Piece, read_actions
+from vicode.xabsl.pieces import EmbeddedCode, parse_embedded_actions
 
-_STAYS = (Alternative(conditions=(), outcome=Keep()),)
+_STAY_ONLY = (DecisionPlan(conditions=(), outcome=NoChange()),)
 
 
 @dataclass(frozen=True, slots=True)
-class OptionText:
-    """An option; `remarks` are comments beside its nodes, `places` tell which nodes come from which thing."""
+class GeneratedOption:
+    """An option; `comments` are comments beside its nodes, `node_paths` tell which nodes come from which thing."""
 
-    option: tree.Option
-    remarks: tuple[Remark, ...]
-    places: tuple[tuple[tree.Node, Path], ...]
+    option: tree.OptionNode
+    comments: tuple[AttachedComment, ...]
+    node_paths: tuple[tuple[tree.SyntaxNode, DesignPath], ...]
 
 
-def write_option(plan: ComponentPlan, vocabulary: Vocabulary | None = None) -> OptionText:
+def build_option(plan: ComponentPlan, name_map: XabslNameMap | None = None) -> GeneratedOption:
     """The option of a design; who writes several hands on the project's vocabulary.
 
     Raises:
         UnsoundDesignError: XABSL cannot say something in it.
     """
-    limit = next(find_limits(plan.project, plan.design), None)
+    limit = next(find_unsupported_in_design(plan.project, plan.design), None)
     if limit is not None:
         raise UnsoundDesignError(limit.message)
-    return _OptionWriter(plan, vocabulary or Vocabulary(plan.project)).write()
+    return _OptionBuilder(plan, name_map or XabslNameMap(plan.project)).build()
 
 
-class _OptionWriter:
+class _OptionBuilder:
     """Builds the parts of one option, which share names."""
 
-    def __init__(self, plan: ComponentPlan, vocabulary: Vocabulary) -> None:
-        self.plan, self.design, self.vocabulary = plan, plan.design, vocabulary
+    def __init__(self, plan: ComponentPlan, vocabulary: XabslNameMap) -> None:
+        self.plan, self.design, self.name_map = plan, plan.design, vocabulary
         self.components = {"": plan.component, **{use.alias: use.component for use in plan.uses}}
-        self.names = {state.name: plain_name(state) for state in self.design.states}
-        self.speller = Speller(
-            vocabulary=self.vocabulary,
+        self.state_names = {state.name: unqualified_name(state) for state in self.design.states}
+        self.expressions = XabslExpressionBuilder(
+            name_map=self.name_map,
             components=self.components,
             time_unit=plan.time_unit,
-            is_xabsl=plan.arithmetic == "xabsl",
-            asks_done=partial(can_ask_done, plan.project, self.design),
+            uses_xabsl_arithmetic=plan.arithmetic == "xabsl",
+            can_use_action_done=partial(is_done_expressible, plan.project, self.design),
         )
-        self.decisions = DecisionWriter(self.speller, self.names.__getitem__)
-        self.remarks: list[Remark] = []
-        self.places: list[tuple[tree.Node, Path]] = []
+        self.decisions = DecisionTreeBuilder(self.expressions, self.state_names.__getitem__)
+        self.comments: list[AttachedComment] = []
+        self.node_paths: list[tuple[tree.SyntaxNode, DesignPath]] = []
 
-    def write(self) -> OptionText:
+    def build(self) -> GeneratedOption:
         plan = self.plan
-        common: tree.Tree | None = None
-        actions: tree.Actions | None = None
-        if is_open(plan.decide_first):
-            common = self.decisions.open(plan.decide_first, COMMON)
-            self.places.append((common, ("common", "transitions")))
-        if plan.act_first:
-            actions = self._actions(plan.act_first, ("common", "actions"))
+        common: tree.DecisionTreeNode | None = None
+        actions: tree.ActionBlockNode | None = None
+        if can_be_common_decision(plan.common_decisions):
+            common = self.decisions.build_open(plan.common_decisions, COMMON)
+            self.node_paths.append((common, ("common", "transitions")))
+        if plan.common_actions:
+            actions = self._actions(plan.common_actions, ("common", "actions"))
         planned = {state.name: state for state in plan.states}
         states = [self._state(planned[state.name], has_common=common is not None) for state in self.design.states]
-        option = tree.Option(
-            tree.Name(component_name(self.design)),
+        option = tree.OptionNode(
+            tree.NameNode(component_name(self.design)),
             [self._parameter(index) for index in range(len(self.design.parameters))],
             states,
             common,
             actions,
-            said(self.design.doc, 0),
+            wrap_description(self.design.doc, 0),
         )
-        self._note(common or actions or states[0], self.design.common.doc)
-        remarks = [*self.remarks, *(found for node, words in self.decisions.words for found in remark(node, words))]
-        return OptionText(option, tuple(remarks), (*self.places, *self.decisions.places))
+        self._add_comment(common or actions or states[0], self.design.common.doc)
+        remarks = [
+            *self.comments,
+            *(found for node, words in self.decisions.unplaced_docs for found in attach_comment(node, words)),
+        ]
+        return GeneratedOption(option, tuple(remarks), (*self.node_paths, *self.decisions.node_paths))
 
-    def _parameter(self, index: int) -> tree.Parameter:
+    def _parameter(self, index: int) -> tree.ParameterNode:
         declared = self.design.parameters[index]
-        type_ = self.vocabulary.type_of(declared)
+        type_ = self.name_map.type_of(declared)
         is_number = type_.text == "float"
-        return tree.Parameter(
-            tree.Name(f"@{plain_name(declared)}"),
+        return tree.ParameterNode(
+            tree.NameNode(f"@{unqualified_name(declared)}"),
             type_,
-            range_text(declared) if is_number else "",
-            said(declared.unit, 1).replace('"', "'") if is_number else "",
-            said(declared.doc, 1),
+            format_range(declared) if is_number else "",
+            wrap_description(declared.unit, 1).replace('"', "'") if is_number else "",
+            wrap_description(declared.doc, 1),
         )
 
-    def _state(self, plan: StatePlan, *, has_common: bool) -> tree.State:
+    def _state(self, plan: StatePlan, *, has_common: bool) -> tree.StateNode:
         design = self.design.state(plan.name)
         assert design is not None
-        state = tree.State(
-            tree.Name(self.names[plan.name]),
-            tree.Actions([]),
+        state = tree.StateNode(
+            tree.NameNode(self.state_names[plan.name]),
+            tree.ActionBlockNode([]),
             self._decision(plan, has_common=has_common),
             is_initial=plan.name == self.design.initial,
             is_target=plan.final,
@@ -118,59 +121,64 @@ class _OptionWriter:
             state.cooperation, state.robots = "capacity", str(plan.capacity)
         elif plan.synchronized is not None:
             state.cooperation, state.robots = "synchronized", str(plan.synchronized or "")
-        self.places.append((state, ("states", plan.name)))
-        state.actions = self._actions(plan.act, ("states", plan.name, "actions"))
-        self._note(state, plan.doc)
+        self.node_paths.append((state, ("states", plan.name)))
+        state.actions = self._actions(plan.actions, ("states", plan.name, "actions"))
+        self._add_comment(state, plan.doc)
         return state
 
-    def _decision(self, plan: StatePlan, *, has_common: bool) -> tree.Decision | None:
-        own = () if plan.decisions == _STAYS else plan.decisions
-        before: Sequence[Alternative] = () if has_common else self.plan.decide_first
+    def _decision(self, plan: StatePlan, *, has_common: bool) -> tree.DecisionNode | None:
+        own = () if plan.decisions == _STAY_ONLY else plan.decisions
+        before: Sequence[DecisionPlan] = () if has_common else self.plan.common_decisions
         if not own and not before:
             return None
-        found = self.decisions.complete([*((COMMON, each) for each in before), *((plan.name, each) for each in own)])
+        found = self.decisions.build_complete(
+            [*((COMMON, each) for each in before), *((plan.name, each) for each in own)]
+        )
         if not has_common:
-            return tree.Decision(found)
-        return tree.Decision(found, begins_with_else=True, else_doc=self.decisions.take_else_doc(found))
+            return tree.DecisionNode(found)
+        return tree.DecisionNode(found, begins_with_else=True, else_doc=self.decisions.pop_else_doc(found))
 
-    def _actions(self, steps: Sequence[Step], path: Path) -> tree.Actions:
-        actions = tree.Actions([action for step in steps for action in self._step(step)])
+    def _actions(self, steps: Sequence[ActionStep], path: DesignPath) -> tree.ActionBlockNode:
+        actions = tree.ActionBlockNode([action for step in steps for action in self._step(step)])
         if steps:
-            self.places.append((actions, path))
+            self.node_paths.append((actions, path))
         return actions
 
-    def _step(self, step: Step) -> Iterator[tree.Action]:
+    def _step(self, step: ActionStep) -> Iterator[tree.ActionNode]:
         match step:
-            case Set(name=name, value=value, alias=alias):
-                symbol = self.vocabulary.symbol(self.components[alias], name)
-                yield tree.Assignment(tree.Name(symbol), self.speller.spell(value))
-            case CallComponent():
+            case AssignStep(name=name, value=value, alias=alias):
+                symbol = self.name_map.symbol_name(self.components[alias], name)
+                yield tree.AssignmentNode(tree.NameNode(symbol), self.expressions.build(value))
+            case CallStep():
                 yield self._call(step)
-            case Run(body=body):
+            case CodeStep(code=body):
                 text = body.code.in_language("xabsl")
-                piece = read_actions(text or "")
-                if text is None or piece.node is None or piece.mistakes:
-                    raise UnsoundDesignError(f"the code '{body.region}' is not written in XABSL")
+                piece = parse_embedded_actions(text or "")
+                if text is None or piece.node is None or piece.diagnostics:
+                    raise UnsoundDesignError(f"the code '{body.region_id}' is not written in XABSL")
                 self._keep_comments(piece, piece.node.actions)
                 yield from piece.node.actions
 
-    def _call(self, call: CallComponent) -> tree.Call:
-        name, kind, interface = self.vocabulary.callee(self.components[call.alias])
-        names = {each.name: plain_name(each) for each in interface.parameters}
-        given = [tree.Argument(tree.Name(names[each]), self.speller.spell(value)) for each, value in call.arguments]
-        given += self.vocabulary.left_out(interface.parameters, [each for each, _value in call.arguments])
-        return tree.Call(tree.Name(name), tree.Arguments(given), kind)
+    def _call(self, call: CallStep) -> tree.CallNode:
+        name, kind, interface = self.name_map.callee(self.components[call.alias])
+        names = {each.name: unqualified_name(each) for each in interface.parameters}
+        given = [
+            tree.ArgumentNode(tree.NameNode(names[each]), self.expressions.build(value))
+            for each, value in call.arguments
+        ]
+        given += self.name_map.missing_arguments(interface.parameters, [each for each, _value in call.arguments])
+        return tree.CallNode(tree.NameNode(name), tree.ArgumentListNode(given), kind)
 
-    def _note(self, node: tree.Node, words: str) -> None:
-        self.remarks += remark(node, words)
+    def _add_comment(self, node: tree.SyntaxNode, words: str) -> None:
+        self.comments += attach_comment(node, words)
 
-    def _keep_comments(self, piece: Piece[tree.Actions], actions: Sequence[tree.Action]) -> None:
+    def _keep_comments(self, piece: EmbeddedCode[tree.ActionBlockNode], actions: Sequence[tree.ActionNode]) -> None:
         """Comments of hand-written code stay at the actions that they stand before, or behind."""
         for token, comments in piece.comments.items():
-            following = next((each for each in actions if each.at >= token), None)
+            following = next((each for each in actions if each.first_token >= token), None)
             for comment in comments:
                 is_behind = bool(actions) and (following is None or not comment.own_line)
-                before = [each for each in actions if each.to < token]
+                before = [each for each in actions if each.last_token < token]
                 node = before[-1] if is_behind and before else following
                 if node is not None:
-                    self.remarks.append(Remark(node, comment, is_behind=is_behind and bool(before)))
+                    self.comments.append(AttachedComment(node, comment, is_behind=is_behind and bool(before)))

@@ -4,8 +4,8 @@ from collections.abc import Iterator
 
 from vicode.generators.origins import Origin
 from vicode.generators.plan import ComponentPlan
-from vicode.generators.xabsl.options import OptionText, write_option
-from vicode.generators.xabsl.printing import pairs, read_option
+from vicode.generators.xabsl.options import GeneratedOption, build_option
+from vicode.generators.xabsl.printing import pair_nodes, parse_option
 from vicode.xabsl import tree
 from vicode.xabsl.lexer import Tokens
 from vicode.xabsl.tokens import DOC
@@ -13,39 +13,43 @@ from vicode.xabsl.tokens import DOC
 
 def find_origins(plan: ComponentPlan, text: str) -> tuple[Origin, ...]:
     """The origins in the file of an option, the wider before those inside them; none in any other text."""
-    return origins_in(text, write_option(plan))
+    return option_origins(text, build_option(plan))
 
 
-def origins_in(text: str, written: OptionText) -> tuple[Origin, ...]:
+def option_origins(text: str, written: GeneratedOption) -> tuple[Origin, ...]:
     """The same of an option that is written already."""
-    parsed, option = read_option(text)
+    parsed, option = parse_option(text)
     if option is None or option != written.option:
         return ()
     found = _origins(written, option, parsed.tokens)
     return tuple(sorted(found, key=lambda origin: (origin.first, -origin.last)))
 
 
-def _origins(written: OptionText, option: tree.Option, tokens: Tokens) -> Iterator[Origin]:
-    read = {id(made): found for made, found in pairs(written.option, option)}
-    for made, path in written.places:
+def _origins(written: GeneratedOption, option: tree.OptionNode, tokens: Tokens) -> Iterator[Origin]:
+    read = {id(made): found for made, found in pair_nodes(written.option, option)}
+    for made, path in written.node_paths:
         node = read[id(made)]
-        first, last = node.at, node.to
-        if isinstance(node, tree.If) and path != ("common", "transitions"):
+        first, last = node.first_token, node.last_token
+        if isinstance(node, tree.IfNode) and path != ("common", "transitions"):
             # What goes on after `else` comes from another decision.
-            last = node.then.to
-        first = _with_words(first, tokens) if not isinstance(node, tree.State | tree.Actions) else first
+            last = node.then.last_token
+        first = (
+            _include_else_and_doc(first, tokens)
+            if not isinstance(node, tree.StateNode | tree.ActionBlockNode)
+            else first
+        )
         start = tokens.line_at(tokens.starts[first])
-        yield Origin(first=_with_comments(start, tokens), last=_last_line(tokens, last), path=path)
+        yield Origin(first=_include_comments(start, tokens), last=_last_line(tokens, last), path=path)
 
 
-def _with_words(first: int, tokens: Tokens) -> int:
+def _include_else_and_doc(first: int, tokens: Tokens) -> int:
     """The token that a decision begins with: the `else` before it, and what describes it, belong to it."""
     if first and tokens.kinds[first - 1] == "else":
         first -= 1
     return first - 1 if first and tokens.kinds[first - 1] == DOC else first
 
 
-def _with_comments(line: int, tokens: Tokens) -> int:
+def _include_comments(line: int, tokens: Tokens) -> int:
     """The first line of the comment that ends right above a line."""
     lines = tokens.text.split("\n")
     while line > 2 and lines[line - 2].strip().startswith("//"):

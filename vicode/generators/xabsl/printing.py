@@ -4,95 +4,95 @@ import textwrap
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, fields
 
-from vicode.regions import defuse
+from vicode.regions import escape_marks
 from vicode.xabsl import tree
 from vicode.xabsl.lexer import Comment
-from vicode.xabsl.parser import Parsed, parse
+from vicode.xabsl.parser import ParsedFile, parse
 from vicode.xabsl.printer import print_file
 
 _WIDTH = 100
 
 
 @dataclass(frozen=True, slots=True)
-class Remark:
+class AttachedComment:
     """A comment on the lines before a node, or behind it."""
 
-    node: tree.Node
+    node: tree.SyntaxNode
     comment: Comment
     is_behind: bool = False
 
 
-def said(text: str, depth: int) -> str:
+def wrap_description(text: str, depth: int) -> str:
     """A person's words as a description: in one line, or with its later lines under the first."""
     margin = " " * (2 * depth + 4)
-    words = in_one_line(text)
+    words = description_line(text)
     return textwrap.fill(words, _WIDTH, subsequent_indent=margin, break_long_words=False, break_on_hyphens=False)
 
 
-def in_one_line(text: str) -> str:
+def description_line(text: str) -> str:
     """A person's words as a description."""
-    return " ".join(_plain(text).split()).replace("*/", "* /").replace("/*", "/ *")
+    return " ".join(_printable(text).split()).replace("*/", "* /").replace("/*", "/ *")
 
 
-def title(text: str) -> str:
+def title_text(text: str) -> str:
     """A person's words between quotes."""
-    return " ".join(_plain(text).split()).replace('"', "'")
+    return " ".join(_printable(text).split()).replace('"', "'")
 
 
-def first_comment(lines: Iterable[str]) -> str:
+def header_comment(lines: Iterable[str]) -> str:
     """A person's words as the first comment of a file."""
-    return "\n".join(_plain(line).replace("*/", "* /") for line in lines)
+    return "\n".join(_printable(line).replace("*/", "* /") for line in lines)
 
 
-def remark(node: tree.Node, text: str) -> Iterator[Remark]:
+def attach_comment(node: tree.SyntaxNode, text: str) -> Iterator[AttachedComment]:
     """A person's words as lines of comment before a node."""
-    words = " ".join(_plain(text).split())
+    words = " ".join(_printable(text).split())
     for line in textwrap.wrap(words, _WIDTH, break_long_words=False, break_on_hyphens=False):
-        yield Remark(node, Comment(f"// {line}", own_line=True))
+        yield AttachedComment(node, Comment(f"// {line}", own_line=True))
 
 
-def print_option(option: tree.Option, remarks: Iterable[Remark]) -> str:
+def print_option(option: tree.OptionNode, comments: Iterable[AttachedComment]) -> str:
     """The text of an option's file with its comments."""
-    file = tree.File(body=[option])
-    waiting = list(remarks)
+    file = tree.FileNode(body=[option])
+    waiting = list(comments)
     if waiting:
         read = parse(print_file(file)).file
-        places = {id(made): found for made, found in pairs(option, read.body[0])}
+        places = {id(made): found for made, found in pair_nodes(option, read.body[0])}
         for each in waiting:
             found = places[id(each.node)]
-            token = found.to + 1 if each.is_behind else _begin_of(option, each.node, found.at)
+            token = found.last_token + 1 if each.is_behind else _first_token(option, each.node, found.first_token)
             comment = Comment(each.comment.text, own_line=not each.is_behind)
             file.comments.setdefault(token, []).append(comment)
     return print_file(file)
 
 
-def pairs(made: tree.Node, read: tree.Node) -> Iterator[tuple[tree.Node, tree.Node]]:
+def pair_nodes(built: tree.SyntaxNode, parsed: tree.SyntaxNode) -> Iterator[tuple[tree.SyntaxNode, tree.SyntaxNode]]:
     """Nodes of a tree that was made, each with the one that its text was read as."""
-    yield made, read
-    for each in fields(made):
-        mine, theirs = getattr(made, each.name), getattr(read, each.name)
-        if isinstance(mine, tree.Node) and isinstance(theirs, tree.Node):
-            yield from pairs(mine, theirs)
+    yield built, parsed
+    for each in fields(built):
+        mine, theirs = getattr(built, each.name), getattr(parsed, each.name)
+        if isinstance(mine, tree.SyntaxNode) and isinstance(theirs, tree.SyntaxNode):
+            yield from pair_nodes(mine, theirs)
         elif isinstance(mine, list):
             for one, other in zip(mine, theirs, strict=True):
-                yield from pairs(one, other)
+                yield from pair_nodes(one, other)
 
 
-def read_option(text: str) -> tuple[Parsed, tree.Option | None]:
+def parse_option(text: str) -> tuple[ParsedFile, tree.OptionNode | None]:
     """A text that may be the file of an option."""
     parsed = parse(text)
     body = parsed.file.body
-    return parsed, body[0] if len(body) == 1 and isinstance(body[0], tree.Option) and not parsed.findings else None
+    return parsed, body[0] if len(body) == 1 and isinstance(body[0], tree.OptionNode) and not parsed.findings else None
 
 
-def _begin_of(option: tree.Option, node: tree.Node, at: int) -> int:
+def _first_token(option: tree.OptionNode, node: tree.SyntaxNode, at: int) -> int:
     """The token that a thing begins with for who reads: words before its brace belong to it."""
     if node is option.common_decision:
         return at - 3
     return at - 2 if node is option.common_actions else at
 
 
-def _plain(text: str) -> str:
+def _printable(text: str) -> str:
     """Printable characters, nothing that could pass for a mark."""
     blanks = "".join(char if char.isprintable() else " " for char in text)
-    return defuse(blanks)
+    return escape_marks(blanks)

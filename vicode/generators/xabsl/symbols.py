@@ -4,147 +4,149 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from vicode.generators.plan import UnsoundDesignError
-from vicode.generators.xabsl.printing import first_comment, said, title
-from vicode.generators.xabsl.vocabulary import Vocabulary, number_text
-from vicode.model.constants import Value
+from vicode.generators.xabsl.printing import header_comment, title_text, wrap_description
+from vicode.generators.xabsl.vocabulary import XabslNameMap, format_decimal
+from vicode.model.constants import ConstantValue
 from vicode.model.design import Declaration, Design
 from vicode.model.project import Enumeration, Interface, Project
 from vicode.model.xabsl.names import (
-    KEPT,
-    agents_of,
+    INTERNAL_SYMBOL,
     component_name,
+    effective_agents,
     element_name,
-    is_behavior,
-    plain_name,
-    role_of_output,
-    role_of_variable,
+    is_basic_behavior,
+    output_role,
+    symbol_declarations,
     symbol_name,
-    symbols_of_design,
+    unqualified_name,
+    variable_role,
 )
 from vicode.xabsl import tree
 
 
-def range_text(declaration: Declaration) -> str:
+def format_range(declaration: Declaration) -> str:
     """A range as it stands between brackets."""
     if declaration.range is None:
         return ""
-    return "..".join(("-" if end < 0 else "") + number_text(abs(end)) for end in declaration.range)
+    return "..".join(("-" if end < 0 else "") + format_decimal(abs(end)) for end in declaration.range)
 
 
 @dataclass(frozen=True, slots=True)
 class SymbolsWriter:
     """Writes the declarations of one project."""
 
-    vocabulary: Vocabulary
+    name_map: XabslNameMap
 
     @property
     def project(self) -> Project:
         """What is written."""
-        return self.vocabulary.project
+        return self.name_map.project
 
-    def shared(self, namespace: str) -> tree.File:
+    def declarations_file(self, namespace: str) -> tree.FileNode:
         """Enumerations and constants."""
-        made: list[tree.Declaration] = [self._enumeration(each) for each in self.project.enumerations]
+        made: list[tree.DeclarationNode] = [self._enumeration(each) for each in self.project.enumerations]
         made += self._constants()
-        return tree.File(body=[tree.Namespace(tree.Name(namespace), "Enumerations and constants", made)])
+        return tree.FileNode(body=[tree.NamespaceNode(tree.NameNode(namespace), "Enumerations and constants", made)])
 
-    def behaviors(self, namespace: str) -> tree.File:
+    def behaviors_file(self, namespace: str) -> tree.FileNode:
         """What a robot's program is told to do."""
-        made: list[tree.Declaration] = [
-            tree.Behavior(
-                tree.Name(component_name(each)),
+        made: list[tree.DeclarationNode] = [
+            tree.BehaviorNode(
+                tree.NameNode(component_name(each)),
                 [self._parameter(parameter, 2) for parameter in each.parameters],
-                said(each.doc or each.title, 1),
+                wrap_description(each.doc or each.title, 1),
             )
             for each in self.project.components
-            if is_behavior(each)
+            if is_basic_behavior(each)
         ]
-        return tree.File(body=[tree.Namespace(tree.Name(namespace), "Basic behaviors", made)])
+        return tree.FileNode(body=[tree.NamespaceNode(tree.NameNode(namespace), "Basic behaviors", made)])
 
-    def interface(self, interface: Interface, namespace: str) -> tree.File:
+    def interface_file(self, interface: Interface, namespace: str) -> tree.FileNode:
         """What a hand-written component offers."""
-        made = [self._symbol(interface.component, each, role_of_output(interface)) for each in interface.outputs]
-        made += [self._symbol(interface.component, each, role_of_variable(interface)) for each in interface.variables]
-        heading = title(interface.title or interface.component)
-        return tree.File(body=[tree.Namespace(tree.Name(namespace), heading, [*made], said(interface.doc, 0))])
+        made = [self._symbol(interface.component, each, output_role(interface)) for each in interface.outputs]
+        made += [self._symbol(interface.component, each, variable_role(interface)) for each in interface.variables]
+        heading = title_text(interface.title or interface.component)
+        return tree.FileNode(
+            body=[tree.NamespaceNode(tree.NameNode(namespace), heading, [*made], wrap_description(interface.doc, 0))]
+        )
 
-    def design(self, design: Design, namespace: str) -> tree.File:
+    def design_file(self, design: Design, namespace: str) -> tree.FileNode:
         """What a design keeps and shows."""
-        made = [self._symbol(design.component, each, KEPT) for each in symbols_of_design(design)]
-        return tree.File(body=[tree.Namespace(tree.Name(namespace), title(design.component), [*made])])
+        made = [self._symbol(design.component, each, INTERNAL_SYMBOL) for each in symbol_declarations(design)]
+        return tree.FileNode(body=[tree.NamespaceNode(tree.NameNode(namespace), title_text(design.component), [*made])])
 
-    def agents(self, includes: Sequence[str]) -> tree.File:
+    def agents_file(self, includes: Sequence[str]) -> tree.FileNode:
         """The file to begin with: all other files, and the agents."""
-        agents: list[tree.Option | tree.Namespace | tree.Agent] = []
-        for agent in agents_of(self.project):
+        agents: list[tree.OptionNode | tree.NamespaceNode | tree.AgentNode] = []
+        for agent in effective_agents(self.project):
             root = self.project.design(agent.root)
             if root is None:
                 raise UnsoundDesignError(f"the agent '{agent.name}' begins with '{agent.root}', which has no design")
-            heading = title(agent.title or agent.name)
-            name, option = tree.Name(plain_name(agent)), tree.Name(component_name(root))
-            agents.append(tree.Agent(name, heading, option, said(agent.doc, 0)))
-        return tree.File(
-            includes=[tree.Include(path) for path in includes],
+            heading = title_text(agent.title or agent.name)
+            name, option = tree.NameNode(unqualified_name(agent)), tree.NameNode(component_name(root))
+            agents.append(tree.AgentNode(name, heading, option, wrap_description(agent.doc, 0)))
+        return tree.FileNode(
+            includes=[tree.IncludeNode(path) for path in includes],
             body=agents,
-            initial=first_comment(_heading(self.project)),
+            header=header_comment(_header_lines(self.project)),
         )
 
-    def _enumeration(self, enumeration: Enumeration) -> tree.Enumeration:
-        elements = [tree.Name(element_name(enumeration, each)) for each in enumeration.element_names]
+    def _enumeration(self, enumeration: Enumeration) -> tree.EnumerationNode:
+        elements = [tree.NameNode(element_name(enumeration, each)) for each in enumeration.element_names]
         meanings = (f"{element.text}: {doc}" for element, (_, doc) in zip(elements, enumeration.elements, strict=True))
         described = [each for each, (_, doc) in zip(meanings, enumeration.elements, strict=True) if doc]
-        doc = said(" ".join([enumeration.doc, "; ".join(described)]), 1)
-        return tree.Enumeration(tree.Name(plain_name(enumeration)), elements, enumeration.internal, doc)
+        doc = wrap_description(" ".join([enumeration.doc, "; ".join(described)]), 1)
+        return tree.EnumerationNode(tree.NameNode(unqualified_name(enumeration)), elements, enumeration.internal, doc)
 
-    def _constants(self) -> Iterator[tree.Constant]:
+    def _constants(self) -> Iterator[tree.ConstantNode]:
         for each in self.project.constants:
-            if self.vocabulary.type_of(each).text == "float":
-                value = self.vocabulary.constants.get(each.name)
+            if self.name_map.type_of(each).text == "float":
+                value = self.name_map.constants.get(each.name)
                 if value is None:
                     raise UnsoundDesignError(f"the constant '{each.name}' has no value")
-                name, unit = tree.Name(plain_name(each)), title(each.unit)
-                yield tree.Constant(name, _constant_text(each, value), unit, said(each.doc, 1))
+                name, unit = tree.NameNode(unqualified_name(each)), title_text(each.unit)
+                yield tree.ConstantNode(name, _constant_text(each, value), unit, wrap_description(each.doc, 1))
 
-    def _symbol(self, component: str, declared: Declaration, role: str) -> tree.Symbol:
-        type_ = self.vocabulary.type_of(declared)
+    def _symbol(self, component: str, declared: Declaration, role: str) -> tree.SymbolNode:
+        type_ = self.name_map.type_of(declared)
         is_number = type_.text == "float"
         parameters = declared.arguments
-        return tree.Symbol(
+        return tree.SymbolNode(
             role,
-            tree.Name(symbol_name(component, declared)),
+            tree.NameNode(symbol_name(component, declared)),
             type_,
-            range_text(declared) if is_number else "",
-            title(declared.unit) if is_number else "",
+            format_range(declared) if is_number else "",
+            title_text(declared.unit) if is_number else "",
             None if parameters is None else [self._parameter(each, 2) for each in parameters],
-            said(declared.doc, 1),
+            wrap_description(declared.doc, 1),
         )
 
-    def _parameter(self, declared: Declaration, depth: int) -> tree.Parameter:
-        type_ = self.vocabulary.type_of(declared)
+    def _parameter(self, declared: Declaration, depth: int) -> tree.ParameterNode:
+        type_ = self.name_map.type_of(declared)
         is_number = type_.text == "float"
-        return tree.Parameter(
-            tree.Name(plain_name(declared)),
+        return tree.ParameterNode(
+            tree.NameNode(unqualified_name(declared)),
             type_,
-            range_text(declared) if is_number else "",
-            title(declared.unit) if is_number else "",
-            said(declared.doc, depth),
+            format_range(declared) if is_number else "",
+            title_text(declared.unit) if is_number else "",
+            wrap_description(declared.doc, depth),
         )
 
 
-def _heading(project: Project) -> Iterator[str]:
+def _header_lines(project: Project) -> Iterator[str]:
     """The first lines: a title, which a doc may begin with, as that of an imported project does, then the doc."""
     lines = project.doc.strip().splitlines()
-    has_title = bool(lines) and len(lines[0]) <= _LONGEST_TITLE and not lines[0].endswith(".")
+    has_title = bool(lines) and len(lines[0]) <= _MAX_TITLE_LENGTH and not lines[0].endswith(".")
     yield f"Title: {lines[0] if has_title else project.name}"
     yield from lines[has_title:]
 
 
-_LONGEST_TITLE = 80
+_MAX_TITLE_LENGTH = 80
 
 
-def _constant_text(declared: Declaration, value: Value) -> str:
+def _constant_text(declared: Declaration, value: ConstantValue) -> str:
     assert not isinstance(value, str)
     digits = declared.initial.strip()
     if digits.removeprefix("-").replace(".", "", 1).isdecimal() and digits.removeprefix("-")[0].isdecimal():
         return digits
-    return ("-" if value < 0 else "") + number_text(abs(value))
+    return ("-" if value < 0 else "") + format_decimal(abs(value))

@@ -5,32 +5,32 @@ from typing import TYPE_CHECKING
 
 from vicode.findings import did_you_mean
 from vicode.model.design import Declaration
-from vicode.model.expressions.functions import FUNCTIONS, NUMBER, Function
-from vicode.model.expressions.tree import FLOAT, INT, UNKNOWN, Apply, Done, Node, Reading
+from vicode.model.expressions.functions import FUNCTIONS, NUMBER, BuiltinFunction
+from vicode.model.expressions.tree import FLOAT, INT, UNKNOWN, Done, Expr, FunctionCall, OutputRef
 
 if TYPE_CHECKING:
-    from vicode.model.expressions.typing import Binder
+    from vicode.model.expressions.typing import ExpressionBinder
 
 
 class CallBinder:
     """The part of a `Binder` that knows calls."""
 
-    def __init__(self, binder: "Binder") -> None:
+    def __init__(self, binder: "ExpressionBinder") -> None:
         """Work for a binder: its scope is read, its mistakes are added to."""
         self.binder = binder
 
-    def bind(self, syntax: ast.Call) -> Node | None:
+    def bind(self, syntax: ast.Call) -> Expr | None:
         """The node of a call, None after a mistake."""
         match syntax.func:
             case ast.Name(id="done"):
-                return self._done(syntax)
+                return self._bind_done(syntax)
             case ast.Name(id=name) if name in FUNCTIONS:
-                return self._apply(FUNCTIONS[name], syntax)
+                return self._bind_function_call(FUNCTIONS[name], syntax)
             case ast.Name(id=name):
                 mend = did_you_mean(name, [*FUNCTIONS, "done"], "use a listed function or a 'code' predicate")
                 self.binder.report("E303", f"there is no function '{name}'", mend, syntax.func)
             case ast.Attribute(value=ast.Name(id=alias), attr=name) if alias in self.binder.scope.uses:
-                return self._reading(alias, name, syntax)
+                return self._bind_output_call(alias, name, syntax)
             case ast.Attribute(value=ast.Name(id=alias)):
                 mend = did_you_mean(alias, self.binder.scope.uses, "declare it in 'uses'")
                 self.binder.report("E303", f"'{alias}' is not a used component", mend, syntax.func)
@@ -38,10 +38,10 @@ class CallBinder:
                 self.binder.report("E302", "only functions and outputs can be called", "", syntax)
         return None
 
-    def _done(self, syntax: ast.Call) -> Node | None:
+    def _bind_done(self, syntax: ast.Call) -> Expr | None:
         match syntax.args:
             case [ast.Name(id=alias)] if alias in self.binder.scope.uses and not syntax.keywords:
-                return Done(alias=alias, span=self.binder.span_of(syntax))
+                return Done(alias=alias, span=self.binder.get_span(syntax))
             case [ast.Name(id=alias) as name]:
                 mend = did_you_mean(alias, self.binder.scope.uses, "declare it in 'uses'")
                 self.binder.report("E303", f"'{alias}' is not a used component", mend, name)
@@ -49,29 +49,29 @@ class CallBinder:
                 self.binder.report("E305", "done takes the name of one used component", "write done(alias)", syntax)
         return None
 
-    def _apply(self, function: Function, syntax: ast.Call) -> Node | None:
+    def _bind_function_call(self, function: BuiltinFunction, syntax: ast.Call) -> Expr | None:
         arguments = [self.binder.bind(argument) for argument in syntax.args]
         bound = tuple(argument for argument in arguments if argument is not None)
-        count = len(function.takes)
-        if syntax.keywords or len(arguments) < count or (len(arguments) > count and not function.more):
-            wanted = f"{count} or more" if function.more else str(count)
+        count = len(function.parameter_types)
+        if syntax.keywords or len(arguments) < count or (len(arguments) > count and not function.is_variadic):
+            wanted = f"{count} or more" if function.is_variadic else str(count)
             message = f"{function.name} takes {wanted} argument{'s' * (count != 1)}, in order"
             self.binder.report("E305", message, f"{function.name}: {function.doc}", syntax)
             return None
         if len(bound) < len(arguments):
             return None
         for argument in bound:
-            self.binder.demand_number(argument)
-        type_ = function.gives
+            self.binder.require_number(argument)
+        type_ = function.return_type
         if type_ == NUMBER:
             type_ = INT if all(argument.type == INT for argument in bound) else FLOAT
-        return Apply(function=function.name, arguments=bound, type=type_, span=self.binder.span_of(syntax))
+        return FunctionCall(function=function.name, arguments=bound, type=type_, span=self.binder.get_span(syntax))
 
-    def _reading(self, alias: str, name: str, syntax: ast.Call) -> Node | None:
+    def _bind_output_call(self, alias: str, name: str, syntax: ast.Call) -> Expr | None:
         interface = self.binder.scope.uses[alias]
-        span = self.binder.span_of(syntax)
+        span = self.binder.get_span(syntax)
         if interface is None:
-            return Reading(alias=alias, output=name, arguments=(), type=UNKNOWN, span=span)
+            return OutputRef(alias=alias, output=name, arguments=(), type=UNKNOWN, span=span)
         output = interface.output(name)
         if output is None:
             mend = did_you_mean(
@@ -82,15 +82,15 @@ class CallBinder:
         if output.arguments is None:
             self.binder.report("E305", f"'{alias}.{name}' takes no arguments", f"write {alias}.{name}", syntax)
             return None
-        pairs = self._arguments(output, output.arguments, syntax)
+        pairs = self._bind_arguments(output, output.arguments, syntax)
         if pairs is None:
             return None
         type_ = self.binder.scope.type_of(output)
-        return Reading(alias=alias, output=name, arguments=pairs, type=type_, span=span)
+        return OutputRef(alias=alias, output=name, arguments=pairs, type=type_, span=span)
 
-    def _arguments(
+    def _bind_arguments(
         self, output: Declaration, declared: tuple[Declaration, ...], syntax: ast.Call
-    ) -> tuple[tuple[str, Node], ...] | None:
+    ) -> tuple[tuple[str, Expr], ...] | None:
         """Arguments by name in the order written; positional ones take the declared names in order."""
         by_name = {argument.name: argument for argument in declared}
         names = [argument.name for argument in declared]
@@ -98,7 +98,7 @@ class CallBinder:
             self.binder.report("E305", f"'{output.name}' takes {len(names)} arguments", "leave the others out", syntax)
             return None
         given = [*zip(names, syntax.args, strict=False), *((each.arg or "", each.value) for each in syntax.keywords)]
-        pairs: list[tuple[str, Node]] = []
+        pairs: list[tuple[str, Expr]] = []
         for name, value in given:
             if name not in by_name or name in dict(pairs):
                 problem = "is given twice" if name in by_name else f"is not an argument of '{output.name}'"
@@ -108,15 +108,15 @@ class CallBinder:
             if node is None:
                 return None
             pairs.append((name, node))
-        return self._complete(output, declared, pairs, syntax)
+        return self._check_required_arguments(output, declared, pairs, syntax)
 
-    def _complete(
+    def _check_required_arguments(
         self,
         output: Declaration,
         declared: tuple[Declaration, ...],
-        pairs: list[tuple[str, Node]],
+        pairs: list[tuple[str, Expr]],
         syntax: ast.Call,
-    ) -> tuple[tuple[str, Node], ...] | None:
+    ) -> tuple[tuple[str, Expr], ...] | None:
         missing = [each.name for each in declared if not each.initial and each.name not in dict(pairs)]
         if missing:
             self.binder.report("E305", f"'{output.name}' needs {', '.join(missing)}", f"add {missing[0]}=…", syntax)

@@ -9,17 +9,17 @@ NUMBER = "number"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Function:
-    """A listed function: types of its parameters (`more`: the last may repeat), type of its result."""
+class BuiltinFunction:
+    """A listed function: types of its parameters (`is_variadic`: the last may repeat), type of its result."""
 
     name: str
-    takes: tuple[str, ...]
-    gives: str
+    parameter_types: tuple[str, ...]
+    return_type: str
     doc: str
-    more: bool = False
+    is_variadic: bool = False
 
 
-def _table() -> dict[str, Function]:
+def _build_table() -> dict[str, BuiltinFunction]:
     rows = [
         ("abs", (NUMBER,), NUMBER, "absolute value"),
         ("min", (NUMBER, NUMBER), NUMBER, "the smallest"),
@@ -48,9 +48,11 @@ def _table() -> dict[str, Function]:
     ]
     variadic = {"min", "max"}
     return {
-        name: Function(name=name, takes=takes, gives=gives, doc=doc, more=name in variadic)
+        name: BuiltinFunction(
+            name=name, parameter_types=takes, return_type=gives, doc=doc, is_variadic=name in variadic
+        )
         for name, takes, gives, doc in rows
     }
 
 
-FUNCTIONS = _table()
+FUNCTIONS = _build_table()

@@ -7,35 +7,35 @@ import ast
 from dataclasses import dataclass
 from functools import lru_cache
 
-from vicode.findings import Rule, Span, rule
+from vicode.findings import Rule, Span, get_rule
 from vicode.model.expressions.scope import Scope
-from vicode.model.expressions.tree import Node
-from vicode.model.expressions.typing import Binder
+from vicode.model.expressions.tree import Expr
+from vicode.model.expressions.typing import ExpressionBinder
 from vicode.model.parsing import parse_single_expression
 
-MAXIMUM_LENGTH = 10_000
-MAXIMUM_DEPTH = 60
+MAX_LENGTH = 10_000
+MAX_DEPTH = 60
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Mistake:
+class ExpressionDiagnostic:
     """What is wrong with an expression, at `span` of its text."""
 
     rule: Rule
     message: str
-    mend: str
+    fix: str
     span: Span
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Parsed:
+class ParsedExpression:
     """The tree, None if there is none, and all mistakes; without mistakes there is a tree and its types are right."""
 
-    tree: Node | None
-    mistakes: tuple[Mistake, ...] = ()
+    tree: Expr | None
+    diagnostics: tuple[ExpressionDiagnostic, ...] = ()
 
 
-def parse_expression(text: str, scope: Scope, expected: str | None = None) -> Parsed:
+def parse_expression(text: str, scope: Scope, expected: str | None = None) -> ParsedExpression:
     """Parse a text against a scope.
 
     Args:
@@ -43,21 +43,22 @@ def parse_expression(text: str, scope: Scope, expected: str | None = None) -> Pa
         scope: The names it may use.
         expected: The type its place asks for (an int also serves as float), None for any.
     """
-    syntax, mistake = _syntax_of(text)
+    syntax, mistake = _parse_syntax(text)
     if syntax is None:
-        return Parsed(tree=None, mistakes=(mistake,) if mistake else ())
-    binder = Binder(scope=scope, text=text)
+        return ParsedExpression(tree=None, diagnostics=(mistake,) if mistake else ())
+    binder = ExpressionBinder(scope=scope, text=text)
     tree = binder.bind_expected(syntax, expected)
     mistakes = tuple(
-        Mistake(rule=rule(code), message=message, mend=mend, span=span) for code, message, mend, span in binder.mistakes
+        ExpressionDiagnostic(rule=get_rule(code), message=message, fix=mend, span=span)
+        for code, message, mend, span in binder.diagnostics
     )
-    return Parsed(tree=tree, mistakes=mistakes)
+    return ParsedExpression(tree=tree, diagnostics=mistakes)
 
 
 @lru_cache(maxsize=4096)
-def _syntax_of(text: str) -> tuple[ast.expr | None, Mistake | None]:
-    if len(text) > MAXIMUM_LENGTH:
-        return None, _not_an_expression(f"longer than {MAXIMUM_LENGTH} characters", (0, len(text)))
+def _parse_syntax(text: str) -> tuple[ast.expr | None, ExpressionDiagnostic | None]:
+    if len(text) > MAX_LENGTH:
+        return None, _not_an_expression(f"longer than {MAX_LENGTH} characters", (0, len(text)))
     if not text.strip():
         return None, _not_an_expression("empty", (0, max(1, len(text))))
     comment = text.find("#")
@@ -72,7 +73,7 @@ def _syntax_of(text: str) -> tuple[ast.expr | None, Mistake | None]:
         parsed = parse_single_expression(copy.strip())
     except SyntaxError as error:
         start = lead + max(0, min((error.offset or 1) - 1, len(text) - lead - 1))
-        return None, _not_an_expression(_reworded(error.msg), (start, min(start + 1, len(text))))
+        return None, _not_an_expression(_format_syntax_error(error.msg), (start, min(start + 1, len(text))))
     except (ValueError, RecursionError, MemoryError):
         return None, _not_an_expression("too deeply nested", (0, len(text)))
     if _is_too_deep(parsed):
@@ -80,20 +81,20 @@ def _syntax_of(text: str) -> tuple[ast.expr | None, Mistake | None]:
     return parsed, None
 
 
-def _reworded(message: str) -> str:
+def _format_syntax_error(message: str) -> str:
     first, rest = message[:1].lower(), message[1:]
     return (first + rest).replace("invalid syntax. Perhaps you forgot a comma?", "invalid syntax")
 
 
 def _not_an_expression(
     message: str, span: Span, mend: str = "write one expression, such as ball_seen and x < 40"
-) -> Mistake:
-    return Mistake(rule=rule("E301"), message=message, mend=mend, span=span)
+) -> ExpressionDiagnostic:
+    return ExpressionDiagnostic(rule=get_rule("E301"), message=message, fix=mend, span=span)
 
 
 def _is_too_deep(root: ast.expr) -> bool:
     level: list[ast.AST] = [root]
-    for _depth in range(MAXIMUM_DEPTH):
+    for _depth in range(MAX_DEPTH):
         level = [child for node in level for child in ast.iter_child_nodes(node)]
         if not level:
             return False

@@ -10,7 +10,7 @@ from vicode.model.expressions.tree import BOOL, FLOAT, INT, UNKNOWN
 from vicode.model.project import Interface, Project
 
 
-class Kind(StrEnum):
+class ScopeSymbolKind(StrEnum):
     """What a bare name stands for."""
 
     PARAMETER = "parameter"
@@ -20,10 +20,10 @@ class Kind(StrEnum):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Symbol:
+class ScopeSymbol:
     """A bare name: its kind, resolved type and declaration."""
 
-    kind: Kind
+    kind: ScopeSymbolKind
     type: str
     declaration: Declaration
 
@@ -32,41 +32,41 @@ class Symbol:
 class Scope:
     """Names that may be read: own and constant `symbols`, used components by alias (None: not declared anywhere)."""
 
-    symbols: Mapping[str, Symbol] = field(default_factory=dict)
+    symbols: Mapping[str, ScopeSymbol] = field(default_factory=dict)
     uses: Mapping[str, Interface | None] = field(default_factory=dict)
     enumerations: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
 
     def type_of(self, declaration: Declaration) -> str:
         """The type of any declaration, seen with this scope's enumerations."""
-        return type_of_declaration(declaration, self.enumerations)
+        return infer_declaration_type(declaration, self.enumerations)
 
-    def settable(self, name: str) -> Declaration | None:
+    def find_assignable(self, name: str) -> Declaration | None:
         """What an assignment to a name sets: an own variable or output, or `alias.variable` of a used component."""
         alias, dot, variable = name.partition(".")
         if dot:
             interface = self.uses.get(alias)
             return interface.variable(variable) if interface else None
         symbol = self.symbols.get(name)
-        is_own = symbol is not None and symbol.kind in (Kind.VARIABLE, Kind.OUTPUT)
+        is_own = symbol is not None and symbol.kind in (ScopeSymbolKind.VARIABLE, ScopeSymbolKind.OUTPUT)
         return symbol.declaration if symbol is not None and is_own else None
 
 
-def scope_of(project: Project, design: Design | None) -> Scope:
+def build_scope(project: Project, design: Design | None) -> Scope:
     """What expressions of a design may read; without a design only constants and enumerations."""
     enumerations = {enumeration.name: enumeration.element_names for enumeration in project.enumerations}
-    symbols: dict[str, Symbol] = {}
+    symbols: dict[str, ScopeSymbol] = {}
 
-    def add(kind: Kind, declarations: tuple[Declaration, ...]) -> None:
+    def add(kind: ScopeSymbolKind, declarations: tuple[Declaration, ...]) -> None:
         for declaration in declarations:
-            type_ = type_of_declaration(declaration, enumerations)
-            symbols[declaration.name] = Symbol(kind=kind, type=type_, declaration=declaration)
+            type_ = infer_declaration_type(declaration, enumerations)
+            symbols[declaration.name] = ScopeSymbol(kind=kind, type=type_, declaration=declaration)
 
-    add(Kind.CONSTANT, project.constants)
+    add(ScopeSymbolKind.CONSTANT, project.constants)
     if design is None:
         return Scope(symbols=symbols, enumerations=enumerations)
-    add(Kind.VARIABLE, design.variables)
-    add(Kind.OUTPUT, design.outputs)
-    add(Kind.PARAMETER, design.parameters)
+    add(ScopeSymbolKind.VARIABLE, design.variables)
+    add(ScopeSymbolKind.OUTPUT, design.outputs)
+    add(ScopeSymbolKind.PARAMETER, design.parameters)
     uses = {use.alias: project.interface(use.component) for use in design.uses}
     return Scope(symbols=symbols, uses=uses, enumerations=enumerations)
 
@@ -79,7 +79,7 @@ _LITERAL_TYPES = (
 _ELEMENT = re.compile(r"\s*([A-Za-z]\w*)\s*\.\s*[A-Za-z_]\w*\s*\Z", re.ASCII)
 
 
-def type_of_declaration(declaration: Declaration, enumerations: Mapping[str, tuple[str, ...]]) -> str:
+def infer_declaration_type(declaration: Declaration, enumerations: Mapping[str, tuple[str, ...]]) -> str:
     """Its type, read from `initial` where it is not written, without either float.
 
     UNKNOWN for a type that nobody declares.

@@ -21,7 +21,7 @@ class Number:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Truth:
+class Boolean:
     """True or False."""
 
     value: bool
@@ -30,7 +30,7 @@ class Truth:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Element:
+class EnumElement:
     """A literal of an enumeration: `Side.left`; its type is the enumeration's name."""
 
     element: str
@@ -49,19 +49,19 @@ class Variable:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Time:
+class ElapsedTime:
     """`state_time` or `component_time` (`of` is "state" or "component"), in seconds."""
 
-    of: str
+    kind: str
     span: Span
     type: str = FLOAT
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Status:
+class StatusFlag:
     """`action_done` (a component that the active state calls is done) or `conflict` (too many robots are in it)."""
 
-    of: str
+    name: str
     span: Span
     type: str = BOOL
 
@@ -76,12 +76,12 @@ class Done:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Reading:
+class OutputRef:
     """An output of a used component; `arguments` are pairs of name and node, None when it takes none."""
 
     alias: str
     output: str
-    arguments: "tuple[tuple[str, Node], ...] | None" = None
+    arguments: "tuple[tuple[str, Expr], ...] | None" = None
     type: str
     span: Span
 
@@ -90,7 +90,7 @@ class Reading:
 class Not:
     """Logical negation."""
 
-    operand: "Node"
+    operand: "Expr"
     span: Span
     type: str = BOOL
 
@@ -99,7 +99,7 @@ class Not:
 class Minus:
     """Arithmetic negation."""
 
-    operand: "Node"
+    operand: "Expr"
     type: str
     span: Span
 
@@ -109,8 +109,8 @@ class Binary:
     """Arithmetic: + - * keep int, / // % always give float."""
 
     operator: str
-    left: "Node"
-    right: "Node"
+    left: "Expr"
+    right: "Expr"
     type: str
     span: Span
 
@@ -120,7 +120,7 @@ class Comparison:
     """A chain `a < b <= c`: n operators between n + 1 operands, each operand evaluated once at most, left to right."""
 
     operators: tuple[str, ...]
-    operands: "tuple[Node, ...]"
+    operands: "tuple[Expr, ...]"
     span: Span
     type: str = BOOL
 
@@ -130,52 +130,52 @@ class Logic:
     """`and` or `or` of two or more, evaluated left to right until it is decided."""
 
     operator: str
-    operands: "tuple[Node, ...]"
+    operands: "tuple[Expr, ...]"
     span: Span
     type: str = BOOL
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Choice:
+class Ternary:
     """`then if test else otherwise`; only the chosen side is evaluated."""
 
-    test: "Node"
-    then: "Node"
-    otherwise: "Node"
+    test: "Expr"
+    then: "Expr"
+    otherwise: "Expr"
     type: str
     span: Span
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Apply:
+class FunctionCall:
     """A listed function applied to arguments."""
 
     function: str
-    arguments: "tuple[Node, ...]"
+    arguments: "tuple[Expr, ...]"
     type: str
     span: Span
 
 
-Node = (
+Expr = (
     Number
-    | Truth
-    | Element
+    | Boolean
+    | EnumElement
     | Variable
-    | Time
-    | Status
+    | ElapsedTime
+    | StatusFlag
     | Done
-    | Reading
+    | OutputRef
     | Not
     | Minus
     | Binary
     | Comparison
     | Logic
-    | Choice
-    | Apply
+    | Ternary
+    | FunctionCall
 )
 
 
-def children(node: Node) -> tuple[Node, ...]:
+def children(node: Expr) -> tuple[Expr, ...]:
     """Direct operands in the order they are evaluated."""
     match node:
         case Not(operand=operand) | Minus(operand=operand):
@@ -184,17 +184,17 @@ def children(node: Node) -> tuple[Node, ...]:
             return (left, right)
         case Comparison(operands=operands) | Logic(operands=operands):
             return operands
-        case Choice(test=test, then=then, otherwise=otherwise):
+        case Ternary(test=test, then=then, otherwise=otherwise):
             return (test, then, otherwise)
-        case Apply(arguments=arguments):
+        case FunctionCall(arguments=arguments):
             return arguments
-        case Reading(arguments=pairs) if pairs:
+        case OutputRef(arguments=pairs) if pairs:
             return tuple(value for _name, value in pairs)
         case _:
             return ()
 
 
-def walk(node: Node) -> Iterator[Node]:
+def walk(node: Expr) -> Iterator[Expr]:
     """The node and all below it, parents first."""
     yield node
     for child in children(node):

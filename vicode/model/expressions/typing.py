@@ -14,56 +14,56 @@ from vicode.model.expressions.tree import (
     INT,
     UNKNOWN,
     Binary,
-    Choice,
+    Boolean,
     Comparison,
-    Element,
+    ElapsedTime,
+    EnumElement,
+    Expr,
     Logic,
     Minus,
-    Node,
     Not,
     Number,
-    Reading,
-    Status,
-    Time,
-    Truth,
+    OutputRef,
+    StatusFlag,
+    Ternary,
     Variable,
 )
 
-_BINARY = {ast.Add: "+", ast.Sub: "-", ast.Mult: "*", ast.Div: "/", ast.FloorDiv: "//", ast.Mod: "%"}
-_COMPARISONS = {ast.Lt: "<", ast.LtE: "<=", ast.Gt: ">", ast.GtE: ">=", ast.Eq: "==", ast.NotEq: "!="}
-_TRUTHS = {"True": True, "true": True, "False": False, "false": False}
+_BINARY_OPERATORS = {ast.Add: "+", ast.Sub: "-", ast.Mult: "*", ast.Div: "/", ast.FloorDiv: "//", ast.Mod: "%"}
+_COMPARISON_OPERATORS = {ast.Lt: "<", ast.LtE: "<=", ast.Gt: ">", ast.GtE: ">=", ast.Eq: "==", ast.NotEq: "!="}
+_BOOLEANS = {"True": True, "true": True, "False": False, "false": False}
 _TIMES = {"state_time": "state", "component_time": "component"}
 _STATUSES = frozenset({"action_done", "conflict"})
 _EXACT_INT = 2**53
 
 
 @dataclass
-class Binder:
+class ExpressionBinder:
     """Binds one expression to a scope, collecting mistakes as (code, message, mend, span)."""
 
     scope: Scope
     text: str
-    mistakes: list[tuple[str, str, str, Span]] = field(default_factory=list)
+    diagnostics: list[tuple[str, str, str, Span]] = field(default_factory=list)
 
-    def bind_expected(self, syntax: ast.expr, expected: str | None) -> Node | None:
+    def bind_expected(self, syntax: ast.expr, expected: str | None) -> Expr | None:
         """Bind, and ask for a type where the place has one."""
         node = self.bind(syntax)
         if node is not None and expected is not None:
-            self.demand(node, expected)
+            self.require_type(node, expected)
         return node
 
-    def bind(self, syntax: ast.expr) -> Node | None:
+    def bind(self, syntax: ast.expr) -> Expr | None:
         """The typed node of a piece of syntax, None after a mistake that leaves nothing to go on with."""
-        binders: dict[type[ast.expr], Callable[..., Node | None]] = {
-            ast.Constant: self._constant,
-            ast.Name: self._name,
-            ast.Attribute: self._attribute,
+        binders: dict[type[ast.expr], Callable[..., Expr | None]] = {
+            ast.Constant: self._bind_constant,
+            ast.Name: self._bind_name,
+            ast.Attribute: self._bind_attribute,
             ast.Call: CallBinder(self).bind,
-            ast.UnaryOp: self._unary,
-            ast.BinOp: self._binary,
-            ast.BoolOp: self._logic,
-            ast.Compare: self._compare,
-            ast.IfExp: self._choice,
+            ast.UnaryOp: self._bind_unary,
+            ast.BinOp: self._bind_binary,
+            ast.BoolOp: self._bind_logic,
+            ast.Compare: self._bind_comparison,
+            ast.IfExp: self._bind_ternary,
         }
         binder = binders.get(type(syntax))
         if binder is None:
@@ -71,9 +71,9 @@ class Binder:
             return None
         return binder(syntax)
 
-    def demand(self, node: Node, expected: str) -> None:
+    def require_type(self, node: Expr, expected: str) -> None:
         """Report a node whose type does not serve as `expected`."""
-        if serves_as(node.type, expected):
+        if is_assignable(node.type, expected):
             return
         mend = ""
         if expected == BOOL and node.type in (INT, FLOAT):
@@ -82,12 +82,12 @@ class Binder:
             mend = "write int(…), floor(…) or round(…)"
         self.report_span("E304", f"expected {expected}, but this is {node.type}", mend, node.span)
 
-    def demand_number(self, node: Node) -> None:
+    def require_number(self, node: Expr) -> None:
         """Report a node that is no number."""
         if node.type not in (INT, FLOAT, UNKNOWN):
             self.report_span("E304", f"expected a number, but this is {node.type}", "", node.span)
 
-    def span_of(self, syntax: ast.expr | ast.keyword) -> Span:
+    def get_span(self, syntax: ast.expr | ast.keyword) -> Span:
         """Characters of the text that a piece of syntax covers."""
         lead = len(self.text) - len(self.text.lstrip())
         first, last = syntax.col_offset, syntax.end_col_offset or syntax.col_offset + 1
@@ -97,18 +97,18 @@ class Binder:
         data = "".join(" " if char.isspace() else char for char in self.text).strip().encode()
         return (lead + len(data[:first].decode(errors="ignore")), lead + len(data[:last].decode(errors="ignore")))
 
-    def report(self, code: str, message: str, mend: str, syntax: ast.expr | ast.keyword) -> None:
+    def report(self, code: str, message: str, fix: str, syntax: ast.expr | ast.keyword) -> None:
         """Note a mistake at a piece of syntax."""
-        self.report_span(code, message, mend, self.span_of(syntax))
+        self.report_span(code, message, fix, self.get_span(syntax))
 
-    def report_span(self, code: str, message: str, mend: str, span: Span) -> None:
+    def report_span(self, code: str, message: str, fix: str, span: Span) -> None:
         """Note a mistake at characters of the text."""
-        self.mistakes.append((code, message, mend, span))
+        self.diagnostics.append((code, message, fix, span))
 
-    def _constant(self, syntax: ast.Constant) -> Node | None:
-        value, span = syntax.value, self.span_of(syntax)
+    def _bind_constant(self, syntax: ast.Constant) -> Expr | None:
+        value, span = syntax.value, self.get_span(syntax)
         if isinstance(value, bool):
-            return Truth(value=value, span=span)
+            return Boolean(value=value, span=span)
         if isinstance(value, int) and value <= _EXACT_INT:
             return Number(value=value, type=INT, span=span)
         if isinstance(value, float) and math.isfinite(value):
@@ -120,17 +120,17 @@ class Binder:
         self.report("E302", "only numbers, True, False and enumeration elements can be written", mend, syntax)
         return None
 
-    def _name(self, syntax: ast.Name) -> Node | None:
-        name, span = syntax.id, self.span_of(syntax)
+    def _bind_name(self, syntax: ast.Name) -> Expr | None:
+        name, span = syntax.id, self.get_span(syntax)
         symbol = self.scope.symbols.get(name)
         if symbol is not None:
             return Variable(name=name, kind=symbol.kind, type=symbol.type, span=span)
-        if name in _TRUTHS:
-            return Truth(value=_TRUTHS[name], span=span)
+        if name in _BOOLEANS:
+            return Boolean(value=_BOOLEANS[name], span=span)
         if name in _TIMES:
-            return Time(of=_TIMES[name], span=span)
+            return ElapsedTime(kind=_TIMES[name], span=span)
         if name in _STATUSES:
-            return Status(of=name, span=span)
+            return StatusFlag(name=name, span=span)
         if name in self.scope.uses:
             self.report("E303", f"'{name}' is a component", f"read one of its outputs: {name}.…", syntax)
             return None
@@ -143,33 +143,33 @@ class Binder:
         )
         return None
 
-    def _attribute(self, syntax: ast.Attribute) -> Node | None:
+    def _bind_attribute(self, syntax: ast.Attribute) -> Expr | None:
         if not isinstance(syntax.value, ast.Name):
             self.report("E302", "only component.output and Enumeration.element have a dot", "", syntax)
             return None
         owner, name = syntax.value.id, syntax.attr
         if owner in self.scope.uses:
-            return self.reading(owner, name, syntax)
+            return self.bind_output(owner, name, syntax)
         if owner in self.scope.enumerations:
-            return self._element(owner, name, syntax)
+            return self._bind_element(owner, name, syntax)
         known = {*self.scope.uses, *self.scope.enumerations}
         mend = did_you_mean(owner, known, f"add it to 'uses', as {owner}: ComponentName")
         self.report("E303", f"'{owner}' is neither a used component nor an enumeration", mend, syntax.value)
         return None
 
-    def _element(self, enumeration: str, name: str, syntax: ast.Attribute) -> Node | None:
+    def _bind_element(self, enumeration: str, name: str, syntax: ast.Attribute) -> Expr | None:
         elements = self.scope.enumerations[enumeration]
         if name in elements:
-            return Element(element=name, type=enumeration, span=self.span_of(syntax))
+            return EnumElement(element=name, type=enumeration, span=self.get_span(syntax))
         mend = did_you_mean(name, elements, f"it has {', '.join(elements) or 'none'}")
         self.report("E306", f"'{enumeration}' has no element '{name}'", mend, syntax)
         return None
 
-    def reading(self, alias: str, name: str, syntax: ast.Attribute) -> Node | None:
+    def bind_output(self, alias: str, name: str, syntax: ast.Attribute) -> Expr | None:
         """An output read without arguments."""
         interface = self.scope.uses[alias]
         if interface is None:
-            return Reading(alias=alias, output=name, type=UNKNOWN, span=self.span_of(syntax))
+            return OutputRef(alias=alias, output=name, type=UNKNOWN, span=self.get_span(syntax))
         output = interface.output(name)
         if output is None:
             mend = did_you_mean(
@@ -180,23 +180,23 @@ class Binder:
         if output.arguments is not None:
             self.report("E305", f"'{alias}.{name}' is a function", f"call it: {alias}.{name}(…)", syntax)
             return None
-        return Reading(alias=alias, output=name, type=self.scope.type_of(output), span=self.span_of(syntax))
+        return OutputRef(alias=alias, output=name, type=self.scope.type_of(output), span=self.get_span(syntax))
 
-    def _unary(self, syntax: ast.UnaryOp) -> Node | None:
+    def _bind_unary(self, syntax: ast.UnaryOp) -> Expr | None:
         operand = self.bind(syntax.operand)
         if operand is None:
             return None
         if isinstance(syntax.op, ast.Not):
-            self.demand(operand, BOOL)
-            return Not(operand=operand, span=self.span_of(syntax))
+            self.require_type(operand, BOOL)
+            return Not(operand=operand, span=self.get_span(syntax))
         if isinstance(syntax.op, ast.USub):
-            self.demand_number(operand)
-            return Minus(operand=operand, type=operand.type, span=self.span_of(syntax))
+            self.require_number(operand)
+            return Minus(operand=operand, type=operand.type, span=self.get_span(syntax))
         self.report("E302", "only 'not' and '-' stand before a value", "leave it out", syntax)
         return operand
 
-    def _binary(self, syntax: ast.BinOp) -> Node | None:
-        operator = _BINARY.get(type(syntax.op))
+    def _bind_binary(self, syntax: ast.BinOp) -> Expr | None:
+        operator = _BINARY_OPERATORS.get(type(syntax.op))
         left, right = self.bind(syntax.left), self.bind(syntax.right)
         if operator is None:
             self.report(
@@ -205,22 +205,24 @@ class Binder:
             return None
         if left is None or right is None:
             return None
-        self.demand_number(left)
-        self.demand_number(right)
+        self.require_number(left)
+        self.require_number(right)
         ints = left.type == INT and right.type == INT and operator in "+-*"
-        return Binary(operator=operator, left=left, right=right, type=INT if ints else FLOAT, span=self.span_of(syntax))
+        return Binary(
+            operator=operator, left=left, right=right, type=INT if ints else FLOAT, span=self.get_span(syntax)
+        )
 
-    def _logic(self, syntax: ast.BoolOp) -> Node | None:
+    def _bind_logic(self, syntax: ast.BoolOp) -> Expr | None:
         operands = [self.bind_expected(value, BOOL) for value in syntax.values]
         bound = tuple(operand for operand in operands if operand is not None)
         if len(bound) < len(operands):
             return None
         operator = "and" if isinstance(syntax.op, ast.And) else "or"
-        return Logic(operator=operator, operands=bound, span=self.span_of(syntax))
+        return Logic(operator=operator, operands=bound, span=self.get_span(syntax))
 
-    def _compare(self, syntax: ast.Compare) -> Node | None:
+    def _bind_comparison(self, syntax: ast.Compare) -> Expr | None:
         values = [self.bind(value) for value in (syntax.left, *syntax.comparators)]
-        operators = [_COMPARISONS.get(type(operator)) for operator in syntax.ops]
+        operators = [_COMPARISON_OPERATORS.get(type(operator)) for operator in syntax.ops]
         if None in operators:
             self.report("E302", "only < <= > >= == != compare here", "", syntax)
             return None
@@ -229,34 +231,34 @@ class Binder:
             return None
         names = tuple(operator for operator in operators if operator)
         for operator, left, right in zip(names, bound, bound[1:], strict=False):
-            self._demand_comparable(operator, left, right)
-        return Comparison(operators=names, operands=bound, span=self.span_of(syntax))
+            self._require_comparable(operator, left, right)
+        return Comparison(operators=names, operands=bound, span=self.get_span(syntax))
 
-    def _demand_comparable(self, operator: str, left: Node, right: Node) -> None:
-        if unified(left.type, right.type) is None:
+    def _require_comparable(self, operator: str, left: Expr, right: Expr) -> None:
+        if common_type(left.type, right.type) is None:
             message = f"{left.type} cannot be compared with {right.type}"
             self.report_span("E304", message, "", (left.span[0], right.span[1]))
         elif operator not in ("==", "!=") and left.type not in (INT, FLOAT, UNKNOWN):
             span = (left.span[0], right.span[1])
             self.report_span("E304", f"{left.type} has no order", "compare with == or !=", span)
 
-    def _choice(self, syntax: ast.IfExp) -> Node | None:
+    def _bind_ternary(self, syntax: ast.IfExp) -> Expr | None:
         test = self.bind_expected(syntax.test, BOOL)
         then, otherwise = self.bind(syntax.body), self.bind(syntax.orelse)
         if test is None or then is None or otherwise is None:
             return None
-        type_ = unified(then.type, otherwise.type)
+        type_ = common_type(then.type, otherwise.type)
         if type_ is None:
             self.report("E304", f"one side is {then.type}, the other {otherwise.type}", "give both one type", syntax)
-        return Choice(test=test, then=then, otherwise=otherwise, type=type_ or UNKNOWN, span=self.span_of(syntax))
+        return Ternary(test=test, then=then, otherwise=otherwise, type=type_ or UNKNOWN, span=self.get_span(syntax))
 
 
-def serves_as(type_: str, expected: str) -> bool:
+def is_assignable(type_: str, expected: str) -> bool:
     """Whether a value of a type may stand where another is expected: an int serves as float."""
     return type_ == expected or UNKNOWN in (type_, expected) or (type_ == INT and expected == FLOAT)
 
 
-def unified(left: str, right: str) -> str | None:
+def common_type(left: str, right: str) -> str | None:
     """The type that holds both, None when there is none."""
     if right in (left, UNKNOWN):
         return left

@@ -1,7 +1,16 @@
 """Three-way merges of designs: what two sides made of one base comes together, what both touched is told."""
 
-from vicode.model.merging.designs import Conflict, Merged, merge
-from vicode.model.merging.matching import match, renamed_states, renamed_uses
-from vicode.model.merging.texts import merge_lines, merge_typing
+from vicode.model.merging.designs import Conflict, MergeResult, merge_designs
+from vicode.model.merging.matching import find_renamed_states, find_renamed_uses, match_items
+from vicode.model.merging.texts import merge_characters, merge_lines
 
-__all__ = ["Conflict", "Merged", "match", "merge", "merge_lines", "merge_typing", "renamed_states", "renamed_uses"]
+__all__ = [
+    "Conflict",
+    "MergeResult",
+    "find_renamed_states",
+    "find_renamed_uses",
+    "match_items",
+    "merge_characters",
+    "merge_designs",
+    "merge_lines",
+]

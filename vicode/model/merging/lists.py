@@ -4,17 +4,17 @@ from collections.abc import Callable, Hashable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from vicode.model.merging.matching import key_of, match
+from vicode.model.merging.matching import item_key, match_items
 
-Step = str | int
-Merge = Callable[[Step, Any, Any, Any], Any]
+PathStep = str | int
+MergeItem = Callable[[PathStep, Any, Any, Any], Any]
 """What a thing becomes, by its step in the path and its three versions (None: not there); None: it goes."""
 ChoosesTheirs = Callable[[], bool]
 _Node = tuple[str, int]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Lists:
+class ListVersions:
     """One list in three versions; the things in it are keyed by name, or stand in an order with a meaning."""
 
     base: tuple[Any, ...]
@@ -23,10 +23,10 @@ class Lists:
     is_keyed: bool
 
 
-def line_up(lists: Lists, merge: Merge, chooses_theirs: ChoosesTheirs) -> list[Any]:
+def merge_lists(lists: ListVersions, merge: MergeItem, chooses_theirs: ChoosesTheirs) -> list[Any]:
     """The merged list; `chooses_theirs` is asked which order to take where both sides moved things."""
-    in_ours = match(lists.base, lists.ours, is_keyed=lists.is_keyed)
-    in_theirs = match(lists.base, lists.theirs, is_keyed=lists.is_keyed)
+    in_ours = match_items(lists.base, lists.ours, is_keyed=lists.is_keyed)
+    in_theirs = match_items(lists.base, lists.theirs, is_keyed=lists.is_keyed)
     ours = _nodes("ours", lists.ours, in_ours)
     theirs = _nodes("theirs", lists.theirs, in_theirs)
     both = _added_by_both(lists, ours, theirs)
@@ -47,10 +47,10 @@ def line_up(lists: Lists, merge: Merge, chooses_theirs: ChoosesTheirs) -> list[A
         return None, lists.ours[at], lists.theirs[added[node][1]] if node in added else None
 
     merged: list[Any] = []
-    for node in _order(ours, theirs, chooses_theirs):
+    for node in _merge_order(ours, theirs, chooses_theirs):
         sides = versions(node)
         there = next(each for each in sides if each is not None)
-        thing = merge(str(key_of(there)) if lists.is_keyed else node[1], *sides)
+        thing = merge(str(item_key(there)) if lists.is_keyed else node[1], *sides)
         if thing is not None:
             merged.append(thing)
     return merged
@@ -62,11 +62,11 @@ def _nodes(side: str, things: Sequence[Any], matches: dict[int, int]) -> list[_N
     return [("base", origins[at]) if at in origins else (side, at) for at in range(len(things))]
 
 
-def _added_by_both(lists: Lists, ours: list[_Node], theirs: list[_Node]) -> dict[_Node, _Node]:
+def _added_by_both(lists: ListVersions, ours: list[_Node], theirs: list[_Node]) -> dict[_Node, _Node]:
     """What both sides added: of the same name, or the same to the letter; from their node to ours."""
 
     def identity(thing: Any) -> Hashable:
-        return key_of(thing) if lists.is_keyed else thing
+        return item_key(thing) if lists.is_keyed else thing
 
     free: dict[Hashable, list[_Node]] = {}
     for node in ours:
@@ -80,7 +80,7 @@ def _added_by_both(lists: Lists, ours: list[_Node], theirs: list[_Node]) -> dict
     return both
 
 
-def _order(ours: list[_Node], theirs: list[_Node], chooses_theirs: ChoosesTheirs) -> list[_Node]:
+def _merge_order(ours: list[_Node], theirs: list[_Node], chooses_theirs: ChoosesTheirs) -> list[_Node]:
     """All nodes of both sides, and those of the base that both removed left out."""
     shared = set(ours) & set(theirs)
     mine, yours = ([node for node in side if node in shared] for side in (ours, theirs))
@@ -89,10 +89,10 @@ def _order(ours: list[_Node], theirs: list[_Node], chooses_theirs: ChoosesTheirs
     have_they_moved = [node for node in yours if node[0] == "base"] != was
     is_torn = has_moved and have_they_moved and mine != yours
     takes_theirs = chooses_theirs() if is_torn else not has_moved
-    return _woven(theirs, ours, after_added=False) if takes_theirs else _woven(ours, theirs, after_added=True)
+    return _interleave(theirs, ours, after_added=False) if takes_theirs else _interleave(ours, theirs, after_added=True)
 
 
-def _woven(first: list[_Node], second: list[_Node], *, after_added: bool) -> list[_Node]:
+def _interleave(first: list[_Node], second: list[_Node], *, after_added: bool) -> list[_Node]:
     """The nodes of `second` that `first` lacks, each put behind the one it follows (and what was added there)."""
     order, known = list(first), set(first)
     before: _Node | None = None

@@ -13,17 +13,17 @@ Matches = dict[int, int]
 """From an index of the older list to one of the newer."""
 
 
-def match(old: Sequence[Any], new: Sequence[Any], *, is_keyed: bool) -> Matches:
+def match_items(old: Sequence[Any], new: Sequence[Any], *, is_keyed: bool) -> Matches:
     """What of `old` is still in `new`, and where; keyed things are named, others stand in an order with a meaning."""
     if is_keyed:
-        matches = _match_by(key_of, old, new)
+        matches = _match_by(item_key, old, new)
         return _match_neighbours(old, new, matches, _is_renamed)
-    matches = _match_by(_id_of, old, new)
+    matches = _match_by(_item_id, old, new)
     matches = _match_equal(old, new, matches)
-    return _match_neighbours(old, new, matches, _is_alike)
+    return _match_neighbours(old, new, matches, _is_similar)
 
 
-def key_of(thing: Any) -> Hashable:
+def item_key(thing: Any) -> Hashable:
     """The name under which a thing stands in its list."""
     match thing:
         case State(name=name) | Declaration(name=name):
@@ -36,7 +36,7 @@ def key_of(thing: Any) -> Hashable:
             return str(thing)
 
 
-def renamed_states(old: Design, new: Design) -> dict[str, str]:
+def find_renamed_states(old: Design, new: Design) -> dict[str, str]:
     """The states that have another name in `new`, by their old one."""
     lost = [state for state in old.states if new.state(state.name) is None]
     found = [state for state in new.states if old.state(state.name) is None]
@@ -49,7 +49,7 @@ def renamed_states(old: Design, new: Design) -> dict[str, str]:
     return renamed
 
 
-def renamed_uses(old: Design, new: Design) -> dict[str, str]:
+def find_renamed_uses(old: Design, new: Design) -> dict[str, str]:
     """The used components that have another alias in `new`, by their old one; a component used once is the same."""
     lost = [use for use in old.uses if new.use(use.alias) is None]
     found = [use for use in new.uses if old.use(use.alias) is None]
@@ -89,7 +89,7 @@ def _numbered(key: Callable[[Any], Hashable], things: Sequence[Any]) -> list[tup
     return numbered
 
 
-def _id_of(thing: Any) -> Hashable:
+def _item_id(thing: Any) -> Hashable:
     return (type(thing), thing.id) if getattr(thing, "id", "") else ""
 
 
@@ -131,7 +131,7 @@ def _is_renamed(old: Any, new: Any) -> bool:
     return isinstance(old, Declaration) and isinstance(new, Declaration) and replace(new, name=old.name) == old
 
 
-def _is_alike(old: Any, new: Any) -> bool:
+def _is_similar(old: Any, new: Any) -> bool:
     if type(old) is not type(new):
         return False
     match old:

@@ -8,7 +8,7 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from vicode.model.renaming.names import Said, Way
+from vicode.model.renaming.names import ReferenceKind, ReferenceRename
 
 _TOKEN = re.compile(
     r"""
@@ -21,9 +21,9 @@ _TOKEN = re.compile(
     """,
     re.VERBOSE | re.DOTALL,
 )
-_TYPES = frozenset(("struct", "class", "union"))
-_DECLARING = frozenset((*_TYPES, "enum", "namespace", "using", "typename", "typedef"))
-_ENDS = frozenset((";", "{", "}", ":", "="))
+_TYPE_KEYWORDS = frozenset(("struct", "class", "union"))
+_DECLARING_KEYWORDS = frozenset((*_TYPE_KEYWORDS, "enum", "namespace", "using", "typename", "typedef"))
+_DECLARATION_STARTS = frozenset((";", "{", "}", ":", "="))
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,29 +33,29 @@ class _Token:
     is_word: bool
 
 
-def rename_in_cpp(text: str, role: str, said: Said) -> str:
+def rename_in_cpp(text: str, role: str, rename: ReferenceRename) -> str:
     """The code with the new name."""
-    if said.old not in text:
+    if rename.old not in text:
         return text
     pieces, end = [], 0
-    for token in _places(list(_tokens(text)), role, said):
-        pieces += [text[end : token.start], said.new]
+    for token in _find_references(list(_tokens(text)), role, rename):
+        pieces += [text[end : token.start], rename.new]
         end = token.start + len(token.text)
     return "".join([*pieces, text[end:]])
 
 
-def says_in_cpp(text: str, role: str, said: Said) -> bool:
+def has_reference_in_cpp(text: str, role: str, rename: ReferenceRename) -> bool:
     """Whether code says a name already."""
-    return rename_in_cpp(text, role, said) != text
+    return rename_in_cpp(text, role, rename) != text
 
 
-def binds_in_cpp(text: str, name: str) -> bool:
+def declares_in_cpp(text: str, name: str) -> bool:
     """Whether code gives a type or a namespace this name."""
     tokens = list(_tokens(text)) if name in text else []
     return any(token.text == name and _is_declared(tokens, at) for at, token in enumerate(tokens))
 
 
-def count_in_cpp(text: str, name: str) -> int:
+def count_identifier_in_cpp(text: str, name: str) -> int:
     """How often a name stands in code, whatever it means there."""
     return sum(token.is_word and token.text == name for token in _tokens(text)) if name in text else 0
 
@@ -66,43 +66,43 @@ def _tokens(text: str) -> Iterator[_Token]:
             yield _Token(match.start(), match.group(), bool(match["word"]))
 
 
-def _places(tokens: list[_Token], role: str, said: Said) -> Iterator[_Token]:
+def _find_references(tokens: list[_Token], role: str, said: ReferenceRename) -> Iterator[_Token]:
     owner = said.owner or said.old
-    is_shared = said.way in (Way.ENUMERATION, Way.ELEMENT)
-    has_types = any(token.text in _TYPES for token in tokens)
+    is_shared = said.kind in (ReferenceKind.ENUMERATION, ReferenceKind.ELEMENT)
+    has_types = any(token.text in _TYPE_KEYWORDS for token in tokens)
     if is_shared and any(token.text == owner and _is_declared(tokens, at) for at, token in enumerate(tokens)):
         return
     # Where a type is written, `this` may be another thing.
     if not is_shared and (role == "module" or has_types):
         return
     for at, token in enumerate(tokens):
-        if token.is_word and token.text == said.old and _is_said(tokens, at, said):
+        if token.is_word and token.text == said.old and _is_reference(tokens, at, said):
             yield token
 
 
-def _is_said(tokens: list[_Token], at: int, said: Said) -> bool:
-    before = [_sign(tokens, at - step) for step in (1, 2, 3, 4)]
-    match said.way:
-        case Way.OWN | Way.ALIAS:
+def _is_reference(tokens: list[_Token], at: int, said: ReferenceRename) -> bool:
+    before = [_text_at(tokens, at - step) for step in (1, 2, 3, 4)]
+    match said.kind:
+        case ReferenceKind.OWN | ReferenceKind.ALIAS:
             return before[:2] == ["->", "this"]
-        case Way.MEMBER:
+        case ReferenceKind.MEMBER:
             return before[0] in (".", "->") and before[1:] == [said.owner, "->", "this"]
-        case Way.ELEMENT:
+        case ReferenceKind.ELEMENT:
             return before[:2] == ["::", said.owner] and before[2] not in ("::", ".", "->")
-        case Way.ENUMERATION:
-            return _sign(tokens, at + 1) == "::" and before[0] not in ("::", ".", "->")
+        case ReferenceKind.ENUMERATION:
+            return _text_at(tokens, at + 1) == "::" and before[0] not in ("::", ".", "->")
         case _:
             return False
 
 
 def _is_declared(tokens: list[_Token], at: int) -> bool:
     """Whether the words before a name declare it."""
-    while at > 0 and tokens[at - 1].text not in _ENDS:
+    while at > 0 and tokens[at - 1].text not in _DECLARATION_STARTS:
         at -= 1
-        if tokens[at].text in _DECLARING:
+        if tokens[at].text in _DECLARING_KEYWORDS:
             return True
     return False
 
 
-def _sign(tokens: list[_Token], at: int) -> str:
+def _text_at(tokens: list[_Token], at: int) -> str:
     return tokens[at].text if 0 <= at < len(tokens) else ""

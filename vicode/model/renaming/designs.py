@@ -9,50 +9,50 @@ from vicode.model.design import (
     Call,
     Code,
     Decision,
+    DecisionGroup,
     Declaration,
     Design,
-    Group,
     Guard,
     RunCode,
     State,
 )
-from vicode.model.renaming.cpp import binds_in_cpp, rename_in_cpp
+from vicode.model.renaming.cpp import declares_in_cpp, rename_in_cpp
 from vicode.model.renaming.expressions import rename_in_expression
-from vicode.model.renaming.names import Said, Way
-from vicode.model.renaming.python import binds_in_python, rename_in_python
+from vicode.model.renaming.names import ReferenceKind, ReferenceRename
+from vicode.model.renaming.python import declares_in_python, rename_in_python
 
 _Pairs = tuple[tuple[str, str], ...]
 
 
-def renamed_in_design(design: Design, said: Said) -> Design:
+def rename_in_design(design: Design, rename: ReferenceRename) -> Design:
     """The design with the new name wherever it is said; where it is declared it stays."""
-    hidden = _languages_that_hide(design, said)
+    hidden = _shadowing_languages(design, rename)
 
     def in_code(code: Code, role: str) -> Code:
         texts = (
-            (language, text if language in hidden else _in_text(text, language, role, said))
+            (language, text if language in hidden else _rename_in_code(text, language, role, rename))
             for language, text in code.texts
         )
         return replace(code, texts=tuple(texts))
 
     return replace(
-        _spoken(design, _Speaker(said, in_code)),
-        parameters=renamed_in_declarations(design.parameters, said),
-        outputs=renamed_in_declarations(design.outputs, said),
-        variables=renamed_in_declarations(design.variables, said),
+        _rewrite(design, _ReferenceRewriter(rename, in_code)),
+        parameters=rename_in_declarations(design.parameters, rename),
+        outputs=rename_in_declarations(design.outputs, rename),
+        variables=rename_in_declarations(design.variables, rename),
     )
 
 
 def map_code(design: Design, change: Callable[[Code, str], Code]) -> Design:
     """The design with other hand-written code; `change` is given each piece and its role."""
-    return _spoken(design, _Speaker(_NOTHING, change))
+    return _rewrite(design, _ReferenceRewriter(_NO_RENAME, change))
 
 
-_NOTHING = Said(way=Way.PARAMETER, old="", new="")
+_NO_RENAME = ReferenceRename(kind=ReferenceKind.PARAMETER, old="", new="")
 """What no text says."""
 
 
-def _in_text(text: str, language: str, role: str, said: Said) -> str:
+def _rename_in_code(text: str, language: str, role: str, said: ReferenceRename) -> str:
     match language:
         case "python":
             return rename_in_python(text, role, said)
@@ -62,7 +62,7 @@ def _in_text(text: str, language: str, role: str, said: Said) -> str:
             return text
 
 
-def _spoken(design: Design, speaker: "_Speaker") -> Design:
+def _rewrite(design: Design, speaker: "_ReferenceRewriter") -> Design:
     """The design as a speaker says it, but for what it declares."""
     common = replace(
         design.common,
@@ -78,51 +78,51 @@ def _spoken(design: Design, speaker: "_Speaker") -> Design:
     )
 
 
-def renamed_in_declarations(declarations: tuple[Declaration, ...], said: Said) -> tuple[Declaration, ...]:
+def rename_in_declarations(declarations: tuple[Declaration, ...], rename: ReferenceRename) -> tuple[Declaration, ...]:
     """Declarations with the new name in their values, their types and their arguments."""
-    return tuple(_renamed_in_declaration(each, said) for each in declarations)
+    return tuple(_rename_in_declaration(each, rename) for each in declarations)
 
 
-def _renamed_in_declaration(declaration: Declaration, said: Said) -> Declaration:
-    is_type = said.way == Way.ENUMERATION and declaration.type == said.old
+def _rename_in_declaration(declaration: Declaration, said: ReferenceRename) -> Declaration:
+    is_type = said.kind == ReferenceKind.ENUMERATION and declaration.type == said.old
     given = declaration.arguments
     return replace(
         declaration,
         type=said.new if is_type else declaration.type,
         initial=rename_in_expression(declaration.initial, said),
-        arguments=None if given is None else renamed_in_declarations(given, said),
+        arguments=None if given is None else rename_in_declarations(given, said),
     )
 
 
-def _languages_that_hide(design: Design, said: Said) -> frozenset[str]:
+def _shadowing_languages(design: Design, said: ReferenceRename) -> frozenset[str]:
     """Those in which the module's own code gives a name of the project another meaning in all code of the design."""
-    if said.way not in (Way.CONSTANT, Way.ENUMERATION, Way.ELEMENT):
+    if said.kind not in (ReferenceKind.CONSTANT, ReferenceKind.ENUMERATION, ReferenceKind.ELEMENT):
         return frozenset()
     name = said.owner or said.old
     own, cpp = (design.module.in_language(language) or "" for language in ("python", "cpp"))
-    found = (("python", binds_in_python(own, "module", name)), ("cpp", binds_in_cpp(cpp, name)))
+    found = (("python", declares_in_python(own, "module", name)), ("cpp", declares_in_cpp(cpp, name)))
     return frozenset(language for language, is_hidden in found if is_hidden)
 
 
-class _Speaker:
+class _ReferenceRewriter:
     """Says the new name in each part of a design."""
 
-    def __init__(self, said: Said, code: Callable[[Code, str], Code]) -> None:
-        self.said, self.code = said, code
+    def __init__(self, said: ReferenceRename, code: Callable[[Code, str], Code]) -> None:
+        self.rename, self.code = said, code
 
     def alias(self, alias: str) -> str:
-        return self.said.new if self.said.way == Way.ALIAS and alias == self.said.old else alias
+        return self.rename.new if self.rename.kind == ReferenceKind.ALIAS and alias == self.rename.old else alias
 
     def expression(self, text: str) -> str:
-        return rename_in_expression(text, self.said)
+        return rename_in_expression(text, self.rename)
 
     def values(self, pairs: _Pairs) -> _Pairs:
         return tuple((self.expression(name), self.expression(text)) for name, text in pairs)
 
     def call(self, call: Call) -> Call:
-        is_asked = self.said.way == Way.PARAMETER and call.alias == self.said.owner
+        is_asked = self.rename.kind == ReferenceKind.PARAMETER and call.alias == self.rename.owner
         pairs = (
-            (self.said.new if is_asked and name == self.said.old else name, self.expression(text))
+            (self.rename.new if is_asked and name == self.rename.old else name, self.expression(text))
             for name, text in call.arguments
         )
         return replace(call, alias=self.alias(call.alias), arguments=tuple(pairs))
@@ -144,7 +144,7 @@ class _Speaker:
 
     def _decision(self, decision: Decision) -> Decision:
         guard = self._guard(decision.guard)
-        if isinstance(decision, Group):
+        if isinstance(decision, DecisionGroup):
             then, otherwise = self.decisions(decision.then), self.decisions(decision.otherwise)
             return replace(decision, guard=guard, then=then, otherwise=otherwise)
         return replace(decision, guard=guard)

@@ -5,7 +5,7 @@ from enum import StrEnum
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Declared:
+class SymbolRef:
     """A thing that is declared under a name.
 
     `component` declares it, "" the project. `section` is the key it stands below: `uses`, `parameters`, `outputs`,
@@ -19,7 +19,7 @@ class Declared:
     owner: str = ""
 
 
-class Way(StrEnum):
+class ReferenceKind(StrEnum):
     """How a name is said in a design."""
 
     OWN = "own"
@@ -41,10 +41,10 @@ class Way(StrEnum):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Said:
+class ReferenceRename:
     """A name as one design says it, and the new one; `owner` is what stands before its dot."""
 
-    way: Way
+    kind: ReferenceKind
     old: str
     new: str
     owner: str = ""

@@ -9,103 +9,107 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from vicode.model.parsing import parse_module
-from vicode.model.pieces import Piece
-from vicode.model.renaming.names import Said, Way
+from vicode.model.pieces import PythonSnippet
+from vicode.model.renaming.names import ReferenceKind, ReferenceRename
 
-_Place = tuple[int, int]
+_Position = tuple[int, int]
 """A line from 1, and a column in bytes."""
 
 
-def rename_in_python(text: str, role: str, said: Said) -> str:
+def rename_in_python(text: str, role: str, rename: ReferenceRename) -> str:
     """The code with the new name; what does not parse stays as it is."""
-    if said.old not in text:
+    if rename.old not in text:
         return text
-    piece = Piece.of(text, role)
-    tree = _tree_of(piece)
+    piece = PythonSnippet.from_text(text, role)
+    tree = _parse_snippet(piece)
     if tree is None:
         return text
-    starts = {piece.offset(*place) for place in _places(tree, role, said)}
+    starts = {piece.offset_at(*place) for place in _find_references(tree, role, rename)}
     for start in sorted(starts, reverse=True):
-        end = start + len(said.old)
+        end = start + len(rename.old)
         # What Python places wrongly, such as some names in texts with braces, is left alone.
-        if text[start:end] == said.old:
-            text = text[:start] + said.new + text[end:]
+        if text[start:end] == rename.old:
+            text = text[:start] + rename.new + text[end:]
     return text
 
 
-def says_in_python(text: str, role: str, said: Said) -> bool:
+def has_reference_in_python(text: str, role: str, rename: ReferenceRename) -> bool:
     """Whether code says a name already."""
-    return rename_in_python(text, role, said) != text
+    return rename_in_python(text, role, rename) != text
 
 
-def binds_in_python(text: str, role: str, name: str) -> bool:
+def declares_in_python(text: str, role: str, name: str) -> bool:
     """Whether code gives a name a meaning of its own."""
-    tree = _tree_of(Piece.of(text, role)) if name in text else None
+    tree = _parse_snippet(PythonSnippet.from_text(text, role)) if name in text else None
     return tree is not None and name in set(_bound_names(tree))
 
 
-def _tree_of(piece: Piece) -> ast.Module | None:
+def _parse_snippet(piece: PythonSnippet) -> ast.Module | None:
     try:
         return parse_module(piece.source)
     except (SyntaxError, ValueError, RecursionError, MemoryError):
         return None
 
 
-def _places(tree: ast.Module, role: str, said: Said) -> Iterator[_Place]:
-    if said.way in (Way.CONSTANT, Way.ENUMERATION, Way.ELEMENT):
+def _find_references(tree: ast.Module, role: str, said: ReferenceRename) -> Iterator[_Position]:
+    if said.kind in (ReferenceKind.CONSTANT, ReferenceKind.ENUMERATION, ReferenceKind.ELEMENT):
         name = said.owner or said.old
         if name not in set(_bound_names(tree)):
-            yield from (place for node in ast.walk(tree) for place in _shared_places(node, name, said))
+            yield from (place for node in ast.walk(tree) for place in _find_project_references(node, name, said))
         return
     for body, me in _bodies(tree, role):
-        yield from (place for node in _below(body, me) for place in _own_places(node, me, said))
+        yield from (place for node in _iter_nodes(body, me) for place in _find_component_references(node, me, said))
 
 
-def _shared_places(node: ast.AST, name: str, said: Said) -> Iterator[_Place]:
+def _find_project_references(node: ast.AST, name: str, said: ReferenceRename) -> Iterator[_Position]:
     match node:
-        case ast.Attribute(value=ast.Name(id=owner), attr=said.old) if said.way == Way.ELEMENT and owner == name:
-            yield _end_name(node)
-        case ast.Name(id=id_) if said.way != Way.ELEMENT and id_ == name:
+        case ast.Attribute(value=ast.Name(id=owner), attr=said.old) if (
+            said.kind == ReferenceKind.ELEMENT and owner == name
+        ):
+            yield _last_name_position(node)
+        case ast.Name(id=id_) if said.kind != ReferenceKind.ELEMENT and id_ == name:
             yield (node.lineno, node.col_offset)
 
 
-def _own_places(node: ast.AST, me: str, said: Said) -> Iterator[_Place]:
+def _find_component_references(node: ast.AST, me: str, said: ReferenceRename) -> Iterator[_Position]:
     """Where a node says the name of an attribute of `me`, or a parameter of a call."""
     if isinstance(node, ast.Attribute) and node.attr == said.old:
-        owner = _attribute_of(node.value, me)
+        owner = _self_attribute(node.value, me)
         is_mine = isinstance(node.value, ast.Name) and node.value.id == me
-        if (said.way in (Way.OWN, Way.ALIAS) and is_mine) or (said.way == Way.MEMBER and owner == said.owner):
-            yield _end_name(node)
-    elif isinstance(node, ast.Call) and _takes(node, me, said):
+        if (said.kind in (ReferenceKind.OWN, ReferenceKind.ALIAS) and is_mine) or (
+            said.kind == ReferenceKind.MEMBER and owner == said.owner
+        ):
+            yield _last_name_position(node)
+    elif isinstance(node, ast.Call) and _passes_argument(node, me, said):
         yield from ((each.lineno, each.col_offset) for each in node.keywords if each.arg == said.old)
 
 
-def _takes(call: ast.Call, me: str, said: Said) -> bool:
+def _passes_argument(call: ast.Call, me: str, said: ReferenceRename) -> bool:
     """Whether a call gives what is renamed by its name: `self.head.modulate(pan=…)`, `self._call(self.head, pan=…)`."""
     if not isinstance(call.func, ast.Attribute):
         return False
     function, whose = call.func.attr, call.func.value
     is_mine = isinstance(whose, ast.Name) and whose.id == me
-    match said.way:
-        case Way.OWN:
+    match said.kind:
+        case ReferenceKind.OWN:
             return is_mine and function == "modulate"
-        case Way.PARAMETER:
+        case ReferenceKind.PARAMETER:
             steps = is_mine and function == "_call" and bool(call.args)
             used = call.args[0] if steps else whose if function == "modulate" else None
-            return used is not None and _attribute_of(used, me) == said.owner
-        case Way.ARGUMENT:
-            return f"{_attribute_of(whose, me)}.{function}" == said.owner
+            return used is not None and _self_attribute(used, me) == said.owner
+        case ReferenceKind.ARGUMENT:
+            return f"{_self_attribute(whose, me)}.{function}" == said.owner
         case _:
             return False
 
 
-def _attribute_of(node: ast.expr, me: str) -> str | None:
+def _self_attribute(node: ast.expr, me: str) -> str | None:
     """NAME of `self.NAME`."""
     is_mine = isinstance(node, ast.Attribute) and isinstance(node.value, ast.Name) and node.value.id == me
     return node.attr if isinstance(node, ast.Attribute) and is_mine else None
 
 
-def _end_name(node: ast.Attribute) -> _Place:
+def _last_name_position(node: ast.Attribute) -> _Position:
     """Where the name behind the last dot begins."""
     assert node.end_lineno is not None
     assert node.end_col_offset is not None
@@ -124,15 +128,15 @@ def _bodies(tree: ast.Module, role: str) -> Iterator[tuple[_Body, str]]:
     """The bodies in which a name stands for the component, with that name."""
     outer = tree.body[0]
     if role in ("action", "predicate") and isinstance(outer, ast.FunctionDef):
-        yield from _known(outer, "self")
+        yield from _with_self_name(outer, "self")
     elif role == "members" and isinstance(outer, ast.ClassDef):
         for method in outer.body:
             if isinstance(method, _Function) and not _is_static(method):
                 first = [*method.args.posonlyargs, *method.args.args][:1]
-                yield from _known(method, *(each.arg for each in first))
+                yield from _with_self_name(method, *(each.arg for each in first))
 
 
-def _known(function: _Function, me: str = "") -> Iterator[tuple[_Body, str]]:
+def _with_self_name(function: _Function, me: str = "") -> Iterator[tuple[_Body, str]]:
     body = _Body(function.body)
     stored = {name for each in body.nodes for node in ast.walk(each) if (name := _stored_name(node))}
     if me and me not in stored:
@@ -148,7 +152,7 @@ def _stored_name(node: ast.AST) -> str:
     return node.id if isinstance(node, ast.Name) and not isinstance(node.ctx, ast.Load) else ""
 
 
-def _below(body: _Body, me: str) -> Iterator[ast.AST]:
+def _iter_nodes(body: _Body, me: str) -> Iterator[ast.AST]:
     """All nodes of a body but those of inner functions that call something else `me`."""
     waiting: list[ast.AST] = [*body.nodes]
     while waiting:

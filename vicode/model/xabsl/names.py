@@ -3,12 +3,12 @@
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from vicode.findings import Path
+from vicode.findings import DesignPath
 from vicode.model.design import Declaration, Design, State
 from vicode.model.names import snake_case
 from vicode.model.project import INTERNAL, Agent, Enumeration, Interface, Project
 
-INPUT, OUTPUT, KEPT, CONST = "input", "output", "internal", "const"
+INPUT, OUTPUT, INTERNAL_SYMBOL, CONST = "input", "output", "internal", "const"
 """What a symbol is: given by the robot's program, told to it, kept by the engine, or a constant."""
 
 
@@ -20,10 +20,10 @@ class SymbolName:
     role: str
     declaration: Declaration
     component: str
-    path: Path
+    path: DesignPath
 
 
-def plain_name(thing: Declaration | State | Enumeration | Agent) -> str:
+def unqualified_name(thing: Declaration | State | Enumeration | Agent) -> str:
     """The name it was given for XABSL, else its own."""
     return thing.xabsl_name or thing.name
 
@@ -43,22 +43,22 @@ def symbol_name(component: str, declaration: Declaration) -> str:
     return declaration.xabsl_name or f"{snake_case(component)}.{declaration.name}"
 
 
-def symbols_of_design(design: Design) -> tuple[Declaration, ...]:
+def symbol_declarations(design: Design) -> tuple[Declaration, ...]:
     """What of a design becomes symbols."""
     return tuple(each for each in (*design.outputs, *design.variables) if each.arguments is None)
 
 
-def role_of_variable(interface: Interface) -> str:
+def variable_role(interface: Interface) -> str:
     """What a variable of a hand-written component is."""
-    return KEPT if interface.implementation == INTERNAL else OUTPUT
+    return INTERNAL_SYMBOL if interface.implementation == INTERNAL else OUTPUT
 
 
-def role_of_output(interface: Interface) -> str:
+def output_role(interface: Interface) -> str:
     """What an output of a hand-written component is."""
-    return KEPT if interface.implementation == INTERNAL else INPUT
+    return INTERNAL_SYMBOL if interface.implementation == INTERNAL else INPUT
 
 
-def is_behavior(interface: Interface) -> bool:
+def is_basic_behavior(interface: Interface) -> bool:
     """Whether a hand-written component is something to call: it takes parameters, or tells nothing."""
     return interface.implementation != INTERNAL and (bool(interface.parameters) or not interface.readable)
 
@@ -66,10 +66,10 @@ def is_behavior(interface: Interface) -> bool:
 def list_symbols(project: Project) -> Iterator[SymbolName]:
     """All symbols of a project's program."""
     for constant in project.constants:
-        path: Path = ("constants", constant.name)
-        yield SymbolName(name=plain_name(constant), role=CONST, declaration=constant, component="", path=path)
+        path: DesignPath = ("constants", constant.name)
+        yield SymbolName(name=unqualified_name(constant), role=CONST, declaration=constant, component="", path=path)
     for interface in project.components:
-        for section, role in (("outputs", role_of_output(interface)), ("variables", role_of_variable(interface))):
+        for section, role in (("outputs", output_role(interface)), ("variables", variable_role(interface))):
             for each in getattr(interface, section):
                 path = ("components", interface.component, section, each.name)
                 name = symbol_name(interface.component, each)
@@ -79,10 +79,12 @@ def list_symbols(project: Project) -> Iterator[SymbolName]:
             if section != "parameters" and each.arguments is None:
                 name = symbol_name(design.component, each)
                 where = (section, each.name)
-                yield SymbolName(name=name, role=KEPT, declaration=each, component=design.component, path=where)
+                yield SymbolName(
+                    name=name, role=INTERNAL_SYMBOL, declaration=each, component=design.component, path=where
+                )
 
 
-def agents_of(project: Project) -> tuple[Agent, ...]:
+def effective_agents(project: Project) -> tuple[Agent, ...]:
     """The agents of a program: those of the project, or where there are none, one a design that no other uses."""
     if project.agents:
         return project.agents

@@ -9,29 +9,29 @@ if TYPE_CHECKING:
     from .program import Program
     from .reading import CodeError, read_code
     from .replaying import ReplayError
-    from .symbols import SymbolListError, Symbols, read_symbols
-    from .team import TeamMessage
+    from .symbols import SymbolList, SymbolListError, read_symbols
+    from .team import CoopMessage
 
-_HOMES = {
+_MODULES = {
     **dict.fromkeys(("Engine", "OptionView", "Trace"), "engine"),
-    "LoadError": "loading",
+    "LoadError": "validation",
     "Program": "program",
-    "ReplayError": "replaying",
-    "TeamMessage": "team",
-    **dict.fromkeys(("CodeError", "read_code"), "reading"),
-    **dict.fromkeys(("SymbolListError", "Symbols", "read_symbols"), "symbols"),
+    "ReplayError": "replay",
+    "CoopMessage": "team",
+    **dict.fromkeys(("CodeError", "read_code"), "code_reader"),
+    **dict.fromkeys(("SymbolListError", "SymbolList", "read_symbols"), "symbols"),
 }
 
 __all__ = [
     "CodeError",
+    "CoopMessage",
     "Engine",
     "LoadError",
     "OptionView",
     "Program",
     "ReplayError",
+    "SymbolList",
     "SymbolListError",
-    "Symbols",
-    "TeamMessage",
     "Trace",
     "read_code",
     "read_symbols",
@@ -40,6 +40,6 @@ __all__ = [
 
 def __getattr__(name: str) -> object:
     """What is asked for, loaded then: a compiler needs programs, and no engine."""
-    if name not in _HOMES:
+    if name not in _MODULES:
         raise AttributeError(f"module {__name__} has no attribute {name}")
-    return getattr(import_module(f".{_HOMES[name]}", __name__), name)
+    return getattr(import_module(f".{_MODULES[name]}", __name__), name)

@@ -7,25 +7,25 @@ from types import SimpleNamespace
 from typing import Any
 
 from .arithmetic import divide, remainder
-from .generating import Generator
-from .linking import NEVER, BehaviorRecord, Linker
-from .loading import LoadError, check_loops, check_structure, check_symbols, symbols_of, used_of
+from .generating import PythonEmitter
+from .linking import NEVER, BehaviorRecord, WorldLinker
+from .loading import LoadError, check_loops, check_structure, check_symbols, select_used_symbols, used_symbols
 from .program import Program
-from .symbols import Symbols
-from .team import CapacityState, CoopState, StrictSynchronizedState, SynchronizedState, Team, TeamMessage
+from .symbols import SymbolList
+from .team import CapacityState, CoopMessage, CoopState, StrictSynchronizedState, SynchronizedState, TeamSettings
 
 _MASK = 0xFFFFFFFF
 
 
-class Record:
+class OptionRecord:
     """What an engine keeps of an option: the function of its state, when and in which cycles it ran, parameters."""
 
-    __slots__ = ("__dict__", "activated", "last", "run", "since", "target", "was")
+    __slots__ = ("__dict__", "is_target", "last_cycle", "option_since", "run", "state_since", "was_active")
 
     def __init__(self, parameters: Iterable[object]) -> None:
         self.run: Callable[[int, int], None]
-        self.last, self.was, self.target = NEVER, False, False
-        self.activated = self.since = 0
+        self.last_cycle, self.was_active, self.is_target = NEVER, False, False
+        self.option_since = self.state_since = 0
         for number, value in enumerate(parameters):
             setattr(self, f"p{number}", value)
 
@@ -50,7 +50,7 @@ class Trace:
     values: dict[str, Any] = field(default_factory=dict)
 
 
-def milliseconds() -> int:
+def monotonic_ms() -> int:
     """The time of a clock that never goes back."""
     return time.monotonic_ns() // 1_000_000
 
@@ -79,13 +79,13 @@ class Engine:
         world: object,
         *,
         behaviors: Mapping[str, Callable[..., object]] | None = None,
-        symbols: Symbols | None = None,
-        clock: Callable[[], int] = milliseconds,
+        symbols: SymbolList | None = None,
+        clock: Callable[[], int] = monotonic_ms,
         strict: bool = False,
         traced: bool = False,
     ) -> None:
         self.program, self.world, self.clock = program, world, clock
-        self.symbols = used_of(symbols, program) if symbols is not None else symbols_of(program)
+        self.symbols = select_used_symbols(symbols, program) if symbols is not None else used_symbols(program)
         self.errors: list[str] = []
         """What went wrong in the last cycle."""
         self.errors_occurred = False
@@ -94,7 +94,7 @@ class Engine:
         self.messages: list[str] = []
         """What robots that got in each other's way were told in the last cycle."""
         self.cycle = 0
-        self.team = Team()
+        self.team = TeamSettings()
         self.memory = SimpleNamespace()
         problems = check_structure(program)
         if not problems and symbols is not None:
@@ -103,9 +103,9 @@ class Engine:
         if problems:
             raise LoadError(problems)
         self._is_traced = traced
-        self._linker = Linker(program, self.symbols, world, behaviors or {}, self.memory)
-        zero = self._linker.zero
-        self._records = [Record([zero(slot) for slot in option.parameters]) for option in program.options]
+        self._linker = WorldLinker(program, self.symbols, world, behaviors or {}, self.memory)
+        zero = self._linker.default_value
+        self._records = [OptionRecord([zero(slot) for slot in option.parameters]) for option in program.options]
         self._numbers = {option.name: number for number, option in enumerate(program.options)}
         self._functions = self._linker.functions
         self._load(strict=strict, traced=traced)
@@ -151,7 +151,7 @@ class Engine:
         """
         number = self._numbers.get(name)
         if number is None:
-            act = self._linker.callable_of(name)
+            act = self._linker.find_behavior(name)
 
             def play(_now: int, _cycle: int) -> None:
                 act(**parameters)
@@ -161,7 +161,7 @@ class Engine:
         record, slots = self._records[number], self.program.options[number].parameters
         run = self._functions[f"run{number}"]
         given = {f"{name}.{key}": value for key, value in parameters.items()}
-        values = [(f"p{at}", given.get(slot.name, self._linker.zero(slot))) for at, slot in enumerate(slots)]
+        values = [(f"p{at}", given.get(slot.name, self._linker.default_value(slot))) for at, slot in enumerate(slots)]
 
         def call(now: int, cycle: int) -> None:
             for key, value in values:
@@ -178,35 +178,37 @@ class Engine:
 
     # What the others of a team hear and tell
 
-    def prepare_messages(self) -> None:
+    def prepare_incoming_messages(self) -> None:
         """Forget what the others told; before their new messages are heard, once a cycle."""
         for each in self._coop:
-            each.begin()
+            each.begin_cycle()
 
-    def hear(self, message: TeamMessage) -> None:
+    def process_incoming_message(self, message: CoopMessage) -> None:
         """Take in the message of another robot."""
         for number in message.executed:
             self._coop[number].executing += 1
         for number in message.entering:
             state = self._coop[number]
-            state.highest = max(state.highest, message.priority) if state.entering else message.priority
+            state.highest_priority = (
+                max(state.highest_priority, message.priority) if state.entering else message.priority
+            )
             state.entering += 1
         for number in message.option_executed:
             self._coop[number].in_option += 1
 
-    def tell(self) -> TeamMessage:
+    def generate_outgoing_message(self) -> CoopMessage:
         """What the others must hear after this cycle."""
         executed, entering, near = [], [], []
         for number, coop in enumerate(self._coop):
             record = self._records[self._numbers[coop.option]]
-            if record.last != self.cycle:
+            if record.last_cycle != self.cycle:
                 continue
             near.append(number)
             if self._states[record.run] == coop.state:
                 executed.append(number)
             elif coop.is_entering:
                 entering.append(number)
-        return TeamMessage(self.team.priority, tuple(executed), tuple(entering), tuple(near))
+        return CoopMessage(self.team.priority, tuple(executed), tuple(entering), tuple(near))
 
     # What a person wants to see
 
@@ -223,16 +225,16 @@ class Engine:
 
     def _view(self, number: int, now: int) -> OptionView:
         option, record = self.program.options[number], self._records[number]
-        is_active = record.last == self.cycle
+        is_active = record.last_cycle == self.cycle
         parameters = {slot.name: getattr(record, f"p{at}") for at, slot in enumerate(option.parameters)}
-        state = self._states.get(record.run, option.initial) if record.last != NEVER else option.initial
-        times = (now - record.activated) & _MASK, (now - record.since) & _MASK
+        state = self._states.get(record.run, option.initial) if record.last_cycle != NEVER else option.initial
+        times = (now - record.option_since) & _MASK, (now - record.state_since) & _MASK
         return OptionView(option.name, is_active, state, *times, parameters)
 
     # Loading
 
     def _load(self, *, strict: bool, traced: bool) -> None:
-        generator = Generator(self.program, self._linker.names(), traced=traced, strict=strict)
+        generator = PythonEmitter(self.program, self._linker.link(), traced=traced, strict=strict)
         self.source = generator.source()
         """The Python that runs; to be read where something is not understood."""
         self._coop = self._coop_states(generator.coop, strict=strict)
@@ -240,7 +242,13 @@ class Engine:
         functions.update({f"o{number}": record for number, record in enumerate(self._records)})
         functions.update({f"c{number}": state for number, state in enumerate(self._coop)})
         functions.update(w=self.world, m=self.memory, divide=divide, remainder=remainder)
-        functions.update(twice=self._twice, begin=self._begin, end=self._end, note=self._note, play=self._play)
+        functions.update(
+            twice=self._report_double_execution,
+            begin=self._begin_option_trace,
+            end=self._end_option_trace,
+            note=self._trace_symbol,
+            play=self._trace_behavior,
+        )
         # All names in it are ours; the program's words are in it as texts only, written by `repr`.
         exec(compile(self.source, "<behavior>", "exec"), functions)  # noqa: S102
         self._states = {
@@ -256,7 +264,7 @@ class Engine:
 
     # What traced functions call
 
-    def _twice(self, number: int) -> None:
+    def _report_double_execution(self, number: int) -> None:
         name = self.program.options[number].name
         self.errors_occurred = True
         self.errors.append(
@@ -264,28 +272,28 @@ class Engine:
             "This is unsupported. Resulting behavior might be unexpected."
         )
 
-    def _begin(self, number: int) -> list[Any]:
+    def _begin_option_trace(self, number: int) -> list[Any]:
         inner: list[Any] = []
         outer, self.trace.nodes = self.trace.nodes, inner
         outer.append(["o", self.program.options[number].name, "", 0, 0, {}, inner])
         return outer
 
-    def _end(self, number: int, outer: list[Any], now: int) -> None:
+    def _end_option_trace(self, number: int, outer: list[Any], now: int) -> None:
         view = self._view(number, now)
         node = outer[-1]
         node[2:6] = [view.state, view.option_time, view.state_time, view.parameters]
         self.trace.nodes = outer
 
-    def _note(self, symbol: str, value: object) -> None:
+    def _trace_symbol(self, symbol: str, value: object) -> None:
         self.trace.nodes.append(["s", symbol, value])
         self.trace.values[symbol] = value
 
-    def _play(self, record: BehaviorRecord, now: int, cycle: int, given: dict[str, Any]) -> None:
-        if record.last != cycle:
-            record.was = record.last == cycle - 1
-        if not record.was:
-            record.activated = now
+    def _trace_behavior(self, record: BehaviorRecord, now: int, cycle: int, given: dict[str, Any]) -> None:
+        if record.last_cycle != cycle:
+            record.was_active = record.last_cycle == cycle - 1
+        if not record.was_active:
+            record.active_since = now
         parameters = {slot.name: given[record.keywords[slot.name]] for slot in record.slots}
-        self.trace.nodes.append(["b", record.name, (now - record.activated) & _MASK, parameters])
+        self.trace.nodes.append(["b", record.name, (now - record.active_since) & _MASK, parameters])
         record.act(**given)
-        record.last = cycle
+        record.last_cycle = cycle

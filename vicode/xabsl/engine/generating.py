@@ -6,45 +6,45 @@ An option's record `o` holds which function of a state is to `run`, since when, 
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 
-from .expressions import TIME, Input, Speller
-from .program import Option, Program, Slot, State, Term
+from .expressions import TIME_MASK, InputAccess, TermEmitter
+from .program import CompiledOption, CompiledState, Program, Term, TypedSlot
 
-_DEEPEST = 30
+_MAX_DEPTH = 30
 """Deeper decisions get a function of their own, as Python's lines can only be indented so far."""
 
 
 @dataclass(frozen=True, slots=True)
-class Called:
+class BehaviorBinding:
     """A basic behavior: the name of the callable, of its record, and the keywords of its parameters."""
 
     text: str
     record: str
-    slots: tuple[Slot, ...]
+    slots: tuple[TypedSlot, ...]
     keywords: Mapping[str, str]
 
 
 @dataclass(slots=True, kw_only=True)
-class Names:
+class LinkedNames:
     """How the Python source names what it gets from outside."""
 
-    inputs: Mapping[str, Input]
+    inputs: Mapping[str, InputAccess]
     outputs: Mapping[str, str]
-    behaviors: Mapping[str, Called]
+    behaviors: Mapping[str, BehaviorBinding]
     elements: Mapping[str, str]
     """The first element of each enumeration."""
 
 
 @dataclass(slots=True)
-class Generator:
+class PythonEmitter:
     """Writes the functions of all options. With `traced` they also note what they do; `strict`: see `Engine`."""
 
     program: Program
-    names: Names
+    names: LinkedNames
     traced: bool = False
     strict: bool = False
     coop: dict[tuple[str, str], int] = field(default_factory=dict)
     _numbers: dict[str, int] = field(default_factory=dict)
-    _options: dict[str, Option] = field(default_factory=dict)
+    _options: dict[str, CompiledOption] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         for number, option in enumerate(self.program.options):
@@ -60,53 +60,53 @@ class Generator:
         for option in self.program.options:
             lines += self._run(option)
             for number in range(len(option.states)):
-                lines += _StateWriter(self, option, number).lines()
+                lines += _StateEmitter(self, option, number).lines()
         return "\n".join([*lines, ""])
 
     def number(self, option: str) -> int:
         """The number of an option, which its record and functions have in their names."""
         return self._numbers[option]
 
-    def slots(self, option: str) -> tuple[Slot, ...]:
+    def slots(self, option: str) -> tuple[TypedSlot, ...]:
         """The parameters of an option."""
         return self._options[option].parameters
 
-    def parameters(self, option: Option) -> dict[str, str]:
+    def parameters(self, option: CompiledOption) -> dict[str, str]:
         """Where the parameters of an option are kept."""
         return {slot.name: f"o{self.number(option.name)}.p{at}" for at, slot in enumerate(option.parameters)}
 
-    def _run(self, option: Option) -> Iterator[str]:
+    def _run(self, option: CompiledOption) -> Iterator[str]:
         """What a call of an option does, once its parameters are stored."""
         number = self.number(option.name)
         initial = next(at for at, state in enumerate(option.states) if state.name == option.initial)
         target = option.states[initial].is_target
         o = f"o{number}"
         yield f"def run{number}(now, cycle):"
-        yield f"    last = {o}.last"
+        yield f"    last = {o}.last_cycle"
         yield "    if last == cycle:"
         yield f"        twice({number})"
         if self.strict:
             yield "        return"
         yield "    else:"
-        yield f"        {o}.was = last == cycle - 1"
-        yield f"    if not {o}.was:"
-        yield f"        {o}.activated = {o}.since = now"
+        yield f"        {o}.was_active = last == cycle - 1"
+        yield f"    if not {o}.was_active:"
+        yield f"        {o}.option_since = {o}.state_since = now"
         yield f"        {o}.run = s{number}_{initial}"
-        yield f"        {o}.target = {target}"
+        yield f"        {o}.is_target = {target}"
         if self.traced:
             yield f"    log = begin({number})"
         yield f"    {o}.run(now, cycle)"
-        yield f"    {o}.last = cycle"
+        yield f"    {o}.last_cycle = cycle"
         if self.traced:
             yield f"    end({number}, log, now)"
 
 
-class _StateWriter:
+class _StateEmitter:
     """Writes the functions of one state: `s` decides and acts, `g` enters the state and acts."""
 
-    def __init__(self, generator: Generator, option: Option, number: int) -> None:
-        self.generator, self.option = generator, option
-        self.state: State = option.states[number]
+    def __init__(self, generator: PythonEmitter, option: CompiledOption, number: int) -> None:
+        self.emitter, self.option = generator, option
+        self.state: CompiledState = option.states[number]
         self.option_number = generator.number(option.name)
         self.name = f"{self.option_number}_{number}"
         self.states = {state.name: at for at, state in enumerate(option.states)}
@@ -114,16 +114,16 @@ class _StateWriter:
         o = f"o{self.option_number}"
         names = generator.names
         common = (names.inputs, names.outputs, generator.parameters(option), names.elements.__getitem__)
-        option_time = f"((now - {o}.activated) & {TIME})"
-        self.deciding = Speller(
+        option_time = f"((now - {o}.option_since) & {TIME_MASK})"
+        self.deciding = TermEmitter(
             *common,
-            f"((now - {o}.since) & {TIME})",
+            f"((now - {o}.state_since) & {TIME_MASK})",
             option_time,
             self._action_done(),
             self._conflict(),
         )
         # Just entered, a state is no time old; whether what it calls is done is asked of what it called before.
-        self.entering = Speller(*common, "0", option_time, self._action_done(), self._conflict())
+        self.entering = TermEmitter(*common, "0", option_time, self._action_done(), self._conflict())
 
     def lines(self) -> list[str]:
         """Both functions, and those of decisions that are too deep for one."""
@@ -134,30 +134,33 @@ class _StateWriter:
         return [
             *self.helpers,
             f"def s{self.name}(now, cycle):",
-            *self._look_around(),
+            *self._update_conflict(),
             *(decision if decision or own else ["    pass"]),
             *own,
             f"def g{self.name}(now, cycle):",
             f"    {o}.run = s{self.name}",
-            f"    {o}.since = now",
-            f"    {o}.target = {self.state.is_target}",
+            f"    {o}.state_since = now",
+            f"    {o}.is_target = {self.state.is_target}",
             *enter,
         ]
 
     def _action_done(self) -> str:
         called = dict.fromkeys(action[1] for action in self.state.actions if action[0] == "o")
-        records = [f"o{self.generator.number(name)}" for name in called]
-        parts = [f"{o}.target and ({o}.was if {o}.last == cycle else {o}.last == cycle - 1)" for o in records]
+        records = [f"o{self.emitter.number(name)}" for name in called]
+        parts = [
+            f"{o}.is_target and ({o}.was_active if {o}.last_cycle == cycle else {o}.last_cycle == cycle - 1)"
+            for o in records
+        ]
         return f"({' or '.join(parts)})" if parts else "False"
 
     def _conflict(self) -> str:
-        coop = self.generator.coop.get((self.option.name, self.state.name))
+        coop = self.emitter.coop.get((self.option.name, self.state.name))
         return f"c{coop}.conflict" if self.state.mode == "c" else "False"
 
-    def _look_around(self) -> list[str]:
+    def _update_conflict(self) -> list[str]:
         """A capacity state sees whether too many are in it before it decides."""
-        coop = self.generator.coop.get((self.option.name, self.state.name))
-        return [f"    c{coop}.conflict = c{coop}.is_crowded()"] if self.state.mode == "c" else []
+        coop = self.emitter.coop.get((self.option.name, self.state.name))
+        return [f"    c{coop}.conflict = c{coop}.is_full()"] if self.state.mode == "c" else []
 
     def _tree(self, tree: Term, depth: int, goto: str) -> Iterator[str]:
         """The lines of a decision; where it says to stay they end without a return."""
@@ -167,13 +170,13 @@ class _StateWriter:
             if line:
                 yield from (f"{pad}{each}" for each in line)
             return
-        if depth > _DEEPEST:
+        if depth > _MAX_DEPTH:
             yield from (f"{pad}{line}" for line in self._helper(tree, goto))
             return
         word = "if"
         while tree[0] == "i":
             condition, then, last = tree[1], tree[2], tree[3]
-            yield f"{pad}{word} {_bare(self.deciding.spell(condition, 'b'))}:"
+            yield f"{pad}{word} {_strip_parentheses(self.deciding.emit(condition, 'b'))}:"
             yield from self._branch(then, depth + 1, goto)
             word, tree = "elif", last
         rest = list(self._tree(tree, depth + 1, goto))
@@ -186,12 +189,12 @@ class _StateWriter:
         yield from lines or ["    " * depth + "pass"]
 
     def _goto(self, target: str, goto: str) -> list[str]:
-        coop = self.generator.coop.get((self.option.name, target))
+        coop = self.emitter.coop.get((self.option.name, target))
         if target == self.state.name:
             # A cooperative state asks the others also for leave to stay; only what it tells them then counts.
-            return [f"c{coop}.check()"] if coop is not None else []
+            return [f"c{coop}.may_enter()"] if coop is not None else []
         line = goto.format(f"g{self.option_number}_{self.states[target]}")
-        return [line] if coop is None else [f"if c{coop}.check():", f"    {line}"]
+        return [line] if coop is None else [f"if c{coop}.may_enter():", f"    {line}"]
 
     def _helper(self, tree: Term, goto: str) -> list[str]:
         name = f"d{self.name}_{len(self.helpers)}"
@@ -202,7 +205,7 @@ class _StateWriter:
         is_inner = goto.endswith("True")
         return [f"if {name}(now, cycle):", "    return True" if is_inner else "    return"]
 
-    def _actions(self, speller: Speller) -> Iterator[str]:
+    def _actions(self, speller: TermEmitter) -> Iterator[str]:
         for action in self.state.actions:
             match action[0]:
                 case "o":
@@ -212,37 +215,37 @@ class _StateWriter:
                 case _:
                     yield from self._assign(action, speller)
 
-    def _assign(self, action: Term, speller: Speller) -> Iterable[str]:
+    def _assign(self, action: Term, speller: TermEmitter) -> Iterable[str]:
         kind, symbol, value = action
-        text = _bare(speller.spell(value, kind))
+        text = _strip_parentheses(speller.emit(value, kind))
         if kind == "b" and value[0] != "v":
             text = f"bool({text})"
         elif kind == "d" and value[0] in "st" and len(value) == 1:
             text = f"float({text})"
-        target = self.generator.names.outputs[symbol]
-        if not self.generator.traced:
+        target = self.emitter.names.outputs[symbol]
+        if not self.emitter.traced:
             return (f"{target} = {text}",)
         return (f"value = {text}", f"{target} = value", f"note({symbol!r}, value)")
 
-    def _call_option(self, action: Term, speller: Speller) -> Iterator[str]:
-        number = self.generator.number(action[1])
-        slots = self.generator.slots(action[1])
+    def _call_option(self, action: Term, speller: TermEmitter) -> Iterator[str]:
+        number = self.emitter.number(action[1])
+        slots = self.emitter.slots(action[1])
         places = {slot.name: at for at, slot in enumerate(slots)}
-        for slot, text in speller.given(slots, action[2]):
-            yield f"o{number}.p{places[slot.name]} = {_bare(text)}"
+        for slot, text in speller.emit_arguments(slots, action[2]):
+            yield f"o{number}.p{places[slot.name]} = {_strip_parentheses(text)}"
         yield f"run{number}(now, cycle)"
 
-    def _call_behavior(self, action: Term, speller: Speller) -> Iterator[str]:
-        called = self.generator.names.behaviors[action[1]]
-        given = speller.given(called.slots, action[2])
+    def _call_behavior(self, action: Term, speller: TermEmitter) -> Iterator[str]:
+        called = self.emitter.names.behaviors[action[1]]
+        given = speller.emit_arguments(called.slots, action[2])
         words = ", ".join(f"{called.keywords[slot.name]}={text}" for slot, text in given)
-        if not self.generator.traced:
+        if not self.emitter.traced:
             yield f"{called.text}({words})"
             return
         yield f"play({called.record}, now, cycle, dict({words}))"
 
 
-def _bare(text: str) -> str:
+def _strip_parentheses(text: str) -> str:
     """A text without the parentheses around all of it."""
     if not text.startswith("("):
         return text

@@ -5,17 +5,17 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from .expressions import Input
-from .generating import Called, Names
-from .loading import LoadError, nested_functions
-from .program import Program, Slot
-from .symbols import Behavior, Symbol, Symbols
+from .expressions import InputAccess
+from .generating import BehaviorBinding, LinkedNames
+from .loading import LoadError, find_nested_inputs
+from .program import Program, TypedSlot
+from .symbols import BasicBehavior, RobotSymbol, SymbolList
 
 NEVER = -2
 """The cycle of what never ran."""
 
 
-def attribute_of(name: str) -> str:
+def python_name(name: str) -> str:
     """The Python name of a symbol or parameter: dots become underscores, Python's own words get one."""
     plain = name.replace(".", "_")
     return f"{plain}_" if keyword.iskeyword(plain) else plain
@@ -27,19 +27,19 @@ class BehaviorRecord:
 
     name: str
     act: Callable[..., object]
-    slots: tuple[Slot, ...]
+    slots: tuple[TypedSlot, ...]
     keywords: dict[str, str]
-    last: int = NEVER
-    was: bool = False
-    activated: int = 0
+    last_cycle: int = NEVER
+    was_active: bool = False
+    active_since: int = 0
 
 
 @dataclass(slots=True)
-class Linker:
+class WorldLinker:
     """Finds what a program uses in a world; `functions` is what the names in its source stand for."""
 
     program: Program
-    symbols: Symbols
+    symbols: SymbolList
     world: object
     behaviors: Mapping[str, Callable[..., object]]
     memory: object
@@ -50,66 +50,68 @@ class Linker:
         for name, elements in (*self.symbols.enums, *self.symbols.internal_enums, *self.program.enums):
             self._elements[name] = elements[0].rpartition(".")[2] if elements else ""
 
-    def names(self) -> Names:
+    def link(self) -> LinkedNames:
         """How the source names everything.
 
         Raises:
             LoadError: The world has no such thing.
         """
-        nested = nested_functions(self.program)
+        nested = find_nested_inputs(self.program)
         inputs = [each for each in self.symbols.symbols if each.role == "input"]
-        return Names(
-            inputs={each.name: self._input(number, each, nested) for number, each in enumerate(inputs)},
-            outputs=self._outputs(),
-            behaviors={each.name: self._called(number, each) for number, each in enumerate(self.symbols.behaviors)},
+        return LinkedNames(
+            inputs={each.name: self._bind_input(number, each, nested) for number, each in enumerate(inputs)},
+            outputs=self._bind_outputs(),
+            behaviors={
+                each.name: self._bind_behavior(number, each) for number, each in enumerate(self.symbols.behaviors)
+            },
             elements=self._elements,
         )
 
-    def zero(self, slot: Slot) -> object:
+    def default_value(self, slot: TypedSlot) -> object:
         """What a parameter has that is not given, and an internal symbol at first."""
         if slot.kind == "e":
             return self._elements.get(slot.enum, "")
         return False if slot.kind == "b" else 0.0
 
-    def callable_of(self, name: str) -> Callable[..., object]:
+    def find_behavior(self, name: str) -> Callable[..., object]:
         """What a basic behavior does.
 
         Raises:
             LoadError: Nobody has it.
         """
-        act = self.behaviors.get(name) or getattr(self.world, attribute_of(name), None)
+        act = self.behaviors.get(name) or getattr(self.world, python_name(name), None)
         if not callable(act):
-            raise LoadError([f"basic behavior {name}: none is given, and the world has no {attribute_of(name)}"])
+            raise LoadError([f"basic behavior {name}: none is given, and the world has no {python_name(name)}"])
         return act
 
-    def _input(self, number: int, symbol: Symbol, nested: Iterable[str]) -> Input:
-        attribute = attribute_of(symbol.name)
+    def _bind_input(self, number: int, symbol: RobotSymbol, nested: Iterable[str]) -> InputAccess:
+        attribute = python_name(symbol.name)
         try:
             given = getattr(self.world, attribute)
         except AttributeError:
             raise LoadError([f"input symbol {symbol.name}: the world has no {attribute}"]) from None
         if not callable(given):
-            return Input(f"w.{attribute}")
+            return InputAccess(f"w.{attribute}")
         self.functions[f"i{number}"] = given
         cells = ""
         if symbol.name in nested:
             cells = f"cells{number}"
             self.functions[cells] = [0.0] * len(symbol.parameters)
-        return Input(f"i{number}", _keywords(symbol.name, symbol.parameters), symbol.parameters, cells)
+        return InputAccess(f"i{number}", _keywords(symbol.name, symbol.parameters), symbol.parameters, cells)
 
-    def _outputs(self) -> dict[str, str]:
-        found = {each.name: f"w.{attribute_of(each.name)}" for each in self.symbols.symbols if each.role == "output"}
+    def _bind_outputs(self) -> dict[str, str]:
+        found = {each.name: f"w.{python_name(each.name)}" for each in self.symbols.symbols if each.role == "output"}
         for number, slot in enumerate(self.program.symbols):
             found[slot.name] = f"m.v{number}"
-            setattr(self.memory, f"v{number}", self.zero(slot))
+            setattr(self.memory, f"v{number}", self.default_value(slot))
         return found
 
-    def _called(self, number: int, behavior: Behavior) -> Called:
-        act, keywords = self.callable_of(behavior.name), _keywords(behavior.name, behavior.parameters)
+    def _bind_behavior(self, number: int, behavior: BasicBehavior) -> BehaviorBinding:
+        act, keywords = self.find_behavior(behavior.name), _keywords(behavior.name, behavior.parameters)
         self.functions[f"a{number}"] = act
         self.functions[f"b{number}"] = BehaviorRecord(behavior.name, act, behavior.parameters, keywords)
-        return Called(f"a{number}", f"b{number}", behavior.parameters, keywords)
+        return BehaviorBinding(f"a{number}", f"b{number}", behavior.parameters, keywords)
 
 
-def _keywords(owner: str, slots: Iterable[Slot]) -> dict[str, str]:
-    return {slot.name: attribute_of(slot.name.removeprefix(f"{owner}.")) for slot in slots}
+def _keywords(owner: str, slots: Iterable[TypedSlot]) -> dict[str, str]:
+    return {slot.name: python_name(slot.name.removeprefix(f"{owner}.")) for slot in slots}

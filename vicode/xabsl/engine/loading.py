@@ -2,10 +2,10 @@
 
 from collections.abc import Iterable, Iterator
 
-from .program import Option, Program, Slot, State, Term
-from .symbols import Behavior, Symbol, Symbols
+from .program import CompiledOption, CompiledState, Program, Term, TypedSlot
+from .symbols import BasicBehavior, RobotSymbol, SymbolList
 
-_WORDS = {"d": "decimal", "b": "bool", "e": "enum"}
+_KIND_NAMES = {"d": "decimal", "b": "bool", "e": "enum"}
 
 
 class LoadError(ValueError):
@@ -16,46 +16,46 @@ class LoadError(ValueError):
         super().__init__("; ".join(self.problems))
 
 
-def values_of(program: Program) -> Iterator[tuple[str, Term]]:
+def iter_values(program: Program) -> Iterator[tuple[str, Term]]:
     """All values in a program with the kinds that are wanted of them, each before what is in it."""
     for option in program.options:
         for state in option.states:
-            yield from _values_of_tree(state.decision)
+            yield from _iter_tree_values(state.decision)
             for action in state.actions:
                 if action[0] in ("o", "a"):
-                    yield from _values_of_given(action[2])
+                    yield from _iter_argument_values(action[2])
                 else:
-                    yield from _values_in(action[0], action[2])
+                    yield from _iter_term_values(action[0], action[2])
 
 
-def _values_of_tree(tree: Term) -> Iterator[tuple[str, Term]]:
+def _iter_tree_values(tree: Term) -> Iterator[tuple[str, Term]]:
     while tree[0] == "i":
-        yield from _values_in("b", tree[1])
-        yield from _values_of_tree(tree[2])
+        yield from _iter_term_values("b", tree[1])
+        yield from _iter_tree_values(tree[2])
         tree = tree[3]
 
 
-def _values_of_given(given: Iterable[Term]) -> Iterator[tuple[str, Term]]:
+def _iter_argument_values(given: Iterable[Term]) -> Iterator[tuple[str, Term]]:
     for each in given:
-        yield from _values_in(each[0], each[-1])
+        yield from _iter_term_values(each[0], each[-1])
 
 
-def _values_in(kind: str, term: Term) -> Iterator[tuple[str, Term]]:
+def _iter_term_values(kind: str, term: Term) -> Iterator[tuple[str, Term]]:
     yield kind, term
     letter = term[0]
     if letter == "i":
-        yield from _values_of_given(term[2])
+        yield from _iter_argument_values(term[2])
     elif letter == "q":
-        yield from _values_in("b", term[1])
-        yield from _values_in(kind, term[2])
-        yield from _values_in(kind, term[3])
+        yield from _iter_term_values("b", term[1])
+        yield from _iter_term_values(kind, term[2])
+        yield from _iter_term_values(kind, term[3])
     elif letter not in ("v", "c", "o", "p") or (letter == "c" and kind == "b"):
         inner = kind if letter in ("&", "|", "!") or kind == "d" else "e" if letter == "c" else "d"
         for each in term[1:]:
-            yield from _values_in(inner, each)
+            yield from _iter_term_values(inner, each)
 
 
-def actions_of(program: Program) -> Iterator[tuple[Option, State, Term]]:
+def iter_actions(program: Program) -> Iterator[tuple[CompiledOption, CompiledState, Term]]:
     """All actions of a program with where they stand."""
     for option in program.options:
         for state in option.states:
@@ -63,49 +63,54 @@ def actions_of(program: Program) -> Iterator[tuple[Option, State, Term]]:
                 yield option, state, action
 
 
-def nested_functions(program: Program) -> set[str]:
+def find_nested_inputs(program: Program) -> set[str]:
     """Input symbols that are read again to give themselves a parameter."""
     nested: set[str] = set()
-    for _kind, term in values_of(program):
+    for _kind, term in iter_values(program):
         if term[0] == "i" and any(
-            each[0] == "i" and each[1] == term[1] for given in term[2] for _, each in _values_in(given[0], given[-1])
+            each[0] == "i" and each[1] == term[1]
+            for given in term[2]
+            for _, each in _iter_term_values(given[0], given[-1])
         ):
             nested.add(term[1])
     return nested
 
 
-def symbols_of(program: Program) -> Symbols:
+def used_symbols(program: Program) -> SymbolList:
     """The symbols that a program uses, as far as it tells about them."""
     internal = {slot.name for slot in program.symbols}
-    found: dict[tuple[str, str], Symbol] = {}
-    slots: dict[tuple[str, str], dict[str, Slot]] = {}
-    behaviors: dict[str, dict[str, Slot]] = {}
-    for kind, term in values_of(program):
+    found: dict[tuple[str, str], RobotSymbol] = {}
+    slots: dict[tuple[str, str], dict[str, TypedSlot]] = {}
+    behaviors: dict[str, dict[str, TypedSlot]] = {}
+    for kind, term in iter_values(program):
         if term[0] == "i":
-            found.setdefault(("input", term[1]), Symbol("input", kind, term[1]))
+            found.setdefault(("input", term[1]), RobotSymbol("input", kind, term[1]))
             slots.setdefault(("input", term[1]), {}).update(_slots(term[2]))
         elif term[0] == "o" and term[1] not in internal:
-            found.setdefault(("output", term[1]), Symbol("output", kind, term[1]))
-    for _option, _state, action in actions_of(program):
+            found.setdefault(("output", term[1]), RobotSymbol("output", kind, term[1]))
+    for _option, _state, action in iter_actions(program):
         if action[0] == "a":
             behaviors.setdefault(action[1], {}).update(_slots(action[2]))
         elif action[0] != "o" and action[1] not in internal:
-            found.setdefault(("output", action[1]), Symbol("output", action[0], action[1]))
+            found.setdefault(("output", action[1]), RobotSymbol("output", action[0], action[1]))
     symbols = tuple(
-        Symbol(each.role, each.kind, each.name, "", tuple(slots.get(key, {}).values())) for key, each in found.items()
+        RobotSymbol(each.role, each.kind, each.name, "", tuple(slots.get(key, {}).values()))
+        for key, each in found.items()
     )
-    return Symbols(symbols=symbols, behaviors=tuple(Behavior(n, tuple(each.values())) for n, each in behaviors.items()))
+    return SymbolList(
+        symbols=symbols, behaviors=tuple(BasicBehavior(n, tuple(each.values())) for n, each in behaviors.items())
+    )
 
 
-def _slots(given: Iterable[Term]) -> dict[str, Slot]:
-    return {each[-2]: Slot(each[0], each[-2], each[1] if each[0] == "e" else "") for each in given}
+def _slots(given: Iterable[Term]) -> dict[str, TypedSlot]:
+    return {each[-2]: TypedSlot(each[0], each[-2], each[1] if each[0] == "e" else "") for each in given}
 
 
-def used_of(symbols: Symbols, program: Program) -> Symbols:
+def select_used_symbols(symbols: SymbolList, program: Program) -> SymbolList:
     """Those of a robot's symbols that a program uses; the others may be missing in the world."""
-    names = {(each.role, each.name) for each in symbols_of(program).symbols}
-    behaviors = {action[1] for _option, _state, action in actions_of(program) if action[0] == "a"}
-    return Symbols(
+    names = {(each.role, each.name) for each in used_symbols(program).symbols}
+    behaviors = {action[1] for _option, _state, action in iter_actions(program) if action[0] == "a"}
+    return SymbolList(
         symbols.enums,
         symbols.internal_enums,
         tuple(each for each in symbols.symbols if (each.role, each.name) in names),
@@ -113,17 +118,17 @@ def used_of(symbols: Symbols, program: Program) -> Symbols:
     )
 
 
-def check_symbols(program: Program, symbols: Symbols) -> list[str]:
+def check_symbols(program: Program, symbols: SymbolList) -> list[str]:
     """What a program uses and a robot does not have."""
     known = {(each.role, each.name): each for each in symbols.symbols}
     behaviors = {each.name: each for each in symbols.behaviors}
     elements = {each for _name, of in (*symbols.enums, *symbols.internal_enums, *program.enums) for each in of}
     problems: list[str] = []
-    used = symbols_of(program)
+    used = used_symbols(program)
     for each in used.symbols:
         own = known.get((each.role, each.name))
         if own is None or own.kind != each.kind:
-            problems.append(f"{_WORDS[each.kind]} {each.role} symbol {each.name} is not registered")
+            problems.append(f"{_KIND_NAMES[each.kind]} {each.role} symbol {each.name} is not registered")
             continue
         problems += _check_slots(f"input symbol {each.name}", each.parameters, own.parameters)
     for behavior in used.behaviors:
@@ -132,13 +137,13 @@ def check_symbols(program: Program, symbols: Symbols) -> list[str]:
             continue
         given = behaviors[behavior.name].parameters
         problems += _check_slots(f"basic behavior {behavior.name}", behavior.parameters, given)
-    for kind, term in values_of(program):
+    for kind, term in iter_values(program):
         if kind == "e" and term[0] == "v" and term[1] not in elements:
             problems.append(f"enum element {term[1]} is not registered")
     return problems
 
 
-def _check_slots(what: str, used: Iterable[Slot], own: Iterable[Slot]) -> list[str]:
+def _check_slots(what: str, used: Iterable[TypedSlot], own: Iterable[TypedSlot]) -> list[str]:
     known = {(each.kind, each.name) for each in own}
     return [f"{what} has no parameter {each.name}" for each in used if (each.kind, each.name) not in known]
 
@@ -159,7 +164,7 @@ def check_structure(program: Program) -> list[str]:
                 for target in _targets(state.decision)
                 if target not in states
             ]
-    for option, state, action in actions_of(program):
+    for option, state, action in iter_actions(program):
         if action[0] == "o" and action[1] not in slots:
             problems.append(f"state {state.name} of option {option.name}: there is no option {action[1]}")
         elif action[0] == "o":
@@ -172,7 +177,7 @@ def check_structure(program: Program) -> list[str]:
     own = set().union(*slots.values()) if slots else set()
     problems += [
         f"there is no parameter {term[1]}"
-        for kind, term in values_of(program)
+        for kind, term in iter_values(program)
         if term[0] == "p" and (kind, term[1]) not in own
     ]
     return problems
@@ -191,7 +196,7 @@ def check_loops(program: Program, *, strict: bool) -> list[str]:
     problems: list[str] = []
     reached: dict[str, frozenset[str]] = {}
 
-    def look(option: Option, path: tuple[str, ...]) -> frozenset[str]:
+    def look(option: CompiledOption, path: tuple[str, ...]) -> frozenset[str]:
         """All that an option may activate; what leads back to the path is a problem."""
         if option.name in reached:
             return reached[option.name]
@@ -201,10 +206,12 @@ def check_loops(program: Program, *, strict: bool) -> list[str]:
             for action in state.actions:
                 below = {action[1]} if action[0] in ("o", "a") else set()
                 if action[0] == "o" and action[1] in path:
-                    problems.append(_loop(state, option, action[1]))
+                    problems.append(_loop_message(state, option, action[1]))
                 elif action[0] == "o":
                     below |= look(options[action[1]], path)
-                problems.extend(_twice(state, option, each) for each in sorted(below & seen) if strict)
+                problems.extend(
+                    _double_activation_message(state, option, each) for each in sorted(below & seen) if strict
+                )
                 seen |= below
             found |= seen
         reached[option.name] = frozenset(found)
@@ -216,14 +223,14 @@ def check_loops(program: Program, *, strict: bool) -> list[str]:
     return problems
 
 
-def _loop(state: State, option: Option, name: str) -> str:
+def _loop_message(state: CompiledState, option: CompiledOption, name: str) -> str:
     return (
         f'checkForLoops(): state "{state.name}" in option "{option.name}" references subsequent option "{name}". '
         f'But option "{name}" leads to this state'
     )
 
 
-def _twice(state: State, option: Option, name: str) -> str:
+def _double_activation_message(state: CompiledState, option: CompiledOption, name: str) -> str:
     return (
         f'checkForLoops(): state "{state.name}" in option "{option.name}" references subsequent behavior "{name}", '
         "which is already included in another possible activation tree"

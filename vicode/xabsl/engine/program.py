@@ -18,7 +18,7 @@ Term = tuple[Any, ...]
 
 
 @dataclass(frozen=True, slots=True)
-class Slot:
+class TypedSlot:
     """A parameter or internal symbol: `kind` is "d", "b" or "e"; only "e" has an enumeration."""
 
     kind: str
@@ -27,7 +27,7 @@ class Slot:
 
 
 @dataclass(frozen=True, slots=True)
-class State:
+class CompiledState:
     """A state; `mode` is "n", "c" (capacity) or "s" (synchronized), `robots` the number behind it."""
 
     name: str
@@ -39,21 +39,21 @@ class State:
 
 
 @dataclass(frozen=True, slots=True)
-class Option:
+class CompiledOption:
     """A state machine; parameters have the option's name before their own."""
 
     name: str
     initial: str
-    states: tuple[State, ...]
-    parameters: tuple[Slot, ...] = ()
+    states: tuple[CompiledState, ...]
+    parameters: tuple[TypedSlot, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
 class Program:
     """Everything an engine needs but for the robot's own symbols. Agents are names with their root options."""
 
-    options: tuple[Option, ...]
+    options: tuple[CompiledOption, ...]
     agents: tuple[tuple[str, str], ...]
     enums: tuple[tuple[str, tuple[str, ...]], ...] = ()
-    symbols: tuple[Slot, ...] = ()
+    symbols: tuple[TypedSlot, ...] = ()
     title: str = ""

@@ -2,9 +2,9 @@
 
 from collections.abc import Iterator
 
-from .program import Option, Program, Slot, State, Term
+from .program import CompiledOption, CompiledState, Program, Term, TypedSlot
 
-DEEPEST = 150
+MAX_DEPTH = 150
 _BINARY = {"d": frozenset("+-*d%"), "b": frozenset("=n<l>g")}
 _KINDS = ("d", "b", "e")
 
@@ -13,7 +13,7 @@ class CodeError(ValueError):
     """A text that is no intermediate code; says at which word."""
 
 
-class _Words:
+class _WordReader:
     """The words of a text, one by one."""
 
     def __init__(self, text: str) -> None:
@@ -50,7 +50,7 @@ def read_code(text: str) -> Program:
     Raises:
         CodeError: It is no intermediate code.
     """
-    words = _Words(text)
+    words = _WordReader(text)
     enums = tuple((words.next(), _names(words)) for _ in range(words.count()))
     symbols = tuple(_slot(words) for _ in range(words.count()))
     heads = [(words.next(), tuple(_slot(words) for _ in range(words.count()))) for _ in range(words.count())]
@@ -64,17 +64,17 @@ def _title(text: str) -> str:
     return first.partition("for the agents of ")[2].strip() if first.startswith("//") else ""
 
 
-def _names(words: _Words) -> tuple[str, ...]:
+def _names(words: _WordReader) -> tuple[str, ...]:
     return tuple(words.next() for _ in range(words.count()))
 
 
-def _slot(words: _Words) -> Slot:
+def _slot(words: _WordReader) -> TypedSlot:
     kind = words.kind()
     enum = words.next() if kind == "e" else ""
-    return Slot(kind, words.next(), enum)
+    return TypedSlot(kind, words.next(), enum)
 
 
-def _option(words: _Words, name: str, parameters: tuple[Slot, ...]) -> Option:
+def _option(words: _WordReader, name: str, parameters: tuple[TypedSlot, ...]) -> CompiledOption:
     heads = []
     for _ in range(words.count()):
         state, mode = words.next(), words.next()
@@ -86,11 +86,11 @@ def _option(words: _Words, name: str, parameters: tuple[Slot, ...]) -> Option:
     for state, mode, robots in heads:
         is_target = words.count() == 1
         actions = tuple(_action(words) for _ in range(words.count()))
-        states.append(State(state, _tree(words, 0), actions, is_target, mode, robots))
-    return Option(name, initial, tuple(states), parameters)
+        states.append(CompiledState(state, _tree(words, 0), actions, is_target, mode, robots))
+    return CompiledOption(name, initial, tuple(states), parameters)
 
 
-def _action(words: _Words) -> Term:
+def _action(words: _WordReader) -> Term:
     letter, name = words.next(), words.next()
     if letter in ("o", "a"):
         return (letter, name, _given(words, 0))
@@ -99,7 +99,7 @@ def _action(words: _Words) -> Term:
     return (letter, name, _value(words, letter, 0))
 
 
-def _given(words: _Words, depth: int) -> tuple[Term, ...]:
+def _given(words: _WordReader, depth: int) -> tuple[Term, ...]:
     given: list[Term] = []
     for _ in range(words.count()):
         kind = words.kind()
@@ -108,18 +108,18 @@ def _given(words: _Words, depth: int) -> tuple[Term, ...]:
     return tuple(given)
 
 
-def _tree(words: _Words, depth: int) -> Term:
+def _tree(words: _WordReader, depth: int) -> Term:
     letter = words.next()
     if letter == "t":
         return ("t", words.next())
-    if letter != "i" or depth > DEEPEST:
+    if letter != "i" or depth > MAX_DEPTH:
         raise words.error(f"a decision is wanted instead of {letter[:40]}" if letter != "i" else "nested too deeply")
     return ("i", _value(words, "b", depth), _tree(words, depth + 1), _tree(words, depth + 1))
 
 
-def _value(words: _Words, kind: str, depth: int) -> Term:
+def _value(words: _WordReader, kind: str, depth: int) -> Term:
     letter = words.next()
-    if depth > DEEPEST:
+    if depth > MAX_DEPTH:
         raise words.error("nested too deeply")
     depth += 1
     if letter in "op" and len(letter) == 1:
@@ -137,7 +137,7 @@ def _value(words: _Words, kind: str, depth: int) -> Term:
     raise words.error(f"an enum is wanted instead of {letter[:40]}")
 
 
-def _literal(words: _Words, kind: str) -> float | bool | str:
+def _literal(words: _WordReader, kind: str) -> float | bool | str:
     word = words.next()
     if kind == "e":
         return word
@@ -151,7 +151,7 @@ def _literal(words: _Words, kind: str) -> float | bool | str:
         raise words.error(f"a number is wanted instead of {word[:40]}") from None
 
 
-def _decimal(words: _Words, letter: str, depth: int) -> Term:
+def _decimal(words: _WordReader, letter: str, depth: int) -> Term:
     if letter == "c":
         word = words.next()
         try:
@@ -166,7 +166,7 @@ def _decimal(words: _Words, letter: str, depth: int) -> Term:
     return (letter, _value(words, "d", depth), _value(words, "d", depth))
 
 
-def _boolean(words: _Words, letter: str, depth: int) -> Term:
+def _boolean(words: _WordReader, letter: str, depth: int) -> Term:
     if letter in ("t", "x"):
         return (letter,)
     if letter == "!":

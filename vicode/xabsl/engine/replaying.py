@@ -13,16 +13,16 @@ from collections.abc import Callable, Iterable, Iterator
 from typing import Any
 
 from .engine import Engine
-from .linking import attribute_of
-from .program import Program, Slot
-from .symbols import Symbol, Symbols
+from .linking import python_name
+from .program import Program, TypedSlot
+from .symbols import RobotSymbol, SymbolList
 
 
 class ReplayError(ValueError):
     """Inputs that do not fit the symbols."""
 
 
-class World:
+class TableWorld:
     """A robot whose senses are the columns of a table, and whose skills do nothing.
 
     An input with parameters is its column plus S, the sum of i × decimal i, 0.5 j × bool j and 0.25 k × number of
@@ -30,7 +30,7 @@ class World:
     number. An S that is not finite counts as 0 for bools and enums.
     """
 
-    def __init__(self, symbols: Symbols, program: Program) -> None:
+    def __init__(self, symbols: SymbolList, program: Program) -> None:
         self._elements = {
             name: tuple(each.rpartition(".")[2] for each in elements)
             for name, elements in (*symbols.enums, *symbols.internal_enums, *program.enums)
@@ -40,17 +40,17 @@ class World:
         for symbol in self._inputs.values():
             self._bases[symbol.name] = 0.0
             if symbol.parameters:
-                setattr(self, attribute_of(symbol.name), self._function(symbol))
+                setattr(self, python_name(symbol.name), self._function(symbol))
             else:
-                self.put(symbol.name, 0.0)
+                self.set_input(symbol.name, 0.0)
         for symbol in symbols.symbols:
             if symbol.role == "output":
                 zero: object = 0.0 if symbol.kind == "d" else False
-                setattr(self, attribute_of(symbol.name), self._element(symbol.enum, 0) if symbol.kind == "e" else zero)
+                setattr(self, python_name(symbol.name), self._element(symbol.enum, 0) if symbol.kind == "e" else zero)
         for behavior in symbols.behaviors:
-            setattr(self, attribute_of(behavior.name), _do_nothing)
+            setattr(self, python_name(behavior.name), _do_nothing)
 
-    def put(self, name: str, value: float) -> None:
+    def set_input(self, name: str, value: float) -> None:
         """Give an input symbol a value: bools as 0 or 1, enums by number.
 
         Raises:
@@ -61,10 +61,10 @@ class World:
             raise ReplayError(f"no input symbol {name}")
         self._bases[name] = value
         if not symbol.parameters:
-            setattr(self, attribute_of(name), self._value(symbol, 0.0))
+            setattr(self, python_name(name), self._value(symbol, 0.0))
 
-    def _function(self, symbol: Symbol) -> Callable[..., Any]:
-        order = [(attribute_of(each.name.removeprefix(f"{symbol.name}.")), each) for each in symbol.parameters]
+    def _function(self, symbol: RobotSymbol) -> Callable[..., Any]:
+        order = [(python_name(each.name.removeprefix(f"{symbol.name}.")), each) for each in symbol.parameters]
         weights = [
             (keyword, slot, weight * (at + 1))
             for kind, weight in (("d", 1.0), ("b", 0.5), ("e", 0.25))
@@ -79,10 +79,10 @@ class World:
 
         return read
 
-    def _number(self, slot: Slot, value: Any) -> float:
+    def _number(self, slot: TypedSlot, value: Any) -> float:
         return self._elements[slot.enum].index(value) if slot.kind == "e" else float(value)
 
-    def _value(self, symbol: Symbol, total: float) -> Any:
+    def _value(self, symbol: RobotSymbol, total: float) -> Any:
         base = self._bases[symbol.name]
         if symbol.kind == "d":
             return base + total
@@ -113,20 +113,20 @@ def read_rows(lines: Iterable[str]) -> list[dict[str, str]]:
     return rows
 
 
-class Robot:
+class ReplayRobot:
     """An engine on a world that is fed row by row."""
 
-    def __init__(self, program: Program, symbols: Symbols, *, strict: bool = False, traced: bool = True) -> None:
+    def __init__(self, program: Program, symbols: SymbolList, *, strict: bool = False, traced: bool = True) -> None:
         self.now = 0
-        self.world = World(symbols, program)
+        self.world = TableWorld(symbols, program)
         self.engine = Engine(program, self.world, symbols=symbols, clock=lambda: self.now, strict=strict, traced=traced)
         self._kinds = {each.name: each for each in symbols.symbols if each.role != "input"}
-        self._kinds |= {each.name: Symbol("internal", each.kind, each.name, each.enum) for each in program.symbols}
+        self._kinds |= {each.name: RobotSymbol("internal", each.kind, each.name, each.enum) for each in program.symbols}
         slots = [slot for option in program.options for slot in option.parameters]
         slots += [slot for behavior in symbols.behaviors for slot in behavior.parameters]
         self._slots = {slot.name: slot for slot in slots}
 
-    def feed(self, row: dict[str, str], prefix: str = "") -> None:
+    def apply_row(self, row: dict[str, str], prefix: str = "") -> None:
         """Take in a row of inputs.
 
         Raises:
@@ -137,7 +137,7 @@ class Robot:
             if not cell or (":" in name and not prefix) or (prefix and column != "time" and name == column):
                 continue
             if name == "time":
-                self.now = int(_number(name, cell))
+                self.now = int(_parse_number(name, cell))
             elif name == "agent":
                 if not self.engine.select(cell):
                     raise ReplayError(f"no agent {cell}")
@@ -145,16 +145,16 @@ class Robot:
                 if cell != "0":
                     self.engine.reset()
             else:
-                self.world.put(name, _number(name, cell))
+                self.world.set_input(name, _parse_number(name, cell))
 
-    def line(self, cycle: int, number: int | None = None) -> str:
+    def trace_line(self, cycle: int, number: int | None = None) -> str:
         """What the last cycle did, as a line of JSON."""
         engine = self.engine
         said: dict[str, Any] = {"c": cycle, "t": self.now, "agent": engine.agent}
         if number is not None:
             said["r"] = number
         said["tree"] = [self._node(node) for node in engine.trace.nodes]
-        said["out"] = {name: self._said(self._kinds[name], value) for name, value in engine.trace.values.items()}
+        said["out"] = {name: self._json_value(self._kinds[name], value) for name, value in engine.trace.values.items()}
         if engine.errors:
             said["err"] = engine.errors
         return json.dumps(said, separators=(",", ":"))
@@ -162,16 +162,16 @@ class Robot:
     def _node(self, node: list[Any]) -> list[Any]:
         match node[0]:
             case "s":
-                return ["s", node[1], self._said(self._kinds[node[1]], node[2])]
+                return ["s", node[1], self._json_value(self._kinds[node[1]], node[2])]
             case "b":
                 return ["b", node[1], node[2], self._parameters(node[3])]
         return [*node[:5], self._parameters(node[5]), [self._node(each) for each in node[6]]]
 
     def _parameters(self, values: dict[str, Any]) -> dict[str, Any]:
         order = sorted(values, key=lambda name: "dbe".index(self._slots[name].kind))
-        return {name: self._said(self._slots[name], values[name]) for name in order}
+        return {name: self._json_value(self._slots[name], values[name]) for name in order}
 
-    def _said(self, of: Slot | Symbol, value: Any) -> Any:
+    def _json_value(self, of: TypedSlot | RobotSymbol, value: Any) -> Any:
         if of.kind == "e":
             return f"{of.enum}.{value}"
         if of.kind == "b":
@@ -180,29 +180,29 @@ class Robot:
         return int(number) if math.isfinite(number) and number == int(number) else number
 
 
-def _number(name: str, cell: str) -> float:
+def _parse_number(name: str, cell: str) -> float:
     try:
         return float(cell)
     except ValueError:
         raise ReplayError(f"{name}: {cell[:40]} is no number") from None
 
 
-def replay(program: Program, symbols: Symbols, rows: list[dict[str, str]], *, strict: bool = False) -> Iterator[str]:
+def replay(program: Program, symbols: SymbolList, rows: list[dict[str, str]], *, strict: bool = False) -> Iterator[str]:
     """Run a program on inputs; a line of JSON a cycle.
 
     Raises:
         LoadError: The program does not fit the symbols.
         ReplayError: The inputs do not.
     """
-    robot = Robot(program, symbols, strict=strict)
+    robot = ReplayRobot(program, symbols, strict=strict)
     for cycle, row in enumerate(rows):
-        robot.feed(row)
+        robot.apply_row(row)
         robot.engine.execute()
-        yield robot.line(cycle)
+        yield robot.trace_line(cycle)
 
 
 def replay_team(
-    program: Program, symbols: Symbols, rows: list[dict[str, str]], robots: int, ticks: int, *, strict: bool = False
+    program: Program, symbols: SymbolList, rows: list[dict[str, str]], robots: int, ticks: int, *, strict: bool = False
 ) -> Iterator[str]:
     """Run a program on several robots; columns begin with "0:", "1:", … but for `time`. Higher numbers go first.
 
@@ -210,35 +210,37 @@ def replay_team(
         LoadError: The program does not fit the symbols.
         ReplayError: The inputs do not.
     """
-    team = [Robot(program, symbols, strict=strict) for _ in range(robots)]
+    team = [ReplayRobot(program, symbols, strict=strict) for _ in range(robots)]
     for number, robot in enumerate(team):
         robot.engine.team.priority, robot.engine.team.ticks = number, ticks
-    told = [robot.engine.tell() for robot in team]
+    told = [robot.engine.generate_outgoing_message() for robot in team]
     for cycle, row in enumerate(rows):
         heard, told = told, []
         for number, robot in enumerate(team):
-            robot.feed(row, f"{number}:")
-            robot.engine.prepare_messages()
+            robot.apply_row(row, f"{number}:")
+            robot.engine.prepare_incoming_messages()
             for other, message in enumerate(heard):
                 if other != number:
-                    robot.engine.hear(message)
+                    robot.engine.process_incoming_message(message)
             robot.engine.execute()
-            told.append(robot.engine.tell())
-            yield robot.line(cycle, number)
+            told.append(robot.engine.generate_outgoing_message())
+            yield robot.trace_line(cycle, number)
 
 
-def bench(program: Program, symbols: Symbols, rows: list[dict[str, str]], times: int, *, strict: bool = False) -> float:
+def measure_cycles_per_second(
+    program: Program, symbols: SymbolList, rows: list[dict[str, str]], times: int, *, strict: bool = False
+) -> float:
     """How many cycles a second of CPU an engine runs that traces nothing; reading the rows does not count.
 
     Raises:
         LoadError: The program does not fit the symbols.
         ReplayError: The inputs do not.
     """
-    robot, spent_s = Robot(program, symbols, strict=strict, traced=False), 0.0
+    robot, spent_s = ReplayRobot(program, symbols, strict=strict, traced=False), 0.0
     execute, clock = robot.engine.execute, time.process_time
     for _ in range(times):
         for row in rows:
-            robot.feed(row)
+            robot.apply_row(row)
             begun_s = clock()
             execute()
             spent_s += clock() - begun_s

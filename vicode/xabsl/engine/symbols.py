@@ -3,38 +3,38 @@
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from .program import Slot
+from .program import TypedSlot
 
 
 @dataclass(frozen=True, slots=True)
-class Symbol:
+class RobotSymbol:
     """An input or output symbol, or one that the engine keeps; `role` is "input", "output" or "internal"."""
 
     role: str
     kind: str
     name: str
     enum: str = ""
-    parameters: tuple[Slot, ...] = ()
+    parameters: tuple[TypedSlot, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
-class Behavior:
+class BasicBehavior:
     """A basic behavior; its parameters have its name before their own."""
 
     name: str
-    parameters: tuple[Slot, ...] = ()
+    parameters: tuple[TypedSlot, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
-class Symbols:
+class SymbolList:
     """All that a robot program has for behaviors. Enumerations are names with full names of their elements."""
 
     enums: tuple[tuple[str, tuple[str, ...]], ...] = ()
     internal_enums: tuple[tuple[str, tuple[str, ...]], ...] = ()
-    symbols: tuple[Symbol, ...] = ()
-    behaviors: tuple[Behavior, ...] = ()
+    symbols: tuple[RobotSymbol, ...] = ()
+    behaviors: tuple[BasicBehavior, ...] = ()
 
-    def enum(self, name: str) -> tuple[str, ...]:
+    def elements(self, name: str) -> tuple[str, ...]:
         """The elements of an enumeration, none if it is not known."""
         return next((elements for each, elements in (*self.enums, *self.internal_enums) if each == name), ())
 
@@ -46,7 +46,7 @@ class SymbolListError(ValueError):
 _ROLES = {"in": "input", "out": "output", "i": "internal"}
 
 
-def write_symbols(symbols: Symbols) -> str:
+def write_symbols(symbols: SymbolList) -> str:
     """A symbol list, a line each."""
     lines = [f"enum {name} {len(elements)} {' '.join(elements)}" for name, elements in symbols.enums]
     lines += [f"ienum {name} {len(elements)} {' '.join(elements)}" for name, elements in symbols.internal_enums]
@@ -57,27 +57,27 @@ def write_symbols(symbols: Symbols) -> str:
     return "".join(f"{line}\n" for line in lines)
 
 
-def _line(symbol: Symbol) -> str:
+def _line(symbol: RobotSymbol) -> str:
     prefix = {"input": "{}in", "output": "{}out", "internal": "i{}out"}[symbol.role].format(symbol.kind)
     enum = f" {symbol.enum}" if symbol.kind == "e" else ""
     slots = f" {_slots(symbol.parameters)}" if symbol.role == "input" else ""
     return f"{prefix} {symbol.name}{enum}{slots}"
 
 
-def _slots(parameters: tuple[Slot, ...]) -> str:
+def _slots(parameters: tuple[TypedSlot, ...]) -> str:
     slots = (f" {each.kind} {each.enum + ' ' if each.kind == 'e' else ''}{each.name}" for each in parameters)
     return f"{len(parameters)}{''.join(slots)}"
 
 
-def read_symbols(text: str) -> Symbols:
+def read_symbols(text: str) -> SymbolList:
     """The symbols that a list tells.
 
     Raises:
         SymbolListError: A line is none of a symbol list.
     """
     enums: dict[str, list[tuple[str, tuple[str, ...]]]] = {"enum": [], "ienum": []}
-    symbols: list[Symbol] = []
-    behaviors: list[Behavior] = []
+    symbols: list[RobotSymbol] = []
+    behaviors: list[BasicBehavior] = []
     for number, line in enumerate(text.splitlines(), 1):
         words = iter(line.split())
         try:
@@ -85,7 +85,7 @@ def read_symbols(text: str) -> Symbols:
             if first in enums:
                 enums[first].append(_enum(words))
             elif first == "bb":
-                behaviors.append(Behavior(next(words), tuple(_read_slots(words))))
+                behaviors.append(BasicBehavior(next(words), tuple(_read_slots(words))))
             elif first and not first.startswith("//"):
                 symbols.append(_symbol(first, words))
         except (StopIteration, RuntimeError):
@@ -94,7 +94,7 @@ def read_symbols(text: str) -> Symbols:
             raise SymbolListError(f"line {number}: {error}: {line[:80]}") from None
         if not first.startswith("//") and next(words, None) is not None:
             raise SymbolListError(f"line {number}: more words than wanted: {line[:80]}")
-    return Symbols(tuple(enums["enum"]), tuple(enums["ienum"]), tuple(symbols), tuple(behaviors))
+    return SymbolList(tuple(enums["enum"]), tuple(enums["ienum"]), tuple(symbols), tuple(behaviors))
 
 
 def _enum(words: Iterator[str]) -> tuple[str, tuple[str, ...]]:
@@ -105,7 +105,7 @@ def _enum(words: Iterator[str]) -> tuple[str, tuple[str, ...]]:
     return name, elements
 
 
-def _symbol(first: str, words: Iterator[str]) -> Symbol:
+def _symbol(first: str, words: Iterator[str]) -> RobotSymbol:
     is_internal = first.startswith("i") and first.endswith("out")
     kind, _, direction = first.removeprefix("i").partition("in" if first.endswith("in") else "out")
     if kind not in ("d", "b", "e") or direction:
@@ -114,13 +114,13 @@ def _symbol(first: str, words: Iterator[str]) -> Symbol:
     enum = next(words) if kind == "e" else ""
     role = "internal" if is_internal else "input" if first.endswith("in") else "output"
     slots = tuple(_read_slots(words)) if role == "input" else ()
-    return Symbol(role, kind, name, enum, slots)
+    return RobotSymbol(role, kind, name, enum, slots)
 
 
-def _read_slots(words: Iterator[str]) -> Iterator[Slot]:
+def _read_slots(words: Iterator[str]) -> Iterator[TypedSlot]:
     for _ in range(int(next(words))):
         kind = next(words)
         if kind not in ("d", "b", "e"):
             raise ValueError(f"{kind} is no kind of parameter")
         enum = next(words) if kind == "e" else ""
-        yield Slot(kind, next(words), enum)
+        yield TypedSlot(kind, next(words), enum)

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterable, Iterator
 
-from .program import Option, Program, Slot, Term
+from .program import CompiledOption, Program, Term, TypedSlot
 
 _LETTERS = {"&", "|"}
 
@@ -21,16 +21,16 @@ def write_code(program: Program) -> str:
     return "\n".join(lines)
 
 
-def number_text(number: float) -> str:
+def format_number(number: float) -> str:
     """A number without needless digits."""
     return str(int(number)) if number == int(number) else repr(number)
 
 
-def _slot(slot: Slot) -> str:
+def _slot(slot: TypedSlot) -> str:
     return f"e {slot.enum} {slot.name}" if slot.kind == "e" else f"{slot.kind} {slot.name}"
 
 
-def _option(option: Option) -> Iterator[str]:
+def _option(option: CompiledOption) -> Iterator[str]:
     yield ""
     yield str(len(option.states))
     for state in option.states:
@@ -66,7 +66,7 @@ def _term(term: Term, lines: list[str]) -> None:
     if letter == "v":
         value = term[1]
         text = value if isinstance(value, str) else str(value).lower() if value is True or value is False else ""
-        lines.append(f"v {text or number_text(value)}")
+        lines.append(f"v {text or format_number(value)}")
     elif letter == "i" and isinstance(term[1], str):
         lines.append(f"i {term[1]}")
         _given(term[2], lines)

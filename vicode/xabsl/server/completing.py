@@ -3,15 +3,15 @@
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
-from vicode.xabsl.declared import ENUM, Declared, Table
+from vicode.xabsl.declared import ENUM, Definition, SymbolTable
 from vicode.xabsl.lexer import Tokens
-from vicode.xabsl.server.behavior import Behavior
-from vicode.xabsl.server.describing import doc_of, signature
+from vicode.xabsl.server.behavior import OpenBehavior
+from vicode.xabsl.server.describing import doc_comment, signature
 from vicode.xabsl.tokens import NAME
 
 _BLOCKS = frozenset(("option", "state", "decision", "action", "namespace", "behavior", "enum"))
 _VALUES = ("true", "false", "state_time", "option_time", "action_done", "conflict")
-_WORDS = {
+_BLOCK_KEYWORDS = {
     "": ("include", "option", "namespace", "agent"),
     "option": ("initial", "target", "state", "common", "float", "bool", "enum"),
     "state": ("decision", "action"),
@@ -19,7 +19,7 @@ _WORDS = {
     "namespace": ("float", "bool", "enum", "behavior", "const", "input", "output", "internal"),
     "behavior": ("float", "bool", "enum"),
 }
-TEMPLATES = {
+SNIPPETS = {
     "option": "option ${1:name} {\n  initial state ${2:begin} {\n    decision {\n      ${3:stay;}\n    }\n"
     "    action {\n      $0\n    }\n  }\n}",
     "namespace": 'namespace ${1:name}("${2:Title}") {\n  $0\n}',
@@ -32,7 +32,7 @@ TEMPLATES = {
 
 
 @dataclass(frozen=True, slots=True)
-class Choice:
+class CompletionProposal:
     """Something to write: `kind` is the role of a declaration or "word"; `snippet` has places to fill in."""
 
     name: str
@@ -43,85 +43,87 @@ class Choice:
 
 
 @dataclass(slots=True)
-class _Place:
+class _CompletionContext:
     """Where something is to be written: the blocks around it, the option, and the last tokens before it."""
 
     blocks: list[str]
     option: str
-    before: list[str]
+    texts: list[str]
     kinds: list[str]
     call: str = ""
     """What is called in the parentheses around it."""
 
 
-def choices_at(behavior: Behavior, tokens: Tokens, offset: int) -> list[Choice]:
+def complete_at(behavior: OpenBehavior, tokens: Tokens, offset: int) -> list[CompletionProposal]:
     """What can be written at a character; a word that ends there is being written."""
-    place, table = _place_at(tokens, offset), behavior.compiled.table
+    place, table = _context_at(tokens, offset), behavior.compiled.table
     last = place.kinds[-1] if place.kinds else ""
     block = place.blocks[-1] if place.blocks else ""
     if last == "goto":
         option = table.options.get(place.option)
-        return [_choice(each) for each in option.states.values()] if option else []
+        return [_definition_proposal(each) for each in option.states.values()] if option else []
     if last == "enum":
-        return [_choice(each) for each in table.enums.values()]
+        return [_definition_proposal(each) for each in table.enums.values()]
     if place.call:
-        return list(_in_call(table, place))
+        return list(_argument_proposals(table, place))
     if block == "action" and last in ("{", ";"):
-        return list(_beginnings(table))
+        return list(_action_proposals(table))
     if block in ("decision", "action") and last not in ("{", ";", "else", ")"):
-        return list(_values(table, place))
-    return [_word(each) for each in _WORDS.get(block, ())]
+        return list(_value_proposals(table, place))
+    return [_keyword_proposal(each) for each in _BLOCK_KEYWORDS.get(block, ())]
 
 
-def _in_call(table: Table, place: _Place) -> Iterator[Choice]:
+def _argument_proposals(table: SymbolTable, place: _CompletionContext) -> Iterator[CompletionProposal]:
     """In parentheses: parameters of what is called, or values for one; the conditions of `if` are values, too."""
-    owner = _called(table, place.call)
+    owner = _find_callee(table, place.call)
     if place.kinds[-1] in ("(", ",") and owner is not None:
         for each in owner.parameters.values():
-            choice = _choice(each)
-            yield Choice(choice.name, choice.kind, choice.detail, choice.doc, f"{each.name} = ${{1}}")
+            choice = _definition_proposal(each)
+            yield CompletionProposal(choice.name, choice.kind, choice.detail, choice.doc, f"{each.name} = ${{1}}")
     elif place.call == "agent":
-        yield from (_choice(each) for each in table.options.values())
+        yield from (_definition_proposal(each) for each in table.options.values())
     else:
-        yield from _values(table, place)
+        yield from _value_proposals(table, place)
 
 
-def _called(table: Table, name: str) -> Declared | None:
+def _find_callee(table: SymbolTable, name: str) -> Definition | None:
     found = [*table.callable.get(name, ()), *(each for each in table.readable.get(name, ()) if each.role == "input")]
     return found[0] if found else None
 
 
-def _beginnings(table: Table) -> Iterator[Choice]:
+def _action_proposals(table: SymbolTable) -> Iterator[CompletionProposal]:
     """What an action begins with."""
     for found in table.assignable.values():
         for each in found:
-            choice = _choice(each)
-            yield Choice(choice.name, choice.kind, choice.detail, choice.doc, f"{each.name} = ${{1}};")
+            choice = _definition_proposal(each)
+            yield CompletionProposal(choice.name, choice.kind, choice.detail, choice.doc, f"{each.name} = ${{1}};")
     for each in (*table.options.values(), *table.behaviors.values()):
         given = ", ".join(f"{name} = ${{{at}}}" for at, name in enumerate(each.parameters, 1))
-        choice = _choice(each)
-        yield Choice(choice.name, choice.kind, choice.detail, choice.doc, f"{each.name}({given});")
+        choice = _definition_proposal(each)
+        yield CompletionProposal(choice.name, choice.kind, choice.detail, choice.doc, f"{each.name}({given});")
 
 
-def _values(table: Table, place: _Place) -> Iterator[Choice]:
+def _value_proposals(table: SymbolTable, place: _CompletionContext) -> Iterator[CompletionProposal]:
     """What can be read: first the elements of the enumeration that is wanted."""
-    yield from (_choice(each) for each in _wanted_elements(table, place))
+    yield from (_definition_proposal(each) for each in _expected_elements(table, place))
     option = table.options.get(place.option)
     for each in option.parameters.values() if option else ():
-        yield Choice(f"@{each.name}", "parameter", signature(each), doc_of(each))
+        yield CompletionProposal(f"@{each.name}", "parameter", signature(each), doc_comment(each))
     for each in table.symbols("input", "output", "internal", "const"):
-        choice = _choice(each)
+        choice = _definition_proposal(each)
         given = ", ".join(f"{name} = ${{{at}}}" for at, name in enumerate(each.parameters, 1))
-        yield Choice(each.name, choice.kind, choice.detail, choice.doc, f"{each.name}({given})" if given else "")
-    yield from (_word(each) for each in _VALUES)
+        yield CompletionProposal(
+            each.name, choice.kind, choice.detail, choice.doc, f"{each.name}({given})" if given else ""
+        )
+    yield from (_keyword_proposal(each) for each in _VALUES)
 
 
-def _wanted_elements(table: Table, place: _Place) -> Iterable[Declared]:
+def _expected_elements(table: SymbolTable, place: _CompletionContext) -> Iterable[Definition]:
     """The elements of the enumeration to the left of `=`, `==` or `!=`."""
-    if len(place.before) < 2 or place.kinds[-1] not in ("=", "==", "!="):
+    if len(place.texts) < 2 or place.kinds[-1] not in ("=", "==", "!="):
         return ()
-    name = place.before[-2]
-    owner, option = _called(table, place.call), table.options.get(place.option)
+    name = place.texts[-2]
+    owner, option = _find_callee(table, place.call), table.options.get(place.option)
     known = [*table.readable.get(name, ())]
     if place.kinds[-1] == "=" and owner is not None:
         known = [owner.parameters[name]] if name in owner.parameters else []
@@ -131,8 +133,8 @@ def _wanted_elements(table: Table, place: _Place) -> Iterable[Declared]:
     return enums[0].elements.values() if enums else ()
 
 
-def _place_at(tokens: Tokens, offset: int) -> _Place:
-    place = _Place([], "", [], [])
+def _context_at(tokens: Tokens, offset: int) -> _CompletionContext:
+    place = _CompletionContext([], "", [], [])
     stack: list[str] = []
     calls: list[str] = []
     opening = ""
@@ -151,18 +153,18 @@ def _place_at(tokens: Tokens, offset: int) -> _Place:
         elif kind == "}" and stack:
             stack.pop()
         elif kind == "(":
-            calls.append(_callee(tokens, number))
+            calls.append(_callee_name(tokens, number))
         elif kind == ")" and calls:
             calls.pop()
         elif kind == ";":
             calls.clear()
-        place.before.append(text)
+        place.texts.append(text)
         place.kinds.append(kind)
     place.blocks, place.call = stack, calls[-1] if calls else ""
     return place
 
 
-def _callee(tokens: Tokens, number: int) -> str:
+def _callee_name(tokens: Tokens, number: int) -> str:
     """What stands before an opening parenthesis: the name of what is called, `agent`, or `if`."""
     if number >= 2 and tokens.kinds[number - 2] == "agent":
         return "agent"
@@ -172,9 +174,9 @@ def _callee(tokens: Tokens, number: int) -> str:
     return tokens.texts[before] if before >= 0 and tokens.kinds[before] in (NAME, "if") else "if"
 
 
-def _choice(declared: Declared) -> Choice:
-    return Choice(declared.name, declared.role, signature(declared), doc_of(declared))
+def _definition_proposal(declared: Definition) -> CompletionProposal:
+    return CompletionProposal(declared.name, declared.role, signature(declared), doc_comment(declared))
 
 
-def _word(word: str) -> Choice:
-    return Choice(word, "word", snippet=TEMPLATES.get(word, ""))
+def _keyword_proposal(word: str) -> CompletionProposal:
+    return CompletionProposal(word, "word", snippet=SNIPPETS.get(word, ""))

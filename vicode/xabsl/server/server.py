@@ -10,19 +10,19 @@ from pygls.lsp.server import LanguageServer
 
 from vicode.findings import Finding, Severity
 from vicode.xabsl import tree
-from vicode.xabsl.declared import Declared
+from vicode.xabsl.declared import Definition
 from vicode.xabsl.lexer import Tokens
 from vicode.xabsl.printer import print_file
-from vicode.xabsl.server.behavior import Behavior, RenameError, Spot, find_main
-from vicode.xabsl.server.completing import Choice, choices_at
-from vicode.xabsl.server.describing import describe
+from vicode.xabsl.server.behavior import OpenBehavior, RenameError, SymbolOccurrence, find_main_file
+from vicode.xabsl.server.completing import CompletionProposal, complete_at
+from vicode.xabsl.server.describing import hover_text
 
 _SEVERITIES = {
     Severity.ERROR: lsp.DiagnosticSeverity.Error,
     Severity.WARNING: lsp.DiagnosticSeverity.Warning,
     Severity.NOTE: lsp.DiagnosticSeverity.Information,
 }
-_KINDS = {
+_COMPLETION_KINDS = {
     "option": lsp.CompletionItemKind.Module,
     "behavior": lsp.CompletionItemKind.Function,
     "input": lsp.CompletionItemKind.Variable,
@@ -35,73 +35,73 @@ _KINDS = {
     "state": lsp.CompletionItemKind.Class,
     "word": lsp.CompletionItemKind.Keyword,
 }
-_NAMESPACES = {
-    tree.Constant: lsp.SymbolKind.Constant,
-    tree.Enumeration: lsp.SymbolKind.Enum,
-    tree.Symbol: lsp.SymbolKind.Variable,
-    tree.Behavior: lsp.SymbolKind.Function,
+_SYMBOL_KINDS = {
+    tree.ConstantNode: lsp.SymbolKind.Constant,
+    tree.EnumerationNode: lsp.SymbolKind.Enum,
+    tree.SymbolNode: lsp.SymbolKind.Variable,
+    tree.BehaviorNode: lsp.SymbolKind.Function,
 }
 
 
-class Server(LanguageServer):
+class XabslLanguageServer(LanguageServer):
     """Serves the behaviors that open files belong to."""
 
     def __init__(self) -> None:
         super().__init__("vicode-xabsl", version("vicode"), lsp.TextDocumentSyncKind.Full)
-        self.behaviors: dict[Path, Behavior] = {}
-        self._mains: dict[Path, Path] = {}
-        self._told: dict[Path, set[Path]] = {}
+        self.behaviors: dict[Path, OpenBehavior] = {}
+        self._main_files: dict[Path, Path] = {}
+        self._published: dict[Path, set[Path]] = {}
 
-    def behavior_of(self, path: Path) -> Behavior:
+    def find_behavior(self, path: Path) -> OpenBehavior:
         """The behavior that a file belongs to, read as it was last."""
-        main = self._mains.get(path)
+        main = self._main_files.get(path)
         if main is None:
-            main = self._mains[path] = find_main(path)
+            main = self._main_files[path] = find_main_file(path)
         if main not in self.behaviors:
-            self.behaviors[main] = Behavior(main, self._texts())
+            self.behaviors[main] = OpenBehavior(main, self._texts())
         return self.behaviors[main]
 
-    def changed(self, path: Path) -> None:
+    def on_change(self, path: Path) -> None:
         """Read the behavior of a file anew, and tell what is wrong with all of its files."""
-        behavior = self.behavior_of(path)
-        if path not in behavior.source.files and self._mains[path] != path:
+        behavior = self.find_behavior(path)
+        if path not in behavior.source.files and self._main_files[path] != path:
             # It is included no more, or another file has it now.
-            del self._mains[path]
-            behavior = self.behavior_of(path)
+            del self._main_files[path]
+            behavior = self.find_behavior(path)
         behavior.open_texts = self._texts()
-        self.tell(behavior)
+        self.publish_findings(behavior)
 
-    def tell(self, behavior: Behavior) -> None:
+    def publish_findings(self, behavior: OpenBehavior) -> None:
         """Publish the findings of a behavior; files without any are told so once."""
-        found = behavior.look().findings
+        found = behavior.refresh().findings
         folder = behavior.source.main.parent
-        by_path: dict[Path, list[lsp.Diagnostic]] = {path: [] for path in self._told.get(behavior.main, ())}
+        by_path: dict[Path, list[lsp.Diagnostic]] = {path: [] for path in self._published.get(behavior.main, ())}
         is_alone = not _has_agents(behavior)
         for finding in found:
-            if finding.place is None or (is_alone and finding.rule.code in ("X609", "X621", "X644")):
+            if finding.location is None or (is_alone and finding.rule.code in ("X609", "X621", "X644")):
                 # A file that no behavior includes is judged by itself.
                 continue
-            path = (folder / finding.place.file).resolve()
+            path = (folder / finding.location.file).resolve()
             by_path.setdefault(path, []).append(_diagnostic(finding, folder, self._text(behavior, path)))
         for path, diagnostics in by_path.items():
             self.text_document_publish_diagnostics(
                 lsp.PublishDiagnosticsParams(uri=_uri(path), diagnostics=diagnostics)
             )
-        self._told[behavior.main] = {path for path, diagnostics in by_path.items() if diagnostics}
+        self._published[behavior.main] = {path for path, diagnostics in by_path.items() if diagnostics}
 
-    def place(self, uri: str, position: lsp.Position) -> tuple[Behavior, Path, int]:
+    def resolve_position(self, uri: str, position: lsp.Position) -> tuple[OpenBehavior, Path, int]:
         """The behavior and the character that a position means."""
         path = _path(uri)
-        behavior = self.behavior_of(path)
+        behavior = self.find_behavior(path)
         text = self._text(behavior, path)
         return behavior, path, _offset(text, position)
 
-    def location(self, behavior: Behavior, spot: Spot) -> lsp.Location:
+    def location(self, behavior: OpenBehavior, spot: SymbolOccurrence) -> lsp.Location:
         """Where a spot is, for a text editor."""
         text = self._text(behavior, spot.path)
         return lsp.Location(uri=_uri(spot.path), range=_range(text, spot.start, spot.end))
 
-    def edit(self, behavior: Behavior, spots: Sequence[Spot]) -> lsp.WorkspaceEdit:
+    def workspace_edit(self, behavior: OpenBehavior, spots: Sequence[SymbolOccurrence]) -> lsp.WorkspaceEdit:
         """An edit of all spots."""
         changes: dict[str, list[lsp.TextEdit]] = {}
         for spot in spots:
@@ -110,7 +110,7 @@ class Server(LanguageServer):
             changes.setdefault(_uri(spot.path), []).append(edit)
         return lsp.WorkspaceEdit(changes=changes)
 
-    def _text(self, behavior: Behavior, path: Path) -> str:
+    def _text(self, behavior: OpenBehavior, path: Path) -> str:
         parsed = behavior.source.files.get(path)
         return parsed.tokens.text if parsed else self._texts().get(path, "")
 
@@ -118,72 +118,72 @@ class Server(LanguageServer):
         return {_path(uri): document.source for uri, document in self.workspace.text_documents.items()}
 
 
-def make_server() -> Server:
+def create_server() -> XabslLanguageServer:
     """A server with all that it can do."""
-    server = Server()
-    _add_changes(server)
-    _add_answers(server)
-    _add_edits(server)
+    server = XabslLanguageServer()
+    _register_document_sync(server)
+    _register_queries(server)
+    _register_edits(server)
     return server
 
 
-def _add_changes(server: Server) -> None:
+def _register_document_sync(server: XabslLanguageServer) -> None:
     @server.feature(lsp.TEXT_DOCUMENT_DID_OPEN)
     def opened(params: lsp.DidOpenTextDocumentParams) -> None:
-        server.changed(_path(params.text_document.uri))
+        server.on_change(_path(params.text_document.uri))
 
     @server.feature(lsp.TEXT_DOCUMENT_DID_CHANGE)
     def changed(params: lsp.DidChangeTextDocumentParams) -> None:
-        server.changed(_path(params.text_document.uri))
+        server.on_change(_path(params.text_document.uri))
 
     @server.feature(lsp.TEXT_DOCUMENT_DID_SAVE)
     def saved(params: lsp.DidSaveTextDocumentParams) -> None:
-        server.changed(_path(params.text_document.uri))
+        server.on_change(_path(params.text_document.uri))
 
     @server.feature(lsp.TEXT_DOCUMENT_DID_CLOSE)
     def closed(params: lsp.DidCloseTextDocumentParams) -> None:
-        server.changed(_path(params.text_document.uri))
+        server.on_change(_path(params.text_document.uri))
 
 
-def _add_answers(server: Server) -> None:
+def _register_queries(server: XabslLanguageServer) -> None:
     @server.feature(lsp.TEXT_DOCUMENT_COMPLETION, lsp.CompletionOptions(trigger_characters=[".", "@", "("]))
     def complete(params: lsp.CompletionParams) -> list[lsp.CompletionItem]:
-        behavior, path, offset = server.place(params.text_document.uri, params.position)
+        behavior, path, offset = server.resolve_position(params.text_document.uri, params.position)
         parsed = behavior.source.files.get(path)
-        choices = choices_at(behavior, parsed.tokens, offset) if parsed else []
-        return [_item(each, number) for number, each in enumerate(choices)]
+        choices = complete_at(behavior, parsed.tokens, offset) if parsed else []
+        return [_completion_item(each, number) for number, each in enumerate(choices)]
 
     @server.feature(lsp.TEXT_DOCUMENT_HOVER)
     def hover(params: lsp.HoverParams) -> lsp.Hover | None:
-        declared = _declared(server, params.text_document.uri, params.position)[1]
+        declared = _definition_at(server, params.text_document.uri, params.position)[1]
         if declared is None:
             return None
-        return lsp.Hover(contents=lsp.MarkupContent(kind=lsp.MarkupKind.Markdown, value=describe(declared)))
+        return lsp.Hover(contents=lsp.MarkupContent(kind=lsp.MarkupKind.Markdown, value=hover_text(declared)))
 
     @server.feature(lsp.TEXT_DOCUMENT_DEFINITION)
     def define(params: lsp.DefinitionParams) -> lsp.Location | None:
-        behavior, declared = _declared(server, params.text_document.uri, params.position)
-        return server.location(behavior, behavior.spot_of(declared)) if declared else None
+        behavior, declared = _definition_at(server, params.text_document.uri, params.position)
+        return server.location(behavior, behavior.declaration_occurrence(declared)) if declared else None
 
     @server.feature(lsp.TEXT_DOCUMENT_REFERENCES)
     def refer(params: lsp.ReferenceParams) -> list[lsp.Location]:
-        behavior, declared = _declared(server, params.text_document.uri, params.position)
+        behavior, declared = _definition_at(server, params.text_document.uri, params.position)
         if declared is None:
             return []
-        own = behavior.spot_of(declared)
+        own = behavior.declaration_occurrence(declared)
         wants_own = params.context.include_declaration
-        spots = (each for each in behavior.spots_of(declared) if wants_own or each != own)
+        spots = (each for each in behavior.occurrences(declared) if wants_own or each != own)
         return [server.location(behavior, spot) for spot in spots]
 
 
-def _add_edits(server: Server) -> None:
+def _register_edits(server: XabslLanguageServer) -> None:
     @server.feature(lsp.TEXT_DOCUMENT_RENAME)
     def rename(params: lsp.RenameParams) -> lsp.WorkspaceEdit | None:
-        behavior, declared = _declared(server, params.text_document.uri, params.position)
+        behavior, declared = _definition_at(server, params.text_document.uri, params.position)
         if declared is None:
             return None
         try:
-            return server.edit(behavior, behavior.renamed(declared, params.new_name))
+            return server.workspace_edit(behavior, behavior.rename_edits(declared, params.new_name))
         except RenameError as error:
             server.window_show_message(lsp.ShowMessageParams(type=lsp.MessageType.Error, message=str(error)))
             return None
@@ -191,58 +191,62 @@ def _add_edits(server: Server) -> None:
     @server.feature(lsp.TEXT_DOCUMENT_DOCUMENT_SYMBOL)
     def outline(params: lsp.DocumentSymbolParams) -> list[lsp.DocumentSymbol]:
         path = _path(params.text_document.uri)
-        parsed = server.behavior_of(path).source.files.get(path)
+        parsed = server.find_behavior(path).source.files.get(path)
         return [_outline(parsed.tokens, item) for item in parsed.file.body] if parsed else []
 
     @server.feature(lsp.TEXT_DOCUMENT_FORMATTING)
     def lay_out(params: lsp.DocumentFormattingParams) -> list[lsp.TextEdit] | None:
         path = _path(params.text_document.uri)
-        parsed = server.behavior_of(path).source.files.get(path)
+        parsed = server.find_behavior(path).source.files.get(path)
         if parsed is None or any(each.severity is Severity.ERROR for each in parsed.findings):
             return None
         text = parsed.tokens.text
         return [lsp.TextEdit(range=_range(text, 0, len(text)), new_text=print_file(parsed.file))]
 
 
-def _has_agents(behavior: Behavior) -> bool:
+def _has_agents(behavior: OpenBehavior) -> bool:
     files = behavior.source.files.values()
-    return any(isinstance(item, tree.Agent) for parsed in files for item in parsed.file.body)
+    return any(isinstance(item, tree.AgentNode) for parsed in files for item in parsed.file.body)
 
 
-def _declared(server: Server, uri: str, position: lsp.Position) -> tuple[Behavior, Declared | None]:
-    behavior, path, offset = server.place(uri, position)
-    return behavior, behavior.declared_at(path, offset)
+def _definition_at(
+    server: XabslLanguageServer, uri: str, position: lsp.Position
+) -> tuple[OpenBehavior, Definition | None]:
+    behavior, path, offset = server.resolve_position(uri, position)
+    return behavior, behavior.definition_at(path, offset)
 
 
-def _outline(tokens: Tokens, item: tree.Option | tree.Namespace | tree.Agent) -> lsp.DocumentSymbol:
+def _outline(tokens: Tokens, item: tree.OptionNode | tree.NamespaceNode | tree.AgentNode) -> lsp.DocumentSymbol:
     match item:
-        case tree.Option():
-            inner = [_symbol(tokens, each, each.name, lsp.SymbolKind.Class) for each in item.states]
+        case tree.OptionNode():
+            inner = [_document_symbol(tokens, each, each.name, lsp.SymbolKind.Class) for each in item.states]
             kind = lsp.SymbolKind.Module
-        case tree.Namespace():
-            inner = [_symbol(tokens, each, each.name, _NAMESPACES[type(each)]) for each in item.declarations]
+        case tree.NamespaceNode():
+            inner = [_document_symbol(tokens, each, each.name, _SYMBOL_KINDS[type(each)]) for each in item.declarations]
             kind = lsp.SymbolKind.Namespace
-        case tree.Agent():
+        case tree.AgentNode():
             inner, kind = [], lsp.SymbolKind.Object
-    outer = _symbol(tokens, item, item.name, kind)
+    outer = _document_symbol(tokens, item, item.name, kind)
     outer.children = inner
     return outer
 
 
-def _symbol(tokens: Tokens, node: tree.Node, name: tree.Name, kind: lsp.SymbolKind) -> lsp.DocumentSymbol:
-    text, last = tokens.text, min(max(node.to, name.at), len(tokens.starts) - 1)
+def _document_symbol(
+    tokens: Tokens, node: tree.SyntaxNode, name: tree.NameNode, kind: lsp.SymbolKind
+) -> lsp.DocumentSymbol:
+    text, last = tokens.text, min(max(node.last_token, name.first_token), len(tokens.starts) - 1)
     end = tokens.starts[last] + len(tokens.texts[last])
-    own = _range(text, tokens.starts[name.at], tokens.starts[name.at] + len(name.text))
+    own = _range(text, tokens.starts[name.first_token], tokens.starts[name.first_token] + len(name.text))
     return lsp.DocumentSymbol(
-        name=name.text, kind=kind, range=_range(text, tokens.starts[node.at], end), selection_range=own
+        name=name.text, kind=kind, range=_range(text, tokens.starts[node.first_token], end), selection_range=own
     )
 
 
-def _item(choice: Choice, number: int) -> lsp.CompletionItem:
+def _completion_item(choice: CompletionProposal, number: int) -> lsp.CompletionItem:
     snippet = lsp.InsertTextFormat.Snippet if choice.snippet else lsp.InsertTextFormat.PlainText
     return lsp.CompletionItem(
         label=choice.name,
-        kind=_KINDS.get(choice.kind),
+        kind=_COMPLETION_KINDS.get(choice.kind),
         detail=choice.detail or None,
         documentation=choice.doc or None,
         insert_text=choice.snippet or choice.name,
@@ -253,23 +257,23 @@ def _item(choice: Choice, number: int) -> lsp.CompletionItem:
 
 
 def _diagnostic(finding: Finding, folder: Path, text: str) -> lsp.Diagnostic:
-    place = finding.place
+    place = finding.location
     assert place
     start = _offset(text, lsp.Position(place.line - 1, 0)) + place.column - 1
     related = [
         lsp.DiagnosticRelatedInformation(
             location=lsp.Location(
-                uri=_uri((folder / note.place.file).resolve()),
-                range=_simple_range(note.place.line, note.place.column, note.place.length),
+                uri=_uri((folder / note.location.file).resolve()),
+                range=_simple_range(note.location.line, note.location.column, note.location.length),
             ),
             message=note.message,
         )
         for note in finding.notes
-        if note.place
+        if note.location
     ]
     return lsp.Diagnostic(
         range=_range(text, start, start + place.length),
-        message=finding.message + (f"; {finding.mend}" if finding.mend else ""),
+        message=finding.message + (f"; {finding.fix}" if finding.fix else ""),
         severity=_SEVERITIES[finding.severity],
         code=finding.rule.code,
         source="vicode",

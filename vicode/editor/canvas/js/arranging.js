@@ -1,10 +1,10 @@
 // Where boxes go when they are lined up, spread out, or put down where there is room. Pure functions.
-import { bounds, grow, overlaps, rectAround, rectOf, snap } from "./geometry.js";
+import { bounds, grow, overlaps, rectAround, nodeRect, snap } from "./geometry.js";
 
 const NEW_STATE = { w: 120, h: 60 };
 const STEP = { x: 180, y: 120 };
 const GAP = 20;
-const MOST_TRIES = 400;
+const MAX_TRIES = 400;
 
 const SIDES = {
   left: (box, all) => ({ x: all.x + box.w / 2 }),
@@ -17,7 +17,7 @@ const SIDES = {
 
 /** New centres by key for boxes lined up at one side of the frame around them; `how` is "align-left" and so on. */
 export function align(boxes, how) {
-  const all = bounds(boxes.map(rectOf));
+  const all = bounds(boxes.map(nodeRect));
   const place = SIDES[how.replace("align-", "")];
   return new Map(boxes.map((box) => [box.key, whole({ x: box.x, y: box.y, ...place(box, all) })]));
 }
@@ -40,8 +40,8 @@ export function distribute(boxes, how) {
 }
 
 /** The nearest place to (x, y), to the right and then below, where a new state covers no box. */
-export function freeSpot(scene, x, y) {
-  for (let ring = 0, tries = 0; tries < MOST_TRIES; ring += 1) {
+export function findFreePosition(scene, x, y) {
+  for (let ring = 0, tries = 0; tries < MAX_TRIES; ring += 1) {
     for (let column = 0; column <= ring; column += 1, tries += 1) {
       const at = { x: snap(x + column * STEP.x), y: snap(y + (ring - column) * STEP.y) };
       if (isFree(scene, at)) return at;
@@ -52,7 +52,7 @@ export function freeSpot(scene, x, y) {
 
 function isFree(scene, { x, y }) {
   const room = grow(rectAround(x, y, NEW_STATE.w, NEW_STATE.h), GAP);
-  return ![...scene.nodeGrid.query(room)].some((key) => overlaps(rectOf(scene.nodes.get(key)), room));
+  return ![...scene.nodeGrid.query(room)].some((key) => overlaps(nodeRect(scene.nodes.get(key)), room));
 }
 
 const whole = ({ x, y }) => ({ x: Math.round(x), y: Math.round(y) });

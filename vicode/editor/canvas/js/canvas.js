@@ -1,33 +1,33 @@
 // The canvas itself: puts the parts together, and is what Python's methods reach.
 import { Clipboard } from "./clipboard.js";
 import { Commands } from "./commands.js";
-import { bounds, rectOf } from "./geometry.js";
-import { Frame } from "./frame.js";
-import { Gestures } from "./gestures.js";
+import { bounds, nodeRect } from "./geometry.js";
+import { FrameScheduler } from "./frame.js";
+import { PointerGestures } from "./gestures.js";
 import { Handles } from "./handles.js";
 import { Keyboard } from "./keyboard.js";
-import { Levels } from "./levels.js";
+import { LevelOfDetail } from "./levels.js";
 import { Menu } from "./menu.js";
-import { arrive, remember } from "./memory.js";
+import { restoreView, saveView } from "./memory.js";
 import { Minimap } from "./minimap.js";
-import { Nudging } from "./nudging.js";
+import { Nudge } from "./nudging.js";
 import { Painter } from "./painter.js";
-import { Peek } from "./peek.js";
-import { People } from "./people.js";
-import { Preview } from "./preview.js";
-import { Rename } from "./rename.js";
+import { Tooltip } from "./peek.js";
+import { PresenceLayer } from "./people.js";
+import { LayoutPreview } from "./preview.js";
+import { InlineRename } from "./rename.js";
 import { Router } from "./routing.js";
 import { keyOf, Scene } from "./scene.js";
 import { Selection } from "./selection.js";
 import { html } from "./svg.js";
-import { awaitFonts, whenFontsCome } from "./text.js";
+import { awaitFonts, onFontsLoaded } from "./text.js";
 import { Theme } from "./theme.js";
 import { Toolbar } from "./toolbar.js";
 import { Viewport } from "./viewport.js";
 
 const DOT_GAP = 20;
 const DIM_MS = 120;
-const TELL_MS = 3000;
+const TOAST_MS = 3000;
 
 const sheet = new CSSStyleSheet();
 const [look] = await Promise.all([fetch(new URL("./canvas.css", import.meta.url)), awaitFonts()]);
@@ -42,15 +42,15 @@ class Canvas {
     this.emit = emit;
     this.table = table;
     this.activeSeq = -1;
-    this.told = 0;
+    this.clientSeq = 0;
     this.fitPending = true;
-    this.frame = new Frame();
+    this.frame = new FrameScheduler();
     this.scene = new Scene();
     this.router = new Router(this.scene);
     this.painter = new Painter(this.scene, this.router);
     this.#build();
     this.#wire();
-    host.vicode = this.#testing();
+    host.vicode = this.#testApi();
   }
 
   load(view) {
@@ -60,29 +60,29 @@ class Canvas {
     this.painter.clear();
     this.router.clear();
     this.scene.load(view);
-    this.nudging.forget();
+    this.nudge.reset();
     this.theme.set(view.theme);
     this.fitPending = this.fitPending || !same;
     this.selection.keys = new Set();
     this.selection.set(kept, { quiet: true });
-    this.painter.mark("stop", this.stops ?? []);
-    if (this.fitPending && this.viewport.measure()) arrive(this);
+    this.painter.mark("breakpoint", this.breakpoints ?? []);
+    if (this.fitPending && this.viewport.measure()) restoreView(this);
     this.#sceneChanged();
     this.host.dataset.ready = "true";
   }
 
   apply(changes) {
     const change = this.scene.apply(changes);
-    this.nudging.hear();
+    this.nudge.reconcile();
     this.painter.refresh(change);
     if (this.selection.prune()) this.painter.mark("selected", this.selection.keys);
     this.gestures.sceneChanged();
     this.#sceneChanged();
   }
 
-  /** What Python wishes to be selected; it is too late when the hand selected anew before Python `heard` of it. */
-  select(items, heard = this.told) {
-    if (heard !== this.told) return;
+  /** What Python wishes to be selected; it is too late when the hand selected anew before Python had heard of `seq`. */
+  select(items, seq = this.clientSeq) {
+    if (seq !== this.clientSeq) return;
     this.selection.set(items.map(({ of, id }) => keyOf(of, id)), { quiet: true });
   }
 
@@ -94,8 +94,8 @@ class Canvas {
   }
 
   /** Brings a thing into view as the page opens; the view of a page that was left and is come back to stays. */
-  arriveAt(of, id) {
-    return this.recalled ? this.reveal(keyOf(of, id)) : this.centre(of, id);
+  scrollToInitial(of, id) {
+    return this.restoredView ? this.reveal(keyOf(of, id)) : this.centre(of, id);
   }
 
   fit() {
@@ -114,33 +114,33 @@ class Canvas {
       const edge = this.scene.edges.get(key);
       return edge ? [edge.source, edge.target] : [key];
     });
-    const extent = bounds(keys.map((key) => this.scene.nodes.get(key)).filter(Boolean).map(rectOf));
+    const extent = bounds(keys.map((key) => this.scene.nodes.get(key)).filter(Boolean).map(nodeRect));
     if (extent && this.viewport.measure()) this.viewport.fit(extent);
   }
 
   /** Highlights the states a running component is in; an older picture never replaces a newer one. */
-  setActive(ids, seq, taken = []) {
+  highlightActive(ids, seq, taken = []) {
     if (seq <= this.activeSeq) return;
     this.activeSeq = seq;
-    this.frame.ask("active", () => {
+    this.frame.schedule("active", () => {
       this.painter.mark("active", ids.map((id) => keyOf("states", id)));
       this.painter.mark("taken", taken.map((id) => keyOf("transitions", id)));
-      if (this.far) this.cull();
+      if (this.isOverview) this.cull();
       this.emit("ack", { seq: this.activeSeq });
     });
   }
 
   /** Shows signs at the things where a run is to rest. */
-  setStops(items) {
-    this.stops = items.map(({ of, id }) => keyOf(of, id));
-    this.painter.mark("stop", this.stops);
+  setBreakpoints(items) {
+    this.breakpoints = items.map(({ of, id }) => keyOf(of, id));
+    this.painter.mark("breakpoint", this.breakpoints);
   }
 
   showLinks(flag) {
     if (this.scene.linksShown === flag) return;
     this.scene.linksShown = flag;
     this.router.clear();
-    this.painter.refresh({ touched: [...this.scene.edges.keys()], gone: [], near: [...this.scene.nodes.keys()] });
+    this.painter.refresh({ touched: [...this.scene.edges.keys()], gone: [], affectedNodes: [...this.scene.nodes.keys()] });
     this.#sceneChanged();
   }
 
@@ -152,29 +152,29 @@ class Canvas {
     this.frame.stop();
     this.keyboard.dispose();
     this.clipboard.dispose();
-    this.people.dispose();
+    this.presence.dispose();
     this.sizes.disconnect();
     this.theme.dispose();
   }
 
   /** Shows other places, given as `{of, id, x, y}`, without taking them; none ends it. `stay`: the view stays too. */
-  showPlaces(items, stay) {
+  showPreview(items, stay) {
     if (items.length) this.preview.show(items.map(({ of, id, x, y }) => ({ key: keyOf(of, id), x, y })));
     else this.preview.clear({ stay });
   }
 
   /** Sends one gesture to Python. */
   report(kind, payload) {
-    if (kind !== "move") this.nudging.forget();
+    if (kind !== "move") this.nudge.reset();
     this.emit("gesture", { kind, ...payload, rev: this.scene.rev });
   }
 
   /** Moves boxes by a command; `how` says by which, for the name of the edit. */
-  moveTo(places, how) {
+  moveNodes(places, how) {
     const keys = [...places.keys()];
-    const rects = keys.map((key) => rectOf(this.scene.nodes.get(key)));
+    const rects = keys.map((key) => nodeRect(this.scene.nodes.get(key)));
     for (const [key, { x, y }] of places) this.scene.move(key, x, y);
-    this.painter.follow(keys);
+    this.painter.updateNodes(keys);
     this.reportMove(keys, rects, how);
     this.afterGesture();
   }
@@ -183,74 +183,74 @@ class Canvas {
   reportMove(keys, oldRects, how = "drag") {
     const nodes = keys.map((key) => this.scene.nodes.get(key));
     this.scene.reindex(keys);
-    this.painter.tidy([...oldRects, ...nodes.map(rectOf)]);
-    this.painter.covered = null;
+    this.painter.refineRoutes([...oldRects, ...nodes.map(nodeRect)]);
+    this.painter.mountedRect = null;
     this.report("move", { items: nodes.map(({ of, id, x, y }) => ({ of, id, x, y })), how });
     this.#sceneChanged();
   }
 
   /** Boxes stand elsewhere for some other reason than a hand. */
-  placesChanged(keys) {
+  positionsChanged(keys) {
     this.scene.reindex(keys);
     this.router.clear();
-    this.painter.placeAnew();
-    this.painter.covered = null;
+    this.painter.repositionAll();
+    this.painter.mountedRect = null;
     this.#sceneChanged();
   }
 
   afterGesture() {
-    this.painter.tidy();
+    this.painter.refineRoutes();
     this.handles.refresh();
-    this.levels.cullSoon();
+    this.levelOfDetail.scheduleCull();
   }
 
   hoverChanged() {
-    this.peek.want(this.selection.hovered);
+    this.tooltip.request(this.selection.hovered);
     this.handles.refresh();
-    if (this.far) this.levels.cullSoon();
+    if (this.isOverview) this.levelOfDetail.scheduleCull();
   }
 
   /** The selection changed, by Python's wish (`quiet`) or by hand. */
   selectionChanged(quiet) {
     this.handles.refresh();
-    if (!quiet) this.report("select", { items: this.selection.items(), told: ++this.told });
-    this.levels.selectionChanged();
+    if (!quiet) this.report("select", { items: this.selection.items(), client_seq: ++this.clientSeq });
+    this.levelOfDetail.selectionChanged();
   }
 
   /** Brings the mounted part up to what is seen. */
   cull() {
-    this.levels.cull();
+    this.levelOfDetail.cull();
   }
 
   /** Whether all is seen as a bitmap. */
-  get far() {
-    return this.levels.far;
+  get isOverview() {
+    return this.levelOfDetail.far;
   }
 
   /** Brings a thing into sight, and near enough to be read. */
   reveal(key) {
     const thing = this.scene.find(key);
     if (!thing) return;
-    if (this.far) this.centre(thing.of, thing.id);
-    else if (this.scene.nodes.has(key)) this.viewport.reveal(rectOf(thing));
+    if (this.isOverview) this.centre(thing.of, thing.id);
+    else if (this.scene.nodes.has(key)) this.viewport.reveal(nodeRect(thing));
     else if (this.scene.isDrawable(thing)) this.viewport.reveal({ ...this.router.route(thing).at, w: 0, h: 0 });
     this.frame.flush();
     this.cull();
   }
 
   /** What is lit changed: the rest steps back once the hand rests. */
-  dimSoon() {
-    this.frame.afterRest("dim", DIM_MS, () => (this.gestures.isDragging() ? this.dimSoon() : this.painter.dim()));
+  scheduleDim() {
+    this.frame.debounce("dim", DIM_MS, () => (this.gestures.isDragging() ? this.scheduleDim() : this.painter.dim()));
   }
 
-  say(text) {
+  showMessage(text) {
     this.message.textContent = text;
   }
 
   /** Words that go by themselves. */
-  tell(text) {
-    this.say(text);
-    this.frame.afterRest("tell", TELL_MS, () => this.message.textContent === text && this.say(""));
+  showToast(text) {
+    this.showMessage(text);
+    this.frame.debounce("tell", TOAST_MS, () => this.message.textContent === text && this.showMessage(""));
   }
 
   drawableEdges() {
@@ -267,49 +267,49 @@ class Canvas {
     this.minimap = new Minimap(this.scene, this.viewport, colours);
     // What is painted last is heard first.
     const heard = { role: "group", "aria-label": "Drawing", "aria-owns": "nodes edges links" };
-    this.levels = new Levels(this, html("div", { class: "plane", ...heard }, this.painter.sheets), colours);
+    this.levelOfDetail = new LevelOfDetail(this, html("div", { class: "plane", ...heard }, this.painter.svgRoots), colours);
     this.theme = new Theme(this.stage, () => this.#coloursChanged());
     this.toolbar = new Toolbar(this);
     this.selection = new Selection(this);
-    this.gestures = new Gestures(this);
+    this.gestures = new PointerGestures(this);
     this.handles = new Handles(this);
     this.clipboard = new Clipboard(this);
     this.commands = new Commands(this, this.table);
     this.menu = new Menu(this);
-    this.rename = new Rename(this);
-    this.preview = new Preview(this);
-    this.peek = new Peek(this);
-    this.people = new People(this);
+    this.rename = new InlineRename(this);
+    this.preview = new LayoutPreview(this);
+    this.tooltip = new Tooltip(this);
+    this.presence = new PresenceLayer(this);
     this.dots = html("div", { class: "dots" });
     // Always there, as what only comes with its words is not read aloud by all screen readers.
     this.message = html("div", { class: "message", role: "status" });
     this.empty = html("div", { class: "empty", hidden: true, text: "No states yet.\nDouble click, or press S, to add the first." });
     const corner = html("div", { class: "corner" }, [this.minimap.element, this.toolbar.element]);
-    const above = [this.empty, this.message, this.rename.input, corner, this.peek.element, this.menu.element];
-    this.stage.append(this.dots, ...this.levels.elements, ...this.people.elements, ...above);
+    const above = [this.empty, this.message, this.rename.input, corner, this.tooltip.element, this.menu.element];
+    this.stage.append(this.dots, ...this.levelOfDetail.elements, ...this.presence.elements, ...above);
     this.keyboard = new Keyboard(this);
-    this.nudging = new Nudging(this);
+    this.nudge = new Nudge(this);
   }
 
   #wire() {
     this.viewport.onChange = () => this.#viewChanged();
-    this.viewport.onRest = () => this.#viewRests();
+    this.viewport.onIdle = () => this.#viewIdle();
     this.sizes = new ResizeObserver(() => this.#resized());
     this.sizes.observe(this.stage);
-    whenFontsCome(() => this.#fontsCame());
+    onFontsLoaded(() => this.#fontsLoaded());
   }
 
-  #fontsCame() {
+  #fontsLoaded() {
     this.scene.remeasure();
     this.router.clear();
-    this.painter.refresh({ touched: [...this.painter.items.keys()], gone: [], near: [] });
+    this.painter.refresh({ touched: [...this.painter.items.keys()], gone: [], affectedNodes: [] });
     this.#sceneChanged();
   }
 
   #resized() {
     if (!this.viewport.measure()) return;
     const isUntouched = ["x", "y", "k"].every((name) => this.fitted?.[name] === this.viewport[name]);
-    if (this.fitPending && this.scene.nodes.size) arrive(this);
+    if (this.fitPending && this.scene.nodes.size) restoreView(this);
     else if (isUntouched) this.fit();
     this.viewport.set({});
   }
@@ -318,15 +318,15 @@ class Canvas {
     const { x, y, k } = this.viewport;
     this.#placeDots(x, y, k);
     this.toolbar.show(k);
-    this.minimap.follow();
-    this.rename.follow();
-    this.people.follow();
-    this.levels.follow();
+    this.minimap.viewChanged();
+    this.rename.viewChanged();
+    this.presence.viewChanged();
+    this.levelOfDetail.viewChanged();
   }
 
-  #viewRests() {
-    remember(this.scene.component, this.viewport);
-    this.levels.rest();
+  #viewIdle() {
+    saveView(this.scene.component, this.viewport);
+    this.levelOfDetail.viewIdle();
     this.handles.refresh();
   }
 
@@ -341,10 +341,10 @@ class Canvas {
   }
 
   #coloursChanged() {
-    this.levels.coloursChanged();
-    this.frame?.ask("colours", () => {
+    this.levelOfDetail.coloursChanged();
+    this.frame?.schedule("colours", () => {
       this.minimap.draw();
-      this.levels.redrawSoon();
+      this.levelOfDetail.scheduleRedraw();
     });
   }
 
@@ -352,22 +352,22 @@ class Canvas {
     this.host.dataset.rev = String(this.scene.rev);
     this.empty.hidden = [...this.scene.nodes.values()].some((node) => node.of === "states");
     this.stage.setAttribute("aria-label", `State machine ${this.scene.component}`);
-    this.levels.sceneChanged();
-    this.frame.ask("minimap", () => this.minimap.draw());
-    this.frame.ask("scene", () => {
+    this.levelOfDetail.sceneChanged();
+    this.frame.schedule("minimap", () => this.minimap.draw());
+    this.frame.schedule("scene", () => {
       this.cull();
       this.handles.refresh();
-      this.rename.follow();
-      this.people.draw();
+      this.rename.viewChanged();
+      this.presence.draw();
     });
   }
 
-  #testing() {
+  #testApi() {
     const place = ({ x, y, w, h }) => ({ x, y, w, h });
     return {
       positions: () => Object.fromEntries([...this.scene.nodes.values()].map((node) => [`${node.of}/${node.id}`, place(node)])),
       selection: () => this.selection.items(),
-      view: () => ({ x: this.viewport.x, y: this.viewport.y, k: this.viewport.k, far: this.far, resting: this.viewport.resting }),
+      view: () => ({ x: this.viewport.x, y: this.viewport.y, k: this.viewport.k, far: this.isOverview, resting: this.viewport.isIdle }),
       setView: (view) => this.viewport.set(view),
       screen: (of, id) => {
         const thing = this.scene.find(keyOf(of, id));

@@ -1,8 +1,8 @@
 // What the canvas can do by name. Names, words and keys come from Python's table; here is only what happens.
-import { align, distribute, freeSpot } from "./arranging.js";
+import { align, distribute, findFreePosition } from "./arranging.js";
 import { SNAP } from "./geometry.js";
 import { nudgeLabel } from "./label_moves.js";
-import { nearest, walkOf } from "./walking.js";
+import { nearestInDirection, tabOrder } from "./walking.js";
 
 const ARROWS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
 const PAN = 60;
@@ -10,27 +10,27 @@ const PAN = 60;
 export class Commands {
   constructor(canvas, table) {
     this.canvas = canvas;
-    this.jobs = { ...makingJobs(canvas), ...changingJobs(canvas), ...editingJobs(canvas), ...arrangingJobs(canvas), ...seeingJobs(canvas), ...walkingJobs(canvas) };
-    this.table = table.filter(({ name }) => name in this.jobs);
+    this.handlers = { ...createHandlers(canvas), ...modifyHandlers(canvas), ...editHandlers(canvas), ...arrangeHandlers(canvas), ...viewHandlers(canvas), ...navigationHandlers(canvas) };
+    this.table = table.filter(({ name }) => name in this.handlers);
   }
 
   /** Runs what the keys mean just now; false when they mean nothing here. */
-  runKeys(chord) {
+  runShortcut(chord) {
     const command = this.table.find(({ name, keys }) => keys.includes(chord) && this.can(name));
     return command ? this.run(command.name, chord) : false;
   }
 
   run(name, chord = "") {
-    if (!(name in this.jobs) || !this.can(name)) return false;
-    return this.jobs[name].run(chord) !== false;
+    if (!(name in this.handlers) || !this.can(name)) return false;
+    return this.handlers[name].run(chord) !== false;
   }
 
   can(name) {
-    return this.jobs[name].can?.() ?? true;
+    return this.handlers[name].can?.() ?? true;
   }
 
   /** The entries of the menu for what is selected. */
-  offered() {
+  menuEntries() {
     const { selection, scene } = this.canvas;
     const single = selection.single();
     const kind = single ? scene.find(single).of : selection.keys.size ? "several" : "nothing";
@@ -38,20 +38,20 @@ export class Commands {
   }
 }
 
-function makingJobs(canvas) {
+function createHandlers(canvas) {
   const { selection, scene, gestures } = canvas;
   const node = () => scene.nodes.get(selection.single());
   const leaves = () => ["states", "common"].includes(node()?.of);
   return {
-    "new-state": { run: () => canvas.report("create", gestures.spot()) },
-    use: { run: () => canvas.report("use", { address: null, ...gestures.spot() }) },
-    "new-next": { can: leaves, run: () => canvas.report("connect", { source: node().id, target: null, ...beside(scene, node()) }) },
+    "new-state": { run: () => canvas.report("create", gestures.freePosition()) },
+    use: { run: () => canvas.report("use", { address: null, ...gestures.freePosition() }) },
+    "new-target": { can: leaves, run: () => canvas.report("connect", { source: node().id, target: null, ...beside(scene, node()) }) },
     connect: { can: () => Boolean(node()), run: () => gestures.connectFrom(selection.single()) },
-    finish: { can: () => Boolean(gestures.tool), run: () => gestures.finishTool() },
+    "finish-connection": { can: () => Boolean(gestures.connectMode), run: () => gestures.finishConnect() },
   };
 }
 
-function changingJobs(canvas) {
+function modifyHandlers(canvas) {
   const { selection, scene, gestures } = canvas;
   const single = () => scene.find(selection.single());
   const is = (...kinds) => () => kinds.includes(single()?.of);
@@ -68,13 +68,13 @@ function changingJobs(canvas) {
     disable: { can: () => selection.keys.size > 0, run: () => canvas.report("disable", { items: selection.items() }) },
     "reconnect-target": { can: is("transitions"), run: () => gestures.reconnect(selection.single(), "target") },
     "reconnect-source": { can: is("transitions"), run: () => gestures.reconnect(selection.single(), "source") },
-    earlier: { can: is("transitions"), run: () => reorder(-1) },
-    later: { can: is("transitions"), run: () => reorder(1) },
-    "free-label": { can: () => Boolean(single()?.data.label_at), run: () => canvas.report("label", { id: single().id, at: null }) },
+    "move-up": { can: is("transitions"), run: () => reorder(-1) },
+    "move-down": { can: is("transitions"), run: () => reorder(1) },
+    "reset-label": { can: () => Boolean(single()?.data.label_at), run: () => canvas.report("label", { id: single().id, at: null }) },
   };
 }
 
-function editingJobs(canvas) {
+function editHandlers(canvas) {
   const { selection, scene } = canvas;
   const some = () => selection.keys.size > 0;
   return {
@@ -90,12 +90,12 @@ function editingJobs(canvas) {
   };
 }
 
-function arrangingJobs(canvas) {
+function arrangeHandlers(canvas) {
   const { selection, scene } = canvas;
   const boxes = () => selection.nodes().map((key) => scene.nodes.get(key));
   const arranging = (least, work, how) => ({
     can: () => selection.nodes().length >= least,
-    run: () => canvas.moveTo(work(boxes(), how), how),
+    run: () => canvas.moveNodes(work(boxes(), how), how),
   });
   return {
     ...Object.fromEntries(["left", "centre", "right", "top", "middle", "bottom"].map((side) => [`align-${side}`, arranging(2, align, `align-${side}`)])),
@@ -106,13 +106,13 @@ function arrangingJobs(canvas) {
   };
 }
 
-function seeingJobs(canvas) {
+function viewHandlers(canvas) {
   const { viewport, selection } = canvas;
   const centre = () => viewport.middle();
   return {
     fit: { run: () => canvas.fit() },
     "zoom-selection": { can: () => selection.keys.size > 0, run: () => canvas.zoomToSelection() },
-    "life-size": { run: () => viewport.centreOn(centre().x, centre().y, 1) },
+    "actual-size": { run: () => viewport.centreOn(centre().x, centre().y, 1) },
     "zoom-in": { run: () => viewport.zoomBy(1.25) },
     "zoom-out": { run: () => viewport.zoomBy(0.8) },
     links: { run: () => canvas.report("command", { name: "links" }) },
@@ -123,38 +123,38 @@ function seeingJobs(canvas) {
   };
 }
 
-function walkingJobs(canvas) {
+function navigationHandlers(canvas) {
   const { gestures, selection } = canvas;
   const cancel = () => {
     if (!gestures.cancel()) selection.set([]);
   };
   return {
-    next: { run: () => walk(canvas, 1) },
-    previous: { run: () => walk(canvas, -1) },
-    go: { run: (chord) => go(canvas, directionOf(chord), false) },
-    reach: { run: (chord) => go(canvas, directionOf(chord), true) },
+    next: { run: () => selectInTabOrder(canvas, 1) },
+    previous: { run: () => selectInTabOrder(canvas, -1) },
+    "select-nearest": { run: (chord) => selectNearest(canvas, directionOf(chord), false) },
+    "add-nearest": { run: (chord) => selectNearest(canvas, directionOf(chord), true) },
     cancel: { run: cancel },
   };
 }
 
 const directionOf = (chord) => ARROWS[chord.split("+").at(-1)];
 
-const beside = (scene, node) => freeSpot(scene, node.x + node.w / 2 + 140, node.y);
+const beside = (scene, node) => findFreePosition(scene, node.x + node.w / 2 + 140, node.y);
 
 function nudge(canvas, boxes, [dx, dy], by) {
   const { gestures, scene, selection, viewport } = canvas;
-  if (gestures.tool) return gestures.tool.go([dx, dy]);
+  if (gestures.connectMode) return gestures.connectMode.aimInDirection([dx, dy]);
   const edge = scene.edges.get(selection.single());
   if (edge?.of === "transitions" && scene.isDrawable(edge)) return nudgeLabel(canvas, edge, dx * by, dy * by);
   if (!boxes.length) return viewport.panBy(-dx * PAN, -dy * PAN);
-  canvas.moveTo(canvas.nudging.step(boxes, dx * by, dy * by), "nudge");
+  canvas.moveNodes(canvas.nudge.step(boxes, dx * by, dy * by), "nudge");
 }
 
 /** Tab goes through the things in the order of the design; past the last it leaves the canvas. */
-function walk(canvas, step) {
+function selectInTabOrder(canvas, step) {
   const { gestures, scene, selection, painter } = canvas;
-  if (gestures.tool) return gestures.tool.step(step);
-  const things = walkOf(scene);
+  if (gestures.connectMode) return gestures.connectMode.aimNext(step);
+  const things = tabOrder(scene);
   const at = things.indexOf(selection.single());
   const next = at < 0 && step < 0 ? undefined : things[at + step];
   if (!next) return false;
@@ -164,10 +164,10 @@ function walk(canvas, step) {
 }
 
 /** To the nearest box in a direction: from the box that was selected last, else from the middle of the view. */
-function go(canvas, direction, keep) {
+function selectNearest(canvas, direction, keep) {
   const { scene, selection, painter, viewport } = canvas;
   const from = scene.nodes.get(selection.nodes().at(-1)) ?? viewport.middle();
-  const next = nearest([...scene.nodes.values()], from, direction);
+  const next = nearestInDirection([...scene.nodes.values()], from, direction);
   if (!next) return;
   const kept = keep ? [...selection.keys].filter((key) => key !== next.key) : [];
   selection.set([...kept, next.key]);

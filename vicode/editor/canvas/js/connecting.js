@@ -1,13 +1,13 @@
 // Drawing a new edge from a node, or taking an end of a transition elsewhere, with a preview under the pointer.
 import { headOf, pathOf } from "./edge_art.js";
-import { exitPoint, raise, rectAround, snap } from "./geometry.js";
+import { exitPoint, quadraticToCubic, rectAround, snap } from "./geometry.js";
 import { svg } from "./svg.js";
 
 // A release this near to the box it came from is a slip of the hand, not a wish for a new state.
 const SLIP = 40;
 const NEW_STATE = { w: 120, h: 60 };
 
-export class Connect {
+export class ConnectDrag {
   scrolls = true;
 
   constructor(canvas, source) {
@@ -16,18 +16,18 @@ export class Connect {
   }
 
   begin() {
-    this.preview = new Preview(this.canvas, { line: true, box: this.#from()?.of !== "components" });
+    this.preview = new ConnectionPreview(this.canvas, { line: true, box: this.#from()?.of !== "components" });
   }
 
   move({ world }) {
     this.world = world;
     const target = this.#targetAt(world);
     this.canvas.painter.mark("drop", target ? [target.key] : []);
-    this.preview.show(this.#from(), target ?? { ...world }, !target && !this.#isSlip(world));
+    this.preview.show(this.#from(), target ?? { ...world }, !target && !this.#isAccidental(world));
   }
 
   /** The nodes that may be at the other end. */
-  fits(node) {
+  accepts(node) {
     const source = this.#from();
     return Boolean(source) && canJoin(source, node);
   }
@@ -36,8 +36,8 @@ export class Connect {
     const target = this.world && this.#targetAt(this.world);
     const world = this.world;
     this.cancel();
-    if (target) this.joinTo(target);
-    else if (world && !this.#isSlip(world)) this.#connectToNew(world);
+    if (target) this.connectTo(target);
+    else if (world && !this.#isAccidental(world)) this.#connectToNew(world);
   }
 
   cancel() {
@@ -50,7 +50,7 @@ export class Connect {
   }
 
   /** Reports what joining these two means: a transition or a link. */
-  joinTo(target) {
+  connectTo(target) {
     const source = this.#from();
     if (!source || !canJoin(source, target)) return;
     if (source.of !== "components" && target.of === "states") {
@@ -75,10 +75,10 @@ export class Connect {
 
   #targetAt(world) {
     const target = this.canvas.scene.nodeAt(world.x, world.y, 6);
-    return target && this.fits(target) ? target : null;
+    return target && this.accepts(target) ? target : null;
   }
 
-  #isSlip(world) {
+  #isAccidental(world) {
     const from = this.#from();
     if (!from) return true;
     const slip = SLIP / Math.min(1, this.canvas.viewport.k);
@@ -86,17 +86,17 @@ export class Connect {
   }
 }
 
-export class Reconnect {
+export class ReconnectDrag {
   scrolls = true;
 
   constructor(canvas, key, end) {
     this.canvas = canvas;
     this.key = key;
-    this.end_ = end;
+    this.whichEnd = end;
   }
 
   begin() {
-    this.preview = new Preview(this.canvas, { line: true, box: false });
+    this.preview = new ConnectionPreview(this.canvas, { line: true, box: false });
   }
 
   move({ world }) {
@@ -105,26 +105,26 @@ export class Reconnect {
     this.world = world;
     const target = this.#targetAt(world);
     this.canvas.painter.mark("drop", target ? [target.key] : []);
-    const fixed = this.canvas.scene.nodes.get(this.end_ === "source" ? edge.target : edge.source);
+    const fixed = this.canvas.scene.nodes.get(this.whichEnd === "source" ? edge.target : edge.source);
     const free = target ?? { ...world };
-    if (this.end_ === "source") this.preview.show(free, fixed, false);
+    if (this.whichEnd === "source") this.preview.show(free, fixed, false);
     else this.preview.show(fixed, free, false);
   }
 
-  fits(node) {
-    return node.of === "states" || (node.of === "common" && this.end_ === "source");
+  accepts(node) {
+    return node.of === "states" || (node.of === "common" && this.whichEnd === "source");
   }
 
   end() {
     const target = this.world && this.#targetAt(this.world);
     this.cancel();
-    if (target) this.joinTo(target);
+    if (target) this.connectTo(target);
   }
 
-  joinTo(target) {
+  connectTo(target) {
     const edge = this.#edge();
-    if (!edge || edge[this.end_] === target.key) return;
-    this.canvas.report("reconnect", { id: edge.id, end: this.end_, state: target.id });
+    if (!edge || edge[this.whichEnd] === target.key) return;
+    this.canvas.report("reconnect", { id: edge.id, end: this.whichEnd, state: target.id });
   }
 
   cancel() {
@@ -142,7 +142,7 @@ export class Reconnect {
 
   #targetAt(world) {
     const node = this.canvas.scene.nodeAt(world.x, world.y, 6);
-    return node && this.fits(node) ? node : null;
+    return node && this.accepts(node) ? node : null;
   }
 }
 
@@ -150,7 +150,7 @@ const canJoin = (source, target) =>
   target.of === "states" || (source.of === "states" && target.of === "components");
 
 /** The dashed curve that follows the pointer, and the outline of the state that would be made. */
-class Preview {
+class ConnectionPreview {
   constructor(canvas, { box }) {
     this.canvas = canvas;
     this.line = svg("path", { class: "preview" });
@@ -186,7 +186,7 @@ class Preview {
 function straight(from, to) {
   const leave = from.w ? exitPoint(from, to.x, to.y) : from;
   const arrive = to.w ? exitPoint(to, from.x, from.y) : to;
-  return raise(leave, { x: (leave.x + arrive.x) / 2, y: (leave.y + arrive.y) / 2 }, arrive);
+  return quadraticToCubic(leave, { x: (leave.x + arrive.x) / 2, y: (leave.y + arrive.y) / 2 }, arrive);
 }
 
 const loopOver = ({ x, y, h }) => [x - 16, y - h / 2, x - 34, y - h / 2 - 56, x + 34, y - h / 2 - 56, x + 16, y - h / 2];

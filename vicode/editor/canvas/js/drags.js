@@ -1,12 +1,12 @@
 // What a held pointer can do to the view and to boxes: pan, select by a frame, move. Each can be called off.
-import { bounds, overlaps, pointAt, rectBetween, rectOf, snap } from "./geometry.js";
+import { bounds, overlaps, pointOnCurve, rectBetween, nodeRect, snap } from "./geometry.js";
 import { Guides } from "./guides.js";
 import { svg } from "./svg.js";
 
 // More boxes than this are moved as one outline; drawing each of them would stutter.
-const MOST_LIFTED = 120;
+const MAX_LIVE_NODES = 120;
 
-export class Pan {
+export class PanDrag {
   constructor(canvas) {
     this.canvas = canvas;
     this.last = null;
@@ -31,7 +31,7 @@ export class Pan {
   }
 }
 
-export class Marquee {
+export class MarqueeDrag {
   scrolls = true;
 
   constructor(canvas, added) {
@@ -64,18 +64,18 @@ export class Marquee {
   /** Boxes that the frame touches, and edges whose middle lies in it when no box does. */
   #inside(area) {
     const { scene, router } = this.canvas;
-    const nodes = [...scene.nodeGrid.query(area)].filter((key) => overlaps(rectOf(scene.nodes.get(key)), area));
+    const nodes = [...scene.nodeGrid.query(area)].filter((key) => overlaps(nodeRect(scene.nodes.get(key)), area));
     const edges = [...scene.edgeGrid.query(area)].map((key) => scene.edges.get(key)).filter((edge) => {
       if (!scene.isDrawable(edge)) return false;
       if (nodes.length) return nodes.includes(edge.source) && nodes.includes(edge.target);
-      const middle = pointAt(router.route(edge).curve, 0.5);
+      const middle = pointOnCurve(router.route(edge).curve, 0.5);
       return overlaps({ ...middle, w: 0, h: 0 }, area);
     });
     return [...nodes, ...edges.map((edge) => edge.key)];
   }
 }
 
-export class Move {
+export class MoveDrag {
   scrolls = true;
 
   constructor(canvas, lead) {
@@ -87,10 +87,10 @@ export class Move {
     const { scene, selection } = this.canvas;
     this.from = world;
     this.places = new Map(selection.nodes().map((key) => [key, { x: scene.nodes.get(key).x, y: scene.nodes.get(key).y }]));
-    this.rects = [...this.places.keys()].map((key) => rectOf(scene.nodes.get(key)));
+    this.rects = [...this.places.keys()].map((key) => nodeRect(scene.nodes.get(key)));
     this.frame = bounds(this.rects);
     this.by = { x: 0, y: 0 };
-    if (this.places.size > MOST_LIFTED) return this.#raiseGhost();
+    if (this.places.size > MAX_LIVE_NODES) return this.#raiseGhost();
     this.#lift();
     this.guides = new Guides(this.canvas, this.places);
   }
@@ -99,7 +99,7 @@ export class Move {
     const start = this.places.get(this.lead);
     if (!start) return;
     const by = { x: world.x - this.from.x, y: world.y - this.from.y };
-    const pull = free || !this.guides ? {} : this.guides.pull(shifted(this.frame, by));
+    const pull = free || !this.guides ? {} : this.guides.snapOffsets(shifted(this.frame, by));
     this.by = { x: landing(start.x, by.x, pull.x, free), y: landing(start.y, by.y, pull.y, free) };
     if (free) this.guides?.hide();
     else this.guides?.show(shifted(this.frame, this.by));
@@ -115,7 +115,7 @@ export class Move {
   cancel() {
     this.by = { x: 0, y: 0 };
     this.#release();
-    this.canvas.painter.tidy();
+    this.canvas.painter.refineRoutes();
   }
 
   /** Python changed the scene meanwhile: what is still there keeps following the hand. */
@@ -126,7 +126,7 @@ export class Move {
 
   #put() {
     this.#place();
-    this.canvas.painter.carry([...this.places.keys()], this.by);
+    this.canvas.painter.updateDrag([...this.places.keys()], this.by);
   }
 
   #place() {
@@ -140,7 +140,7 @@ export class Move {
     painter.mark("held", held);
     stage.classList.add("lifting");
     this.canvas.cull();
-    painter.lift(this.places.keys());
+    painter.beginDrag(this.places.keys());
   }
 
   #raiseGhost() {
@@ -152,7 +152,7 @@ export class Move {
   #release() {
     const { painter, stage } = this.canvas;
     this.#place();
-    painter.putDown([...this.places.keys()]);
+    painter.endDrag([...this.places.keys()]);
     painter.mark("held", []);
     stage.classList.remove("lifting");
     this.guides?.close();

@@ -1,7 +1,7 @@
 // Curves with arrow heads and their label chips. A curve and its chip lie in different layers.
-import { badge, findings, kindOf } from "./node_art.js";
+import { badge, findingMessages, kindOf } from "./node_art.js";
 import { BADGE } from "./labels.js";
-import { shift, stand } from "./standing.js";
+import { translateElement, placeGroup } from "./standing.js";
 import { svg } from "./svg.js";
 
 const HEAD = 10;
@@ -29,7 +29,7 @@ export function drawEdge(edge, route, ends) {
 export function placeEdge({ line, chip }, { curve, at }) {
   line.children[0].setAttribute("d", pathOf(curve, { x: curve[6], y: curve[7] }));
   placeLine({ line }, curve);
-  if (chip) stand(chip, round(at.x), round(at.y));
+  if (chip) placeGroup(chip, round(at.x), round(at.y));
 }
 
 /** Places only what is seen of the line. */
@@ -65,7 +65,7 @@ function drawChip(edge, { chip }, names) {
     group.append(svg("rect", { class: "plate bg", x: -w / 2, y: -h / 2, width: w - badgeWidth, height: h, rx: h / 2 }));
     if (chip.order) group.append(svg("text", { class: "order", x, text: chip.text || chip.icon ? `${chip.order} · ` : chip.order }));
     x += orderWidth;
-    if (chip.icon) group.append(shift(svg("path", { class: "icon", d: ICONS[chip.icon] }), x, 0));
+    if (chip.icon) group.append(translateElement(svg("path", { class: "icon", d: ICONS[chip.icon] }), x, 0));
     x += iconWidth;
     if (chip.text) group.append(svg("text", { class: "label", x, text: chip.text }));
   }
@@ -76,18 +76,18 @@ function drawChip(edge, { chip }, names) {
 const styleOf = (edge) => [edge.source === "common" ? "common-edge" : "", edge.data.disabled ? "disabled" : ""].join(" ");
 
 /** The tooltip of an edge: its whole text, as the chip may show only the beginning. */
-export function edgeHint(edge, { source, target }) {
+export function edgeTooltip(edge, { source, target }) {
   const { data } = edge;
   if (edge.of === "links") return data.kind === "requires" ? `${data.state} requires ${data.component}` : `${data.state} modulates ${data.component}`;
   const order = data.of > 1 ? ` (${data.order} of ${data.of})` : "";
-  return [`${source} → ${target}${order}`, data.disabled && "disabled", data.doc || data.label, ...findings(data)].filter(Boolean).join("\n");
+  return [`${source} → ${target}${order}`, data.disabled && "disabled", data.doc || data.label, ...findingMessages(data)].filter(Boolean).join("\n");
 }
 
 function describe(edge, { source, target }) {
   const { data } = edge;
-  if (edge.of === "links") return edgeHint(edge, { source, target });
+  if (edge.of === "links") return edgeTooltip(edge, { source, target });
   const label = data.label ? `: ${data.label}` : "";
-  return [`Transition ${data.order} of ${data.of} from ${source} to ${target}${label}`, ...(data.disabled ? ["disabled"] : []), ...findings(data)].join(", ");
+  return [`Transition ${data.order} of ${data.of} from ${source} to ${target}${label}`, ...(data.disabled ? ["disabled"] : []), ...findingMessages(data)].join(", ");
 }
 
 const round = (value) => Math.round(value * 10) / 10;

@@ -1,12 +1,12 @@
 // Work is done once per frame, and slow work once the hand rests.
 
 /** Runs each named job at most once in the next animation frame. */
-export class Frame {
+export class FrameScheduler {
   #jobs = new Map();
   #request = 0;
   #timers = new Map();
 
-  ask(name, job) {
+  schedule(name, job) {
     this.#jobs.set(name, job);
     if (!this.#request) this.#request = requestAnimationFrame(() => this.flush());
   }
@@ -21,7 +21,7 @@ export class Frame {
   }
 
   /** Runs a named job when it was not asked for again during `delay` milliseconds. */
-  afterRest(name, delay, job) {
+  debounce(name, delay, job) {
     clearTimeout(this.#timers.get(name));
     this.#timers.set(name, setTimeout(job, delay));
   }

@@ -5,7 +5,7 @@ export const HEX_SLANT = 16;
 
 export const snap = (value) => Math.round(value / SNAP) * SNAP;
 
-export const rectOf = (node) => ({ x: node.x - node.w / 2, y: node.y - node.h / 2, w: node.w, h: node.h });
+export const nodeRect = (node) => ({ x: node.x - node.w / 2, y: node.y - node.h / 2, w: node.w, h: node.h });
 
 export const rectAround = (x, y, w, h) => ({ x: x - w / 2, y: y - h / 2, w, h });
 
@@ -20,10 +20,10 @@ export const grow = (rect, by) => ({ x: rect.x - by, y: rect.y - by, w: rect.w +
 
 export const overlaps = (a, b) => a.x < b.x + b.w && b.x < a.x + a.w && a.y < b.y + b.h && b.y < a.y + a.h;
 
-export const holds = (rect, x, y) => x >= rect.x && x <= rect.x + rect.w && y >= rect.y && y <= rect.y + rect.h;
+export const containsPoint = (rect, x, y) => x >= rect.x && x <= rect.x + rect.w && y >= rect.y && y <= rect.y + rect.h;
 
-export const covers = (outer, inner) =>
-  holds(outer, inner.x, inner.y) && holds(outer, inner.x + inner.w, inner.y + inner.h);
+export const containsRect = (outer, inner) =>
+  containsPoint(outer, inner.x, inner.y) && containsPoint(outer, inner.x + inner.w, inner.y + inner.h);
 
 /** The smallest rectangle around all given ones, or null for none. */
 export function bounds(rects) {
@@ -63,7 +63,7 @@ function stretch(value, by, half) {
 }
 
 /** A cubic curve is eight numbers: start, two controls, end. A quadratic one is raised to it. */
-export const raise = (p, c, q) => [
+export const quadraticToCubic = (p, c, q) => [
   p.x,
   p.y,
   p.x + (2 / 3) * (c.x - p.x),
@@ -74,7 +74,7 @@ export const raise = (p, c, q) => [
   q.y,
 ];
 
-export function pointAt(curve, t) {
+export function pointOnCurve(curve, t) {
   const u = 1 - t;
   const a = u * u * u;
   const b = 3 * u * u * t;
@@ -99,24 +99,24 @@ export function curveBounds(curve) {
 export function distanceToCurve(curve, x, y) {
   let best = Infinity;
   for (let step = 0; step <= 24; step += 1) {
-    const point = pointAt(curve, step / 24);
+    const point = pointOnCurve(curve, step / 24);
     best = Math.min(best, (point.x - x) ** 2 + (point.y - y) ** 2);
   }
   return best;
 }
 
 /** How long a curve is at most: the way over its control points. */
-export const lengthOf = (c) =>
+export const curveLength = (c) =>
   Math.hypot(c[2] - c[0], c[3] - c[1]) + Math.hypot(c[4] - c[2], c[5] - c[3]) + Math.hypot(c[6] - c[4], c[7] - c[5]);
 
 /** Points along a curve, near enough to each other to stand for it. */
-export function pointsOf(curve, length) {
+export function sampleCurve(curve, length) {
   const steps = Math.min(32, Math.max(4, Math.ceil(length / 40)));
-  return Array.from({ length: steps + 1 }, (_, step) => pointAt(curve, step / steps));
+  return Array.from({ length: steps + 1 }, (_, step) => pointOnCurve(curve, step / steps));
 }
 
 /** Whether a line through these points touches a rectangle. */
-export function crosses(points, rect) {
+export function polylineTouches(points, rect) {
   let before = sidesOf(points[0], rect);
   for (let index = 1; index < points.length; index += 1) {
     const sides = sidesOf(points[index], rect);

@@ -1,10 +1,10 @@
 // From pointer events to gestures: what is under the pointer decides, and movement is taken once per frame.
-import { Connect, Reconnect } from "./connecting.js";
-import { Marquee, Move, Pan } from "./drags.js";
-import { freeSpot } from "./arranging.js";
+import { ConnectDrag, ReconnectDrag } from "./connecting.js";
+import { MarqueeDrag, MoveDrag, PanDrag } from "./drags.js";
+import { findFreePosition } from "./arranging.js";
 import { distanceToCurve, snap } from "./geometry.js";
 import { LabelDrag } from "./label_moves.js";
-import { Tool } from "./tool.js";
+import { ConnectMode } from "./tool.js";
 import { Touch } from "./touch.js";
 import { Wheel } from "./wheel.js";
 
@@ -12,13 +12,13 @@ const THRESHOLD = { mouse: 4, pen: 6, touch: 9 };
 const DOUBLE_MS = 400;
 const BORDER = 28;
 
-export class Gestures {
+export class PointerGestures {
   constructor(canvas) {
     this.canvas = canvas;
     this.drag = null;
-    this.tool = null;
-    this.touch = new Touch(canvas, (event) => this.#holds(event));
-    this.collects = false;
+    this.connectMode = null;
+    this.touch = new Touch(canvas, (event) => this.#longPress(event));
+    this.isAdditive = false;
     this.menuAt = null;
     this.lastClick = { key: "", time: 0 };
     this.spaceHeld = false;
@@ -36,64 +36,64 @@ export class Gestures {
   }
 
   isDragging() {
-    return Boolean(this.drag?.begun || this.tool);
+    return Boolean(this.drag?.begun || this.connectMode);
   }
 
   /** Calls off whatever is under way; true when there was something. */
   cancel() {
-    const busy = Boolean(this.drag || this.tool);
+    const busy = Boolean(this.drag || this.connectMode);
     if (this.drag?.begun) this.drag.gesture.cancel();
-    this.tool?.cancel();
+    this.connectMode?.cancel();
     this.drag = null;
-    this.tool = null;
+    this.connectMode = null;
     this.lastClick = { key: "", time: 0 };
     this.touch.clear();
-    this.canvas.say("");
+    this.canvas.showMessage("");
     this.canvas.afterGesture();
     return busy;
   }
 
   /** Starts a connection that the next click, or a box aimed at by keys, ends. */
   connectFrom(key) {
-    this.#take(new Connect(this.canvas, key), key, "Connect to");
+    this.#startConnectMode(new ConnectDrag(this.canvas, key), key, "Connect to");
   }
 
   /** The same for one end of a transition. */
   reconnect(key, end) {
     const edge = this.canvas.scene.edges.get(key);
-    this.#take(new Reconnect(this.canvas, key, end), edge[end], end === "target" ? "Lead to" : "Start from");
+    this.#startConnectMode(new ReconnectDrag(this.canvas, key, end), edge[end], end === "target" ? "Lead to" : "Start from");
   }
 
   /** Enter: ends a connection at the box the keys aim at. */
-  finishTool() {
-    const { tool } = this;
-    this.tool = null;
-    tool.finish();
-    this.canvas.say("");
+  finishConnect() {
+    const { connectMode } = this;
+    this.connectMode = null;
+    connectMode.finish();
+    this.canvas.showMessage("");
     this.canvas.afterGesture();
   }
 
   sceneChanged() {
     if (this.drag?.begun) this.drag.gesture.sceneChanged?.();
-    else this.tool?.sceneChanged?.();
+    else this.connectMode?.sceneChanged?.();
   }
 
   /** Where a new thing goes: where the menu was opened, under the pointer, else in the middle; there or beside, where it is free. */
-  spot() {
-    const { x, y } = this.menuSpot();
-    return freeSpot(this.canvas.scene, x, y);
+  freePosition() {
+    const { x, y } = this.pointerPosition();
+    return findFreePosition(this.canvas.scene, x, y);
   }
 
-  menuSpot() {
+  pointerPosition() {
     const { viewport } = this.canvas;
     const at = this.menuAt ?? this.pointer;
     return at ? viewport.toWorld(at) : viewport.middle();
   }
 
-  #take(gesture, from, what) {
+  #startConnectMode(gesture, from, what) {
     this.cancel();
-    this.tool = new Tool(this.canvas, gesture, from, what);
-    this.tool.begin();
+    this.connectMode = new ConnectMode(this.canvas, gesture, from, what);
+    this.connectMode.begin();
     this.canvas.handles.refresh();
   }
 
@@ -106,7 +106,7 @@ export class Gestures {
     if (this.drag || event.button === 2) return;
     event.preventDefault();
     canvas.stage.setPointerCapture(event.pointerId);
-    if (this.tool) return this.#finishTool(event);
+    if (this.connectMode) return this.#endConnect(event);
     const hit = this.#hit(event);
     const gesture = this.#choose(event, hit);
     const before = this.#press(event, hit);
@@ -116,18 +116,18 @@ export class Gestures {
   #choose(event, hit) {
     const { canvas } = this;
     const adds = this.#adds(event);
-    if (event.button === 1 || this.spaceHeld) return new Pan(canvas);
-    if (hit.handle) return new Connect(canvas, hit.handle);
-    if (hit.end) return new Reconnect(canvas, hit.edge, hit.end);
-    if (canvas.scene.nodes.has(hit.key)) return new Move(canvas, hit.key);
+    if (event.button === 1 || this.spaceHeld) return new PanDrag(canvas);
+    if (hit.handle) return new ConnectDrag(canvas, hit.handle);
+    if (hit.end) return new ReconnectDrag(canvas, hit.edge, hit.end);
+    if (canvas.scene.nodes.has(hit.key)) return new MoveDrag(canvas, hit.key);
     if (hit.isLabel) return new LabelDrag(canvas, hit.key);
     if (hit.key) return null;
-    return event.pointerType === "touch" && !this.collects ? new Pan(canvas) : new Marquee(canvas, adds);
+    return event.pointerType === "touch" && !this.isAdditive ? new PanDrag(canvas) : new MarqueeDrag(canvas, adds);
   }
 
   /** Whether a press adds to the selection; by touch there are no keys to hold, but a switch in the corner. */
   #adds(event) {
-    return event.shiftKey || event.ctrlKey || event.metaKey || this.collects;
+    return event.shiftKey || event.ctrlKey || event.metaKey || this.isAdditive;
   }
 
   /** Selects what is pressed at once; answers whether it was selected before. */
@@ -141,17 +141,17 @@ export class Gestures {
   }
 
   #move(event) {
-    this.pointer = this.canvas.viewport.local(event);
+    this.pointer = this.canvas.viewport.toLocal(event);
     this.touch.move(event);
-    if (this.touch.isPinching()) return this.canvas.frame.ask("drag", () => this.touch.pinch());
+    if (this.touch.isPinching()) return this.canvas.frame.schedule("drag", () => this.touch.pinch());
     const where = this.#where(event);
-    if (this.tool) return this.canvas.frame.ask("drag", () => this.tool?.move(where));
-    if (!this.drag) return this.canvas.frame.ask("hover", () => this.#hover(event));
+    if (this.connectMode) return this.canvas.frame.schedule("drag", () => this.connectMode?.move(where));
+    if (!this.drag) return this.canvas.frame.schedule("hover", () => this.#hover(event));
     if (event.pointerId !== this.drag.id) return;
     this.drag.last = where;
     if (!this.drag.begun && !this.#leavesThreshold(event)) return;
-    this.touch.rest();
-    this.canvas.frame.ask("drag", () => this.#dragOn());
+    this.touch.cancelHold();
+    this.canvas.frame.schedule("drag", () => this.#dragOn());
   }
 
   #leavesThreshold(event) {
@@ -167,14 +167,14 @@ export class Gestures {
       drag.gesture.begin(drag.start);
       canvas.handles.refresh();
     }
-    const push = drag.gesture.scrolls ? this.#push(drag.last.screen) : null;
+    const push = drag.gesture.scrolls ? this.#autoScroll(drag.last.screen) : null;
     if (push) canvas.viewport.panBy(push.x, push.y);
     drag.gesture.move({ ...drag.last, world: canvas.viewport.toWorld(drag.last.screen) });
-    if (push) canvas.frame.ask("drag", () => this.#dragOn());
+    if (push) canvas.frame.schedule("drag", () => this.#dragOn());
   }
 
   /** Near the border the view comes along. */
-  #push({ x, y }) {
+  #autoScroll({ x, y }) {
     const { width, height } = this.canvas.viewport;
     const speed = (value, size) => (value < BORDER ? (BORDER - value) / 3 : value > size - BORDER ? (size - BORDER - value) / 3 : 0);
     const push = { x: speed(x, width), y: speed(y, height) };
@@ -214,12 +214,12 @@ export class Gestures {
     }
   }
 
-  #finishTool(event) {
-    const { tool, canvas } = this;
-    tool.move(this.#where(event));
-    this.tool = null;
-    canvas.say("");
-    tool.end();
+  #endConnect(event) {
+    const { connectMode, canvas } = this;
+    connectMode.move(this.#where(event));
+    this.connectMode = null;
+    canvas.showMessage("");
+    connectMode.end();
     canvas.afterGesture();
   }
 
@@ -232,7 +232,7 @@ export class Gestures {
   }
 
   #where(event) {
-    const screen = this.canvas.viewport.local(event);
+    const screen = this.canvas.viewport.toLocal(event);
     return { screen, world: this.canvas.viewport.toWorld(screen), free: event.altKey };
   }
 
@@ -240,7 +240,7 @@ export class Gestures {
     const found = this.canvas.root.elementFromPoint(event.clientX, event.clientY)?.closest("[data-key],[data-handle],[data-end]");
     const { key = "", handle = null, end = null, edge = null, kind = "" } = found?.dataset ?? {};
     const isLabel = kind === "transition" && found.classList.contains("chip");
-    if (found || !this.canvas.far) return { key, handle, end, edge, isLabel };
+    if (found || !this.canvas.isOverview) return { key, handle, end, edge, isLabel };
     return { key: this.#hitFar(this.#where(event).world), handle: null, end: null, edge: null, isLabel: false };
   }
 
@@ -260,8 +260,8 @@ export class Gestures {
   }
 
   /** A finger that is held still wants the menu, not the drag that it could have become. */
-  #holds(event) {
-    if (this.drag?.begun || this.tool) return;
+  #longPress(event) {
+    if (this.drag?.begun || this.connectMode) return;
     this.drag = null;
     this.#openMenu(event);
   }
@@ -278,7 +278,7 @@ export class Gestures {
     const key = hit.key || hit.handle || hit.edge;
     this.cancel();
     if (!canvas.selection.keys.has(key)) canvas.selection.set(key ? [key] : []);
-    this.menuAt = canvas.viewport.local(event);
+    this.menuAt = canvas.viewport.toLocal(event);
     canvas.menu.open(this.menuAt);
   }
 
@@ -287,7 +287,7 @@ export class Gestures {
     event.preventDefault();
     const link = event.dataTransfer?.getData("text/uri-list") ?? "";
     if (!URL.canParse(link)) return;
-    const { x, y } = this.canvas.viewport.toWorld(this.canvas.viewport.local(event));
+    const { x, y } = this.canvas.viewport.toWorld(this.canvas.viewport.toLocal(event));
     this.canvas.report("use", { address: new URL(link).pathname, x: snap(x), y: snap(y) });
   }
 }

@@ -6,18 +6,18 @@ const NONE = new Set();
 export class Grid {
   constructor() {
     this.cells = new Map();
-    this.places = new Map();
+    this.cellsByKey = new Map();
   }
 
   clear() {
     this.cells.clear();
-    this.places.clear();
+    this.cellsByKey.clear();
   }
 
   /** Files a key under every cell its rectangle touches. */
   putRect(key, rect) {
     this.remove(key);
-    this.#file(key, cellsOf(rect));
+    this.#index(key, cellsOf(rect));
   }
 
   /** Files a key under the cells along a straight line, so that long diagonals stay cheap. */
@@ -34,12 +34,12 @@ export class Grid {
       const steps = Math.max(1, Math.ceil(Math.hypot(b.x - a.x, b.y - a.y) / (CELL / 2)));
       for (let step = 0; step <= steps; step += 1) cells.add(cellAt(a.x + ((b.x - a.x) * step) / steps, a.y + ((b.y - a.y) * step) / steps));
     }
-    this.#file(key, [...cells]);
+    this.#index(key, [...cells]);
   }
 
   remove(key) {
-    for (const cell of this.places.get(key) ?? []) this.cells.get(cell)?.delete(key);
-    this.places.delete(key);
+    for (const cell of this.cellsByKey.get(key) ?? []) this.cells.get(cell)?.delete(key);
+    this.cellsByKey.delete(key);
   }
 
   /** The keys of all cells that a rectangle touches; a superset of what really overlaps it. */
@@ -56,8 +56,8 @@ export class Grid {
     return this.cells.get(cellAt(x, y)) ?? NONE;
   }
 
-  #file(key, cells) {
-    this.places.set(key, cells);
+  #index(key, cells) {
+    this.cellsByKey.set(key, cells);
     for (const cell of cells) {
       if (!this.cells.has(cell)) this.cells.set(cell, new Set());
       this.cells.get(cell).add(key);

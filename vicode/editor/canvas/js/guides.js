@@ -1,10 +1,10 @@
 // Lines that show with which boxes a dragged one lines up, marks of equal gaps, and the small pull towards both.
-import { grow, rectOf } from "./geometry.js";
-import { spacings } from "./spacing.js";
+import { grow, nodeRect } from "./geometry.js";
+import { equalGaps } from "./spacing.js";
 import { svg } from "./svg.js";
 
-const PULL = 6;
-const MOST = 400;
+const SNAP_DISTANCE = 6;
+const MAX_NODES = 400;
 const OVER = 12;
 const TICK = 5;
 
@@ -19,14 +19,14 @@ export class Guides {
     this.canvas = canvas;
     this.group = svg("g", { class: "guides" });
     canvas.painter.layers.above.append(this.group);
-    const seen = canvas.viewport.rect();
+    const seen = canvas.viewport.visibleRect();
     const near = [...canvas.scene.nodeGrid.query(grow(seen, Math.max(seen.w, seen.h) / 2))].filter((key) => !dragged.has(key));
-    this.rects = near.slice(0, MOST).map((key) => rectOf(canvas.scene.nodes.get(key)));
+    this.rects = near.slice(0, MAX_NODES).map((key) => nodeRect(canvas.scene.nodes.get(key)));
   }
 
   /** How far a rectangle is to be pulled, by axis; null where nothing is near enough. */
-  pull(rect) {
-    const reach = PULL / this.canvas.viewport.k;
+  snapOffsets(rect) {
+    const reach = SNAP_DISTANCE / this.canvas.viewport.k;
     return Object.fromEntries(AXES.map((axis) => [axis.name, this.#nearest(rect, axis, reach)]));
   }
 
@@ -34,11 +34,11 @@ export class Guides {
   show(rect) {
     this.group.replaceChildren();
     for (const axis of AXES) {
-      for (const { by, gaps } of spacings(rect, this.rects, axis)) {
+      for (const { by, gaps } of equalGaps(rect, this.rects, axis)) {
         if (Math.abs(by) < 1) this.group.append(...gaps.map((gap) => gapMark(axis, gap, rect, TICK / this.canvas.viewport.k)));
       }
-      for (const at of stops(rect, axis)) {
-        const inLine = this.rects.filter((each) => stops(each, axis).some((stop) => Math.abs(stop - at) < 0.5));
+      for (const at of alignmentLines(rect, axis)) {
+        const inLine = this.rects.filter((each) => alignmentLines(each, axis).some((stop) => Math.abs(stop - at) < 0.5));
         if (inLine.length) this.group.append(line(axis, at, [rect, ...inLine]));
       }
     }
@@ -53,15 +53,15 @@ export class Guides {
   }
 
   #nearest(rect, axis, reach) {
-    const inLine = this.rects.flatMap((other) => stops(other, axis).flatMap((stop) => stops(rect, axis).map((own) => stop - own)));
-    const even = spacings(rect, this.rects, axis).map(({ by }) => by);
+    const inLine = this.rects.flatMap((other) => alignmentLines(other, axis).flatMap((stop) => alignmentLines(rect, axis).map((own) => stop - own)));
+    const even = equalGaps(rect, this.rects, axis).map(({ by }) => by);
     const near = [...inLine, ...even].filter((by) => Math.abs(by) <= reach);
     return near.length ? near.reduce((best, by) => (Math.abs(by) < Math.abs(best) ? by : best)) : null;
   }
 }
 
 /** The two sides of a rectangle and its middle, along one axis. */
-const stops = (rect, { name, size }) => [rect[name], rect[name] + rect[size] / 2, rect[name] + rect[size]];
+const alignmentLines = (rect, { name, size }) => [rect[name], rect[name] + rect[size] / 2, rect[name] + rect[size]];
 
 function line({ name, across, length }, at, rects) {
   const low = Math.min(...rects.map((rect) => rect[across])) - OVER;

@@ -39,8 +39,8 @@ export class Keyboard {
     const { gestures, commands } = this.canvas;
     const chord = chordOf(event);
     if (chord === "Space") return this.#space(true);
-    if (gestures.tool && /^[\p{L}\p{N}_]$/u.test(event.key) && !/Ctrl|Alt/.test(chord)) return gestures.tool.type(event.key);
-    return commands.runKeys(chord);
+    if (gestures.connectMode && /^[\p{L}\p{N}_]$/u.test(event.key) && !/Ctrl|Alt/.test(chord)) return gestures.connectMode.aimByName(event.key);
+    return commands.runShortcut(chord);
   }
 
   #up(event) {

@@ -1,7 +1,7 @@
 // The label of a transition is put elsewhere by hand: along its arrow or off it, or onto another label to be tested there.
 import { rectAround } from "./geometry.js";
-import { labelAt, labelPlace } from "./labels.js";
-import { stand } from "./standing.js";
+import { labelPosition, labelOffset } from "./labels.js";
+import { placeGroup } from "./standing.js";
 import { svg } from "./svg.js";
 
 export class LabelDrag {
@@ -17,7 +17,7 @@ export class LabelDrag {
     this.tie = svg("path", { class: "guide" });
     this.canvas.painter.layers.above.append(this.tie);
     this.canvas.painter.mark("held", [this.key]);
-    this.canvas.say("On another label of this state: tested there");
+    this.canvas.showMessage("On another label of this state: tested there");
   }
 
   move({ world }) {
@@ -27,8 +27,8 @@ export class LabelDrag {
     this.onto = this.#siblingAt(world);
     this.canvas.painter.mark("drop", this.onto ? [this.onto.key] : []);
     this.#put(this.at);
-    const [part, shift] = labelPlace(route.curve, this.at);
-    const foot = labelAt(route.curve, [part, 0]);
+    const [part, shift] = labelOffset(route.curve, this.at);
+    const foot = labelPosition(route.curve, [part, 0]);
     this.tie.setAttribute("d", Math.abs(shift) > 14 && !this.onto ? `M${foot.x} ${foot.y}L${this.at.x} ${this.at.y}` : "");
   }
 
@@ -40,7 +40,7 @@ export class LabelDrag {
     const edge = this.#edge();
     if (onto) this.#putBack();
     if (onto) this.canvas.report("reorder", { id: edge.id, onto: onto.id });
-    else this.canvas.report("label", { id: edge.id, at: labelPlace(route.curve, at) });
+    else this.canvas.report("label", { id: edge.id, at: labelOffset(route.curve, at) });
   }
 
   cancel() {
@@ -68,12 +68,12 @@ export class LabelDrag {
 
   #put({ x, y }) {
     const chip = this.canvas.painter.items.get(this.key)?.chip;
-    if (chip) stand(chip, x, y);
+    if (chip) placeGroup(chip, x, y);
   }
 
   #release() {
     this.tie?.remove();
-    this.canvas.say("");
+    this.canvas.showMessage("");
     for (const name of ["drop", "held"]) this.canvas.painter.mark(name, []);
   }
 
@@ -93,5 +93,5 @@ export class LabelDrag {
 /** Arrow keys on a selected transition: its label goes a step. */
 export function nudgeLabel(canvas, edge, dx, dy) {
   const { at, curve, chip } = canvas.router.route(edge);
-  if (chip) canvas.report("label", { id: edge.id, at: labelPlace(curve, { x: at.x + dx, y: at.y + dy }), by: "nudge" });
+  if (chip) canvas.report("label", { id: edge.id, at: labelOffset(curve, { x: at.x + dx, y: at.y + dy }), by: "nudge" });
 }

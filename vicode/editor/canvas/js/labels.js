@@ -1,14 +1,14 @@
 // The chip on a transition: what it says, how large it is, and where along the curve it fits.
-import { pointAt, rectAround } from "./geometry.js";
-import { shorten, textWidth } from "./text.js";
+import { pointOnCurve, rectAround } from "./geometry.js";
+import { truncate, textWidth } from "./text.js";
 
 const HEIGHT = 22;
 const PADDING = 8;
 const ICON = 15;
 // The mark of findings stands behind the text, within the chip's room, so that it hides nothing.
 export const BADGE = 24;
-const MOST_ROOM = 150;
-const LEAST_ROOM = 60;
+const MAX_TEXT_WIDTH = 150;
+const MIN_TEXT_WIDTH = 60;
 const CROWDED_ROOM = 100;
 const SLIPS = [0, 0, 1, -1];
 // Parts of the way along the curve, and how far beside it, the best first. 1 is just beside the line, 2 a little farther.
@@ -21,20 +21,20 @@ const LOOP_PLACES = [0, 1, 2, 3].map((out) => ({ out, cost: out * 0.4 }));
 const STEPS = 500;
 
 /** What the chip of an edge between two nodes shows and its size, or null when there is nothing to say. */
-export function chipOf(edge, from, to, beside) {
+export function makeEdgeLabel(edge, from, to, beside) {
   if (edge.of !== "transitions") return null;
   const { order, icon, badgeWidth } = partsOf(edge.data);
   const used = (order ? 18 : 0) + (icon ? ICON : 0) + badgeWidth;
-  return chipWith(edge, Math.max(LEAST_ROOM, roomBetween(from, to, beside) - used));
+  return chipWith(edge, Math.max(MIN_TEXT_WIDTH, roomBetween(from, to, beside) - used));
 }
 
 /** The chip with ever less of its text. */
-export const shorterChips = (edge, chip) =>
+export const shorterLabels = (edge, chip) =>
   [90, 50].filter((room) => textWidth(chip.text, "label") > room + 10).map((room) => chipWith(edge, room));
 
 function chipWith({ data }, room) {
   const { order, icon, badgeWidth } = partsOf(data);
-  const text = shorten(data.label ?? "", "label", room);
+  const text = truncate(data.label ?? "", "label", room);
   if (!order && !text && !icon) return null;
   const orderWidth = order ? textWidth(text || icon ? `${order} · ` : order, "label") + 1 : 0;
   const iconWidth = icon ? ICON : 0;
@@ -54,9 +54,9 @@ const partsOf = (data) => ({
  */
 function roomBetween(from, to, beside) {
   const gap = Math.abs(to.x - from.x) - (from.w + to.w) / 2;
-  if (from === to) return MOST_ROOM;
-  if (gap < 30 || gap < 2 * (Math.abs(to.y - from.y) - from.h)) return beside > 2 ? CROWDED_ROOM : MOST_ROOM;
-  return Math.min(MOST_ROOM, Math.max(LEAST_ROOM, Math.floor((gap - 30) / 10) * 10));
+  if (from === to) return MAX_TEXT_WIDTH;
+  if (gap < 30 || gap < 2 * (Math.abs(to.y - from.y) - from.h)) return beside > 2 ? CROWDED_ROOM : MAX_TEXT_WIDTH;
+  return Math.min(MAX_TEXT_WIDTH, Math.max(MIN_TEXT_WIDTH, Math.floor((gap - 30) / 10) * 10));
 }
 
 /** The place `{at, cost}` where a label hides least; `crowd` says what a rectangle would hide, and may stop at a limit. */
@@ -74,7 +74,7 @@ export function placeLabel(edge, curve, chip, crowd) {
 
 /** The chip of a loop hangs on its outermost point, so that the loop itself stays visible. */
 function besideLoop(curve, chip, out) {
-  const apex = pointAt(curve, 0.5);
+  const apex = pointOnCurve(curve, 0.5);
   const foot = { x: (curve[0] + curve[6]) / 2, y: (curve[1] + curve[7]) / 2 };
   const [dx, dy] = [Math.sign(apex.x - foot.x), Math.sign(apex.y - foot.y)];
   if (Math.abs(apex.x - foot.x) < Math.abs(apex.y - foot.y)) return { x: apex.x + SLIPS[out] * chip.w * 0.4, y: apex.y + (out ? dy * 9 : 0) };
@@ -83,33 +83,33 @@ function besideLoop(curve, chip, out) {
 
 /** On the line, or so far beside it that the line stays visible. */
 function besideLine(curve, chip, { part, beside: side }) {
-  if (!side) return pointAt(curve, part);
-  const [behind, ahead] = [pointAt(curve, Math.max(0, part - 0.02)), pointAt(curve, Math.min(1, part + 0.02))];
+  if (!side) return pointOnCurve(curve, part);
+  const [behind, ahead] = [pointOnCurve(curve, Math.max(0, part - 0.02)), pointOnCurve(curve, Math.min(1, part + 0.02))];
   const length = Math.hypot(ahead.x - behind.x, ahead.y - behind.y) || 1;
   const reach = (Math.abs(ahead.y - behind.y) * chip.w + Math.abs(ahead.x - behind.x) * chip.h) / length / 2;
   return beside(curve, part, Math.sign(side) * (reach + (Math.abs(side) === 1 ? 3 : 9)));
 }
 
 /** Where a label was put by hand: `part` of the way along the curve, `shift` to the right of who walks along it. */
-export const labelAt = (curve, [part, shift]) => beside(curve, Math.min(1, Math.max(0, part)), shift);
+export const labelPosition = (curve, [part, shift]) => beside(curve, Math.min(1, Math.max(0, part)), shift);
 
 /** The `[part, shift]` that puts a label at a point, as near as can be: its foot on the curve, and how far beside. */
-export function labelPlace(curve, { x, y }) {
+export function labelOffset(curve, { x, y }) {
   let best = { t: 0.5, reach: Infinity };
   for (let step = 0; step <= STEPS; step += 1) {
-    const foot = pointAt(curve, step / STEPS);
+    const foot = pointOnCurve(curve, step / STEPS);
     const reach = (foot.x - x) ** 2 + (foot.y - y) ** 2;
     if (reach < best.reach) best = { t: step / STEPS, reach };
   }
-  const foot = pointAt(curve, best.t);
+  const foot = pointOnCurve(curve, best.t);
   const right = beside(curve, best.t, 1);
   return [best.t, Math.round((x - foot.x) * (right.x - foot.x) + (y - foot.y) * (right.y - foot.y))];
 }
 
 function beside(curve, t, shift) {
-  const point = pointAt(curve, t);
+  const point = pointOnCurve(curve, t);
   if (!shift) return point;
-  const [behind, ahead] = [pointAt(curve, Math.max(0, t - 0.02)), pointAt(curve, Math.min(1, t + 0.02))];
+  const [behind, ahead] = [pointOnCurve(curve, Math.max(0, t - 0.02)), pointOnCurve(curve, Math.min(1, t + 0.02))];
   const length = Math.hypot(ahead.x - behind.x, ahead.y - behind.y) || 1;
   return { x: point.x - ((ahead.y - behind.y) / length) * shift, y: point.y + ((ahead.x - behind.x) / length) * shift };
 }

@@ -1,5 +1,5 @@
 // The menu of what is selected: by the right button, a long press or Shift+F10; arrow keys, letters and Escape inside.
-import { rectOf } from "./geometry.js";
+import { nodeRect } from "./geometry.js";
 import { html } from "./svg.js";
 
 const EDGE = 8;
@@ -16,7 +16,7 @@ export class Menu {
 
   /** Opens at a point of the stage. */
   open({ x, y }) {
-    const entries = this.canvas.commands.offered();
+    const entries = this.canvas.commands.menuEntries();
     if (!entries.length) return;
     this.element.replaceChildren(...this.#rows(entries));
     this.element.setAttribute("aria-label", "Menu");
@@ -36,7 +36,7 @@ export class Menu {
     if (key) this.canvas.reveal(key);
     const thing = key && scene.find(key);
     if (!thing) return this.open({ x: viewport.width / 2, y: viewport.height / 2 });
-    const rect = scene.nodes.has(key) ? rectOf(thing) : { ...(scene.isDrawable(thing) ? router.route(thing).at : viewport.middle()), w: 0, h: 0 };
+    const rect = scene.nodes.has(key) ? nodeRect(thing) : { ...(scene.isDrawable(thing) ? router.route(thing).at : viewport.middle()), w: 0, h: 0 };
     this.open(viewport.toScreen({ x: rect.x + rect.w / 2, y: rect.y + rect.h }));
   }
 

@@ -1,10 +1,10 @@
 // The whole scene in a corner; a press or drag there brings that place to the middle.
-import { bounds, covers, grow, rectOf } from "./geometry.js";
+import { bounds, containsRect, grow, nodeRect } from "./geometry.js";
 import { html } from "./svg.js";
 
 const WIDTH = 180;
 const HEIGHT = 116;
-const MOST_LINES = 400;
+const MAX_LINES = 400;
 
 export class Minimap {
   constructor(scene, viewport, colours) {
@@ -26,7 +26,7 @@ export class Minimap {
     pen.clearRect(0, 0, this.canvas.width, this.canvas.height);
     const extent = this.scene.extent();
     this.extent = extent;
-    if (!extent) return this.follow();
+    if (!extent) return this.viewChanged();
     const area = grow(extent, Math.max(extent.w, extent.h) * 0.06);
     const scale = Math.min(WIDTH / area.w, HEIGHT / area.h);
     this.map = { scale, x: (WIDTH - area.w * scale) / 2 - area.x * scale, y: (HEIGHT - area.h * scale) / 2 - area.y * scale };
@@ -36,15 +36,15 @@ export class Minimap {
     for (const [colour, nodes] of Map.groupBy([...this.scene.nodes.values()], colourOf)) {
       pen.fillStyle = this.colours(colour);
       pen.beginPath();
-      for (const { x, y, w, h } of nodes.map(rectOf)) pen.rect(x, y, Math.max(w, 2.5 / scale), Math.max(h, 2 / scale));
+      for (const { x, y, w, h } of nodes.map(nodeRect)) pen.rect(x, y, Math.max(w, 2.5 / scale), Math.max(h, 2 / scale));
       pen.fill();
     }
-    this.follow();
+    this.viewChanged();
   }
 
   /** Where the lines run tells more than boxes alone; thousands of them would only be grey. */
   #drawEdges(pen, scale) {
-    if (this.scene.edges.size > MOST_LINES) return;
+    if (this.scene.edges.size > MAX_LINES) return;
     pen.strokeStyle = this.colours("plate-line");
     pen.lineWidth = 0.75 / scale;
     pen.beginPath();
@@ -58,9 +58,9 @@ export class Minimap {
   }
 
   /** Shows which part of the map is seen; when that is all of it, the map is only in the way. */
-  follow() {
-    const seen = this.viewport.rect();
-    this.element.hidden = !this.extent || covers(seen, this.extent);
+  viewChanged() {
+    const seen = this.viewport.visibleRect();
+    this.element.hidden = !this.extent || containsRect(seen, this.extent);
     if (this.element.hidden) return;
     const corner = (x, y) => ({ x: clamp(x * this.map.scale + this.map.x, WIDTH), y: clamp(y * this.map.scale + this.map.y, HEIGHT), w: 0, h: 0 });
     const box = bounds([corner(seen.x, seen.y), corner(seen.x + seen.w, seen.y + seen.h)]);

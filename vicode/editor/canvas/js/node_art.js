@@ -1,6 +1,6 @@
 // Boxes, hexagons and the common badge as SVG groups. Marks speak by shape first, by colour second.
 import { HEX_SLANT } from "./geometry.js";
-import { shift, stand } from "./standing.js";
+import { translateElement, placeGroup } from "./standing.js";
 import { svg } from "./svg.js";
 
 const MARK_ROW = 16;
@@ -34,7 +34,7 @@ export function drawNode(node) {
   return group;
 }
 
-export const placeNode = (group, node) => stand(group, node.x, node.y);
+export const placeNode = (group, node) => placeGroup(group, node.x, node.y);
 
 export const kindOf = (thing) =>
   ({ states: "state", components: "component", transitions: "transition", links: "link", common: "common" })[thing.of];
@@ -47,7 +47,7 @@ function drawState(node) {
   if (data.initial) parts.push(...initialMark(w, h));
   parts.push(svg("text", { class: "name", y: marks.length ? NAME_RISE : 0, text: node.label }));
   if (marks.length) parts.push(markRow(marks, MARK_ROW));
-  if (data.disabled) parts.push(shift(svg("path", { class: "off", d: OFF }), -w / 2 + 9, -h / 2 + 14));
+  if (data.disabled) parts.push(translateElement(svg("path", { class: "off", d: OFF }), -w / 2 + 9, -h / 2 + 14));
   if (data.severity) parts.push(badge(data, w / 2 - 4, -h / 2 + 2));
   return parts;
 }
@@ -59,7 +59,7 @@ function drawComponent(node) {
   const parts = [svg("path", { class: "box bg", d: `M${points}Z` })];
   parts.push(svg("text", { class: "name", y: node.second ? NAME_RISE : 0, text: node.label }));
   if (node.second) parts.push(svg("text", { class: "second", y: 12, text: node.second }));
-  if (data.design) parts.push(shift(svg("path", { class: "mark open", d: "M-5 -3.5H3.5V5M3.5 -3.5L-4.5 4.5" }), w / 2 - 25, 0));
+  if (data.design) parts.push(translateElement(svg("path", { class: "mark open", d: "M-5 -3.5H3.5V5M3.5 -3.5L-4.5 4.5" }), w / 2 - 25, 0));
   if (data.severity) parts.push(badge(data, w / 2 - s, -h / 2 + 2));
   return parts;
 }
@@ -69,7 +69,7 @@ function drawCommon(node) {
   const parts = [svg("rect", { class: "box bg", x: -w / 2, y: -h / 2, width: w, height: h, rx: h / 2 })];
   parts.push(svg("path", { class: "mark", d: "M-52 -6V6M-57.2 -3L-46.8 3M-57.2 3L-46.8 -3" }));
   parts.push(svg("text", { class: "name", x: 4, y: 0, text: node.label }));
-  if (data.actions) parts.push(shift(svg("path", { class: "mark", d: MARKS.actions.d }), w / 2 - 24, 0));
+  if (data.actions) parts.push(translateElement(svg("path", { class: "mark", d: MARKS.actions.d }), w / 2 - 24, 0));
   if (data.severity) parts.push(badge(data, w / 2 - 8, -h / 2 + 2));
   return parts;
 }
@@ -98,7 +98,7 @@ function markRow(marks, y) {
   let x = -(widths.reduce((sum, width) => sum + width, 0) + MARK_GAP * (marks.length - 1)) / 2;
   const row = svg("g", { class: "marks", "aria-hidden": "true" });
   marks.forEach(({ name, count }, index) => {
-    row.append(shift(svg("path", { class: `mark ${name}`, d: MARKS[name].d }), x, y));
+    row.append(translateElement(svg("path", { class: `mark ${name}`, d: MARKS[name].d }), x, y));
     if (count) row.append(svg("text", { class: `count ${name}`, x: x + MARKS[name].w + 3, y, text: count }));
     x += widths[index] + MARK_GAP;
   });
@@ -116,24 +116,24 @@ export function badge(data, x, y) {
   const group = svg("g", { class: `badge ${data.severity}`, "aria-hidden": "true" });
   group.append(svg("path", { d: shape }));
   group.append(svg("text", { y: data.severity === "warning" ? 2.5 : 0, text: count > 9 ? "9+" : count > 0 ? String(count) : "!" }));
-  return shift(group, x, y);
+  return translateElement(group, x, y);
 }
 
 /** The tooltip of a node. */
-export function nodeHint(node) {
+export function nodeTooltip(node) {
   const { data } = node;
   const title = node.of === "common" ? "Common transitions, tested before those of every state" : data.name;
   const second = node.of === "components" && data.name !== data.id ? `as ${data.id}` : "";
-  return [title, second, data.disabled && "disabled", data.doc, ...findings(data)].filter(Boolean).join("\n");
+  return [title, second, data.disabled && "disabled", data.doc, ...findingMessages(data)].filter(Boolean).join("\n");
 }
 
 function describe(node) {
   const { data } = node;
-  if (node.of === "common") return [`Common transitions of every state: ${data.transitions ?? 0}`, ...findings(data)].join(", ");
-  if (node.of === "components") return [`Component ${data.id}`, data.name, ...findings(data)].join(", ");
+  if (node.of === "common") return [`Common transitions of every state: ${data.transitions ?? 0}`, ...findingMessages(data)].join(", ");
+  if (node.of === "components") return [`Component ${data.id}`, data.name, ...findingMessages(data)].join(", ");
   const marks = marksOf(data).map(({ name, count }) => (count ? `${name} ${count}` : `${name} code`));
-  const facts = [data.initial && "initial", data.final && "final", data.disabled && "disabled", ...marks, ...findings(data)];
+  const facts = [data.initial && "initial", data.final && "final", data.disabled && "disabled", ...marks, ...findingMessages(data)];
   return [`State ${data.name}`, ...facts.filter(Boolean)].join(", ");
 }
 
-export const findings = (data) => (data.severity ? (data.messages ?? []).map((text) => `${WORDS[data.severity]}: ${text}`) : []);
+export const findingMessages = (data) => (data.severity ? (data.messages ?? []).map((text) => `${WORDS[data.severity]}: ${text}`) : []);

@@ -3,19 +3,19 @@
 const LATEST_MS = 5000;
 const PART_OF_STEPS = /^(Arrow|Shift$)/;
 
-export class Nudging {
+export class Nudge {
   constructor(canvas) {
     this.canvas = canvas;
     this.places = new Map();
     this.time = -Infinity;
     // Another key, such as that of undo, and whatever is done elsewhere, may put the boxes somewhere else.
-    canvas.stage.addEventListener("keydown", ({ key }) => PART_OF_STEPS.test(key) || this.forget(), { capture: true });
-    canvas.stage.addEventListener("blur", () => this.forget());
+    canvas.stage.addEventListener("keydown", ({ key }) => PART_OF_STEPS.test(key) || this.reset(), { capture: true });
+    canvas.stage.addEventListener("blur", () => this.reset());
   }
 
   /** Where nodes are after a step further from where the last one led. */
   step(nodes, dx, dy) {
-    if (performance.now() - this.time > LATEST_MS) this.forget();
+    if (performance.now() - this.time > LATEST_MS) this.reset();
     const before = nodes.map(({ key, x, y }) => [key, this.places.get(key) ?? { x, y }]);
     this.places = new Map(before.map(([key, { x, y }]) => [key, { x: x + dx, y: y + dy }]));
     this.time = performance.now();
@@ -23,14 +23,14 @@ export class Nudging {
   }
 
   /** Python told of changes: nodes that stand where the last step led go on from there. */
-  hear() {
+  reconcile() {
     for (const [key, { x, y }] of this.places) {
       const data = this.canvas.scene.nodes.get(key)?.data;
       if (!data || (data.x === x && data.y === y)) this.places.delete(key);
     }
   }
 
-  forget() {
+  reset() {
     this.places.clear();
   }
 }

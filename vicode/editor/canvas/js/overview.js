@@ -1,5 +1,5 @@
 // From far the scene is two bitmaps: a coarse one of everything and a sharp one of what is seen.
-import { bounds, covers, grow, overlaps, rectOf } from "./geometry.js";
+import { bounds, containsRect, grow, overlaps, nodeRect } from "./geometry.js";
 import { html } from "./svg.js";
 import { FONTS } from "./text.js";
 
@@ -20,12 +20,12 @@ export class Overview {
   }
 
   /** The scene or its colours changed. The old bitmaps stay until new ones are drawn, so that nothing flickers. */
-  spoil() {
+  invalidate() {
     this.stale = true;
   }
 
   /** Draws the coarse bitmap when it is out of date, so that there is always something to show. */
-  prepare(selected) {
+  drawCoarse(selected) {
     const extent = this.scene.extent();
     if (!this.stale || !extent) return;
     this.stale = false;
@@ -34,15 +34,15 @@ export class Overview {
     this.#draw(this.coarse, region, Math.min(1, COARSE_PIXELS / Math.max(region.w, region.h)), selected);
   }
 
-  isThere() {
+  isDrawn() {
     return this.coarse.region !== null;
   }
 
   /** Draws what is seen, and some more, at the present zoom. */
-  sharpen(selected) {
+  drawSharp(selected) {
     const extent = this.scene.extent();
     if (!extent) return;
-    const seen = this.viewport.rect();
+    const seen = this.viewport.visibleRect();
     if (this.sharp.region && this.sharp.zoom === this.viewport.k && holdsSeen(this.sharp.region, seen, extent)) return;
     this.sharp.zoom = this.viewport.k;
     const region = intersection(grow(extent, 60), grow(seen, Math.max(seen.w, seen.h) / 3));
@@ -54,7 +54,7 @@ export class Overview {
 
   /** Moves both bitmaps to where the viewport wants them. */
   place() {
-    if (!this.isThere()) return;
+    if (!this.isDrawn()) return;
     const { x, y, k } = this.viewport;
     for (const { canvas, region, scale } of [this.coarse, this.sharp]) {
       canvas.style.visibility = region ? "visible" : "hidden";
@@ -72,7 +72,7 @@ export class Overview {
     pen.fillRect(0, 0, canvas.width, canvas.height);
     pen.setTransform(scale, 0, 0, scale, -region.x * scale, -region.y * scale);
     this.#drawEdges(pen, scale);
-    const nodes = [...this.scene.nodes.values()].filter((node) => overlaps(rectOf(node), region));
+    const nodes = [...this.scene.nodes.values()].filter((node) => overlaps(nodeRect(node), region));
     this.#drawNodes(pen, nodes, scale, selected);
     if (scale >= NAMES_FROM * Math.min(1, devicePixelRatio)) this.#drawNames(pen, nodes);
   }
@@ -137,7 +137,7 @@ const LOOKS = {
 /** Whether a bitmap of a region shows everything of the scene that is seen. */
 function holdsSeen(region, seen, extent) {
   const part = intersection(seen, extent);
-  return !part || covers(region, part);
+  return !part || containsRect(region, part);
 }
 
 function intersection(a, b) {

@@ -1,35 +1,35 @@
 // The other people: what they have selected, outlined in their colour with their name, and where their pointers are.
 import { pathOf } from "./edge_art.js";
-import { grow, rectOf } from "./geometry.js";
+import { grow, nodeRect } from "./geometry.js";
 import { keyOf } from "./scene.js";
 import { html, svg } from "./svg.js";
 
 const POINTER_MS = 120;
-const MOST_OUTLINED = 40;
+const MAX_OUTLINES = 40;
 const GAP = 6;
 const ARROW = "M1 1L1 15L5 11.4L7.6 17L10 15.9L7.5 10.5L13 10.2Z";
 
-export class People {
+export class PresenceLayer {
   constructor(canvas) {
     this.canvas = canvas;
     this.others = [];
-    this.art = svg("svg", { class: "people", "aria-hidden": "true" });
+    this.art = svg("svg", { class: "presence", "aria-hidden": "true" });
     this.tags = html("div", { class: "tags", "aria-hidden": "true" });
     this.elements = [this.art, this.tags];
     this.placed = [];
     this.pointer = null;
     this.timer = 0;
     const { stage, viewport } = canvas;
-    stage.addEventListener("pointermove", (event) => this.#pointAt(viewport.toWorld(viewport.local(event))));
+    stage.addEventListener("pointermove", (event) => this.#pointAt(viewport.toWorld(viewport.toLocal(event))));
     stage.addEventListener("pointerleave", () => this.#pointAt(null));
   }
 
   /** Shows what others are at; each is `{name, colour, items, pointer}`. */
   show(others) {
     this.others = others;
-    this.canvas.frame.ask("people", () => {
+    this.canvas.frame.schedule("presence", () => {
       this.draw();
-      this.canvas.emit("seen", {});
+      this.canvas.emit("presence-painted", {});
     });
   }
 
@@ -40,11 +40,11 @@ export class People {
     const pointers = this.others.filter((person) => person.pointer).map((person) => this.#pointerOf(person));
     this.art.replaceChildren(...outlines);
     this.tags.replaceChildren(...this.placed.map(({ element }) => element), ...pointers);
-    this.follow();
+    this.viewChanged();
   }
 
   /** Keeps names and pointers at their places while the view moves. */
-  follow() {
+  viewChanged() {
     const { x: left, y: top, k } = this.canvas.viewport;
     this.art.style.transform = `translate(${left}px, ${top}px) scale(${k})`;
     for (const { element, at } of this.placed) {
@@ -59,12 +59,12 @@ export class People {
 
   #outlines(person) {
     const { scene, router } = this.canvas;
-    const things = person.items.slice(0, MOST_OUTLINED).map(({ of, id }) => scene.find(keyOf(of, id))).filter(Boolean);
+    const things = person.items.slice(0, MAX_OUTLINES).map(({ of, id }) => scene.find(keyOf(of, id))).filter(Boolean);
     const drawn = things.filter((thing) => scene.nodes.has(thing.key) || scene.isDrawable(thing));
     return drawn.map((thing, index) => {
       const isNode = scene.nodes.has(thing.key);
       const route = isNode ? null : router.route(thing);
-      const box = isNode ? grow(rectOf(thing), GAP) : null;
+      const box = isNode ? grow(nodeRect(thing), GAP) : null;
       if (index === 0) this.#tag(person, box ? { x: box.x + box.w, y: box.y } : route.at);
       const shape = box
         ? svg("rect", { x: box.x, y: box.y, width: box.w, height: box.h, rx: 12 + GAP })

@@ -1,10 +1,10 @@
 // Other places for boxes, shown before anybody decides: the drawing stands there, outlines stay where the boxes were.
-import { rectOf } from "./geometry.js";
+import { nodeRect } from "./geometry.js";
 import { svg } from "./svg.js";
 
 const VIEW_KEYS = new Set(["+", "=", "-", "0", "1"]);
 
-export class Preview {
+export class LayoutPreview {
   constructor(canvas) {
     this.canvas = canvas;
     this.keys = null;
@@ -26,9 +26,9 @@ export class Preview {
     canvas.gestures.cancel();
     this.keys = known.map(({ key }) => key);
     this.view = { x, y, k };
-    const d = this.keys.map((key) => outline(rectOf(canvas.scene.nodes.get(key)))).join("");
-    this.before = svg("path", { class: "before", d });
-    canvas.painter.layers.links.before(this.before);
+    const d = this.keys.map((key) => outline(nodeRect(canvas.scene.nodes.get(key)))).join("");
+    this.originalOutlines = svg("path", { class: "before", d });
+    canvas.painter.layers.links.before(this.originalOutlines);
     this.#put(known);
     canvas.fit();
     canvas.stage.classList.add("previewing");
@@ -40,7 +40,7 @@ export class Preview {
     if (!this.keys) return;
     const { canvas, keys } = this;
     this.keys = null;
-    this.before.remove();
+    this.originalOutlines.remove();
     canvas.stage.classList.remove("previewing");
     const nodes = keys.map((key) => canvas.scene.nodes.get(key)).filter(Boolean);
     this.#put(nodes.map(({ key, data }) => ({ key, x: data.x, y: data.y })));
@@ -50,7 +50,7 @@ export class Preview {
   #put(places) {
     const { scene } = this.canvas;
     for (const { key, x, y } of places) scene.move(key, x, y);
-    this.canvas.placesChanged(places.map(({ key }) => key));
+    this.canvas.positionsChanged(places.map(({ key }) => key));
   }
 
   #down(event) {
@@ -59,14 +59,14 @@ export class Preview {
     event.preventDefault();
     this.canvas.stage.focus({ preventScroll: true });
     this.canvas.stage.setPointerCapture(event.pointerId);
-    this.pan = this.canvas.viewport.local(event);
+    this.pan = this.canvas.viewport.toLocal(event);
   }
 
   #move(event) {
     if (event.target.closest(".corner")) return;
     event.stopPropagation();
     if (!this.pan) return;
-    const now = this.canvas.viewport.local(event);
+    const now = this.canvas.viewport.toLocal(event);
     this.canvas.viewport.panBy(now.x - this.pan.x, now.y - this.pan.y);
     this.pan = now;
   }
@@ -82,8 +82,8 @@ export class Preview {
     if (!isPlain || event.key === "Tab" || VIEW_KEYS.has(event.key) || event.target.closest("button")) return;
     event.stopPropagation();
     event.preventDefault();
-    if (event.key === "Enter") this.canvas.report("preview", { wanted: true });
-    if (event.key === "Escape") this.canvas.report("preview", { wanted: false });
+    if (event.key === "Enter") this.canvas.report("preview", { accepted: true });
+    if (event.key === "Escape") this.canvas.report("preview", { accepted: false });
   }
 }
 

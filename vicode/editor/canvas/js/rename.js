@@ -2,7 +2,7 @@
 import { keyOf } from "./scene.js";
 import { html } from "./svg.js";
 
-export class Rename {
+export class InlineRename {
   constructor(canvas) {
     this.canvas = canvas;
     this.key = null;
@@ -19,13 +19,13 @@ export class Rename {
     this.key = key;
     this.input.value = nameOf(node);
     this.input.hidden = false;
-    this.follow();
+    this.viewChanged();
     this.input.focus({ preventScroll: true });
     this.input.select();
   }
 
   /** The box will be called otherwise in a moment: what is being typed goes on, and becomes its name. */
-  boxRenamed(old, name) {
+  stateRenamed(old, name) {
     if (!this.key || this.key !== keyOf("states", old)) return;
     this.key = keyOf("states", name);
     this.isAwaited = true;
@@ -33,7 +33,7 @@ export class Rename {
   }
 
   /** Stays on its box while the view moves; closes when the box is gone. */
-  follow() {
+  viewChanged() {
     if (!this.key) return;
     const node = this.canvas.scene.nodes.get(this.key);
     if (!node && this.isAwaited) return;

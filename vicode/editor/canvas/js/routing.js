@@ -1,89 +1,89 @@
 // The way of every edge and the place of its label. Ways depend on boxes alone; labels also on the ways near them.
 import { Grid } from "./grid.js";
-import { bounds, crosses, curveBounds, grow, lengthOf, overlaps, pointAt, pointsOf, rectAround, rectOf } from "./geometry.js";
-import { chipOf, labelAt, placeLabel, shorterChips } from "./labels.js";
-import { LINKS, pairOf } from "./scene.js";
-import { fan, loops, readingOrder, straightFan } from "./ways.js";
+import { bounds, polylineTouches, curveBounds, grow, curveLength, overlaps, pointOnCurve, sampleCurve, rectAround, nodeRect } from "./geometry.js";
+import { makeEdgeLabel, labelPosition, placeLabel, shorterLabels } from "./labels.js";
+import { LINKS, pairKey } from "./scene.js";
+import { parallelCurves, selfLoopCurves, readingOrder, straightCurves } from "./ways.js";
 
 // What a label would hide, dearer first. A place farther along its line costs less than hiding a line.
 const COST = { box: 12, label: 8, line: 1.4, link: 0.7 };
 // In a scene of more edges a label looks only at ways and labels that are known already: those of what is in sight.
-const MOST_PLANNED = 600;
+const MAX_PLANNED = 600;
 
 export class Router {
   constructor(scene) {
     this.scene = scene;
     this.routes = new Map();
-    this.ways = new Map();
+    this.paths = new Map();
     this.lines = new Grid();
     this.labels = new Grid();
     this.labelRects = new Map();
     // While a box follows a hand, labels look at boxes and labels alone; these want a second look then.
-    this.isHasty = false;
-    this.hasty = new Set();
+    this.isProvisional = false;
+    this.provisional = new Set();
   }
 
   clear() {
-    for (const store of [this.routes, this.ways, this.lines, this.labels, this.labelRects]) store.clear();
+    for (const store of [this.routes, this.paths, this.lines, this.labels, this.labelRects]) store.clear();
   }
 
   /** The route of an edge: `{curve, chip, at}`, worked out when first asked for. */
   route(edge) {
-    if (!this.routes.has(edge.key)) this.#plan();
+    if (!this.routes.has(edge.key)) this.#placeLabels();
     if (!this.routes.has(edge.key)) this.#label(edge);
     return this.routes.get(edge.key);
   }
 
   /** Straight curves, as `[key, curve]`, for edges that hands pull along with many others; they want a second look then. */
-  rough(edges) {
-    const pairs = new Set(edges.map((edge) => this.scene.isDrawable(edge) && pairOf(edge)));
+  roughCurves(edges) {
+    const pairs = new Set(edges.map((edge) => this.scene.isDrawable(edge) && pairKey(edge)));
     pairs.delete(false);
     for (const edge of edges) {
-      this.forget(edge);
-      this.hasty.add(edge.key);
+      this.invalidate(edge);
+      this.provisional.add(edge.key);
     }
     return [...pairs].flatMap((pair) => {
-      const { edges: lanes, curves } = this.#curves(pair, straightFan);
+      const { edges: lanes, curves } = this.#curves(pair, straightCurves);
       return lanes.map(({ key }, index) => [key, curves[index]]);
     });
   }
 
   /** The curve alone, which needs no neighbours. */
-  way(edge) {
-    if (!this.ways.has(edge.key)) this.#routePair(pairOf(edge));
-    return this.ways.get(edge.key);
+  edgePath(edge) {
+    if (!this.paths.has(edge.key)) this.#routePair(pairKey(edge));
+    return this.paths.get(edge.key);
   }
 
   /** What all curves and labels cover, or null; in a large scene they stray little from the boxes. */
   extent() {
-    if (this.scene.edges.size > MOST_PLANNED) return null;
+    if (this.scene.edges.size > MAX_PLANNED) return null;
     const edges = [...this.scene.edges.values()].filter((edge) => this.scene.isDrawable(edge));
     for (const edge of edges) this.route(edge);
-    const points = edges.flatMap(({ key }) => this.ways.get(key).points);
+    const points = edges.flatMap(({ key }) => this.paths.get(key).points);
     return bounds([...points.map(({ x, y }) => ({ x, y, w: 0, h: 0 })), ...this.labelRects.values()]);
   }
 
-  forget(edge) {
-    for (const key of this.scene.pairs.get(pairOf(edge)) ?? []) this.drop(key);
+  invalidate(edge) {
+    for (const key of this.scene.pairs.get(pairKey(edge)) ?? []) this.drop(key);
     this.drop(edge.key);
   }
 
   /** Forgets one edge only, also one that is gone from the scene: its label must not keep others from their places. */
   drop(key) {
-    for (const store of [this.routes, this.ways, this.labelRects]) store.delete(key);
+    for (const store of [this.routes, this.paths, this.labelRects]) store.delete(key);
     this.labels.remove(key);
     this.lines.remove(key);
   }
 
-  forgetAround(nodeKey) {
-    for (const edge of this.scene.edgesOf(nodeKey)) this.forget(edge);
+  invalidateAround(nodeKey) {
+    for (const edge of this.scene.edgesOf(nodeKey)) this.invalidate(edge);
   }
 
   /** The routed edges that come near a rectangle: they may want another way when a box arrives there or leaves. */
-  passing(rect) {
+  edgesNear(rect) {
     const found = [];
     for (const key of this.scene.edgeGrid.query(grow(rect, 160))) {
-      const way = this.ways.get(key);
+      const way = this.paths.get(key);
       if (way && overlaps(this.#sweep(this.scene.edges.get(key), way.curve), rect)) found.push(this.scene.edges.get(key));
     }
     return found;
@@ -96,11 +96,11 @@ export class Router {
   }
 
   #routePair(pair) {
-    const { edges, chips, curves } = this.#curves(pair, fan);
+    const { edges, chips, curves } = this.#curves(pair, parallelCurves);
     edges.forEach(({ key }, index) => {
-      const length = lengthOf(curves[index]);
-      const way = { curve: curves[index], chip: chips[index], length, points: pointsOf(curves[index], length) };
-      this.ways.set(key, way);
+      const length = curveLength(curves[index]);
+      const way = { curve: curves[index], chip: chips[index], length, points: sampleCurve(curves[index], length) };
+      this.paths.set(key, way);
       this.lines.putPath(key, way.points);
     });
   }
@@ -109,8 +109,8 @@ export class Router {
     const edges = this.#lanes(pair);
     const [{ source, target }] = edges;
     const [from, to] = [this.scene.nodes.get(source), this.scene.nodes.get(target)];
-    const chips = edges.map((edge) => chipOf(edge, from, to, edges.length));
-    return { edges, chips, curves: (source === target ? loops : spread)(edges, chips, this.scene) };
+    const chips = edges.map((edge) => makeEdgeLabel(edge, from, to, edges.length));
+    return { edges, chips, curves: (source === target ? selfLoopCurves : spread)(edges, chips, this.scene) };
   }
 
   /** The shown edges of a pair as they are read: those to the right or downwards first, each way by its order in the design. */
@@ -124,10 +124,10 @@ export class Router {
   }
 
   /** Places all labels that have none, those with the least choice first: so places do not hang on what was asked first. */
-  #plan() {
-    if (this.scene.edges.size > MOST_PLANNED) return;
+  #placeLabels() {
+    if (this.scene.edges.size > MAX_PLANNED) return;
     const edges = [...this.scene.edges.values()].filter((edge) => !this.routes.has(edge.key) && this.scene.isDrawable(edge));
-    const lengths = new Map(edges.map((edge) => [edge, this.way(edge).length]));
+    const lengths = new Map(edges.map((edge) => [edge, this.edgePath(edge).length]));
     edges.sort((a, b) => lengths.get(a) - lengths.get(b) || (a.key < b.key ? -1 : 1));
     for (const edge of edges) this.#label(edge);
     this.#makeRoom(edges);
@@ -145,12 +145,12 @@ export class Router {
   }
 
   #label(edge) {
-    const { curve, chip: wanted } = this.way(edge);
+    const { curve, chip: wanted } = this.edgePath(edge);
     if (!wanted) {
-      this.routes.set(edge.key, { curve, chip: null, at: pointAt(curve, 0.5) });
+      this.routes.set(edge.key, { curve, chip: null, at: pointOnCurve(curve, 0.5) });
       return;
     }
-    const { chip, at } = edge.data.label_at ? { chip: wanted, at: labelAt(curve, edge.data.label_at) } : this.#freeLabel(edge, curve, wanted);
+    const { chip, at } = edge.data.label_at ? { chip: wanted, at: labelPosition(curve, edge.data.label_at) } : this.#freeLabel(edge, curve, wanted);
     this.routes.set(edge.key, { curve, chip, at });
     const rect = rectAround(at.x, at.y, chip.w, chip.h);
     this.labels.putRect(edge.key, rect);
@@ -160,9 +160,9 @@ export class Router {
   /** The best place for a label; where it would hide something else in any place, a shorter one may not. */
   #freeLabel(edge, curve, wanted) {
     let best = { cost: Infinity };
-    for (const chip of [wanted, ...shorterChips(edge, wanted)]) {
-      const place = placeLabel(edge, curve, chip, (rect, limit) => this.#crowd(rect, edge.key, limit));
-      if (this.isHasty) this.hasty.add(edge.key);
+    for (const chip of [wanted, ...shorterLabels(edge, wanted)]) {
+      const place = placeLabel(edge, curve, chip, (rect, limit) => this.#overlapCost(rect, edge.key, limit));
+      if (this.isProvisional) this.provisional.add(edge.key);
       if (place.cost < best.cost) best = { ...place, chip };
       if (best.cost < COST.label) break;
     }
@@ -170,19 +170,19 @@ export class Router {
   }
 
   /** What lies under a rectangle, or would be under a label there; as soon as it is too much, no more is looked for. */
-  #crowd(rect, own, limit) {
+  #overlapCost(rect, own, limit) {
     let sum = 0;
     for (const key of this.scene.nodeGrid.query(rect)) {
       const node = this.scene.nodes.get(key);
-      if (node && overlaps(grow(rectOf(node), 2), rect)) sum += COST.box;
+      if (node && overlaps(grow(nodeRect(node), 2), rect)) sum += COST.box;
     }
     for (const key of this.labels.query(rect)) {
       if (key !== own && overlaps(grow(this.labelRects.get(key), 2), rect)) sum += COST.label;
     }
-    if (this.isHasty || sum >= limit) return sum;
+    if (this.isProvisional || sum >= limit) return sum;
     for (const key of this.lines.query(rect)) {
       if (sum >= limit) return sum;
-      if (key !== own && crosses(this.ways.get(key).points, rect)) sum += key.startsWith(LINKS) ? COST.link : COST.line;
+      if (key !== own && polylineTouches(this.paths.get(key).points, rect)) sum += key.startsWith(LINKS) ? COST.link : COST.line;
     }
     return sum;
   }

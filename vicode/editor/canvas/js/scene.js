@@ -1,7 +1,7 @@
 // What Python told us to draw: nodes and edges by key, indexed by place and by pair. No design, no DOM.
 import { Grid } from "./grid.js";
-import { bounds, rectOf } from "./geometry.js";
-import { shorten, textWidth } from "./text.js";
+import { bounds, nodeRect } from "./geometry.js";
+import { truncate, textWidth } from "./text.js";
 
 /** How the keys of links begin. */
 export const LINKS = "l:";
@@ -10,7 +10,7 @@ const NODE_HEIGHT = 60;
 const COMMON_ID = "@common";
 
 export const keyOf = (of, id) => (of === "common" ? "common" : KINDS[of] + id);
-export const pairOf = (edge) => (edge.source < edge.target ? `${edge.source}\n${edge.target}` : `${edge.target}\n${edge.source}`);
+export const pairKey = (edge) => (edge.source < edge.target ? `${edge.source}\n${edge.target}` : `${edge.target}\n${edge.source}`);
 
 export class Scene {
   constructor() {
@@ -22,8 +22,8 @@ export class Scene {
     this.edgesAt = new Map();
     this.nodeGrid = new Grid();
     this.edgeGrid = new Grid();
-    this.near = new Set();
-    this.ground = [];
+    this.affectedNodes = new Set();
+    this.changedRects = [];
     this.linksShown = true;
   }
 
@@ -34,7 +34,7 @@ export class Scene {
     this.doc = view.doc ?? "";
     this.#upsert(view);
     if (view.common) this.#putNode("common", COMMON_ID, view.common);
-    this.#file(this.nodes.keys(), this.edges.keys());
+    this.#index(this.nodes.keys(), this.edges.keys());
   }
 
   /**
@@ -43,8 +43,8 @@ export class Scene {
    */
   apply(changes) {
     this.rev = changes.rev;
-    this.near = new Set();
-    this.ground = [];
+    this.affectedNodes = new Set();
+    this.changedRects = [];
     const gone = this.#remove(changes.remove ?? {});
     const touched = this.#upsert(changes.upsert ?? {});
     if ("common" in changes) {
@@ -52,8 +52,8 @@ export class Scene {
       else if (this.nodes.has("common")) gone.push(this.#dropNode("common"));
     }
     const nodes = touched.filter((key) => this.nodes.has(key));
-    this.#file(nodes, new Set([...this.#edgesAtAll(nodes), ...touched.filter((key) => this.edges.has(key))]));
-    return { touched, gone, near: this.near, ground: this.ground };
+    this.#index(nodes, new Set([...this.#edgesAtAll(nodes), ...touched.filter((key) => this.edges.has(key))]));
+    return { touched, gone, affectedNodes: this.affectedNodes, changedRects: this.changedRects };
   }
 
   /** Moves a node without filing it anew; `reindex` does that once the hand lets go. */
@@ -64,7 +64,7 @@ export class Scene {
 
   reindex(keys) {
     const nodes = [...keys];
-    this.#file(nodes, this.#edgesAtAll(nodes));
+    this.#index(nodes, this.#edgesAtAll(nodes));
   }
 
   /** An edge is drawn only when both its ends are there and its kind is shown. */
@@ -87,7 +87,7 @@ export class Scene {
   }
 
   extent() {
-    return bounds([...this.nodes.values()].map(rectOf));
+    return bounds([...this.nodes.values()].map(nodeRect));
   }
 
   /** A web font changed what texts measure: sizes are taken again. */
@@ -123,15 +123,15 @@ export class Scene {
     const node = { key, of, id, data, x: data.x, y: data.y, ...sizeOf(of, data) };
     this.nodes.set(key, node);
     if (old && isSamePlace(old, node)) return key;
-    this.near.add(key);
-    this.ground.push(...[old, node].filter(Boolean).map(rectOf));
+    this.affectedNodes.add(key);
+    this.changedRects.push(...[old, node].filter(Boolean).map(nodeRect));
     return key;
   }
 
   #dropNode(key) {
-    this.near.add(key);
-    for (const edge of this.edgesOf(key)) this.near.add(edge.source).add(edge.target);
-    if (this.nodes.has(key)) this.ground.push(rectOf(this.nodes.get(key)));
+    this.affectedNodes.add(key);
+    for (const edge of this.edgesOf(key)) this.affectedNodes.add(edge.source).add(edge.target);
+    if (this.nodes.has(key)) this.changedRects.push(nodeRect(this.nodes.get(key)));
     this.nodes.delete(key);
     this.nodeGrid.remove(key);
     for (const edge of this.edgesAt.get(key) ?? []) this.edgeGrid.remove(edge);
@@ -141,11 +141,11 @@ export class Scene {
   #putEdge(edge) {
     const old = this.edges.get(edge.key);
     if (old && (old.source !== edge.source || old.target !== edge.target)) this.#unlink(old);
-    this.near.add(edge.source).add(edge.target);
+    this.affectedNodes.add(edge.source).add(edge.target);
     this.edges.set(edge.key, edge);
     member(this.edgesAt, edge.source).add(edge.key);
     member(this.edgesAt, edge.target).add(edge.key);
-    member(this.pairs, pairOf(edge)).add(edge.key);
+    member(this.pairs, pairKey(edge)).add(edge.key);
     return edge.key;
   }
 
@@ -158,10 +158,10 @@ export class Scene {
   }
 
   #unlink(edge) {
-    this.near.add(edge.source).add(edge.target);
+    this.affectedNodes.add(edge.source).add(edge.target);
     this.edgesAt.get(edge.source)?.delete(edge.key);
     this.edgesAt.get(edge.target)?.delete(edge.key);
-    this.pairs.get(pairOf(edge))?.delete(edge.key);
+    this.pairs.get(pairKey(edge))?.delete(edge.key);
   }
 
   #edgesAtAll(nodes) {
@@ -169,8 +169,8 @@ export class Scene {
   }
 
   /** Notes where nodes and edges lie. */
-  #file(nodes, edges) {
-    for (const key of nodes) this.nodeGrid.putRect(key, rectOf(this.nodes.get(key)));
+  #index(nodes, edges) {
+    for (const key of nodes) this.nodeGrid.putRect(key, nodeRect(this.nodes.get(key)));
     for (const key of edges) {
       const edge = this.edges.get(key);
       const [source, target] = [this.nodes.get(edge.source), this.nodes.get(edge.target)];
@@ -183,8 +183,8 @@ export class Scene {
 export function sizeOf(of, data) {
   if (of === "common") return { w: 140, h: 40, label: "every state", second: "" };
   const name = String(of === "states" ? data.name : data.id);
-  const label = shorten(name, "name", 230);
-  const second = of === "components" && data.name !== data.id ? shorten(String(data.name), "small", 200) : "";
+  const label = truncate(name, "name", 230);
+  const second = of === "components" && data.name !== data.id ? truncate(String(data.name), "small", 200) : "";
   const room = Math.max(textWidth(label, "name"), textWidth(second, "small")) + (of === "components" ? 64 : 44);
   return { w: Math.max(120, Math.ceil(room / 20) * 20), h: NODE_HEIGHT, label, second };
 }

@@ -1,6 +1,6 @@
 // What is selected and what is under the pointer, and therefore what is brought forward.
 
-const MOST_LIT = 40;
+const MAX_HIGHLIGHTED = 40;
 
 export class Selection {
   constructor(canvas) {
@@ -18,7 +18,7 @@ export class Selection {
     if (same) return;
     this.keys = new Set(known);
     this.painter.mark("selected", this.keys);
-    this.light();
+    this.updateHighlight();
     this.canvas.selectionChanged(quiet);
   }
 
@@ -32,7 +32,7 @@ export class Selection {
     if (key === this.hovered) return false;
     this.hovered = key;
     this.painter.mark("hover", key ? [key] : []);
-    this.light();
+    this.updateHighlight();
     return true;
   }
 
@@ -42,7 +42,7 @@ export class Selection {
     const known = [...this.keys].filter((key) => this.scene.find(key));
     const lost = known.length !== this.keys.size;
     this.keys = new Set(known);
-    this.light();
+    this.updateHighlight();
     return lost;
   }
 
@@ -60,8 +60,8 @@ export class Selection {
   }
 
   /** Marks the thing in question together with its ends; everything else steps back. */
-  light() {
-    const centre = this.hovered ? [this.hovered] : this.keys.size <= MOST_LIT ? [...this.keys] : [];
+  updateHighlight() {
+    const centre = this.hovered ? [this.hovered] : this.keys.size <= MAX_HIGHLIGHTED ? [...this.keys] : [];
     const lit = new Set(centre);
     for (const key of centre) {
       const edge = this.scene.edges.get(key);
@@ -69,6 +69,6 @@ export class Selection {
       for (const each of edges) for (const part of [each.key, each.source, each.target]) lit.add(part);
     }
     this.painter.mark("lit", lit);
-    this.canvas.dimSoon();
+    this.canvas.scheduleDim();
   }
 }

@@ -3,7 +3,7 @@ import { html } from "./svg.js";
 
 // Fewer things than this zoom as they are, and stay sharp.
 const MANY = 250;
-const MOST_PIXELS = 4096;
+const MAX_PIXELS = 4096;
 const STEP = 20;
 
 export class Snapshot {
@@ -18,14 +18,14 @@ export class Snapshot {
   }
 
   /** Whether zooming is smoother with a bitmap. */
-  isWorthIt() {
-    return this.painter.items.size > MANY && this.painter.covered !== null;
+  isUseful() {
+    return this.painter.items.size > MANY && this.painter.mountedRect !== null;
   }
 
   /** Gets ready for a zoom while nobody waits for it. */
   prepare(zoom) {
-    const { revision, looks } = this.painter;
-    if (!this.isWorthIt() || (this.#isTrue(zoom) && this.taken.looks === looks)) return;
+    const { revision, styleRevision } = this.painter;
+    if (!this.isUseful() || (this.#isCurrent(zoom) && this.taken.styleRevision === styleRevision)) return;
     this.taken = null;
     const drawing = this.#draw(zoom);
     const goOn = (deadline) => {
@@ -39,18 +39,18 @@ export class Snapshot {
 
   /** Finishes the picture, or takes a new one when boxes or lines were moved; an outdated highlight does no harm. */
   finish(zoom) {
-    if (this.#isTrue(zoom)) return;
+    if (this.#isCurrent(zoom)) return;
     this.drawing = this.#draw(zoom);
     while (!this.drawing.next().done);
   }
 
-  #isTrue(zoom) {
-    const { revision, covered } = this.painter;
-    return this.taken?.revision === revision && this.taken.region === covered && this.taken.zoom === zoom;
+  #isCurrent(zoom) {
+    const { revision, mountedRect } = this.painter;
+    return this.taken?.revision === revision && this.taken.region === mountedRect && this.taken.zoom === zoom;
   }
 
   /** The colours changed. */
-  forget() {
+  invalidate() {
     this.styles.clear();
     this.taken = null;
   }
@@ -64,8 +64,8 @@ export class Snapshot {
 
   /** Draws some, and then waits to be asked for more. */
   *#draw(zoom) {
-    const { revision, looks, covered: region } = this.painter;
-    const scale = Math.min(zoom * devicePixelRatio, MOST_PIXELS / Math.max(region.w, region.h));
+    const { revision, styleRevision, mountedRect: region } = this.painter;
+    const scale = Math.min(zoom * devicePixelRatio, MAX_PIXELS / Math.max(region.w, region.h));
     const pen = this.#begin(region, scale);
     const groups = Object.values(this.painter.layers).flatMap((layer) => [...layer.children].map((group) => ({ layer, group })));
     for (const [index, { layer, group }] of groups.entries()) {
@@ -74,7 +74,7 @@ export class Snapshot {
       if (index % STEP === STEP - 1) yield pen.getImageData(0, 0, 1, 1);
     }
     pen.getImageData(0, 0, 1, 1);
-    this.taken = { revision, looks, region, zoom, scale };
+    this.taken = { revision, styleRevision, region, zoom, scale };
   }
 
   #begin(region, scale) {

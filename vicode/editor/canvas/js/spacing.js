@@ -7,7 +7,7 @@
  * Args: the rectangle; all others; the axis, as `{name, size, across, length}`.
  * Returns: `{by, gaps}` each; how far to go, and the equal gaps as `[from, to]` along the axis.
  */
-export function spacings(rect, rects, axis) {
+export function equalGaps(rect, rects, axis) {
   const { name, size } = axis;
   const mates = rects.filter((each) => overlapAcross(each, rect, axis)).map((each) => ({ from: each[name], to: each[name] + each[size] }));
   const middle = rect[name] + rect[size] / 2;

@@ -5,27 +5,27 @@ const drawnAt = new WeakMap();
 const ORIGIN = { x: 0, y: 0 };
 
 /** Puts a group, drawn around the origin, at a place; it tells that place in `data-at`. */
-export function stand(group, ...at) {
+export function placeGroup(group, ...at) {
   const [x, y] = at.map(round);
   const from = drawnAt.get(group) ?? ORIGIN;
   group.dataset.at = `${x} ${y}`;
   if (isHeld(group)) return group.setAttribute("transform", `translate(${x - from.x} ${y - from.y})`);
   group.removeAttribute("transform");
-  if (x !== from.x || y !== from.y) shift(group, x - from.x, y - from.y);
+  if (x !== from.x || y !== from.y) translateElement(group, x - from.x, y - from.y);
   drawnAt.set(group, { x, y });
 }
 
 /** A group that was held rests again. */
-export function rest(group) {
-  if (group.hasAttribute("transform")) stand(group, ...group.dataset.at.split(" ").map(Number));
+export function bakeTransform(group) {
+  if (group.hasAttribute("transform")) placeGroup(group, ...group.dataset.at.split(" ").map(Number));
 }
 
 /** The point that the coordinates of a group are drawn around. */
-export const middleOf = (group) => drawnAt.get(group) ?? ORIGIN;
+export const groupOrigin = (group) => drawnAt.get(group) ?? ORIGIN;
 
 /** Moves an element, and all in it, by changing its coordinates; returns it. */
-export function shift(element, dx, dy) {
-  if (element.tagName === "g") for (const child of element.children) shift(child, dx, dy);
+export function translateElement(element, dx, dy) {
+  if (element.tagName === "g") for (const child of element.children) translateElement(child, dx, dy);
   else if (element.tagName === "path") element.setAttribute("d", shiftPath(element.getAttribute("d"), dx, dy));
   else if (element.tagName === "circle") add(element, { cx: dx, cy: dy });
   else add(element, { x: dx, y: dy });

@@ -21,7 +21,7 @@ function fill(element, attributes, children) {
 }
 
 /** In front of all others of a layer. Moving an element takes the focus away from it; it is given back. */
-export function moveTo(part, layer) {
+export function bringToFront(part, layer) {
   const focused = part.getRootNode().activeElement === part;
   layer.append(part);
   if (focused) part.focus({ preventScroll: true });

@@ -6,16 +6,16 @@ export const FONTS = {
   label: '400 12px Roboto, "Segoe UI", system-ui, sans-serif',
 };
 
-const PATIENCE_MS = 300;
+const FONT_TIMEOUT_MS = 300;
 
 let areTrue = false;
 const loaded = Promise.allSettled(Object.values(FONTS).map((font) => document.fonts.load(font))).then(() => (areTrue = true));
 
 /** Waits a moment for the web fonts, as what is drawn with others moves when they come. */
-export const awaitFonts = () => Promise.race([loaded, new Promise((done) => setTimeout(done, PATIENCE_MS))]);
+export const awaitFonts = () => Promise.race([loaded, new Promise((done) => setTimeout(done, FONT_TIMEOUT_MS))]);
 
 /** Does a job when fonts come after all; what was measured before may be wrong then. */
-export function whenFontsCome(job) {
+export function onFontsLoaded(job) {
   if (areTrue) return;
   loaded.then(() => {
     rulers.clear();
@@ -51,7 +51,7 @@ class Ruler {
 }
 
 /** The text itself when it fits, else its beginning and an ellipsis. */
-export function shorten(text, font, room) {
+export function truncate(text, font, room) {
   const line = text.replace(/\s+/g, " ").trim();
   // Nothing longer than this can fit in any room we have; it spares measuring a novel.
   const start = line.length > 120 ? line.slice(0, 120) : line;

@@ -4,7 +4,7 @@ export class Theme {
   constructor(stage, onChange) {
     this.stage = stage;
     this.onChange = onChange;
-    this.wish = "auto";
+    this.preference = "auto";
     this.colours = new Map();
     this.system = matchMedia("(prefers-color-scheme: dark)");
     this.refresh = () => this.#refresh();
@@ -15,7 +15,7 @@ export class Theme {
   }
 
   set(wish) {
-    this.wish = wish ?? "auto";
+    this.preference = wish ?? "auto";
     this.#refresh();
   }
 
@@ -39,7 +39,7 @@ export class Theme {
   }
 
   #resolve() {
-    if (this.wish !== "auto") return this.wish;
+    if (this.preference !== "auto") return this.preference;
     if (document.body.classList.contains("body--dark")) return "dark";
     if (document.body.classList.contains("body--light")) return "light";
     return this.system.matches ? "dark" : "light";

@@ -1,9 +1,9 @@
 // A connection without holding a button: the next click ends it, or keys aim at a box and Enter ends it.
-import { nearest } from "./walking.js";
+import { nearestInDirection } from "./walking.js";
 
 const TYPING_MS = 1200;
 
-export class Tool {
+export class ConnectMode {
   /** Args: the canvas; a gesture of connecting.js; the node it starts from; what it is called, for the words shown. */
   constructor(canvas, gesture, from, what) {
     this.canvas = canvas;
@@ -33,7 +33,7 @@ export class Tool {
   finish() {
     const target = this.canvas.scene.nodes.get(this.aimed ?? this.from);
     this.gesture.cancel();
-    if (target && this.gesture.fits(target)) this.gesture.joinTo(target);
+    if (target && this.gesture.accepts(target)) this.gesture.connectTo(target);
   }
 
   cancel() {
@@ -45,7 +45,7 @@ export class Tool {
   }
 
   /** Tab: on to the next box that fits, in the order of the design. */
-  step(by) {
+  aimNext(by) {
     const fitting = this.#fitting();
     const keys = [...this.canvas.scene.nodes.keys()];
     const at = keys.indexOf(this.aimed ?? this.from);
@@ -54,13 +54,13 @@ export class Tool {
   }
 
   /** Arrow keys: on to the nearest box that fits in that direction. */
-  go(direction) {
+  aimInDirection(direction) {
     const from = this.canvas.scene.nodes.get(this.aimed ?? this.from);
-    if (from) this.#aim(nearest(this.#fitting(), from, direction));
+    if (from) this.#aim(nearestInDirection(this.#fitting(), from, direction));
   }
 
   /** Letters: on to the next box whose name begins with what was typed. */
-  type(letter) {
+  aimByName(letter) {
     const now = performance.now();
     const goesOn = now - this.typed.time < TYPING_MS;
     this.typed = { text: (goesOn ? this.typed.text : "") + letter.toLowerCase(), time: now };
@@ -69,7 +69,7 @@ export class Tool {
   }
 
   #fitting() {
-    return [...this.canvas.scene.nodes.values()].filter((node) => this.gesture.fits(node));
+    return [...this.canvas.scene.nodes.values()].filter((node) => this.gesture.accepts(node));
   }
 
   #aim(node) {
@@ -83,6 +83,6 @@ export class Tool {
 
   #say() {
     const target = this.canvas.scene.nodes.get(this.aimed);
-    this.canvas.say(target ? `${this.what} ${target.id}: Enter. Esc ends.` : `${this.what} …: click, or type its name. Esc ends.`);
+    this.canvas.showMessage(target ? `${this.what} ${target.id}: Enter. Esc ends.` : `${this.what} …: click, or type its name. Esc ends.`);
   }
 }

@@ -23,8 +23,8 @@ export class Toolbar {
 
   /** By touch there is no Shift to hold: while this is on, taps add and a finger over nothing draws a frame. */
   #collect(gestures) {
-    gestures.collects = !gestures.collects;
-    this.several.setAttribute("aria-pressed", String(gestures.collects));
+    gestures.isAdditive = !gestures.isAdditive;
+    this.several.setAttribute("aria-pressed", String(gestures.isAdditive));
   }
 
   show(zoom) {

@@ -19,8 +19,8 @@ export class Touch {
   down(event) {
     this.canvas.stage.classList.toggle("touch", event.pointerType === "touch");
     if (event.pointerType !== "touch") return false;
-    this.fingers.set(event.pointerId, this.canvas.viewport.local(event));
-    this.rest();
+    this.fingers.set(event.pointerId, this.canvas.viewport.toLocal(event));
+    this.cancelHold();
     if (this.fingers.size === 1) this.timer = setTimeout(() => this.onHold(event), HOLD_MS);
     if (this.fingers.size !== 2) return false;
     this.span = this.#measure();
@@ -28,17 +28,17 @@ export class Touch {
   }
 
   move(event) {
-    if (this.fingers.has(event.pointerId)) this.fingers.set(event.pointerId, this.canvas.viewport.local(event));
+    if (this.fingers.has(event.pointerId)) this.fingers.set(event.pointerId, this.canvas.viewport.toLocal(event));
   }
 
   /** The finger moved or left: it is not held still. */
-  rest() {
+  cancelHold() {
     clearTimeout(this.timer);
   }
 
   /** A finger left; true while (or until just now) there were two. */
   up(event) {
-    this.rest();
+    this.cancelHold();
     this.fingers.delete(event.pointerId);
     if (!this.span) return false;
     if (!this.fingers.size) this.span = null;
@@ -55,7 +55,7 @@ export class Touch {
   }
 
   clear() {
-    this.rest();
+    this.cancelHold();
     this.fingers.clear();
     this.span = null;
   }

@@ -22,50 +22,50 @@ export default {
     apply(changes) {
       this.canvas.apply(changes);
     },
-    select(items, heard) {
-      this.canvas.select(items, heard);
+    select(items, seq) {
+      this.canvas.select(items, seq);
     },
     centre(of, id) {
       this.canvas.centre(of, id);
     },
-    arriveAt(of, id) {
-      this.canvas.arriveAt(of, id);
+    scrollToInitial(of, id) {
+      this.canvas.scrollToInitial(of, id);
     },
     fit() {
       this.canvas.fit();
     },
-    setActive(ids, seq, taken) {
-      this.canvas.setActive(ids, seq, taken);
+    highlightActive(ids, seq, taken) {
+      this.canvas.highlightActive(ids, seq, taken);
     },
-    setStops(items) {
-      this.canvas.setStops(items);
+    setBreakpoints(items) {
+      this.canvas.setBreakpoints(items);
     },
     showLinks(flag) {
       this.canvas.showLinks(flag);
     },
-    tellPeek(answer) {
-      this.canvas.peek.tell(answer);
+    showTooltip(answer) {
+      this.canvas.tooltip.addSections(answer);
     },
-    showPlaces(items, stay) {
-      this.canvas.showPlaces(items, stay);
+    showPreview(items, stay) {
+      this.canvas.showPreview(items, stay);
     },
-    showPeople(others) {
-      this.canvas.people.show(others);
+    showPresence(others) {
+      this.canvas.presence.show(others);
     },
     renameInPlace(id) {
       this.canvas.renameInPlace(id);
     },
     stateRenamed(old, name) {
-      this.canvas.rename.boxRenamed(old, name);
+      this.canvas.rename.stateRenamed(old, name);
     },
     focus() {
       this.canvas.stage.focus({ preventScroll: true });
     },
-    run(name) {
+    runCommand(name) {
       this.canvas.commands.run(name);
     },
-    putOnClipboard(text) {
-      this.canvas.clipboard.put(text);
+    writeClipboard(text) {
+      this.canvas.clipboard.resolveCopy(text);
     },
   },
 };

@@ -16,9 +16,9 @@ export class Viewport {
     this.y = 0;
     this.width = 0;
     this.height = 0;
-    this.resting = true;
+    this.isIdle = true;
     this.onChange = () => {};
-    this.onRest = () => {};
+    this.onIdle = () => {};
   }
 
   /** Takes the room there is; false while the element is hidden. */
@@ -28,7 +28,7 @@ export class Viewport {
     return this.width > 0 && this.height > 0;
   }
 
-  local(event) {
+  toLocal(event) {
     const box = this.stage.getBoundingClientRect();
     return { x: event.clientX - box.left, y: event.clientY - box.top };
   }
@@ -42,7 +42,7 @@ export class Viewport {
   }
 
   /** What is seen, in world units. */
-  rect() {
+  visibleRect() {
     return { x: -this.x / this.k, y: -this.y / this.k, w: this.width / this.k, h: this.height / this.k };
   }
 
@@ -54,11 +54,11 @@ export class Viewport {
     this.k = Math.min(MAX_ZOOM, Math.max(MIN_ZOOM, k));
     this.x = x;
     this.y = y;
-    this.resting = false;
-    this.frame.ask("view", () => this.onChange());
-    this.frame.afterRest("view", REST_MS, () => {
-      this.resting = true;
-      this.onRest();
+    this.isIdle = false;
+    this.frame.schedule("view", () => this.onChange());
+    this.frame.debounce("view", REST_MS, () => {
+      this.isIdle = true;
+      this.onIdle();
     });
   }
 
@@ -93,7 +93,7 @@ export class Viewport {
 
   /** Pans as little as needed to bring a rectangle into sight. */
   reveal(rect, margin = 40) {
-    const seen = this.rect();
+    const seen = this.visibleRect();
     const by = margin / this.k;
     const push = (low, high, from, to) => (low - by < from ? low - by - from : high + by > to ? high + by - to : 0);
     const dx = push(rect.x, rect.x + rect.w, seen.x, seen.x + seen.w);

@@ -1,10 +1,10 @@
 // The curves of the edges between one pair of nodes: lanes beside each other, around boxes in the way, loops on free sides.
-import { exitFrom, grow, lengthOf, overlaps, pointAt, raise, rectAround, rectOf } from "./geometry.js";
+import { exitFrom, grow, curveLength, overlaps, pointOnCurve, quadraticToCubic, rectAround, nodeRect } from "./geometry.js";
 
 const CLEARANCE = 8;
 const LABEL_GAP = 6;
-const LEAST_LANE = 24;
-const MOST_LANE = 100;
+const MIN_LANE = 24;
+const MAX_LANE = 100;
 // A line starts at least so far from the corners of its boxes.
 const INSET = { x: 14, y: 12 };
 // Tried in this order: straight first, then ever wider bows to either side around boxes in the way.
@@ -18,7 +18,7 @@ const SIDES = [
 ];
 
 /** Curves for edges between two nodes, in lane order; `chips` are their labels, which the lanes make room for. */
-export function fan(edges, chips, scene) {
+export function parallelCurves(edges, chips, scene) {
   const { pair, bent } = lanesBetween(edges, chips, scene);
   let best = null;
   for (const bow of BOWS) {
@@ -33,7 +33,7 @@ export function fan(edges, chips, scene) {
 }
 
 /** The same without a look at boxes in the way: straight, but for what lanes need. */
-export const straightFan = (edges, chips, scene) => lanesBetween(edges, chips, scene).bent(0, false);
+export const straightCurves = (edges, chips, scene) => lanesBetween(edges, chips, scene).bent(0, false);
 
 function lanesBetween(edges, chips, scene) {
   const [from, to] = readingOrder(scene.nodes.get(edges[0].source), scene.nodes.get(edges[0].target));
@@ -43,10 +43,10 @@ function lanesBetween(edges, chips, scene) {
 }
 
 /** Self loops take the freest sides; further ones grow around the first. */
-export function loops(edges, chips, scene) {
+export function selfLoopCurves(edges, chips, scene) {
   const node = scene.nodes.get(edges[0].source);
   const room = chips.reduce((most, chip) => Math.max(most, chip?.w ?? 0), 40);
-  const sides = SIDES.map((side) => ({ side, burden: burdenOf(node, side, room, scene) })).sort((a, b) => a.burden - b.burden);
+  const sides = SIDES.map((side) => ({ side, burden: sideLoad(node, side, room, scene) })).sort((a, b) => a.burden - b.burden);
   return edges.map((_, index) => loop(node, sides[index % 4].side, Math.floor(index / 4)));
 }
 
@@ -72,7 +72,7 @@ function lanesOf(chips, normal) {
     const wide = ((one?.w ?? 0) + (other?.w ?? 0)) / 2 + LABEL_GAP;
     const high = Math.max(one?.h ?? 0, other?.h ?? 0) + LABEL_GAP;
     const gap = Math.min(wide / Math.abs(normal.x || 1e-9), high / Math.abs(normal.y || 1e-9));
-    places.push(places[index - 1] + Math.min(MOST_LANE, Math.max(LEAST_LANE, gap)));
+    places.push(places[index - 1] + Math.min(MAX_LANE, Math.max(MIN_LANE, gap)));
   }
   const middle = places.at(-1) / 2;
   return places.map((place) => place - middle);
@@ -91,7 +91,7 @@ function bend(edge, { from, to, normal }, { lane, bow, flat }) {
   });
   if (!flat) {
     const control = along(0.5, apex * 2);
-    return raise(exitFrom(source, start, control), control, exitFrom(target, end, control));
+    return quadraticToCubic(exitFrom(source, start, control), control, exitFrom(target, end, control));
   }
   const [first, second] = [along(0.12, (apex * 4) / 3), along(0.88, (apex * 4) / 3)];
   const [p, q] = [exitFrom(source, start, first), exitFrom(target, end, second)];
@@ -107,9 +107,9 @@ function roomAcross(node, normal) {
 /** How many boxes a curve runs over, looked up along the curve in steps smaller than a box. */
 function boxesUnder(curve, { from, to }, scene) {
   const hit = new Set();
-  const steps = Math.min(120, Math.max(8, Math.ceil(lengthOf(curve) / 24)));
+  const steps = Math.min(120, Math.max(8, Math.ceil(curveLength(curve) / 24)));
   for (let step = 1; step < steps; step += 1) {
-    const { x, y } = pointAt(curve, step / steps);
+    const { x, y } = pointOnCurve(curve, step / steps);
     for (const key of scene.nodeGrid.at(x, y)) {
       const box = scene.nodes.get(key);
       if (box === from || box === to) continue;
@@ -119,7 +119,7 @@ function boxesUnder(curve, { from, to }, scene) {
   return hit.size;
 }
 
-function burdenOf(node, side, room, scene) {
+function sideLoad(node, side, room, scene) {
   // The initial mark sits at the upper left, so that the top is a little worse than it looks.
   let burden = side.y === -1 && node.data.initial ? 1.5 : 0;
   if (side.x !== 0) burden += 0.2;
@@ -134,7 +134,7 @@ function burdenOf(node, side, room, scene) {
   const place = rectAround(node.x + (side.x * (node.w + w)) / 2, node.y + (side.y * (node.h + h)) / 2, w, h);
   for (const key of scene.nodeGrid.query(place)) {
     const other = scene.nodes.get(key);
-    if (other && other !== node && overlaps(grow(rectOf(other), 4), place)) burden += 3;
+    if (other && other !== node && overlaps(grow(nodeRect(other), 4), place)) burden += 3;
   }
   return burden;
 }

@@ -14,13 +14,13 @@ export class Wheel {
     event.preventDefault();
     const { viewport } = this.canvas;
     if (event.ctrlKey || event.metaKey) {
-      viewport.zoomAt(viewport.local(event), Math.exp(-clamp(event.deltaY, 60) * 0.01));
+      viewport.zoomAt(viewport.toLocal(event), Math.exp(-clamp(event.deltaY, 60) * 0.01));
     } else if (this.#comesFromPad(event)) {
       const [dx, dy] = event.shiftKey && !event.deltaX ? [event.deltaY, 0] : [event.deltaX, event.deltaY];
       viewport.panBy(-dx, -dy);
     } else {
       const turn = event.deltaMode === 0 ? event.deltaY : event.deltaY * 33;
-      viewport.zoomAt(viewport.local(event), Math.exp(-clamp(turn, 240) * 0.0015));
+      viewport.zoomAt(viewport.toLocal(event), Math.exp(-clamp(turn, 240) * 0.0015));
     }
   }
 

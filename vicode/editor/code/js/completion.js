@@ -2,10 +2,10 @@
 import * as CM from "nicegui-codemirror";
 import { toCharacters, toUnits } from "./offsets.js";
 
-const PATIENCE_MS = 5000;
+const TIMEOUT_MS = 5000;
 const WORD = /[A-Za-z_]\w*$/;
 
-export function makeCompletion(emit) {
+export function createCompletion(emit) {
   const waiting = new Map();
   let last = 0;
 
@@ -14,12 +14,12 @@ export function makeCompletion(emit) {
     const number = last;
     return new Promise((resolve) => {
       waiting.set(number, resolve);
-      setTimeout(() => settle(number, null), PATIENCE_MS);
+      setTimeout(() => resolveRequest(number, null), TIMEOUT_MS);
       emit("complete", { number, text, offset });
     });
   }
 
-  function settle(number, answer) {
+  function resolveRequest(number, answer) {
     waiting.get(number)?.(answer);
     waiting.delete(number);
   }
@@ -35,9 +35,9 @@ export function makeCompletion(emit) {
 
   return {
     extension: CM.EditorState.languageData.of(() => [{ autocomplete: source }]),
-    answer: settle,
+    answer: resolveRequest,
     dispose() {
-      for (const number of [...waiting.keys()]) settle(number, null);
+      for (const number of [...waiting.keys()]) resolveRequest(number, null);
     },
   };
 }

@@ -1,16 +1,16 @@
 // The colours of expressions: a closed part of Python, so that nothing offers what only Python has.
 import * as CM from "nicegui-codemirror";
 
-const WORDS = /^(and|or|not|if|else)\b/;
-const TRUTHS = /^(True|False|true|false)\b/;
+const KEYWORDS = /^(and|or|not|if|else)\b/;
+const BOOLEANS = /^(True|False|true|false)\b/;
 
 export function expressionLanguage() {
   return CM.StreamLanguage.define({
     name: "expression",
     token(stream) {
       if (stream.eatSpace()) return null;
-      if (stream.match(WORDS)) return "keyword";
-      if (stream.match(TRUTHS)) return "atom";
+      if (stream.match(KEYWORDS)) return "keyword";
+      if (stream.match(BOOLEANS)) return "atom";
       if (stream.match(/^\d+\.?\d*([eE][+-]?\d+)?/)) return "number";
       if (stream.match(/^[A-Za-z_]\w*(?=\s*\()/)) return "variableName.function";
       if (stream.match(/^[A-Za-z_]\w*(?=\s*\.)/)) return "propertyName";

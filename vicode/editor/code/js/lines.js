@@ -1,22 +1,22 @@
 // Lines brought forward, lines with a style, and the line at which somebody looks.
 import * as CM from "nicegui-codemirror";
 
-export function makeLines(emit) {
-  const forward = lineField();
+export function createLineStyles(emit) {
+  const highlight = lineField();
   const styles = lineField();
-  const tell = CM.EditorView.updateListener.of((update) => {
+  const reportLine = CM.EditorView.updateListener.of((update) => {
     const isOwn = update.transactions.some((each) => each.isUserEvent("select"));
     if (emit && update.selectionSet && isOwn) {
       emit("line", update.state.doc.lineAt(update.state.selection.main.head).number);
     }
   });
   return {
-    extension: [forward.field, styles.field, tell],
+    extension: [highlight.field, styles.field, reportLine],
     show(view, first, last, reveal) {
       const doc = view.state.doc;
       const numbers = [];
-      for (let line = first; first > 0 && line <= Math.min(last, doc.lines); line += 1) numbers.push([line, "is-forward"]);
-      const effects = [forward.set(doc, numbers)];
+      for (let line = first; first > 0 && line <= Math.min(last, doc.lines); line += 1) numbers.push([line, "is-highlighted"]);
+      const effects = [highlight.set(doc, numbers)];
       if (reveal && numbers.length > 0) {
         effects.push(CM.EditorView.scrollIntoView(doc.line(first).from, { y: "start", yMargin: 24 }));
       }

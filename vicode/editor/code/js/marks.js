@@ -2,7 +2,7 @@
 import * as CM from "nicegui-codemirror";
 import { toUnits } from "./offsets.js";
 
-export function makeMarks() {
+export function createMarks() {
   const replace = CM.StateEffect.define();
   const field = CM.StateField.define({
     create: () => CM.Decoration.none,
@@ -13,7 +13,7 @@ export function makeMarks() {
     },
     provide: (of) => CM.EditorView.decorations.from(of),
   });
-  const hover = CM.hoverTooltip((view, at) => tipAt(view.state.field(field), at));
+  const hover = CM.hoverTooltip((view, at) => tooltipAt(view.state.field(field), at));
   return {
     extension: [field, hover],
     show(view, text, list) {
@@ -41,7 +41,7 @@ function decorationsFor(text, list) {
   return CM.Decoration.set(ranges, true);
 }
 
-function tipAt(marks, at) {
+function tooltipAt(marks, at) {
   const messages = [];
   let from = at;
   marks.between(at, at, (start, _end, mark) => {

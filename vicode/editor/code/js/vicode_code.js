@@ -1,34 +1,34 @@
 // The Vue shell NiceGUI loads beside a code editor; the aid itself lives in the ES modules beside it.
-import { aidEditor } from "vicode-code";
+import { attachCodeAssist } from "vicode-code";
 
 export default {
   template: `<span hidden></span>`,
-  props: { editor: Number, wishes: Object },
+  props: { editor: Number, options: Object },
   async mounted() {
-    this.aid = await aidEditor(this.editor, this.wishes, (event, payload) => this.$emit(event, payload));
+    this.codeAssist = await attachCodeAssist(this.editor, this.options, (event, payload) => this.$emit(event, payload));
     // The page may have gone on to something else before the editor was there.
-    if (this.isGone) this.aid.dispose();
+    if (this.isUnmounted) this.codeAssist.dispose();
     else this.$emit("ready", {});
   },
   unmounted() {
-    this.isGone = true;
-    this.aid?.dispose();
+    this.isUnmounted = true;
+    this.codeAssist?.dispose();
   },
   methods: {
     showMarks(text, marks) {
-      this.aid?.showMarks(text, marks);
+      this.codeAssist?.showMarks(text, marks);
     },
-    showLines(first, last, reveal) {
-      this.aid?.showLines(first, last, reveal);
+    highlightLines(first, last, reveal) {
+      this.codeAssist?.highlightLines(first, last, reveal);
     },
-    showStyles(lines) {
-      this.aid?.showStyles(lines);
+    setLineStyles(lines) {
+      this.codeAssist?.setLineStyles(lines);
     },
     goTo(start) {
-      this.aid?.goTo(start);
+      this.codeAssist?.goTo(start);
     },
     answer(number, answer) {
-      this.aid?.answer(number, answer);
+      this.codeAssist?.answer(number, answer);
     },
   },
 };

@@ -4,28 +4,30 @@ from collections.abc import Callable
 
 from nicegui import ui
 
-from vicode.editor.panels.desk import Desk
+from vicode.editor.panels.desk import WindowContext
 from vicode.editor.panels.fields import Field
-from vicode.editor.panels.folds import fold
-from vicode.editor.panels.project.declared import declaration_form, group, remover, tell
+from vicode.editor.panels.folds import collapsible_section
+from vicode.editor.panels.project.declared import add_remove_button, declaration_form, form_group, show_write_error
 from vicode.editor.panels.project.fields import (
     DOC,
     FREQUENCY,
     XABSL_NAME,
-    Line,
-    choice_in_file,
-    line_in_file,
-    name_in_file,
-    write,
+    TextAttribute,
+    project_choice_field,
+    project_name_field,
+    project_text_field,
+    write_node,
 )
 from vicode.editor.panels.rows import add_button, heading
 from vicode.editor.session import numbers
 from vicode.editor.session.project_edits import add_declaration
-from vicode.editor.session.project_spots import Spot
+from vicode.editor.session.project_spots import ProjectNodePath
 from vicode.model.design import Declaration
 
-TITLE = Line(label="Title", attribute="title")
-_IMPLEMENTATION = Line(label="Implementation", attribute="implementation", hint="module:Class, world or internal")
+TITLE = TextAttribute(label="Title", attribute="title")
+_IMPLEMENTATION = TextAttribute(
+    label="Implementation", attribute="implementation", hint="module:Class, world or internal"
+)
 _SECTIONS = (
     ("outputs", "Outputs", "what others may read"),
     ("variables", "Variables", "what others may read and set"),
@@ -33,49 +35,53 @@ _SECTIONS = (
 )
 
 
-def component_form(desk: Desk, spot: Spot, fields: list[Field], *, alias: str = "") -> None:
+def component_form(context: WindowContext, spot: ProjectNodePath, fields: list[Field], *, alias: str = "") -> None:
     """Build the form of a component without a design, as it is used under an alias, if there is one."""
-    whole, called = group(desk, spot, "shared removable")
+    whole, called = form_group(context, spot, "shared removable")
     with whole:
-        fields.append(name_in_file(desk, "Name", spot, called))
-        fields.append(line_in_file(desk, spot, FREQUENCY))
-        remover(desk, spot, called)
+        fields.append(project_name_field(context, "Name", spot, called))
+        fields.append(project_text_field(context, spot, FREQUENCY))
+        add_remove_button(context, spot, called)
         for line in (_IMPLEMENTATION, TITLE, DOC):
             with ui.element("div").classes("wide"):
-                fields.append(line_in_file(desk, spot, line))
+                fields.append(project_text_field(context, spot, line))
         with ui.element("div").classes("wide"):
-            fields.append(line_in_file(desk, spot, XABSL_NAME))
-    component = spot.read(desk.workspace.project)
+            fields.append(project_text_field(context, spot, XABSL_NAME))
+    component = spot.get(context.workspace.project)
     for section, title, hint in _SECTIONS:
         heading(title, hint=f"{hint} as {alias}.…" if alias and section != "parameters" else hint)
         for number in range(len(getattr(component, section))):
-            _declaration(desk, spot.inner(section, number), fields)
+            _declaration(context, spot.child(section, number), fields)
         with ui.row().classes("adders"):
-            add_button("Declare", f"Declare: one more of the {section}", _adder(desk, spot, section))
+            add_button("Declare", f"Declare: one more of the {section}", _adder(context, spot, section))
 
 
-def _adder(desk: Desk, spot: Spot, section: str) -> Callable[[], None]:
-    return lambda: tell(desk, write(desk, spot, lambda component: add_declaration(component, section)))
+def _adder(context: WindowContext, spot: ProjectNodePath, section: str) -> Callable[[], None]:
+    return lambda: show_write_error(
+        context, write_node(context, spot, lambda component: add_declaration(component, section))
+    )
 
 
-def _declaration(desk: Desk, spot: Spot, fields: list[Field]) -> None:
+def _declaration(context: WindowContext, spot: ProjectNodePath, fields: list[Field]) -> None:
     """A declaration as a line that opens."""
 
     def show() -> None:
-        found = spot.read(desk.workspace.project)
+        found = spot.get(context.workspace.project)
         for whole in told if found is not None else ():
             if (whole.text, whole.props.get("caption")) != (found.name, _about(found)):
                 whole.props["caption"] = _about(found)
                 whole.set_text(found.name)
 
     def build() -> None:
-        declaration_form(desk, spot, "Name", fields, show)
+        declaration_form(context, spot, "Name", fields, show)
 
-    found = spot.read(desk.workspace.project)
+    found = spot.get(context.workspace.project)
     key = f"project {spot.steps} whole"
     # What is open is built at once, before there is a fold to tell.
     told: list[ui.expansion] = []
-    told.append(fold(desk, key, found.name, _about(found), build).classes("declaration-more declared-line"))
+    told.append(
+        collapsible_section(context, key, found.name, _about(found), build).classes("declaration-more declared-line")
+    )
 
 
 def _about(declaration: Declaration) -> str:
@@ -85,20 +91,22 @@ def _about(declaration: Declaration) -> str:
         f"takes {', '.join(each.name for each in given) or 'nothing'}" if given is not None else "",
         declaration.type,
         declaration.unit,
-        f"{numbers.text_of(ends[0])} to {numbers.text_of(ends[1])}" if ends else "",
+        f"{numbers.format_number(ends[0])} to {numbers.format_number(ends[1])}" if ends else "",
         f"= {declaration.initial}" if declaration.initial else "",
     )
     said = ", ".join(part for part in parts if part)
     return ": ".join(part for part in (said, declaration.doc) if part)
 
 
-def agent_form(desk: Desk, spot: Spot, fields: list[Field]) -> None:
+def agent_form(context: WindowContext, spot: ProjectNodePath, fields: list[Field]) -> None:
     """Build the form of an agent."""
-    whole, called = group(desk, spot, "shared removable")
+    whole, called = form_group(context, spot, "shared removable")
     with whole:
-        fields.append(name_in_file(desk, "Agent", spot, called))
-        fields.append(choice_in_file(desk, spot, "Root", "root", lambda: sorted(desk.workspace.project.interfaces())))
-        remover(desk, spot, called)
+        fields.append(project_name_field(context, "Agent", spot, called))
+        fields.append(
+            project_choice_field(context, spot, "Root", "root", lambda: sorted(context.workspace.project.interfaces()))
+        )
+        add_remove_button(context, spot, called)
         for line in (TITLE, XABSL_NAME, DOC):
             with ui.element("div").classes("wide" if line is DOC else ""):
-                fields.append(line_in_file(desk, spot, line))
+                fields.append(project_text_field(context, spot, line))

@@ -3,25 +3,27 @@
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
-from vicode.editor.panels.command import Command, Place
-from vicode.editor.view import Selected
+from vicode.editor.panels.command import Command, MenuGroup
+from vicode.editor.view import ItemRef
 
 if TYPE_CHECKING:
-    from vicode.editor.panels.simulation.simulator import Simulator
+    from vicode.editor.panels.simulation.simulator import SimulationController
 
-_STOPPABLE = ("states", "transitions")
+_BREAKPOINT_KINDS = ("states", "transitions")
 
 
-def simulation_commands(simulate: "Callable[[], Simulator]", show: Callable[[], None]) -> tuple[Command, ...]:
-    """All of them; `simulate` gives the window's simulator, made when it is first wanted, `show` opens the panel."""
+def simulation_commands(
+    get_controller: "Callable[[], SimulationController]", show_panel: Callable[[], None]
+) -> tuple[Command, ...]:
+    """All of them; `get_controller` gives the window's simulator, made when it is first wanted, `show_panel` opens the panel."""
 
     def toggle() -> None:
-        _toggle_breakpoint(simulate())
+        _toggle_breakpoint(get_controller())
 
-    def shown(act: "Callable[[Simulator], object]") -> Callable[[], object]:
+    def shown(act: "Callable[[SimulationController], object]") -> Callable[[], object]:
         def do() -> object:
-            show()
-            return act(simulate())
+            show_panel()
+            return act(get_controller())
 
         return do
 
@@ -29,7 +31,13 @@ def simulation_commands(simulate: "Callable[[], Simulator]", show: Callable[[], 
         ("simulate-start", "Simulate: start, or start again", shown(lambda it: it.restart()), "restart_alt", ""),
         ("simulate-play", "Simulate: play or pause", shown(lambda it: it.toggle_play()), "play_arrow", "F6"),
         ("simulate-step", "Simulate: one step", shown(lambda it: it.step()), "skip_next", "F10"),
-        ("simulate-back", "Simulate: one step back", shown(lambda it: it.back()), "skip_previous", "Ctrl+Shift+F10"),
+        (
+            "simulate-back",
+            "Simulate: one step back",
+            shown(lambda it: it.step_back()),
+            "skip_previous",
+            "Ctrl+Shift+F10",
+        ),
         (
             "simulate-change",
             "Simulate: run to the next state",
@@ -42,22 +50,24 @@ def simulation_commands(simulate: "Callable[[], Simulator]", show: Callable[[], 
         ("breakpoint", "Breakpoint on or off at what is selected", toggle, "stop_circle", "F9"),
     )
     return tuple(
-        Command(name, label, act, Place.SIMULATE, icon=icon, keys=(keys,) if keys else (), while_typing=True)
+        Command(name, label, act, MenuGroup.SIMULATE, icon=icon, keys=(keys,) if keys else (), while_typing=True)
         for name, label, act, icon, keys in rows
     )
 
 
-async def _run_to(simulator: "Simulator") -> None:
-    only = simulator.desk.only
-    if only is None or only.of != "states":
-        simulator.desk.say("Select the state to run to first", "info")
+async def _run_to(simulator: "SimulationController") -> None:
+    only = simulator.context.single_selection
+    if only is None or only.kind != "states":
+        simulator.context.show_toast("Select the state to run to first", "info")
         return
     await simulator.run_to(only.id)
 
 
-def _toggle_breakpoint(simulator: "Simulator") -> None:
-    things = [Selected(of=thing.of, id=thing.id) for thing in simulator.desk.selected if thing.of in _STOPPABLE]
+def _toggle_breakpoint(simulator: "SimulationController") -> None:
+    things = [
+        ItemRef(kind=thing.kind, id=thing.id) for thing in simulator.context.selected if thing.kind in _BREAKPOINT_KINDS
+    ]
     if not things:
-        simulator.desk.say("Select states or transitions to put breakpoints on first", "info")
+        simulator.context.show_toast("Select states or transitions to put breakpoints on first", "info")
         return
     simulator.toggle_breakpoints(*things)

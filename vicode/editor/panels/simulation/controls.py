@@ -2,29 +2,29 @@
 
 from nicegui import ui
 
-from vicode.editor.panels.fields import enable
+from vicode.editor.panels.fields import set_enabled
 from vicode.editor.panels.rows import icon_button
-from vicode.editor.panels.simulation.simulator import SPEEDS, Simulator
-from vicode.editor.panels.simulation.wording import message_of
+from vicode.editor.panels.simulation.simulator import SPEEDS, SimulationController
+from vicode.editor.panels.simulation.wording import status_message
 from vicode.editor.session.simulation import Simulation
-from vicode.editor.view import Selected
+from vicode.editor.view import ItemRef
 
 
-class Controls:
+class SimulationControls:
     """Builds the bar; `refresh` keeps it true."""
 
-    def __init__(self, simulator: Simulator) -> None:
+    def __init__(self, controller: SimulationController) -> None:
         """Build it."""
-        self.simulator = simulator
+        self.controller = controller
         with ui.element("div").classes("simulation-bar").props('role="toolbar" aria-label="Simulation"'):
-            self.restart = icon_button("restart_alt", "Start, or start again", simulator.restart)
-            self.back = icon_button("skip_previous", "One step back (Ctrl+Shift+F10)", simulator.back)
-            self.play = icon_button("play_arrow", "Play or pause (F6)", simulator.toggle_play)
-            self.step = icon_button("skip_next", "One step (F10)", simulator.step)
+            self.restart = icon_button("restart_alt", "Start, or start again", controller.restart)
+            self.back = icon_button("skip_previous", "One step back (Ctrl+Shift+F10)", controller.step_back)
+            self.play = icon_button("play_arrow", "Play or pause (F6)", controller.toggle_play)
+            self.step = icon_button("skip_next", "One step (F10)", controller.step)
             self.change = icon_button(
-                "fast_forward", "Run until the state changes (Shift+F6)", simulator.step_to_change
+                "fast_forward", "Run until the state changes (Shift+F6)", controller.step_to_change
             )
-            self.stop = icon_button("stop", "End the simulation", simulator.stop)
+            self.stop = icon_button("stop", "End the simulation", controller.stop)
             self.where = ui.button("", on_click=self._reveal, color=None).props("flat dense no-caps no-wrap")
             self.where.classes("simulation-where mono")
             with self.where:
@@ -36,68 +36,72 @@ class Controls:
             self.time.on("keydown.enter", self._go_to_time)
             ui.label("Speed").classes("small").props('aria-hidden="true"')
             speeds = {speed: f"{speed:g}×" for speed in SPEEDS}
-            self.speed = ui.select(speeds, value=simulator.speed, on_change=lambda event: self._set_speed(event.value))
+            self.speed = ui.select(speeds, value=controller.speed, on_change=lambda event: self._set_speed(event.value))
             self.speed.props('dense outlined options-dense aria-label="Speed"').classes("simulation-speed")
-            errors = ui.checkbox("Stop at errors", value=simulator.pauses_on_errors).props("dense size=xs")
+            errors = ui.checkbox("Stop at errors", value=controller.pauses_on_errors).props("dense size=xs")
             errors.on_value_change(lambda event: self._set_pauses(flag=bool(event.value)))
         with ui.element("div").classes("simulation-message").props('role="status"') as self.message:
             self.icon = ui.icon("info").props('aria-hidden="true"')
             self.words = ui.label()
-            self.mend = ui.button("Start again", on_click=simulator.restart).props("flat dense no-caps size=sm")
-            self.cut = ui.button("Go on from here", on_click=self._cut).props("flat dense no-caps size=sm")
+            self.restart_button = ui.button("Start again", on_click=controller.restart).props(
+                "flat dense no-caps size=sm"
+            )
+            self.continue_button = ui.button("Go on from here", on_click=self._continue_from_here).props(
+                "flat dense no-caps size=sm"
+            )
 
     def refresh(self) -> None:
         """Show where the simulation is, and what can be done."""
-        simulator, simulation = self.simulator, self.simulator.simulation
+        simulator, simulation = self.controller, self.controller.simulation
         icon = "pause" if simulator.is_playing or simulator.is_running else "play_arrow"
         if self.play.props["icon"] != icon:
             self.play.props(f"icon={icon}")
-        enable(self.back, flag=simulation is not None and simulation.cursor > 0)
-        enable(self.stop, flag=simulation is not None)
+        set_enabled(self.back, flag=simulation is not None and simulation.cursor > 0)
+        set_enabled(self.stop, flag=simulation is not None)
         for button in (self.play, self.step, self.change):
-            enable(button, flag=simulation is None or simulation.can_go_on or simulator.is_stale)
+            set_enabled(button, flag=simulation is None or simulation.can_step or simulator.is_stale)
         where = _where(simulation)
         if self.where.text != where:
             self.where.set_text(where)
         self._show_message()
 
     def _show_message(self) -> None:
-        kind, words = message_of(self.simulator)
-        simulation = self.simulator.simulation
+        kind, words = status_message(self.controller)
+        simulation = self.controller.simulation
         if self.words.text != words:
             self.words.set_text(words)
         icons = {"error": "error", "warning": "warning", "past": "history"}
         self.icon.set_name(icons.get(kind, "info"))
         self.message.classes(add=kind, remove=" ".join({"error", "warning", "past", "info"} - {kind}))
-        self.mend.set_visibility(self.simulator.is_stale or kind == "error")
-        self.cut.set_visibility(kind == "past" and simulation is not None and not simulation.replay)
+        self.restart_button.set_visibility(self.controller.is_stale or kind == "error")
+        self.continue_button.set_visibility(kind == "past" and simulation is not None and not simulation.replay)
 
     def _reveal(self) -> None:
-        simulation = self.simulator.simulation
-        if simulation is not None and simulation.moment is not None:
-            self.simulator.desk.reveal(Selected(of="states", id=simulation.moment.state))
+        simulation = self.controller.simulation
+        if simulation is not None and simulation.shown_iteration is not None:
+            self.controller.context.reveal(ItemRef(kind="states", id=simulation.shown_iteration.state))
 
-    def _cut(self) -> None:
-        if self.simulator.simulation is not None:
-            self.simulator.simulation.cut()
-            self.simulator.simulation.go_to(self.simulator.simulation.cursor)
+    def _continue_from_here(self) -> None:
+        if self.controller.simulation is not None:
+            self.controller.simulation.truncate()
+            self.controller.simulation.go_to(self.controller.simulation.cursor)
 
     async def _go_to_time(self) -> None:
         if isinstance(self.time.value, int | float):
-            await self.simulator.run_to_time(float(self.time.value))
+            await self.controller.run_to_time(float(self.time.value))
 
     def _set_speed(self, value: object) -> None:
         if value in SPEEDS:
-            self.simulator.speed = float(str(value))
+            self.controller.speed = float(str(value))
 
     def _set_pauses(self, *, flag: bool) -> None:
-        self.simulator.pauses_on_errors = flag
+        self.controller.pauses_on_errors = flag
 
 
 def _where(simulation: Simulation | None) -> str:
     if simulation is None:
         return "not started"
-    moment = simulation.moment
+    moment = simulation.shown_iteration
     if moment is None:
         return "before the first step"
     return f"{moment.time_ns / 1e9:.2f} s · iteration {moment.iteration} · {moment.state}"

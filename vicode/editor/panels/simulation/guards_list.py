@@ -5,9 +5,9 @@ from typing import Any
 
 from nicegui import ui
 
-from vicode.editor.panels.simulation.simulator import Simulator
-from vicode.editor.view import Selected
-from vicode.editor.view.guard_rows import GuardRow, guard_rows
+from vicode.editor.panels.simulation.simulator import SimulationController
+from vicode.editor.view import ItemRef
+from vicode.editor.view.guard_rows import GuardRow, list_guard_rows
 
 _ICONS = {"true": "check_circle", "false": "cancel", "unknown": "help"}
 
@@ -15,10 +15,10 @@ _ICONS = {"true": "check_circle", "false": "cancel", "unknown": "help"}
 class GuardsList:
     """Built anew when another state is active; else only what changed is shown."""
 
-    def __init__(self, simulator: Simulator) -> None:
+    def __init__(self, controller: SimulationController) -> None:
         """Build the empty list."""
-        self.simulator = simulator
-        self._shape: object = None
+        self.controller = controller
+        self._structure_key: object = None
         self._shown: list[tuple[GuardRow, Any, Any, Any]] = []
         with ui.row().classes("heading guards-heading"):
             self.title = ui.label("Guards")
@@ -27,15 +27,15 @@ class GuardsList:
 
     def refresh(self) -> None:
         """Show the guards as they are in the moment that is shown."""
-        simulation = self.simulator.simulation
+        simulation = self.controller.simulation
         if simulation is None:
             self._rebuild((), "Guards", "", None)
             return
-        moment, design = simulation.moment, simulation.stage.design
+        moment, design = simulation.shown_iteration, simulation.prepared.design
         state = moment.state if moment else design.initial
-        rows = guard_rows(design, state, simulation.guards)
+        rows = list_guard_rows(design, state, simulation.guards)
         seconds = moment.tree[0].get("state_time_ns", 0) / 1e9 if moment and moment.tree else 0.0
-        stops = frozenset(self.simulator.breakpoints.things)
+        stops = frozenset(self.controller.breakpoints.items)
         shape = (state, tuple((row.key, row.text, row.outcome) for row in rows), stops)
         waits = "" if moment is None or moment.worked else " · not tested now"
         self._rebuild(rows, f"Guards of {state}", f"{seconds:.2f} s in it{waits}", shape)
@@ -47,9 +47,9 @@ class GuardsList:
             self.title.set_text(title)
         if self.hint.text != hint:
             self.hint.set_text(hint)
-        if shape == self._shape and (rows or shape is not None):
+        if shape == self._structure_key and (rows or shape is not None):
             return
-        self._shape = shape
+        self._structure_key = shape
         self.body.clear()
         with self.body:
             if not rows:
@@ -58,8 +58,8 @@ class GuardsList:
             self._shown = [self._row(row) for row in rows]
 
     def _row(self, row: GuardRow) -> tuple[GuardRow, Any, Any, Any]:
-        thing = Selected(of="transitions", id=row.key)
-        is_stop = thing in self.simulator.breakpoints.things
+        thing = ItemRef(kind="transitions", id=row.key)
+        is_stop = thing in self.controller.breakpoints.items
         with ui.element("div").classes("guard-row").style(f"padding-left: {12 * row.depth}px"):
             self._gutter(row, thing, is_stop=is_stop)
             with ui.element("button").classes("guard").props('type="button"').on("click", self._opener(thing)):
@@ -70,21 +70,21 @@ class GuardsList:
                 reads = ui.label().classes("guard-reads mono")
         return row, icon, word, reads
 
-    def _gutter(self, row: GuardRow, thing: Selected, *, is_stop: bool) -> None:
+    def _gutter(self, row: GuardRow, thing: ItemRef, *, is_stop: bool) -> None:
         """A button that puts a breakpoint on the transition."""
-        if not row.can_stop:
+        if not row.can_have_breakpoint:
             ui.element("span").classes("gutter")
             return
         words = f"{'Remove the breakpoint' if is_stop else 'Breakpoint'} on {row.outcome}"
-        gutter = ui.element("button").classes("gutter" + (" is-stop" if is_stop else ""))
+        gutter = ui.element("button").classes("gutter" + (" has-breakpoint" if is_stop else ""))
         gutter.props(f'type="button" aria-pressed="{str(is_stop).lower()}"')
         gutter.props["aria-label"] = words
-        gutter.on("click", lambda: self.simulator.toggle_breakpoints(thing))
+        gutter.on("click", lambda: self.controller.toggle_breakpoints(thing))
 
-    def _opener(self, thing: Selected) -> Callable[[], None]:
+    def _opener(self, thing: ItemRef) -> Callable[[], None]:
         def select() -> None:
-            self.simulator.desk.select(thing)
-            self.simulator.desk.reveal(thing)
+            self.controller.context.select(thing)
+            self.controller.context.reveal(thing)
 
         return select
 

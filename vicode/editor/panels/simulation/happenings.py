@@ -4,20 +4,20 @@ from collections.abc import Callable
 
 from nicegui import ui
 
-from vicode.editor.panels.simulation.simulator import Simulator
-from vicode.editor.view import Selected
-from vicode.editor.view.activation import TreeRow, mistake_of, tree_rows, value_rows
+from vicode.editor.panels.simulation.simulator import SimulationController
+from vicode.editor.view import ItemRef
+from vicode.editor.view.activation import ActivationRow, activation_rows, code_error_view, value_rows
 
-_MOST_LINES = 200
-_LOOK_BACK = 400
+_MAX_LINES = 200
+_MAX_ITERATIONS = 400
 
 
 class ActivationTree:
     """The steps of the shown iteration, and the design's own values."""
 
-    def __init__(self, simulator: Simulator) -> None:
+    def __init__(self, controller: SimulationController) -> None:
         """Build the empty tree."""
-        self.simulator = simulator
+        self.controller = controller
         self._shown: object = None
         self.body = (
             ui.column().classes("activation").props('tabindex=0 role=group aria-label="Steps of this iteration"')
@@ -25,10 +25,10 @@ class ActivationTree:
 
     def refresh(self) -> None:
         """Show the iteration."""
-        simulation = self.simulator.simulation
-        moment = simulation.moment if simulation else None
-        rows = tree_rows(moment.tree) if moment else ()
-        component = self.simulator.desk.design.component
+        simulation = self.controller.simulation
+        moment = simulation.shown_iteration if simulation else None
+        rows = activation_rows(moment.tree) if moment else ()
+        component = self.controller.context.design.component
         values = value_rows(moment.tree, component) if moment else ()
         if (rows, values) == self._shown:
             return
@@ -45,12 +45,12 @@ class ActivationTree:
                 ui.label(f"{name} = {value}").classes("mono")
 
 
-class Output:
+class ConsoleOutput:
     """What user code printed up to the shown moment, and its errors; an error leads to its thing."""
 
-    def __init__(self, simulator: Simulator) -> None:
+    def __init__(self, controller: SimulationController) -> None:
         """Build the empty list."""
-        self.simulator = simulator
+        self.controller = controller
         self._shown: object = None
         self.body = ui.column().classes("output").props('tabindex=0 role=group aria-label="What was printed"')
 
@@ -64,7 +64,7 @@ class Output:
         with self.body:
             if not lines:
                 ui.label("What the code prints stands here, and its errors.").classes("empty")
-            for kind, text, thing in lines[-_MOST_LINES:]:
+            for kind, text, thing in lines[-_MAX_LINES:]:
                 if kind == "error":
                     with ui.element("button").classes("output-line error").props('type="button"') as row:
                         ui.icon("error").props('aria-hidden="true"')
@@ -73,42 +73,42 @@ class Output:
                 else:
                     ui.label(text).classes("output-line mono")
 
-    def _lines(self) -> list[tuple[str, str, Selected | None]]:
-        simulation = self.simulator.simulation
+    def _lines(self) -> list[tuple[str, str, ItemRef | None]]:
+        simulation = self.controller.simulation
         if simulation is None:
             return []
-        design = simulation.stage.design
-        lines: list[tuple[str, str, Selected | None]] = []
-        for number in simulation.recording.eventful(simulation.cursor, _LOOK_BACK):
-            moment = simulation.recording.moment(number)
+        design = simulation.prepared.design
+        lines: list[tuple[str, str, ItemRef | None]] = []
+        for number in simulation.recording.iterations_with_output(simulation.cursor, _MAX_ITERATIONS):
+            moment = simulation.recording.iteration(number)
             assert moment is not None
             time = f"{moment.time_ns / 1e9:.2f} s  "
             lines += [("print", time + line, None) for line in moment.prints]
-            if moment.unprinted:
-                lines.append(("print", f"{time}… and {moment.unprinted} more lines", None))
-            mistakes = (mistake_of(design, record) for record in moment.errors)
-            lines += [("error", time + mistake.words, mistake.thing) for mistake in mistakes]
+            if moment.omitted_lines:
+                lines.append(("print", f"{time}… and {moment.omitted_lines} more lines", None))
+            mistakes = (code_error_view(design, record) for record in moment.errors)
+            lines += [("error", time + mistake.text, mistake.item) for mistake in mistakes]
         failure = simulation.failure
         if failure is not None and not simulation.is_past:
             lines += [("print", line, None) for line in failure.prints]
-            found = mistake_of(design, failure.error) if failure.error else None
-            lines.append(("error", found.words if found else failure.message, found.thing if found else None))
+            found = code_error_view(design, failure.error) if failure.error else None
+            lines.append(("error", found.text if found else failure.message, found.item if found else None))
         return lines
 
-    def _opener(self, thing: Selected | None) -> Callable[[], None]:
+    def _opener(self, thing: ItemRef | None) -> Callable[[], None]:
         def select() -> None:
             if thing is not None:
-                self.simulator.desk.select(thing)
-                self.simulator.desk.reveal(thing)
+                self.controller.context.select(thing)
+                self.controller.context.reveal(thing)
 
         return select
 
 
-def _tree_row(row: TreeRow) -> None:
+def _tree_row(row: ActivationRow) -> None:
     with ui.element("div").classes("tree-row").style(f"padding-left: {16 * row.depth}px"):
         if row.link:
             ui.label(row.link).classes("tree-link")
-        ui.label(row.component).classes("tree-name" + ("" if row.worked else " is-idle"))
+        ui.label(row.component).classes("tree-name" + ("" if row.has_run else " is-idle"))
         if row.state:
             ui.label(row.state).classes("tree-state mono")
         if row.detail:

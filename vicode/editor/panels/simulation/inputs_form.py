@@ -8,26 +8,26 @@ from typing import Any
 from nicegui import ui
 
 from vicode.editor.panels.simulation.range_input import RangeInput
-from vicode.editor.panels.simulation.simulator import Simulator
-from vicode.editor.session.simulation import DONE, PARAMETERS, Input, Phase, Simulation
-from vicode.editor.view.guard_rows import guard_rows, names_read, show_value
+from vicode.editor.panels.simulation.simulator import SimulationController
+from vicode.editor.session.simulation import DONE, PARAMETERS, RunStatus, Simulation, SimulationInput
+from vicode.editor.view.guard_rows import find_read_outputs, format_value, list_guard_rows
 
-_MOST_ASKED = 8
+_MAX_CALLS = 8
 
 
 class InputsForm:
     """Built anew for each simulation; shows the inputs as they were in the moment that is shown."""
 
-    def __init__(self, simulator: Simulator) -> None:
+    def __init__(self, controller: SimulationController) -> None:
         """Build the empty form."""
-        self.simulator = simulator
+        self.controller = controller
         self._simulation: Simulation | None = None
-        self._rows: list[_Row] = []
+        self._rows: list[_InputRow] = []
         self.body = ui.column().classes("inputs")
 
     def refresh(self) -> None:
         """Show the values."""
-        simulation = self.simulator.simulation
+        simulation = self.controller.simulation
         if simulation is not self._simulation or not self._rows:
             self._simulation = simulation
             self.body.clear()
@@ -37,16 +37,16 @@ class InputsForm:
             return
         values = simulation.inputs
         read = self._names_read(simulation)
-        can_set = simulation.phase is not Phase.ENDED and not simulation.replay
+        can_set = simulation.status is not RunStatus.ENDED and not simulation.replay
         for row in self._rows:
             row.show(values.get(row.input.component, {}).get(row.input.name))
             row.mark(is_read=(row.input.component, row.input.name) in read, can_set=can_set)
 
-    def _build(self, simulation: Simulation | None) -> list["_Row"]:
+    def _build(self, simulation: Simulation | None) -> list["_InputRow"]:
         if simulation is None:
             ui.label("Press F10, or the play button, to start. Inputs stand here then.").classes("empty")
             return []
-        inputs = simulation.stage.inputs
+        inputs = simulation.prepared.inputs
         if simulation.replay:
             ui.label("A recorded trace is shown; nothing runs.").classes("empty")
             return []
@@ -54,35 +54,35 @@ class InputsForm:
             ui.label("Nothing to set: every component runs itself.").classes("empty")
         rows = []
         for component, group in groupby(inputs, key=lambda each: each.component):
-            title = component or f"Parameters of {simulation.stage.design.component}"
+            title = component or f"Parameters of {simulation.prepared.design.component}"
             with ui.row().classes("heading inputs-heading"):
                 ui.label(title)
             rows += [self._row(each, simulation) for each in group]
         return rows
 
-    def _row(self, each: Input, simulation: Simulation) -> "_Row":
+    def _row(self, each: SimulationInput, simulation: Simulation) -> "_InputRow":
         def set_value(value: Any) -> None:
-            self.simulator.desk.begin(simulation.set_input(each.key, value), "set input")
+            self.controller.context.run_in_background(simulation.set_input(each.key, value), "set input")
 
-        return _Function(each, set_value, simulation) if each.arguments is not None else _Row(each, set_value)
+        return _FunctionRow(each, set_value, simulation) if each.arguments is not None else _InputRow(each, set_value)
 
     def _names_read(self, simulation: Simulation) -> set[tuple[str, str]]:
         """What the guards of the active state read, by component and output."""
-        moment = simulation.moment
-        design = simulation.stage.design
-        rows = guard_rows(design, moment.state if moment else design.initial, simulation.guards)
+        moment = simulation.shown_iteration
+        design = simulation.prepared.design
+        rows = list_guard_rows(design, moment.state if moment else design.initial, simulation.guards)
         components = {use.alias: use.component for use in design.uses}
         found = set()
-        for name in names_read(rows, simulation.guards):
+        for name in find_read_outputs(rows, simulation.guards):
             alias, _dot, output = name.partition("(")[0].rpartition(".")
             found.add((components.get(alias, PARAMETERS), output))
         return found
 
 
-class _Row:
+class _InputRow:
     """One input: its name, a control of its type, its unit."""
 
-    def __init__(self, each: Input, set_value: Callable[[Any], None]) -> None:
+    def __init__(self, each: SimulationInput, set_value: Callable[[Any], None]) -> None:
         self.input = each
         self._set = set_value
         self._shown: Any = each.initial
@@ -121,14 +121,14 @@ class _Row:
         self._set(accepted)
 
 
-class _Function(_Row):
+class _FunctionRow(_InputRow):
     """An output with arguments: a value for all of them, and others for those it was asked with."""
 
-    def __init__(self, each: Input, set_value: Callable[[Any], None], simulation: Simulation) -> None:
+    def __init__(self, each: SimulationInput, set_value: Callable[[Any], None], simulation: Simulation) -> None:
         super().__init__(each, set_value)
         self._simulation = simulation
         self._table: list[list[Any]] = []
-        self._asked: list[dict[str, Any]] = []
+        self._called_arguments: list[dict[str, Any]] = []
         self._boxes: list[Any] = []
         self.rows = ui.column().classes("input-table")
 
@@ -137,14 +137,14 @@ class _Function(_Row):
         if isinstance(value, dict):
             self._table = [list(row) for row in value.get("table", ())]
             super().show(value.get("value"))
-        moment = self._simulation.moment
-        calls = moment.asked if moment else []
+        moment = self._simulation.shown_iteration
+        calls = moment.calls if moment else []
         key = (self.input.component, self.input.name)
         asked = [call["arguments"] for call in calls if (call.get("component"), call.get("output")) == key]
-        new = [arguments for arguments in asked if arguments not in self._asked][:_MOST_ASKED]
+        new = [arguments for arguments in asked if arguments not in self._called_arguments][:_MAX_CALLS]
         for arguments in new:
-            if len(self._asked) < _MOST_ASKED:
-                self._asked.append(arguments)
+            if len(self._called_arguments) < _MAX_CALLS:
+                self._called_arguments.append(arguments)
                 self._add_row(arguments)
 
     def _changed(self, value: Any) -> None:
@@ -154,7 +154,7 @@ class _Function(_Row):
             self._set({"value": accepted, "table": self._table})
 
     def _add_row(self, arguments: dict[str, Any]) -> None:
-        words = ", ".join(f"{name} = {show_value(value)}" for name, value in arguments.items())
+        words = ", ".join(f"{name} = {format_value(value)}" for name, value in arguments.items())
         with self.rows, ui.element("div").classes("input-row"):
             ui.label(f"if {words}").classes("input-name mono")
             _controls(self.input, f"{self.input.name} if {words}", lambda value: self._set_for(arguments, value))
@@ -168,15 +168,15 @@ class _Function(_Row):
         self._set({"value": self._shown, "table": self._table})
 
 
-def _controls(each: Input, name: str, changed: Callable[[Any], None]) -> list[Any]:
+def _controls(each: SimulationInput, name: str, changed: Callable[[Any], None]) -> list[Any]:
     """The controls of an input, which show the same value."""
     if each.type == "bool":
         switch = ui.switch(value=each.initial, on_change=lambda event: changed(event.value))
-        return [_named(switch.props("dense"), name)]
+        return [_with_aria_label(switch.props("dense"), name)]
     if each.options:
         options = {option: option.rpartition(".")[2] for option in each.options}
         choice = ui.select(options, value=each.initial, on_change=lambda event: changed(event.value))
-        return [_named(choice.props("dense outlined options-dense").classes("input-choice"), name)]
+        return [_with_aria_label(choice.props("dense outlined options-dense").classes("input-choice"), name)]
     controls: list[Any] = []
     if each.range is not None and each.range[0] < each.range[1]:
         low, high = each.range
@@ -185,7 +185,7 @@ def _controls(each: Input, name: str, changed: Callable[[Any], None]) -> list[An
     number = ui.number(value=each.initial, step=_step(each), suffix=each.unit or None)
     number.on_value_change(lambda event: changed(event.value))
     number.props("dense outlined debounce=150").classes("input-number mono")
-    return [*controls, _named(number, f"{name}, number" if controls else name)]
+    return [*controls, _with_aria_label(number, f"{name}, number" if controls else name)]
 
 
 def _short(value: Any) -> Any:
@@ -194,13 +194,13 @@ def _short(value: Any) -> Any:
     return float(f"{value:.4g}") if abs(value) < 1000 else float(round(value))
 
 
-def _named(control: Any, name: str) -> Any:
+def _with_aria_label(control: Any, name: str) -> Any:
     """Name it for screen readers; not in the text of properties, which quotes in a name would end."""
     control.props["aria-label"] = name
     return control
 
 
-def _step(each: Input) -> float:
+def _step(each: SimulationInput) -> float:
     """A hundredth of the range, in round numbers."""
     if each.type == "int":
         return 1

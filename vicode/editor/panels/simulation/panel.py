@@ -2,54 +2,54 @@
 
 from nicegui import ui
 
-from vicode.editor.panels.simulation.controls import Controls
+from vicode.editor.panels.simulation.controls import SimulationControls
 from vicode.editor.panels.simulation.guards_list import GuardsList
-from vicode.editor.panels.simulation.happenings import ActivationTree, Output
+from vicode.editor.panels.simulation.happenings import ActivationTree, ConsoleOutput
 from vicode.editor.panels.simulation.inputs_form import InputsForm
-from vicode.editor.panels.simulation.simulator import Simulator
+from vicode.editor.panels.simulation.simulator import SimulationController
 from vicode.editor.panels.simulation.timeline import Timeline
-from vicode.editor.panels.simulation.ways import Ways
+from vicode.editor.panels.simulation.ways import InputSourceForm
 from vicode.editor.panels.tabs import Tabs
 
-_BEAT_S = 0.08
-_SETTLED_S = 0.3
-_HAPPENINGS = ("Plot", "Active components", "Output")
+_POLL_INTERVAL_S = 0.08
+_FIT_DELAY_S = 0.3
+_RESULT_TABS = ("Plot", "Active components", "Output")
 
 
 class SimulationPanel:
     """Built when first shown; follows the simulator some times a second, however fast that runs."""
 
-    def __init__(self, simulator: Simulator) -> None:
+    def __init__(self, controller: SimulationController) -> None:
         """Build it."""
-        self.simulator = simulator
+        self.controller = controller
         self._shown = -1
         with ui.element("div").classes("simulation"):
-            self.controls = Controls(simulator)
+            self.controls = SimulationControls(controller)
             with ui.element("div").classes("simulation-body"):
                 with ui.element("section").classes("simulation-part").props('aria-label="Inputs"'):
-                    self.ways = Ways(simulator)
-                    self.inputs = InputsForm(simulator)
+                    self.input_source = InputSourceForm(controller)
+                    self.inputs = InputsForm(controller)
                 with ui.element("section").classes("simulation-part").props('aria-label="Guards of the active state"'):
-                    self.guards = GuardsList(simulator)
-                with ui.element("section").classes("simulation-part happenings").props('aria-label="What happened"'):
-                    self.tabs = Tabs(_HAPPENINGS, "happenings", "What happened")
-        builders = lambda: Timeline(simulator), lambda: ActivationTree(simulator), lambda: Output(simulator)
-        self.tabs.begin(dict(zip(_HAPPENINGS, builders, strict=True)))
-        simulator.show = self._follow
-        ui.timer(_BEAT_S, self._follow)
+                    self.guards = GuardsList(controller)
+                with ui.element("section").classes("simulation-part simulation-results").props('aria-label="What happened"'):
+                    self.tabs = Tabs(_RESULT_TABS, "simulation-results", "What happened")
+        builders = lambda: Timeline(controller), lambda: ActivationTree(controller), lambda: ConsoleOutput(controller)
+        self.tabs.build(dict(zip(_RESULT_TABS, builders, strict=True)))
+        controller.refresh_panel = self._poll
+        ui.timer(_POLL_INTERVAL_S, self._poll)
         # The panel takes room from the drawing, and what is active there is to be seen.
-        ui.timer(_SETTLED_S, simulator.canvas.fit, once=True)
+        ui.timer(_FIT_DELAY_S, controller.canvas.fit, once=True)
 
     def refresh(self) -> None:
         """The design or the selection changed."""
-        self.simulator.design_changed()
+        self.controller.check_design()
         self._shown = -1
-        self._follow()
+        self._poll()
 
-    def _follow(self) -> None:
-        self.simulator.follow_project()
-        if self._shown == self.simulator.changes:
+    def _poll(self) -> None:
+        self.controller.check_project()
+        if self._shown == self.controller.revision:
             return
-        self._shown = self.simulator.changes
-        for part in (self.controls, self.ways, self.inputs, self.guards, self.tabs):
+        self._shown = self.controller.revision
+        for part in (self.controls, self.input_source, self.inputs, self.guards, self.tabs):
             part.refresh()

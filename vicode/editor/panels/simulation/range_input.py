@@ -5,7 +5,7 @@ from collections.abc import Callable
 from nicegui import ui
 from nicegui.events import GenericEventArguments
 
-_PAUSE_S = 0.05
+_THROTTLE_S = 0.05
 
 
 class RangeInput(ui.element, component="range_input.js"):
@@ -27,7 +27,7 @@ class RangeInput(ui.element, component="range_input.js"):
         self.value, self.enabled = value, True
         self._on_move = on_move
         self.props.update({"min": low, "max": high, "step": step, "value": value, "aria-label": label})
-        self.on("moved", self._hear, throttle=_PAUSE_S)
+        self.on("moved", self._handle_moved, throttle=_THROTTLE_S)
 
     def set_value(self, value: float) -> None:
         """Show a value, without reporting it."""
@@ -48,7 +48,7 @@ class RangeInput(ui.element, component="range_input.js"):
         self.props["disable"] = not value
         self.update()
 
-    def _hear(self, event: GenericEventArguments) -> None:
+    def _handle_moved(self, event: GenericEventArguments) -> None:
         if isinstance(event.args, int | float):
             self.value = event.args
             self.props["value"] = event.args

@@ -8,41 +8,41 @@ from typing import cast
 from nicegui import run
 
 from vicode.editor.canvas import Canvas
-from vicode.editor.canvas.gesture import Item
-from vicode.editor.panels.desk import Desk
+from vicode.editor.canvas.gesture import SceneItem
+from vicode.editor.panels.desk import WindowContext
 from vicode.editor.session.simulation import (
     Breakpoints,
     NotReadyError,
-    Phase,
+    PreparedRun,
+    RunConfig,
+    RunStatus,
     Simulation,
-    Stage,
-    Wish,
-    meaning_of,
-    prepare,
+    behavior_key,
+    prepare_run,
 )
-from vicode.editor.session.simulation.traces import TraceError, read_trace, script_of
-from vicode.editor.view import Selected
+from vicode.editor.session.simulation.traces import TraceError, input_script, read_trace
+from vicode.editor.view import ItemRef
 from vicode.generators import UnsoundDesignError
-from vicode.simulation import Moment, Stops
-from vicode.simulation.resting import COUNT
+from vicode.simulation import IterationResult, StopConditions
+from vicode.simulation.resting import COUNT_REACHED
 
 SPEEDS = (0.1, 0.25, 0.5, 1.0, 2.0, 5.0, 20.0)
-_BEAT_S = 0.04
-_MOST_AT_ONCE = 100
-_TO_THE_END = 1_000_000
+_PLAY_INTERVAL_S = 0.04
+_MAX_STEPS_PER_INTERVAL = 100
+_UNLIMITED = 1_000_000
 
 
-class Simulator:
+class SimulationController:
     """What the commands and the panel of one window work on."""
 
-    def __init__(self, desk: Desk, canvas: Canvas) -> None:
+    def __init__(self, context: WindowContext, canvas: Canvas) -> None:
         """Begin with no simulation."""
-        self.desk, self.canvas = desk, canvas
+        self.context, self.canvas = context, canvas
         self.simulation: Simulation | None = None
         self.breakpoints = Breakpoints()
-        self.wish = Wish()
-        self.trace: tuple[Moment, ...] = ()
-        self.replays = False
+        self.config = RunConfig()
+        self.trace: tuple[IterationResult, ...] = ()
+        self.is_replay = False
         self.speed = 1.0
         self.pauses_on_errors = True
         self.is_playing = False
@@ -50,13 +50,13 @@ class Simulator:
         """Whether it makes more than a step without being played."""
         self.is_starting = False
         self.is_stale = False
-        self.trouble = ""
+        self.start_error = ""
         """Why it could not be started."""
-        self.changes = 0
+        self.revision = 0
         """Counts what the panel has to show anew."""
-        self.show: Callable[[], None] = lambda: None
+        self.refresh_panel: Callable[[], None] = lambda: None
         """Bring the panel up to date at once, if it is there."""
-        self._meaning: object = None
+        self._behavior_key: object = None
         self._seen_project: object = None
         self._starting = asyncio.Lock()
         self._is_closed = False
@@ -72,33 +72,33 @@ class Simulator:
 
     async def step(self) -> None:
         """One iteration."""
-        await self._go(1, Stops())
+        await self._run(1, StopConditions())
 
     async def step_to_change(self) -> None:
         """Go on until another state is entered, a breakpoint is hit, or the room for it is used up."""
-        await self._go(_TO_THE_END, self._stops(changes=True))
+        await self._run(_UNLIMITED, self._stop_conditions(changes=True))
 
     async def run_to(self, state: str) -> None:
         """Go on until a state is entered."""
-        await self._go(_TO_THE_END, self._stops(also=state))
+        await self._run(_UNLIMITED, self._stop_conditions(also=state))
 
     async def run_to_time(self, seconds: float) -> None:
         """Show the moment at a time: a recorded one, or go on until then."""
-        if not await self._ready():
+        if not await self._ensure_started():
             return
-        simulation = self._running
-        number = round(seconds * 1e9 / simulation.stage.setup.tick_ns) + 1
+        simulation = self._current
+        number = round(seconds * 1e9 / simulation.prepared.setup.tick_ns) + 1
         if number <= len(simulation.recording):
             simulation.go_to(number)
         else:
-            await self._go(number - simulation.cursor, self._stops())
+            await self._run(number - simulation.cursor, self._stop_conditions())
 
-    def back(self) -> None:
+    def step_back(self) -> None:
         """Show the iteration before."""
         self.pause()
         if self.simulation is not None:
-            self.simulation.back()
-        self.show()
+            self.simulation.step_back()
+        self.refresh_panel()
 
     def toggle_play(self) -> None:
         """Play, or pause."""
@@ -106,122 +106,122 @@ class Simulator:
             self.pause()
             return
         self.is_playing = True
-        self.desk.begin(self._play(), "simulation")
-        self._changed()
+        self.context.run_in_background(self._play(), "simulation")
+        self._notify()
 
     def pause(self) -> None:
         """Come to rest."""
         self.is_playing = False
         if self.simulation is not None:
             self.simulation.pause()
-        self._changed()
+        self._notify()
 
-    def set_wish(self, wish: Wish) -> None:
+    def set_config(self, wish: RunConfig) -> None:
         """Simulate in another way from the next start on."""
-        self.wish = wish
+        self.config = wish
         self.is_stale = self.simulation is not None
-        self._changed()
+        self._notify()
 
-    def take_trace(self, text: str, *, replays: bool) -> None:
+    def use_trace(self, text: str, *, is_replay: bool) -> None:
         """Use a recorded trace: to look at, or to set the inputs.
 
         Raises:
             TraceError: It is no trace of this design.
         """
-        self.trace, self.replays = read_trace(text, self.desk.design), replays
+        self.trace, self.is_replay = read_trace(text, self.context.design), is_replay
         self.is_stale = self.simulation is not None
-        self._changed()
+        self._notify()
 
-    def forget_trace(self) -> None:
+    def clear_trace(self) -> None:
         """Set the inputs by hand again."""
-        self.trace, self.replays = (), False
+        self.trace, self.is_replay = (), False
         self.is_stale = self.simulation is not None
-        self._changed()
+        self._notify()
 
-    def toggle_breakpoints(self, *things: Selected) -> None:
+    def toggle_breakpoints(self, *things: ItemRef) -> None:
         """Mark states and transitions to rest at, or take the marks away."""
         self.breakpoints = self.breakpoints.toggled(*things)
-        self._show_stops()
-        self._changed()
+        self._show_breakpoints()
+        self._notify()
 
-    def follow_project(self) -> None:
+    def check_project(self) -> None:
         """Notice changes of designs that this one uses, made elsewhere."""
-        if self._seen_project is not self.desk.workspace.project:
-            self._seen_project = self.desk.workspace.project
-            self.design_changed()
+        if self._seen_project is not self.context.workspace.project:
+            self._seen_project = self.context.workspace.project
+            self.check_design()
 
-    def design_changed(self) -> None:
+    def check_design(self) -> None:
         """End a run of a design that is no more; its past can still be looked at."""
-        kept = self.breakpoints.within(self.desk.design)
+        kept = self.breakpoints.existing_in(self.context.design)
         if kept != self.breakpoints:
             self.breakpoints = kept
-            self._show_stops()
+            self._show_breakpoints()
         simulation = self.simulation
-        if simulation is None or simulation.phase is Phase.ENDED:
+        if simulation is None or simulation.status is RunStatus.ENDED:
             return
-        if meaning_of(self.desk.workspace.project, self.desk.design) != self._meaning:
+        if behavior_key(self.context.workspace.project, self.context.design) != self._behavior_key:
             self.is_playing = False
             simulation.end()
             self.is_stale = True
-            self._changed()
+            self._notify()
 
     def close(self) -> None:
         """End the simulation, as the window goes."""
         self._is_closed = True
         self.is_playing = False
-        self._drop()
+        self._discard_simulation()
 
     def stop(self) -> None:
         """End the simulation, and show so."""
         self.is_playing = False
-        self._drop()
+        self._discard_simulation()
         self.is_stale = False
-        self._changed()
+        self._notify()
 
     @property
-    def _running(self) -> Simulation:
+    def _current(self) -> Simulation:
         assert self.simulation is not None
         return self.simulation
 
-    def _stops(self, *, changes: bool = False, also: str = "") -> Stops:
-        return self.breakpoints.stops(changes=changes, errors=self.pauses_on_errors, also=also)
+    def _stop_conditions(self, *, changes: bool = False, also: str = "") -> StopConditions:
+        return self.breakpoints.stop_conditions(changes=changes, errors=self.pauses_on_errors, extra_state=also)
 
     async def _start(self) -> bool:
         self.is_starting = True
-        self._changed()
+        self._notify()
         try:
-            return await self._start_anew()
+            return await self._create_simulation()
         finally:
             self.is_starting = False
-            self._changed()
+            self._notify()
 
-    async def _start_anew(self) -> bool:
+    async def _create_simulation(self) -> bool:
         inputs = self.simulation.inputs if self.simulation and not self.simulation.replay else {}
-        self._drop()
-        self.trouble, self.is_stale = "", False
+        self._discard_simulation()
+        self.start_error, self.is_stale = "", False
         stage = await self._prepare()
         if stage is not None and not self._is_closed:
-            self._meaning = meaning_of(self.desk.workspace.project, stage.design)
-            self.breakpoints = self.breakpoints.within(stage.design)
+            self._behavior_key = behavior_key(self.context.workspace.project, stage.design)
+            self.breakpoints = self.breakpoints.existing_in(stage.design)
             self.simulation = simulation = Simulation(
-                stage=stage,
-                cwd=self.desk.workspace.folder,
-                script=script_of(self.trace, stage.inputs) if self.trace and not self.replays else (),
-                replay=self.trace if self.replays else (),
-                on_change=self._changed,
+                prepared=stage,
+                cwd=self.context.workspace.folder,
+                script=input_script(self.trace, stage.inputs) if self.trace and not self.is_replay else (),
+                replay=self.trace if self.is_replay else (),
+                on_change=self._notify,
             )
-            simulation.take_over(inputs)
+            simulation.restore_inputs(inputs)
             if not simulation.replay:
-                await simulation.begin()
+                await simulation.start()
         return self.simulation is not None and self.simulation.failure is None
 
-    def _drop(self) -> None:
+    def _discard_simulation(self) -> None:
         if self.simulation is not None:
             self.simulation.on_change = lambda: None
             self.simulation.end()
         self.simulation = None
 
-    async def _ready(self) -> bool:
+    async def _ensure_started(self) -> bool:
         """Whether there is a simulation to step; one is begun if there was none, or none of the design as it is now."""
         async with self._starting:
             simulation = self.simulation
@@ -229,45 +229,47 @@ class Simulator:
                 return await self._start()
             return True
 
-    async def _go(self, count: int, stops: Stops) -> None:
+    async def _run(self, count: int, stops: StopConditions) -> None:
         if self.is_playing:
             self.pause()
         self.is_running = count > 1
         try:
-            if await self._ready():
-                await self._running.step(count, stops)
+            if await self._ensure_started():
+                await self._current.step(count, stops)
         finally:
             self.is_running = False
-        self._changed()
-        self.show()
+        self._notify()
+        self.refresh_panel()
 
     async def _play(self) -> None:
         """Step as real time passes, times the speed, until something says rest."""
-        reason = COUNT if await self._ready() else ""
+        reason = COUNT_REACHED if await self._ensure_started() else ""
         last, due = time.monotonic(), 1.0
-        while self.is_playing and reason == COUNT and self.simulation is not None:
+        while self.is_playing and reason == COUNT_REACHED and self.simulation is not None:
             now = time.monotonic()
-            due += (now - last) * 1e9 * self.speed / self._running.stage.setup.tick_ns
+            due += (now - last) * 1e9 * self.speed / self._current.prepared.setup.tick_ns
             last = now
             # What a slow machine cannot do in time is not caught up.
-            due, count = due % 1, min(int(due), _MOST_AT_ONCE)
+            due, count = due % 1, min(int(due), _MAX_STEPS_PER_INTERVAL)
             if count:
-                reason = await self._running.step(count, self._stops())
-            await asyncio.sleep(_BEAT_S)
+                reason = await self._current.step(count, self._stop_conditions())
+            await asyncio.sleep(_PLAY_INTERVAL_S)
         self.is_playing = False
-        self._changed()
+        self._notify()
 
-    async def _prepare(self) -> Stage | None:
-        desk = self.desk
-        workspace, design, wish = desk.workspace, desk.design, self.wish
+    async def _prepare(self) -> PreparedRun | None:
+        desk = self.context
+        workspace, design, wish = desk.workspace, desk.design, self.config
         try:
-            return await run.io_bound(prepare, workspace.project, design, wish, workspace.sources, workspace.folder)
+            return await run.io_bound(
+                prepare_run, workspace.project, design, wish, workspace.source_paths, workspace.folder
+            )
         except (NotReadyError, UnsoundDesignError, TraceError) as error:
-            self.trouble = str(error)
+            self.start_error = str(error)
             return None
 
-    def _changed(self) -> None:
-        self.changes += 1
+    def _notify(self) -> None:
+        self.revision += 1
         self._show_active()
 
     def _show_active(self) -> None:
@@ -278,14 +280,14 @@ class Simulator:
         if simulation is not None and simulation.cursor:
             active = [simulation.recording.states[simulation.cursor - 1]]
             latest = simulation.recording.latest_transition(simulation.cursor)
-            taken = [latest] if latest and simulation.phase is not Phase.ENDED else []
+            taken = [latest] if latest and simulation.status is not RunStatus.ENDED else []
         self._seq += 1
-        self.canvas.set_active(active, self._seq, taken)
+        self.canvas.highlight_active(active, self._seq, taken)
 
-    def _show_stops(self) -> None:
-        items = [{"of": thing.of, "id": thing.id} for thing in sorted(self.breakpoints.things, key=_order)]
-        self.canvas.set_stops(cast("list[Item]", items))
+    def _show_breakpoints(self) -> None:
+        items = [{"of": thing.kind, "id": thing.id} for thing in sorted(self.breakpoints.items, key=_order)]
+        self.canvas.set_breakpoints(cast("list[SceneItem]", items))
 
 
-def _order(thing: Selected) -> tuple[str, str]:
-    return (thing.of, thing.id)
+def _order(thing: ItemRef) -> tuple[str, str]:
+    return (thing.kind, thing.id)

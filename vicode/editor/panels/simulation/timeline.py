@@ -7,13 +7,13 @@ from nicegui import ui
 from nicegui.events import GenericEventArguments
 
 from vicode.editor.panels.simulation.range_input import RangeInput
-from vicode.editor.panels.simulation.simulator import Simulator
+from vicode.editor.panels.simulation.simulator import SimulationController
 from vicode.editor.session.simulation import Simulation
-from vicode.editor.view.plot import Curve, band_labels, plot_svg
+from vicode.editor.view.plot import PlotSeries, band_labels, render_plot
 
-_FIRST_SHOWN = 3
-_MOST_SHOWN = 6
-_WHERE = """(event) => {
+_DEFAULT_CURVES = 3
+_MAX_CURVES = 6
+_EMIT_CLICK_FRACTION = """(event) => {
   const box = event.currentTarget.getBoundingClientRect();
   emit((event.clientX - box.left) / box.width);
 }"""
@@ -22,9 +22,9 @@ _WHERE = """(event) => {
 class Timeline:
     """Drawn anew when a moment was added or another is shown."""
 
-    def __init__(self, simulator: Simulator) -> None:
+    def __init__(self, controller: SimulationController) -> None:
         """Build it."""
-        self.simulator = simulator
+        self.controller = controller
         self._shown: object = None
         self._names: tuple[str, ...] = ()
         self._drawn_length = 0
@@ -36,16 +36,16 @@ class Timeline:
             self.names = ui.html("", sanitize=False).classes("plot-names")
             self.drawing = ui.html("", sanitize=False)
             self.band = ui.html("", sanitize=False).classes("plot-band")
-        frame.on("click", self._clicked, js_handler=_WHERE)
+        frame.on("click", self._clicked, js_handler=_EMIT_CLICK_FRACTION)
 
     def refresh(self) -> None:
         """Show the recording of the simulation."""
-        simulation = self.simulator.simulation
-        self._offer(simulation)
+        simulation = self.controller.simulation
+        self._update_choices(simulation)
         length, cursor = (len(simulation.recording), simulation.cursor) if simulation else (0, 0)
         shown = (id(simulation), length, cursor)
         # A long recording takes long to draw, and grows by little.
-        is_little = self.simulator.is_playing and 0 < length - self._drawn_length < length // 50
+        is_little = self.controller.is_playing and 0 < length - self._drawn_length < length // 50
         if shown == self._shown or is_little:
             return
         self._drawn_length = length
@@ -54,28 +54,28 @@ class Timeline:
         self.slider.set_value(cursor)
         self._draw()
 
-    def _offer(self, simulation: Simulation | None) -> None:
+    def _update_choices(self, simulation: Simulation | None) -> None:
         """Offer the values that there are; at first those that are read or set."""
         names = simulation.recording.names if simulation else ()
         if names == self._names:
             return
         self._names = names
         kept = [name for name in self.choice.value or [] if name in names]
-        own = f"{self.simulator.desk.design.component}."
-        first = sorted(names, key=lambda name: not name.startswith(own))[:_FIRST_SHOWN]
+        own = f"{self.controller.context.design.component}."
+        first = sorted(names, key=lambda name: not name.startswith(own))[:_DEFAULT_CURVES]
         self.choice.set_options(list(names), value=kept or first)
 
     def _draw(self) -> None:
-        simulation = self.simulator.simulation
+        simulation = self.controller.simulation
         if simulation is None or not len(simulation.recording):
             self.drawing.set_content('<p class="empty">Values over time are drawn here while it runs.</p>')
             self.names.set_content("")
             self.band.set_content("")
             return
         recording = simulation.recording
-        chosen = [str(name) for name in self.choice.value or []][:_MOST_SHOWN]
-        curves = [Curve(name=name, values=recording.column(name)) for name in chosen]
-        self.drawing.set_content(plot_svg(curves, recording.states, simulation.cursor))
+        chosen = [str(name) for name in self.choice.value or []][:_MAX_CURVES]
+        curves = [PlotSeries(name=name, values=recording.column(name)) for name in chosen]
+        self.drawing.set_content(render_plot(curves, recording.states, simulation.cursor))
         self.names.set_content("".join(_name(curve, simulation.cursor) for curve in curves))
         labels = (
             f'<span style="left:{left:.2f}%">{escape(name)}</span>' for name, left in band_labels(recording.states)
@@ -83,19 +83,19 @@ class Timeline:
         self.band.set_content("".join(labels))
 
     def _go_to(self, value: Any) -> None:
-        simulation = self.simulator.simulation
+        simulation = self.controller.simulation
         if simulation is None or not isinstance(value, int | float):
             return
-        self.simulator.pause()
+        self.controller.pause()
         simulation.go_to(round(value))
 
     def _clicked(self, event: GenericEventArguments) -> None:
-        simulation = self.simulator.simulation
+        simulation = self.controller.simulation
         if simulation is not None and isinstance(event.args, int | float):
             self._go_to(1 + int(event.args * len(simulation.recording)))
 
 
-def _name(curve: Curve, cursor: int) -> str:
+def _name(curve: PlotSeries, cursor: int) -> str:
     value = curve.values[cursor - 1] if 0 < cursor <= len(curve.values) else float("nan")
     shown = "" if value != value else f"{value:.4g}"  # noqa: PLR0124 - nan is what differs from itself
     return f"<div><b>{escape(curve.name)}</b> {shown}</div>"

@@ -1,47 +1,47 @@
 """What the simulation says in its one line: why it cannot go on, where in the past it is, why it rested."""
 
-from vicode.editor.panels.simulation.simulator import Simulator
-from vicode.editor.session.simulation import Phase, Simulation
-from vicode.editor.view.activation import mistake_of
+from vicode.editor.panels.simulation.simulator import SimulationController
+from vicode.editor.session.simulation import RunStatus, Simulation
+from vicode.editor.view.activation import code_error_view
 
 _HINT = "F10 steps, F6 plays and pauses, Shift+F6 runs to the next state, F9 sets a breakpoint on what is selected."
 
 
-def message_of(simulator: Simulator) -> tuple[str, str]:
+def status_message(controller: SimulationController) -> tuple[str, str]:
     """What is to be said, and its kind: error, warning, past or info."""
-    simulation = simulator.simulation
-    if simulator.is_starting:
+    simulation = controller.simulation
+    if controller.is_starting:
         return ("info", "Starting: the code is generated and loaded …")
-    if simulator.trouble:
-        return ("error", simulator.trouble)
-    if simulator.is_stale and simulation is not None and simulation.phase is Phase.ENDED:
+    if controller.start_error:
+        return ("error", controller.start_error)
+    if controller.is_stale and simulation is not None and simulation.status is RunStatus.ENDED:
         return ("warning", "The design has changed: what is shown is the past of what it was.")
-    if simulator.is_stale:
+    if controller.is_stale:
         return ("warning", "Start again to simulate it that way.")
     if simulation is None:
         return ("info", _HINT)
-    return _message_in(simulation, is_moving=simulator.is_playing or simulator.is_running)
+    return _running_message(simulation, is_moving=controller.is_playing or controller.is_running)
 
 
-def _message_in(simulation: Simulation, *, is_moving: bool) -> tuple[str, str]:
+def _running_message(simulation: Simulation, *, is_moving: bool) -> tuple[str, str]:
     if simulation.failure is not None and not simulation.is_past:
         record = simulation.failure.error
-        words = mistake_of(simulation.stage.design, record).words if record else simulation.failure.message
+        words = code_error_view(simulation.prepared.design, record).text if record else simulation.failure.message
         return ("error", words)
     if simulation.is_past and not is_moving:
         behind = len(simulation.recording) - simulation.cursor
         return ("past", f"The past, {behind} iteration{'s' * (behind != 1)} before the newest.")
-    moment = simulation.moment
+    moment = simulation.shown_iteration
     if moment is not None and moment.errors:
-        return ("error", mistake_of(simulation.stage.design, moment.errors[0]).words)
-    if simulation.note:
-        return ("warning", simulation.note)
-    return ("info", (not is_moving and _describe_rest(simulation)) or _HINT)
+        return ("error", code_error_view(simulation.prepared.design, moment.errors[0]).text)
+    if simulation.warning:
+        return ("warning", simulation.warning)
+    return ("info", (not is_moving and _describe_stop(simulation)) or _HINT)
 
 
-def _describe_rest(simulation: Simulation) -> str:
+def _describe_stop(simulation: Simulation) -> str:
     """Why it came to rest, in words; nothing for a run that made all its steps."""
-    state = simulation.moment.state if simulation.moment else ""
+    state = simulation.shown_iteration.state if simulation.shown_iteration else ""
     words = {
         "transition": f"Stopped at a breakpoint: the transition to {state}",
         "state": f"Stopped on entering {state}",
@@ -52,4 +52,4 @@ def _describe_rest(simulation: Simulation) -> str:
         "pause": "Paused",
         "end": "There is nothing after this",
     }
-    return words.get(simulation.rested, "")
+    return words.get(simulation.stop_reason, "")

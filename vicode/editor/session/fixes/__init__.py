@@ -5,14 +5,14 @@ from collections.abc import Callable, Mapping
 
 from vicode.check import check_design
 from vicode.editor.session.fixes import code, decisions, declarations, expressions, names, states, uses
-from vicode.editor.session.fixes.case import Case, Fix
+from vicode.editor.session.fixes.case import Fix, FixContext
 from vicode.findings import RULES, Finding, Severity
 from vicode.model.design import Design
 from vicode.model.project import Project
 
-__all__ = ["FIXERS", "UNFIXED", "Fix", "fixes_of", "may_be_fixed"]
+__all__ = ["FIXERS", "UNFIXABLE", "Fix", "find_fixes", "is_fixable"]
 
-FIXERS: Mapping[str, Callable[[Case], list[Fix]]] = {
+FIXERS: Mapping[str, Callable[[FixContext], list[Fix]]] = {
     **code.FIXERS,
     **decisions.FIXERS,
     **declarations.FIXERS,
@@ -26,7 +26,7 @@ _IN_THE_FILE = "the mistake is in the text of the file, which is mended there"
 _IN_THE_PROJECT = "the mistake is in project.yaml, which no fix writes"
 _ONLY_A_PERSON = "only a person knows what was meant"
 
-UNFIXED: Mapping[str, str] = {
+UNFIXABLE: Mapping[str, str] = {
     **dict.fromkeys(("Y101", "Y102", "Y103", "Y104", "Y105", "Y106", "Y107", "Y108", "Y109", "Y110"), _IN_THE_FILE),
     **dict.fromkeys(("Y111", "Y112"), _IN_THE_FILE),
     **dict.fromkeys(("P203", "P207", "P208"), _IN_THE_PROJECT),
@@ -45,24 +45,24 @@ UNFIXED: Mapping[str, str] = {
 """Why there is no fix, for every rule without one."""
 
 
-def may_be_fixed(finding: Finding) -> bool:
+def is_fixable(finding: Finding) -> bool:
     """Whether it is worth asking for fixes; asking is what takes time."""
-    return finding.rule.code in FIXERS and finding.thing is not None
+    return finding.rule.code in FIXERS and finding.subject is not None
 
 
-def fixes_of(project: Project, design: Design, finding: Finding) -> tuple[Fix, ...]:
+def find_fixes(project: Project, design: Design, finding: Finding) -> tuple[Fix, ...]:
     """The certain mends of a finding about a design, the likeliest first; none where only a person can tell.
 
     Each was tried: the finding vanishes, and no error comes in its place.
     """
     fixer = FIXERS.get(finding.rule.code)
-    thing = finding.thing
+    thing = finding.subject
     if fixer is None or thing is None or thing.component != design.component:
         return ()
-    proposed = fixer(Case(project=project, design=design, finding=finding, path=thing.path))
+    proposed = fixer(FixContext(project=project, design=design, finding=finding, path=thing.path))
     before = _counted(project, design)
     key = _key(finding)
-    return tuple(fix for fix in proposed if _mends(key, before, _counted(project, fix.change(design))))
+    return tuple(fix for fix in proposed if _resolves(key, before, _counted(project, fix.edit(design))))
 
 
 Key = tuple[str, str]
@@ -77,6 +77,6 @@ def _counted(project: Project, design: Design) -> Counter[Key]:
     return Counter(map(_key, check_design(project, design)))
 
 
-def _mends(key: Key, before: Counter[Key], after: Counter[Key]) -> bool:
+def _resolves(key: Key, before: Counter[Key], after: Counter[Key]) -> bool:
     new = after - before
     return after[key] < before[key] and not any(RULES[code].severity is Severity.ERROR for code, _message in new)

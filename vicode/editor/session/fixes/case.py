@@ -3,12 +3,12 @@
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from vicode.findings import Finding, Path, meant_by
+from vicode.findings import DesignPath, Finding, suggested_name
 from vicode.model.design import Design
 from vicode.model.project import Project
-from vicode.model.walks import Located, decision_at, walk_decisions
+from vicode.model.walks import LocatedDecision, find_decision, iter_decisions
 
-Change = Callable[[Design], Design]
+DesignEdit = Callable[[Design], Design]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -16,30 +16,30 @@ class Fix:
     """One mend: what it does in words, and the edit."""
 
     label: str
-    change: Change
+    edit: DesignEdit
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Case:
+class FixContext:
     """A finding at a path of a design."""
 
     project: Project
     design: Design
     finding: Finding
-    path: Path
+    path: DesignPath
 
     @property
-    def meant(self) -> str:
+    def suggested_name(self) -> str:
         """The known name that was probably meant, empty if none is near."""
-        return meant_by(self.finding.mend)
+        return suggested_name(self.finding.fix)
 
-    def decision(self) -> Located | None:
+    def decision(self) -> LocatedDecision | None:
         """The innermost decision that the path leads into."""
         indices = [at for at, part in enumerate(self.path) if isinstance(part, int)]
         is_below = self.path[:2] == ("common", "transitions") or self.path[2:3] == ("transitions",)
-        return decision_at(self.design, self.path[: indices[-1] + 1]) if indices and is_below else None
+        return find_decision(self.design, self.path[: indices[-1] + 1]) if indices and is_below else None
 
-    def state(self) -> str:
+    def state_name(self) -> str:
         """The state that the path leads into, empty if it leads into none."""
         return str(self.path[1]) if self.path[:1] == ("states",) and len(self.path) > 1 else ""
 
@@ -50,6 +50,6 @@ class Case:
             use.component == own for design in self.project.designs if design.component != own for use in design.uses
         )
 
-    def targets(self) -> set[str]:
+    def target_names(self) -> set[str]:
         """The names that transitions lead to."""
-        return {getattr(located.decision, "to", "") for located in walk_decisions(self.design)}
+        return {getattr(located.decision, "to", "") for located in iter_decisions(self.design)}

@@ -2,28 +2,26 @@
 
 from dataclasses import replace
 
-from vicode.editor.session.fixes.case import Case, Fix
-from vicode.findings import Path
-from vicode.model.design import Design, Group, Stay, Transition
+from vicode.editor.session.fixes.case import Fix, FixContext
+from vicode.findings import DesignPath
+from vicode.model.design import DecisionGroup, Design, Stay, Transition
 from vicode.model.edits import remove_decisions, replace_decision, update_state
-from vicode.model.walks import decision_at
+from vicode.model.walks import find_decision
 
 
-def fix_dead_decision(case: Case) -> list[Fix]:
+def fix_shadowed_decision(case: FixContext) -> list[Fix]:
     """D423: of a decision, of the `else` of a group, or of all decisions of a state."""
     path = case.path
     if path[-1] == "else":
-        return [Fix(label="Remove the else side", change=lambda old: _without_else(old, path[:-1]))]
+        return [Fix(label="Remove the else side", edit=lambda old: _without_else(old, path[:-1]))]
     if path[-1] == "transitions":
-        name = case.state()
+        name = case.state_name()
         label = f"Remove the transitions of {name}"
-        return [
-            Fix(label=label, change=lambda old: update_state(old, name, lambda each: replace(each, transitions=())))
-        ]
-    return [Fix(label="Remove the dead transition", change=lambda old: remove_decisions(old, [path]))]
+        return [Fix(label=label, edit=lambda old: update_state(old, name, lambda each: replace(each, transitions=())))]
+    return [Fix(label="Remove the dead transition", edit=lambda old: remove_decisions(old, [path]))]
 
 
-def fix_no_effect(case: Case) -> list[Fix]:
+def fix_no_effect(case: FixContext) -> list[Fix]:
     """D430."""
     located = case.decision()
     if located is None or not isinstance(located.decision, Transition):
@@ -31,16 +29,16 @@ def fix_no_effect(case: Case) -> list[Fix]:
     path, old = located.path, located.decision
     stay = Stay(guard=old.guard, doc=old.doc, id=old.id)
     return [
-        Fix(label="Make it a stay", change=lambda design: replace_decision(design, path, stay)),
-        Fix(label="Remove the transition", change=lambda design: remove_decisions(design, [path])),
+        Fix(label="Make it a stay", edit=lambda design: replace_decision(design, path, stay)),
+        Fix(label="Remove the transition", edit=lambda design: remove_decisions(design, [path])),
     ]
 
 
-def _without_else(design: Design, path: Path) -> Design:
-    located = decision_at(design, path)
-    if located is None or not isinstance(located.decision, Group):
+def _without_else(design: Design, path: DesignPath) -> Design:
+    located = find_decision(design, path)
+    if located is None or not isinstance(located.decision, DecisionGroup):
         return design
     return replace_decision(design, path, replace(located.decision, otherwise=()))
 
 
-FIXERS = {"D423": fix_dead_decision, "D430": fix_no_effect}
+FIXERS = {"D423": fix_shadowed_decision, "D430": fix_no_effect}

@@ -3,41 +3,43 @@
 from collections.abc import Callable
 from dataclasses import replace
 
-from vicode.editor.session.fixes.case import Case, Change, Fix
-from vicode.findings import Path
+from vicode.editor.session.fixes.case import DesignEdit, Fix, FixContext
+from vicode.findings import DesignPath
 from vicode.model.design import Declaration, Design
 from vicode.model.edits import set_declarations
-from vicode.model.expressions import scope_of
+from vicode.model.expressions import build_scope
 from vicode.model.texts import rewrite_text
 
 
-def fix_unknown_type(case: Case) -> list[Fix]:
+def fix_unknown_type(case: FixContext) -> list[Fix]:
     """P205."""
-    if not case.meant:
+    if not case.suggested_name:
         return []
-    name = case.meant
-    return [Fix(label=f"Change the type to {name}", change=_changer(case.path, lambda old: replace(old, type=name)))]
+    name = case.suggested_name
+    return [
+        Fix(label=f"Change the type to {name}", edit=_declaration_edit(case.path, lambda old: replace(old, type=name)))
+    ]
 
 
-def fix_bad_range(case: Case) -> list[Fix]:
+def fix_bad_range(case: FixContext) -> list[Fix]:
     """P206."""
     declaration = _declaration_at(case.design, case.path)
     if declaration is None or declaration.range is None:
         return []
     low, high = declaration.range
     if high < low:
-        swap = _changer(case.path, lambda old: replace(old, range=(high, low)))
-        return [Fix(label=f"Swap the ends: {high:g} to {low:g}", change=swap)]
-    remove = _changer(case.path, lambda old: replace(old, range=None))
-    return [Fix(label="Remove the range", change=remove)]
+        swap = _declaration_edit(case.path, lambda old: replace(old, range=(high, low)))
+        return [Fix(label=f"Swap the ends: {high:g} to {low:g}", edit=swap)]
+    remove = _declaration_edit(case.path, lambda old: replace(old, range=None))
+    return [Fix(label="Remove the range", edit=remove)]
 
 
-def fix_bad_frequency(_case: Case) -> list[Fix]:
+def fix_bad_frequency(_case: FixContext) -> list[Fix]:
     """D416."""
-    return [Fix(label="Work at every step", change=lambda old: replace(old, frequency_hz=None))]
+    return [Fix(label="Work at every step", edit=lambda old: replace(old, frequency_hz=None))]
 
 
-def fix_unused_declaration(case: Case) -> list[Fix]:
+def fix_unused_declaration(case: FixContext) -> list[Fix]:
     """D424; what other designs may read or set is not removed."""
     section, name = str(case.path[0]), str(case.path[1])
     if section != "variables" and case.is_used_elsewhere():
@@ -47,35 +49,35 @@ def fix_unused_declaration(case: Case) -> list[Fix]:
         kept = tuple(each for each in getattr(design, section) if each.name != name)
         return set_declarations(design, section, kept)
 
-    return [Fix(label=f"Remove the {section.removesuffix('s')} {name}", change=change)]
+    return [Fix(label=f"Remove the {section.removesuffix('s')} {name}", edit=change)]
 
 
-def fix_outside_range(case: Case) -> list[Fix]:
+def fix_outside_range(case: FixContext) -> list[Fix]:
     """D427: the end of the range that is nearer."""
-    receiver = _receiver_of(case)
-    span = case.finding.thing.span if case.finding.thing else None
+    receiver = _target_declaration(case)
+    span = case.finding.subject.span if case.finding.subject else None
     if receiver is None or receiver.range is None or span is None:
         return []
     low, high = receiver.range
     is_low = _value_of(case) < low
     text = f"{low if is_low else high:g}"
     words = f"to {text}, the {'lowest' if is_low else 'highest'}"
-    if scope_of(case.project, case.design).type_of(receiver) == "int" and not float(text).is_integer():
+    if build_scope(case.project, case.design).type_of(receiver) == "int" and not float(text).is_integer():
         return []
     start, end = span
 
     def change(design: Design) -> Design:
         return rewrite_text(design, case.path, lambda old: old[:start] + text + old[end:])
 
-    return [Fix(label=f"Set it {words}", change=change)]
+    return [Fix(label=f"Set it {words}", edit=change)]
 
 
-def _value_of(case: Case) -> float:
+def _value_of(case: FixContext) -> float:
     """The value that the finding begins with."""
     return float(case.finding.message.split(" ", 1)[0])
 
 
-def _receiver_of(case: Case) -> Declaration | None:
+def _target_declaration(case: FixContext) -> Declaration | None:
     """The declaration that a value at the path goes to."""
     design, path = case.design, case.path
     own = {each.name: each for _section, each in design.declarations()}
@@ -89,7 +91,7 @@ def _receiver_of(case: Case) -> Declaration | None:
     return interface.parameter(str(path[-1])) if interface else None
 
 
-def _called(design: Design, path: Path) -> str:
+def _called(design: Design, path: DesignPath) -> str:
     """The alias of the call that a path leads into."""
     at = next((index for index, part in enumerate(path) if isinstance(part, int)), None)
     if at is None:
@@ -100,7 +102,7 @@ def _called(design: Design, path: Path) -> str:
     return str(getattr(actions[index], "alias", "")) if index < len(actions) else ""
 
 
-def _declaration_at(design: Design, path: Path) -> Declaration | None:
+def _declaration_at(design: Design, path: DesignPath) -> Declaration | None:
     found = (each for section, each in design.declarations() if (section, each.name) == path[:2])
     declaration = next(found, None)
     if declaration is None or path[2:3] != ("arguments",):
@@ -108,7 +110,7 @@ def _declaration_at(design: Design, path: Path) -> Declaration | None:
     return next((each for each in declaration.arguments or () if each.name == path[3]), None)
 
 
-def _changer(path: Path, change: Callable[[Declaration], Declaration]) -> Change:
+def _declaration_edit(path: DesignPath, change: Callable[[Declaration], Declaration]) -> DesignEdit:
     """Changes the declaration, or the argument of one, that a path leads into."""
     section, name = str(path[0]), path[1]
     argument = path[3] if path[2:3] == ("arguments",) else None

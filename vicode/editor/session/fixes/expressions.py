@@ -2,70 +2,79 @@
 
 from dataclasses import replace
 
-from vicode.editor.session.fixes.case import Case, Fix
-from vicode.editor.session.fixes.uses import use_fixes
-from vicode.findings import Path
+from vicode.editor.session.fixes.case import Fix, FixContext
+from vicode.editor.session.fixes.uses import add_use_fixes
+from vicode.findings import DesignPath
 from vicode.model.design import Assign, Declaration, Design
 from vicode.model.edits import replace_action
-from vicode.model.expressions import BOOL, FLOAT, INT, Kind, Scope, Symbol, parse_expression, scope_of
-from vicode.model.names import is_name
-from vicode.model.texts import rewrite_text, walk_texts
-from vicode.model.walks import walk_actions, walk_expressions
+from vicode.model.expressions import (
+    BOOL,
+    FLOAT,
+    INT,
+    Scope,
+    ScopeSymbol,
+    ScopeSymbolKind,
+    build_scope,
+    parse_expression,
+)
+from vicode.model.names import is_valid_name
+from vicode.model.texts import iter_texts, rewrite_text
+from vicode.model.walks import iter_actions, iter_expressions
 
 
-def fix_unknown_name(case: Case) -> list[Fix]:
+def fix_unknown_name(case: FixContext) -> list[Fix]:
     """E303, E306: in an expression, or as the name that `set` gives a value."""
-    thing = case.finding.thing
+    thing = case.finding.subject
     if thing is None or thing.span is None:
         return _fix_set(case)
     start, end = thing.span
-    text = next((each.text for each in walk_texts(case.design) if each.path == case.path), "")
+    text = next((each.text for each in iter_texts(case.design) if each.path == case.path), "")
     guilty = text[start:end]
     fixes = []
-    if case.meant:
+    if case.suggested_name:
         # Of `ball.sen` only what follows the dot is wrong.
         head, dot, _tail = guilty.rpartition(".")
-        mended = f"{text[:start]}{head}{dot}{case.meant}{text[end:]}"
-        label = f"Replace with {head}{dot}{case.meant}"
-        fixes.append(Fix(label=label, change=lambda old: rewrite_text(old, case.path, lambda _text: mended)))
+        mended = f"{text[:start]}{head}{dot}{case.suggested_name}{text[end:]}"
+        label = f"Replace with {head}{dot}{case.suggested_name}"
+        fixes.append(Fix(label=label, edit=lambda old: rewrite_text(old, case.path, lambda _text: mended)))
     follows = text[end : end + 1]
-    if is_name(guilty) and follows == ".":
-        fixes += use_fixes(case, guilty)
-    elif is_name(guilty) and "is not declared" in case.finding.message:
+    if is_valid_name(guilty) and follows == ".":
+        fixes += add_use_fixes(case, guilty)
+    elif is_valid_name(guilty) and "is not declared" in case.finding.message:
         fixes += _declare_from_expression(case, guilty, text)
     return fixes
 
 
-def _fix_set(case: Case) -> list[Fix]:
+def _fix_set(case: FixContext) -> list[Fix]:
     """E303, E307: a name that cannot be set."""
     if "set" not in case.path:
         return []
     old, fixes = str(case.path[-1]), []
-    if case.meant:
-        new = case.meant
-        fixes.append(Fix(label=f"Set {new} instead", change=lambda design: _renamed_in_set(design, case.path, new)))
-    if case.finding.rule.code == "E303" and is_name(old):
-        text = next((each.text for each in walk_expressions(case.design) if each.path == case.path), "")
-        parsed = parse_expression(text, scope_of(case.project, case.design))
-        type_ = parsed.tree.type if parsed.tree and not parsed.mistakes else ""
+    if case.suggested_name:
+        new = case.suggested_name
+        fixes.append(Fix(label=f"Set {new} instead", edit=lambda design: _renamed_in_set(design, case.path, new)))
+    if case.finding.rule.code == "E303" and is_valid_name(old):
+        text = next((each.text for each in iter_expressions(case.design) if each.path == case.path), "")
+        parsed = parse_expression(text, build_scope(case.project, case.design))
+        type_ = parsed.tree.type if parsed.tree and not parsed.diagnostics else ""
         fixes += _declare(case, old, type_)
     return fixes
 
 
-def _declare_from_expression(case: Case, name: str, text: str) -> list[Fix]:
+def _declare_from_expression(case: FixContext, name: str, text: str) -> list[Fix]:
     """A variable of the first type with which the expression has no mistake any more."""
-    scope = scope_of(case.project, case.design)
-    expected = next((each.expected for each in walk_expressions(case.design) if each.path == case.path), "")
+    scope = build_scope(case.project, case.design)
+    expected = next((each.expected for each in iter_expressions(case.design) if each.path == case.path), "")
     for type_ in (FLOAT, BOOL, INT, *scope.enumerations):
-        symbol = Symbol(kind=Kind.VARIABLE, type=type_, declaration=Declaration(name=name))
+        symbol = ScopeSymbol(kind=ScopeSymbolKind.VARIABLE, type=type_, declaration=Declaration(name=name))
         wider = Scope(symbols={**scope.symbols, name: symbol}, uses=scope.uses, enumerations=scope.enumerations)
-        if not parse_expression(text, wider, expected or None).mistakes:
+        if not parse_expression(text, wider, expected or None).diagnostics:
             return _declare(case, name, type_)
     return []
 
 
-def _declare(case: Case, name: str, type_: str) -> list[Fix]:
-    elements = scope_of(case.project, case.design).enumerations
+def _declare(case: FixContext, name: str, type_: str) -> list[Fix]:
+    elements = build_scope(case.project, case.design).enumerations
     first = {BOOL: "False", INT: "0", FLOAT: "0.0"}.get(type_)
     if first is None:
         first = f"{type_}.{elements[type_][0]}" if elements.get(type_) else None
@@ -76,15 +85,15 @@ def _declare(case: Case, name: str, type_: str) -> list[Fix]:
     return [
         Fix(
             label=f"Declare the variable {name}: {first}",
-            change=lambda old: replace(old, variables=(*old.variables, declaration)),
+            edit=lambda old: replace(old, variables=(*old.variables, declaration)),
         )
     ]
 
 
-def _renamed_in_set(design: Design, path: Path, new: str) -> Design:
+def _renamed_in_set(design: Design, path: DesignPath, new: str) -> Design:
     """The design with another name set at a path that ends in the old name."""
     from_name, where = str(path[-1]), path[:-2]
-    placed = next((each for each in walk_actions(design) if each.path == where), None)
+    placed = next((each for each in iter_actions(design) if each.path == where), None)
     if placed is None or not isinstance(placed.action, Assign):
         return design
     values = tuple((new if name == from_name else name, text) for name, text in placed.action.values)

@@ -3,42 +3,42 @@
 import re
 from dataclasses import replace
 
-from vicode.editor.session.fixes.case import Case, Fix
-from vicode.findings import Path
+from vicode.editor.session.fixes.case import Fix, FixContext
+from vicode.findings import DesignPath
 from vicode.model.design import Design, RunCode
-from vicode.model.edits import free_name, rename_state, rename_use, replace_action, replace_decision, update_state
-from vicode.model.names import is_state_name
-from vicode.model.walks import decision_at, walk_actions
+from vicode.model.edits import rename_state, rename_use, replace_action, replace_decision, unique_name, update_state
+from vicode.model.names import is_valid_state_name
+from vicode.model.walks import find_decision, iter_actions
 
 
-def fix_bad_name(case: Case) -> list[Fix]:
+def fix_bad_name(case: FixContext) -> list[Fix]:
     """D404 to D406, of states, aliases and ids; other names are also said in code, which no edit can follow surely."""
     match case.path:
         case (*_, "id"):
             return fix_bad_id(case)
         case ("states", str(name)):
             taken = {state.name for state in case.design.states}
-            new = free_name(_usable(case, name), taken)
-            return [Fix(label=f"Rename to {new}", change=lambda old: rename_state(old, name, new))]
+            new = unique_name(_usable(case, name), taken)
+            return [Fix(label=f"Rename to {new}", edit=lambda old: rename_state(old, name, new))]
         case ("uses", str(alias)):
             taken = {use.alias for use in case.design.uses}
             taken |= {each.name for _section, each in case.design.declarations()}
-            new = free_name(_usable(case, alias), taken)
-            return [Fix(label=f"Rename to {new}", change=lambda old: rename_use(old, alias, new))]
+            new = unique_name(_usable(case, alias), taken)
+            return [Fix(label=f"Rename to {new}", edit=lambda old: rename_use(old, alias, new))]
         case _:
             return []
 
 
-def fix_bad_id(case: Case) -> list[Fix]:
+def fix_bad_id(case: FixContext) -> list[Fix]:
     """D404, D413."""
-    return [Fix(label="Remove the id", change=lambda old: _without_id(old, case.path[:-1]))]
+    return [Fix(label="Remove the id", edit=lambda old: _without_id(old, case.path[:-1]))]
 
 
-def _usable(case: Case, name: str) -> str:
+def _usable(case: FixContext, name: str) -> str:
     """A name like the one that is refused."""
     if case.finding.rule.code == "D406":
         return f"my_{name}"
-    if case.finding.rule.code == "D405" and is_state_name(name) and not name.startswith("_"):
+    if case.finding.rule.code == "D405" and is_valid_state_name(name) and not name.startswith("_"):
         return f"{name}_value"
     cleaned = re.sub(r"[^A-Za-z0-9]+", "_", name, flags=re.ASCII).strip("_")[:76]
     if case.path[0] == "uses" and not cleaned[:1].isalpha():
@@ -46,13 +46,13 @@ def _usable(case: Case, name: str) -> str:
     return cleaned or "State"
 
 
-def _without_id(design: Design, path: Path) -> Design:
+def _without_id(design: Design, path: DesignPath) -> Design:
     if len(path) == 2 and path[0] == "states":
         return update_state(design, str(path[1]), lambda state: replace(state, id=""))
-    located = decision_at(design, path)
+    located = find_decision(design, path)
     if located is not None:
         return replace_decision(design, path, replace(located.decision, id=""))
-    action = next((each.action for each in walk_actions(design) if each.path == path), None)
+    action = next((each.action for each in iter_actions(design) if each.path == path), None)
     return replace_action(design, path, replace(action, id="")) if isinstance(action, RunCode) else design
 
 

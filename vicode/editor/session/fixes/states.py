@@ -2,24 +2,24 @@
 
 from dataclasses import replace
 
-from vicode.editor.session.fixes.case import Case, Change, Fix
+from vicode.editor.session.fixes.case import DesignEdit, Fix, FixContext
 from vicode.model.design import COMMON, Design, State, Transition
 from vicode.model.edits import add_state, remove_decisions, remove_states, replace_decision, update_state
-from vicode.model.names import is_state_name
+from vicode.model.names import is_valid_state_name
 
 
-def fix_no_states(_case: Case) -> list[Fix]:
+def fix_no_states(_case: FixContext) -> list[Fix]:
     """D411."""
-    return [Fix(label="Add a state Start", change=_with_start)]
+    return [Fix(label="Add a state Start", edit=_with_start)]
 
 
-def fix_no_initial_state(case: Case) -> list[Fix]:
+def fix_no_initial_state(case: FixContext) -> list[Fix]:
     """D401."""
-    names = list(dict.fromkeys([case.meant or case.design.states[0].name, case.design.states[0].name]))
-    return [Fix(label=f"Start in {name}", change=_starter(name)) for name in names]
+    names = list(dict.fromkeys([case.suggested_name or case.design.states[0].name, case.design.states[0].name]))
+    return [Fix(label=f"Start in {name}", edit=_initial_state_edit(name)) for name in names]
 
 
-def fix_disabled_initial_state(case: Case) -> list[Fix]:
+def fix_disabled_initial_state(case: FixContext) -> list[Fix]:
     """D418."""
     name = case.design.initial
 
@@ -28,50 +28,50 @@ def fix_disabled_initial_state(case: Case) -> list[Fix]:
 
     others = [state.name for state in case.design.states if not state.disabled][:1]
     return [
-        Fix(label=f"Enable {name}", change=enable),
-        *(Fix(label=f"Start in {other}", change=_starter(other)) for other in others),
+        Fix(label=f"Enable {name}", edit=enable),
+        *(Fix(label=f"Start in {other}", edit=_initial_state_edit(other)) for other in others),
     ]
 
 
-def fix_unknown_state(case: Case) -> list[Fix]:
+def fix_unknown_state(case: FixContext) -> list[Fix]:
     """D402."""
     located = case.decision()
     if located is None or not isinstance(located.decision, Transition):
         return []
     transition, path = located.decision, located.path
     fixes = []
-    if case.meant:
-        mended = replace(transition, to=case.meant)
-        fixes.append(Fix(label=f"Lead to {case.meant}", change=lambda old: replace_decision(old, path, mended)))
-    if is_state_name(transition.to):
+    if case.suggested_name:
+        mended = replace(transition, to=case.suggested_name)
+        fixes.append(Fix(label=f"Lead to {case.suggested_name}", edit=lambda old: replace_decision(old, path, mended)))
+    if is_valid_state_name(transition.to):
         label = f"Create the state {transition.to}"
         beside = located.source
-        fixes.append(Fix(label=label, change=lambda old: add_state(old, _new_state(old, transition.to, beside))))
-    fixes.append(Fix(label="Remove the transition", change=lambda old: remove_decisions(old, [path])))
+        fixes.append(Fix(label=label, edit=lambda old: add_state(old, _new_state(old, transition.to, beside))))
+    fixes.append(Fix(label="Remove the transition", edit=lambda old: remove_decisions(old, [path])))
     return fixes
 
 
-def fix_unreachable_state(case: Case) -> list[Fix]:
+def fix_unreachable_state(case: FixContext) -> list[Fix]:
     """D421."""
-    name = case.state()
-    return [Fix(label=f"Remove the state {name}", change=lambda old: remove_states(old, [name]))]
+    name = case.state_name()
+    return [Fix(label=f"Remove the state {name}", edit=lambda old: remove_states(old, [name]))]
 
 
-def fix_trap(case: Case) -> list[Fix]:
+def fix_dead_end(case: FixContext) -> list[Fix]:
     """D422."""
-    name = case.state()
+    name = case.state_name()
 
     def change(design: Design) -> Design:
         return update_state(design, name, lambda state: replace(state, final=True))
 
-    return [Fix(label=f"Mark {name} as final", change=change)]
+    return [Fix(label=f"Mark {name} as final", edit=change)]
 
 
 def _with_start(design: Design) -> Design:
     return replace(design, states=(State(name="Start", at=(160, 120)),), initial="Start")
 
 
-def _starter(name: str) -> Change:
+def _initial_state_edit(name: str) -> DesignEdit:
     return lambda design: replace(design, initial=name)
 
 
@@ -87,5 +87,5 @@ FIXERS = {
     "D411": fix_no_states,
     "D418": fix_disabled_initial_state,
     "D421": fix_unreachable_state,
-    "D422": fix_trap,
+    "D422": fix_dead_end,
 }

@@ -2,62 +2,62 @@
 
 from dataclasses import replace
 
-from vicode.editor.session.fixes.case import Case, Fix
-from vicode.findings import Path
+from vicode.editor.session.fixes.case import Fix, FixContext
+from vicode.findings import DesignPath
 from vicode.model.design import Call, Design, State, Use
-from vicode.model.edits import remove_uses, replace_action, require, update_actions, update_state
-from vicode.model.names import is_name, snake_case
-from vicode.model.walks import walk_actions
+from vicode.model.edits import add_requirement, remove_uses, replace_action, update_actions, update_state
+from vicode.model.names import is_valid_name, snake_case
+from vicode.model.walks import iter_actions
 
 
-def fix_unknown_component(case: Case) -> list[Fix]:
+def fix_unknown_component(case: FixContext) -> list[Fix]:
     """P202, of a use."""
-    alias, meant = str(case.path[1]), case.meant
+    alias, meant = str(case.path[1]), case.suggested_name
     fixes = []
     # To use oneself would be the next mistake.
     if meant and meant != case.design.component:
         label = f"Use the component {meant}"
-        fixes.append(Fix(label=label, change=lambda old: _with_component(old, alias, meant)))
+        fixes.append(Fix(label=label, edit=lambda old: _with_component(old, alias, meant)))
     return fixes
 
 
-def fix_unknown_alias(case: Case) -> list[Fix]:
+def fix_unknown_alias(case: FixContext) -> list[Fix]:
     """D403, of a requirement, a call or a modulation."""
-    alias, meant = _alias_at(case), case.meant
+    alias, meant = _alias_at(case), case.suggested_name
     fixes = []
     if meant:
-        fixes.append(Fix(label=f"Use {meant} instead", change=lambda old: _with_alias(old, case.path, meant)))
-    fixes += use_fixes(case, alias)
-    fixes.append(Fix(label=f"Remove {alias} here", change=lambda old: _without_link(old, case.path)))
+        fixes.append(Fix(label=f"Use {meant} instead", edit=lambda old: _with_alias(old, case.path, meant)))
+    fixes += add_use_fixes(case, alias)
+    fixes.append(Fix(label=f"Remove {alias} here", edit=lambda old: _without_link(old, case.path)))
     return fixes
 
 
-def use_fixes(case: Case, alias: str) -> list[Fix]:
+def add_use_fixes(case: FixContext, alias: str) -> list[Fix]:
     """Use the component whose name gives an alias, if the project has one."""
     own = case.design.component
     known = [name for name in case.project.interfaces() if snake_case(name) == alias and name != own]
-    if len(known) != 1 or not is_name(alias) or case.design.use(alias):
+    if len(known) != 1 or not is_valid_name(alias) or case.design.use(alias):
         return []
     use = Use(alias=alias, component=known[0])
     label = f"Use the component {known[0]} as {alias}"
-    return [Fix(label=label, change=lambda old: replace(old, uses=(*old.uses, use)))]
+    return [Fix(label=label, edit=lambda old: replace(old, uses=(*old.uses, use)))]
 
 
-def fix_unknown_parameter(case: Case) -> list[Fix]:
+def fix_unknown_parameter(case: FixContext) -> list[Fix]:
     """D409."""
-    name, meant = str(case.path[-1]), case.meant
+    name, meant = str(case.path[-1]), case.suggested_name
     fixes = []
     if meant:
-        fixes.append(Fix(label=f"Give {meant} instead", change=lambda old: _with_parameter(old, case.path, meant)))
-    fixes.append(Fix(label=f"Remove {name}", change=lambda old: _with_parameter(old, case.path, "")))
+        fixes.append(Fix(label=f"Give {meant} instead", edit=lambda old: _with_parameter(old, case.path, meant)))
+    fixes.append(Fix(label=f"Remove {name}", edit=lambda old: _with_parameter(old, case.path, "")))
     return fixes
 
 
-def fix_misplaced_call(case: Case) -> list[Fix]:
+def fix_misplaced_call(case: FixContext) -> list[Fix]:
     """D410."""
     where = case.path[:-1]
-    name = case.state()
-    call = next((each.action for each in walk_actions(case.design) if each.path == where), None)
+    name = case.state_name()
+    call = next((each.action for each in iter_actions(case.design) if each.path == where), None)
     if not isinstance(call, Call):
         return []
 
@@ -65,24 +65,24 @@ def fix_misplaced_call(case: Case) -> list[Fix]:
         return update_actions(replace_action(design, where), ("states", name, "actions"), lambda old: (*old, call))
 
     return [
-        Fix(label=f"Call {call.alias} in the actions of {name}", change=move),
-        Fix(label="Remove the call", change=lambda old: replace_action(old, where)),
+        Fix(label=f"Call {call.alias} in the actions of {name}", edit=move),
+        Fix(label="Remove the call", edit=lambda old: replace_action(old, where)),
     ]
 
 
-def fix_never_stepped(case: Case) -> list[Fix]:
+def fix_missing_requirement(case: FixContext) -> list[Fix]:
     """D426: the state that reads a component requires it."""
-    name, span = case.state(), case.finding.thing.span if case.finding.thing else None
+    name, span = case.state_name(), case.finding.subject.span if case.finding.subject else None
     alias = case.finding.message.split("'")[1]
     if not name or span is None:
         return []
-    return [Fix(label=f"{name} requires {alias}", change=lambda old: require(old, name, alias))]
+    return [Fix(label=f"{name} requires {alias}", edit=lambda old: add_requirement(old, name, alias))]
 
 
-def fix_unused_use(case: Case) -> list[Fix]:
+def fix_unused_use(case: FixContext) -> list[Fix]:
     """D428."""
     alias = str(case.path[1])
-    return [Fix(label=f"Stop using {alias}", change=lambda old: remove_uses(old, [alias]))]
+    return [Fix(label=f"Stop using {alias}", edit=lambda old: remove_uses(old, [alias]))]
 
 
 def _with_component(design: Design, alias: str, component: str) -> Design:
@@ -90,7 +90,7 @@ def _with_component(design: Design, alias: str, component: str) -> Design:
     return replace(design, uses=tuple(uses))
 
 
-def _alias_at(case: Case) -> str:
+def _alias_at(case: FixContext) -> str:
     match case.path:
         case ("states", str(name), "requires", int(index)):
             state = case.design.state(name)
@@ -98,11 +98,11 @@ def _alias_at(case: Case) -> str:
         case ("states", _, "modulates", str(alias)):
             return alias
         case _:
-            found = (each.action for each in walk_actions(case.design) if each.path == case.path[:-1])
+            found = (each.action for each in iter_actions(case.design) if each.path == case.path[:-1])
             return next((action.alias for action in found if isinstance(action, Call)), "")
 
 
-def _with_alias(design: Design, path: Path, alias: str) -> Design:
+def _with_alias(design: Design, path: DesignPath, alias: str) -> Design:
     """Another alias where a path leads; one that the state has already is not taken twice."""
     match path:
         case ("states", str(name), "requires", int(index)):
@@ -125,12 +125,12 @@ def _with_alias(design: Design, path: Path, alias: str) -> Design:
             return _with_call(design, path[:-1], alias)
 
 
-def _with_call(design: Design, where: Path, alias: str) -> Design:
-    call = next((each.action for each in walk_actions(design) if each.path == where), None)
+def _with_call(design: Design, where: DesignPath, alias: str) -> Design:
+    call = next((each.action for each in iter_actions(design) if each.path == where), None)
     return replace_action(design, where, replace(call, alias=alias)) if isinstance(call, Call) else design
 
 
-def _without_link(design: Design, path: Path) -> Design:
+def _without_link(design: Design, path: DesignPath) -> Design:
     match path:
         case ("states", str(name), "requires", int(index)):
             return update_state(
@@ -148,7 +148,7 @@ def _without_link(design: Design, path: Path) -> Design:
             return replace_action(design, path[:-1])
 
 
-def _with_parameter(design: Design, path: Path, new: str) -> Design:
+def _with_parameter(design: Design, path: DesignPath, new: str) -> Design:
     """The argument at a path under another name, or left out where that is empty or given already."""
     old = str(path[-1])
 
@@ -168,7 +168,7 @@ def _with_parameter(design: Design, path: Path, new: str) -> Design:
 
         return update_state(design, str(path[1]), modulated)
     where = path[:-2]
-    call = next((each.action for each in walk_actions(design) if each.path == where), None)
+    call = next((each.action for each in iter_actions(design) if each.path == where), None)
     return replace_action(design, where, changed(call)) if isinstance(call, Call) else design
 
 
@@ -177,6 +177,6 @@ FIXERS = {
     "D403": fix_unknown_alias,
     "D409": fix_unknown_parameter,
     "D410": fix_misplaced_call,
-    "D426": fix_never_stepped,
+    "D426": fix_missing_requirement,
     "D428": fix_unused_use,
 }

@@ -1,35 +1,35 @@
 """Simulates an open design: what can be set, the process that runs it, the past that was recorded. Knows no NiceGUI."""
 
 from vicode.editor.session.simulation.breakpoints import Breakpoints
-from vicode.editor.session.simulation.inputs import DONE, PARAMETERS, Input
+from vicode.editor.session.simulation.inputs import DONE, PARAMETERS, SimulationInput
 from vicode.editor.session.simulation.recording import Recording
 from vicode.editor.session.simulation.setup import (
     NotReadyError,
-    Stage,
-    Wish,
-    hand_written,
-    meaning_of,
-    prepare,
-    stood_in_of,
+    PreparedRun,
+    RunConfig,
+    behavior_key,
+    hand_written_components,
+    prepare_run,
+    stubbed_components,
     used_components,
 )
-from vicode.editor.session.simulation.simulation import Failure, Phase, Simulation
+from vicode.editor.session.simulation.simulation import Failure, RunStatus, Simulation
 
 __all__ = [
     "DONE",
     "PARAMETERS",
     "Breakpoints",
     "Failure",
-    "Input",
     "NotReadyError",
-    "Phase",
+    "PreparedRun",
     "Recording",
+    "RunConfig",
+    "RunStatus",
     "Simulation",
-    "Stage",
-    "Wish",
-    "hand_written",
-    "meaning_of",
-    "prepare",
-    "stood_in_of",
+    "SimulationInput",
+    "behavior_key",
+    "hand_written_components",
+    "prepare_run",
+    "stubbed_components",
     "used_components",
 ]

@@ -2,10 +2,10 @@
 
 from dataclasses import dataclass, field
 
-from vicode.editor.view import Selected, transition_key
+from vicode.editor.view import ItemRef, transition_key
 from vicode.model.design import Design
-from vicode.model.walks import walk_transitions
-from vicode.simulation import Stops
+from vicode.model.walks import iter_transitions
+from vicode.simulation import StopConditions
 
 _KINDS = ("states", "transitions")
 
@@ -14,21 +14,21 @@ _KINDS = ("states", "transitions")
 class Breakpoints:
     """The marked things, of one window."""
 
-    things: frozenset[Selected] = field(default_factory=frozenset)
+    items: frozenset[ItemRef] = field(default_factory=frozenset)
 
-    def toggled(self, *things: Selected) -> "Breakpoints":
+    def toggled(self, *things: ItemRef) -> "Breakpoints":
         """With these marked; if all of them are, without."""
-        able = {Selected(of=each.of, id=each.id) for each in things if each.of in _KINDS}
-        return Breakpoints(things=self.things - able if able <= self.things else self.things | able)
+        able = {ItemRef(kind=each.kind, id=each.id) for each in things if each.kind in _KINDS}
+        return Breakpoints(items=self.items - able if able <= self.items else self.items | able)
 
-    def within(self, design: Design) -> "Breakpoints":
+    def existing_in(self, design: Design) -> "Breakpoints":
         """Those whose things are still in the design."""
-        known = {Selected(of="states", id=state.name) for state in design.states}
-        known |= {Selected(of="transitions", id=transition_key(located.path)) for located in walk_transitions(design)}
-        return Breakpoints(things=self.things & known)
+        known = {ItemRef(kind="states", id=state.name) for state in design.states}
+        known |= {ItemRef(kind="transitions", id=transition_key(located.path)) for located in iter_transitions(design)}
+        return Breakpoints(items=self.items & known)
 
-    def stops(self, *, changes: bool = False, errors: bool = False, also: str = "") -> Stops:
-        """As the running process wants to know them; `also` is one more state."""
-        named = {kind: sorted(each.id for each in self.things if each.of == kind) for kind in _KINDS}
-        states = (*named["states"], *((also,) if also else ()))
-        return Stops(states=states, transitions=tuple(named["transitions"]), changes=changes, errors=errors)
+    def stop_conditions(self, *, changes: bool = False, errors: bool = False, extra_state: str = "") -> StopConditions:
+        """As the running process wants to know them; `extra_state` is one more state."""
+        named = {kind: sorted(each.id for each in self.items if each.kind == kind) for kind in _KINDS}
+        states = (*named["states"], *((extra_state,) if extra_state else ()))
+        return StopConditions(states=states, transitions=tuple(named["transitions"]), changes=changes, errors=errors)

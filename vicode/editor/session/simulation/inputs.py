@@ -7,18 +7,28 @@ from typing import Any
 
 from vicode.generators import UnsoundDesignError
 from vicode.model.design import Declaration, Design
-from vicode.model.expressions import BOOL, FLOAT, INT, Element, Minus, Number, Truth, parse_expression, scope_of
+from vicode.model.expressions import (
+    BOOL,
+    FLOAT,
+    INT,
+    Boolean,
+    EnumElement,
+    Minus,
+    Number,
+    build_scope,
+    parse_expression,
+)
 from vicode.model.project import Project
-from vicode.simulation import StandIn, StandInOutput
+from vicode.simulation import Stub, StubOutput
 
 PARAMETERS = ""
 """Stands where a component's name would, for the parameters of the simulated design itself."""
 DONE = "is_done"
-_FAR = 1e12
+_MAX_MAGNITUDE = 1e12
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Input:
+class SimulationInput:
     """One value to set. `type` is bool, int, float or "" for an enumeration, whose literals are `options`.
 
     `arguments` are the names a function takes: then there is a value for all arguments, and others for some.
@@ -52,16 +62,16 @@ class Input:
     def _accept_number(self, value: Any) -> int | float | None:
         if isinstance(value, bool) or not isinstance(value, int | float) or not math.isfinite(value):
             return None
-        if abs(value) > _FAR:
+        if abs(value) > _MAX_MAGNITUDE:
             return None
         # A slider adds steps up to 0.30000000000000004, which nobody meant.
         return round(value) if self.type == INT else float(f"{value:.12g}")
 
 
-def inputs_of(project: Project, design: Design, stood_in: tuple[str, ...]) -> tuple[Input, ...]:
+def collect_inputs(project: Project, design: Design, stubbed: tuple[str, ...]) -> tuple[SimulationInput, ...]:
     """The design's parameters, then the outputs of the components that are stood in, in their order."""
     inputs = [_input(project, PARAMETERS, each) for each in design.parameters]
-    for component in stood_in:
+    for component in stubbed:
         interface = project.interface(component)
         if interface is None:
             continue
@@ -69,14 +79,14 @@ def inputs_of(project: Project, design: Design, stood_in: tuple[str, ...]) -> tu
         own = project.design(component)
         if own is not None and any(state.final for state in own.states):
             doc = f"{component} is in a final state."
-            inputs.append(Input(component=component, name=DONE, type=BOOL, initial=False, doc=doc))
+            inputs.append(SimulationInput(component=component, name=DONE, type=BOOL, initial=False, doc=doc))
     return tuple(inputs)
 
 
-def stand_in_of(component: str, inputs: tuple[Input, ...], types: Mapping[tuple[str, str], str]) -> StandIn:
+def make_stub(component: str, inputs: tuple[SimulationInput, ...], types: Mapping[tuple[str, str], str]) -> Stub:
     """The stand-in of a component, as the process that runs it wants to know it."""
     outputs = tuple(
-        StandInOutput(
+        StubOutput(
             name=each.name,
             type=types.get(each.key, each.type),
             value=each.initial,
@@ -85,23 +95,23 @@ def stand_in_of(component: str, inputs: tuple[Input, ...], types: Mapping[tuple[
         for each in inputs
         if each.component == component and each.name != DONE
     )
-    return StandIn(component=component, outputs=outputs)
+    return Stub(component=component, outputs=outputs)
 
 
-def types_of(project: Project, inputs: tuple[Input, ...]) -> dict[tuple[str, str], str]:
+def input_types(project: Project, inputs: tuple[SimulationInput, ...]) -> dict[tuple[str, str], str]:
     """The type of each input by its key: an enumeration by its name."""
     return {each.key: each.type or _enumeration(project, each) for each in inputs}
 
 
-def _input(project: Project, component: str, declaration: Declaration) -> Input:
-    scope = scope_of(project, None)
+def _input(project: Project, component: str, declaration: Declaration) -> SimulationInput:
+    scope = build_scope(project, None)
     type_ = scope.type_of(declaration)
     elements = scope.enumerations.get(type_, ())
     options = tuple(f"{type_}.{element}" for element in elements)
     if not options and type_ not in (BOOL, INT, FLOAT):
         raise UnsoundDesignError(f"'{declaration.name}' has an unknown type")
     arguments = declaration.arguments
-    return Input(
+    return SimulationInput(
         component=component,
         name=declaration.name,
         type="" if options else type_,
@@ -116,8 +126,8 @@ def _input(project: Project, component: str, declaration: Declaration) -> Input:
 
 def _initial(project: Project, declaration: Declaration, type_: str, options: tuple[str, ...]) -> Any:
     """The declared first value where it is a literal, else one within the range, the nearest to 0."""
-    parsed = parse_expression(declaration.initial, scope_of(project, None)) if declaration.initial else None
-    value = _literal(parsed.tree) if parsed and parsed.tree and not parsed.mistakes else None
+    parsed = parse_expression(declaration.initial, build_scope(project, None)) if declaration.initial else None
+    value = _literal(parsed.tree) if parsed and parsed.tree and not parsed.diagnostics else None
     if options:
         return value if value in options else options[0]
     if type_ == BOOL:
@@ -131,9 +141,9 @@ def _initial(project: Project, declaration: Declaration, type_: str, options: tu
 
 def _literal(node: object) -> Any:
     match node:
-        case Number(value=value) | Truth(value=value):
+        case Number(value=value) | Boolean(value=value):
             return value
-        case Element(element=element, type=type_):
+        case EnumElement(element=element, type=type_):
             return f"{type_}.{element}"
         case Minus(operand=Number(value=value)):
             return -value
@@ -141,7 +151,7 @@ def _literal(node: object) -> Any:
             return None
 
 
-def _enumeration(project: Project, each: Input) -> str:
+def _enumeration(project: Project, each: SimulationInput) -> str:
     names = {enumeration.name for enumeration in project.enumerations}
     name = each.options[0].partition(".")[0] if each.options else ""
     return name if name in names else ""

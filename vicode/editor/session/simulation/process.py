@@ -14,32 +14,32 @@ from pathlib import Path
 from typing import Any
 
 from vicode.bica.errors import find_region
-from vicode.editor.session.simulation.setup import Stage
-from vicode.output import apply, compare
+from vicode.editor.session.simulation.setup import PreparedRun
+from vicode.output import apply_diffs, compare_files
 from vicode.simulation import (
-    Answer,
     Failed,
     Inputs,
-    Looked,
-    Moment,
+    Inspected,
+    IterationResult,
     ProtocolError,
     Ready,
     Request,
-    Rested,
-    decode_answer,
+    Response,
+    Stopped,
+    decode_response,
     encode_request,
     encode_setup,
 )
 from vicode.simulation.environment import fresh_environment
-from vicode.simulation.messages import LONGEST_LINE
+from vicode.simulation.messages import MAX_MESSAGE_BYTES
 
 _START_LIMIT_S = 75.0
 _GRACE_S = 3.0
 _QUIET_LIMIT_S = 120.0
-_MOST_STDERR = 64_000
+_MAX_STDERR = 64_000
 _FRAME = re.compile(r'File "(?P<file>[^"\n]+)", line (?P<line>\d+) in (?P<name>\S+)')
 
-OnMoment = Callable[[Moment], None]
+OnIteration = Callable[[IterationResult], None]
 
 
 class RunFailedError(Exception):
@@ -50,44 +50,44 @@ class RunFailedError(Exception):
         self.message, self.error, self.prints = message, error, prints
 
 
-class Runner:
-    """A process that holds one component, made by `start_runner`."""
+class RunProcess:
+    """A process that holds one component, made by `start_process`."""
 
     def __init__(self, process: asyncio.subprocess.Process, folder: Path, limit_s: float) -> None:
         self._process, self._folder, self._limit_s = process, folder, limit_s
-        self._complaints = b""
+        self._stderr_tail = b""
         self._is_killed = False
-        self._listening = asyncio.create_task(self._listen())
+        self._listening = asyncio.create_task(self._read_stderr())
 
     @property
     def pid(self) -> int:
         """The process' number."""
         return self._process.pid
 
-    async def run(self, request: Request, on_moment: OnMoment) -> Rested:
-        """Make iterations; every one is handed to `on_moment`.
+    async def run(self, request: Request, on_iteration: OnIteration) -> Stopped:
+        """Make iterations; every one is handed to `on_iteration`.
 
         Raises:
             RunFailedError: It cannot go on.
         """
-        limit_s = _QUIET_LIMIT_S if request.quiet else self._limit_s + _GRACE_S
+        limit_s = _QUIET_LIMIT_S if request.suppress_events else self._limit_s + _GRACE_S
         await self._send(encode_request(request))
         while True:
-            answer = await self._hear(limit_s)
-            if isinstance(answer, Rested):
+            answer = await self._receive(limit_s)
+            if isinstance(answer, Stopped):
                 return answer
-            if isinstance(answer, Moment):
-                on_moment(answer)
+            if isinstance(answer, IterationResult):
+                on_iteration(answer)
 
-    async def look(self, inputs: Inputs) -> Looked:
+    async def evaluate_guards(self, inputs: Inputs) -> Inspected:
         """Take inputs over and test the guards, without a step.
 
         Raises:
             RunFailedError: It cannot go on.
         """
-        await self._send(encode_request(Request(do="look", inputs=inputs)))
-        answer = await self._hear(self._limit_s + _GRACE_S)
-        if not isinstance(answer, Looked):
+        await self._send(encode_request(Request(kind="inspect", inputs=inputs)))
+        answer = await self._receive(self._limit_s + _GRACE_S)
+        if not isinstance(answer, Inspected):
             raise RunFailedError("The simulation answered what was not asked.")
         return answer
 
@@ -97,7 +97,7 @@ class Runner:
         Raises:
             RunFailedError: It cannot.
         """
-        answer = await self._hear(_START_LIMIT_S)
+        answer = await self._receive(_START_LIMIT_S)
         if not isinstance(answer, Ready):
             raise RunFailedError("The simulation did not begin as it should.")
 
@@ -112,7 +112,7 @@ class Runner:
             os.killpg(self._process.pid, signal.SIGKILL)
         shutil.rmtree(self._folder, ignore_errors=True)
 
-    async def gone(self) -> None:
+    async def wait_closed(self) -> None:
         """Wait until a killed process has left nothing behind."""
         with contextlib.suppress(TimeoutError):
             await asyncio.wait_for(asyncio.gather(self._process.wait(), self._listening, self._drain()), 10)
@@ -128,49 +128,49 @@ class Runner:
             self._process.stdin.write(line)
             await self._process.stdin.drain()
         except (BrokenPipeError, ConnectionResetError) as error:
-            raise await self._died() from error
+            raise await self._exit_error() from error
 
-    async def _hear(self, limit_s: float) -> Answer:
+    async def _receive(self, limit_s: float) -> Response:
         assert self._process.stdout is not None
         try:
             line = await asyncio.wait_for(self._process.stdout.readline(), limit_s)
-            answer = decode_answer(line) if line else None
+            answer = decode_response(line) if line else None
         except TimeoutError:
-            raise await self._overslept(limit_s) from None
+            raise await self._timeout_error(limit_s) from None
         except (ValueError, ProtocolError) as error:
             self.kill()
             raise RunFailedError(f"The simulation said what nobody understands: {error}") from error
         if answer is None:
-            raise await self._died()
+            raise await self._exit_error()
         if isinstance(answer, Failed):
             raise RunFailedError(answer.message, answer.error, tuple(answer.prints))
         return answer
 
-    async def _overslept(self, limit_s: float) -> RunFailedError:
+    async def _timeout_error(self, limit_s: float) -> RunFailedError:
         """Kill it, but first let it say where it is."""
         with contextlib.suppress(ProcessLookupError):
             os.kill(self._process.pid, signal.SIGABRT)
         with contextlib.suppress(TimeoutError):
             await asyncio.wait_for(self._process.wait(), 1.0)
         await asyncio.sleep(0.05)
-        error = RunFailedError(f"{self._place()}did not come to an end within {limit_s:g} s and was killed")
+        error = RunFailedError(f"{self._code_location()}did not come to an end within {limit_s:g} s and was killed")
         self.kill()
         return error
 
-    async def _died(self) -> RunFailedError:
+    async def _exit_error(self) -> RunFailedError:
         code = 0
         with contextlib.suppress(TimeoutError):
             code = await asyncio.wait_for(self._process.wait(), 2.0)
         await asyncio.sleep(0.05)
         words = f"was ended by {signal.Signals(-code).name}" if code < 0 else f"left the program with exit code {code}"
-        tail = self._complaints.decode(errors="replace").strip().splitlines()
-        error = RunFailedError(f"{self._place()}{words}", prints=tuple(tail[-20:]))
+        tail = self._stderr_tail.decode(errors="replace").strip().splitlines()
+        error = RunFailedError(f"{self._code_location()}{words}", prints=tuple(tail[-20:]))
         self.kill()
         return error
 
-    def _place(self) -> str:
+    def _code_location(self) -> str:
         """Design, region and line of the deepest code that is not the runtime's, from the last words."""
-        for found in _FRAME.finditer(self._complaints.decode(errors="replace")):
+        for found in _FRAME.finditer(self._stderr_tail.decode(errors="replace")):
             file, line = found["file"], int(found["line"])
             if "/vicode/" in file or file.startswith("<"):
                 continue
@@ -179,14 +179,14 @@ class Runner:
             return f"{Path(file).stem}, {where}: "
         return "The code "
 
-    async def _listen(self) -> None:
+    async def _read_stderr(self) -> None:
         """Keep the end of what is written to standard error, past Python's own streams."""
         assert self._process.stderr is not None
         while chunk := await self._process.stderr.read(4096):
-            self._complaints = (self._complaints + chunk)[-_MOST_STDERR:]
+            self._stderr_tail = (self._stderr_tail + chunk)[-_MAX_STDERR:]
 
 
-async def start_runner(stage: Stage, cwd: Path) -> Runner:
+async def start_process(prepared: PreparedRun, cwd: Path) -> RunProcess:
     """Write the files of a stage into a private folder and start a process on them.
 
     Raises:
@@ -194,26 +194,26 @@ async def start_runner(stage: Stage, cwd: Path) -> Runner:
         OSError: No file can be written, or no process started.
     """
     folder = Path(tempfile.mkdtemp(prefix="vicode-simulation-"))
-    await asyncio.to_thread(lambda: apply(compare(stage.files, folder), folder))
+    await asyncio.to_thread(lambda: apply_diffs(compare_files(prepared.files, folder), folder))
     # -P: what lies in the folder we happen to be in must not hide a module. The seed of hashes orders sets.
     process = await asyncio.create_subprocess_exec(
         *(sys.executable, "-P", "-m", "vicode.simulation"),
         stdin=asyncio.subprocess.PIPE,
         stdout=asyncio.subprocess.PIPE,
         stderr=asyncio.subprocess.PIPE,
-        limit=2 * LONGEST_LINE,
+        limit=2 * MAX_MESSAGE_BYTES,
         cwd=cwd,
         env=fresh_environment(PYTHONDONTWRITEBYTECODE="1", PYTHONHASHSEED="0"),
         start_new_session=True,
     )
-    runner = Runner(process, folder, stage.setup.limit_s)
+    runner = RunProcess(process, folder, prepared.setup.limit_s)
     try:
-        path = (str(folder / "python"), *stage.setup.path)
-        setup = replace(stage.setup, path=path, folder=str(folder))
+        path = (str(folder / "python"), *prepared.setup.path)
+        setup = replace(prepared.setup, path=path, folder=str(folder))
         await runner._send(encode_setup(setup))
         await runner.wait_until_ready()
     except BaseException:
         runner.kill()
-        await runner.gone()
+        await runner.wait_closed()
         raise
     return runner

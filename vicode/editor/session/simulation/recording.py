@@ -7,11 +7,11 @@ from bisect import bisect_right
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-from vicode.simulation import Inputs, Moment, decode_answer
-from vicode.simulation.messages import encode_answer
+from vicode.simulation import Inputs, IterationResult, decode_response
+from vicode.simulation.messages import encode_response
 
-MOST_MOMENTS = 20_000
-_MOST_COLUMNS = 400
+MAX_ITERATIONS = 20_000
+_MAX_COLUMNS = 400
 
 
 class Recording:
@@ -21,7 +21,7 @@ class Recording:
         self._packed: list[bytes] = []
         self._changes: dict[int, Inputs] = {}
         self._columns: dict[str, array[float]] = {}
-        self._eventful: list[int] = []
+        self._with_output: list[int] = []
         self.states: list[str] = []
         self.transitions: list[str] = []
         self.times_ns: list[int] = []
@@ -33,39 +33,39 @@ class Recording:
     @property
     def is_full(self) -> bool:
         """Whether there is no room for another."""
-        return len(self) >= MOST_MOMENTS
+        return len(self) >= MAX_ITERATIONS
 
     @property
     def names(self) -> tuple[str, ...]:
         """The values that can be plotted, as Component.name."""
         return tuple(self._columns)
 
-    def add(self, moment: Moment, changes: Inputs) -> None:
+    def add(self, moment: IterationResult, changes: Inputs) -> None:
         """Take the next moment, and the inputs that were set before it."""
         if any(changes.values()):
             self._changes[len(self) + 1] = changes
         # An iteration tells much the same as the one before, so packing leaves a fifth.
-        self._packed.append(zlib.compress(encode_answer(moment), 1))
+        self._packed.append(zlib.compress(encode_response(moment), 1))
         self.states.append(moment.state)
         self.transitions.append(moment.transition or "")
         self.times_ns.append(moment.time_ns)
-        if moment.prints or moment.unprinted or moment.errors:
-            self._eventful.append(len(self))
+        if moment.prints or moment.omitted_lines or moment.errors:
+            self._with_output.append(len(self))
         self._add_values(moment)
 
-    def moment(self, number: int) -> Moment | None:
+    def iteration(self, number: int) -> IterationResult | None:
         """A moment by its number, None for 0."""
         if not 0 < number <= len(self):
             return None
-        moment = decode_answer(zlib.decompress(self._packed[number - 1]))
-        assert isinstance(moment, Moment)
+        moment = decode_response(zlib.decompress(self._packed[number - 1]))
+        assert isinstance(moment, IterationResult)
         return moment
 
     def changes_before(self, number: int) -> Inputs:
         """The inputs that were set right before a moment."""
         return self._changes.get(number, {})
 
-    def runs(self, end: int) -> Iterator[tuple[Inputs, int]]:
+    def input_segments(self, end: int) -> Iterator[tuple[Inputs, int]]:
         """The way up to a moment: inputs to set, and how many iterations to make with them."""
         starts = sorted({1, *(number for number in self._changes if number <= end)})
         for start, after in zip(starts, [*starts[1:], end + 1], strict=True):
@@ -81,13 +81,13 @@ class Recording:
             merge_inputs(known, self._changes[start])
         return known
 
-    def cut(self, length: int) -> None:
+    def truncate(self, length: int) -> None:
         """Forget what came after a moment."""
         del self._packed[length:]
         del self.states[length:]
         del self.transitions[length:]
         del self.times_ns[length:]
-        self._eventful = [number for number in self._eventful if number <= length]
+        self._with_output = [number for number in self._with_output if number <= length]
         for column in self._columns.values():
             del column[length:]
         self._changes = {number: each for number, each in self._changes.items() if number <= length}
@@ -98,16 +98,16 @@ class Recording:
         missing = len(self) - len(column) if column else 0
         return column + array("d", [math.nan]) * missing
 
-    def eventful(self, number: int, most: int) -> list[int]:
+    def iterations_with_output(self, number: int, limit: int) -> list[int]:
         """The latest moments up to one in which something was printed or went wrong."""
-        end = bisect_right(self._eventful, number)
-        return self._eventful[max(0, end - most) : end]
+        end = bisect_right(self._with_output, number)
+        return self._with_output[max(0, end - limit) : end]
 
     def latest_transition(self, number: int) -> str:
         """The transition that was taken last up to a moment, "" if there was none."""
         return next((each for each in reversed(self.transitions[:number]) if each), "")
 
-    def _add_values(self, moment: Moment) -> None:
+    def _add_values(self, moment: IterationResult) -> None:
         index = len(self) - 1
         for step in moment.tree:
             for name, value in (step.get("values") or {}).items():
@@ -116,7 +116,7 @@ class Recording:
                     self._put(f"{step['component']}.{name}", index, number)
 
     def _put(self, name: str, index: int, number: float) -> None:
-        if name not in self._columns and len(self._columns) >= _MOST_COLUMNS:
+        if name not in self._columns and len(self._columns) >= _MAX_COLUMNS:
             return
         column = self._columns.setdefault(name, array("d"))
         if len(column) > index:

@@ -5,16 +5,16 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from vicode.check import check_project
-from vicode.editor.session.simulation.inputs import Input, inputs_of, stand_in_of, types_of
+from vicode.editor.session.simulation.inputs import SimulationInput, collect_inputs, input_types, make_stub
 from vicode.editor.view import transition_key
-from vicode.findings import Path as DesignPath
+from vicode.findings import DesignPath as DesignPath
 from vicode.findings import Severity
-from vicode.generators import collect_components, generate, python_class, python_probes
-from vicode.model.design import Decision, Design, Group, State, Transition
+from vicode.generators import collect_components, generate, python_class_path, python_probes
+from vicode.model.design import Decision, DecisionGroup, Design, State, Transition
 from vicode.model.project import INTERNAL, Interface, Project
 from vicode.output import OutputFile
 from vicode.simulation import Setup
-from vicode.simulation.stand_ins import MODULE
+from vicode.simulation.stand_ins import STUB_MODULE
 
 
 class NotReadyError(Exception):
@@ -22,10 +22,10 @@ class NotReadyError(Exception):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Wish:
+class RunConfig:
     """How to simulate: which components are stood in (None: the hand-written), the world's seed, the time of a step."""
 
-    stood_in: frozenset[str] | None = None
+    stubbed: frozenset[str] | None = None
     seed: int = 0
     tick_ms: float = 20.0
     limit_s: float = 2.0
@@ -33,13 +33,13 @@ class Wish:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Stage:
+class PreparedRun:
     """All that is needed to run: files to write into an empty folder, the setup, and what a person can set."""
 
     design: Design
     files: tuple[OutputFile, ...]
     setup: Setup
-    inputs: tuple[Input, ...]
+    inputs: tuple[SimulationInput, ...]
 
 
 def used_components(project: Project, design: Design) -> tuple[str, ...]:
@@ -56,18 +56,20 @@ def used_components(project: Project, design: Design) -> tuple[str, ...]:
     return tuple(found)
 
 
-def hand_written(project: Project, design: Design) -> frozenset[str]:
+def hand_written_components(project: Project, design: Design) -> frozenset[str]:
     """Those of the used components that no design makes; memories that vicode keeps are none."""
     kept = {each.component for each in project.components if each.implementation == INTERNAL}
     return frozenset(name for name in used_components(project, design) if project.design(name) is None) - kept
 
 
-def stood_in_of(project: Project, design: Design, wish: Wish) -> frozenset[str]:
+def stubbed_components(project: Project, design: Design, config: RunConfig) -> frozenset[str]:
     """The components that are stood in by a wish."""
-    return hand_written(project, design) if wish.stood_in is None else wish.stood_in
+    return hand_written_components(project, design) if config.stubbed is None else config.stubbed
 
 
-def prepare(project: Project, design: Design, wish: Wish, sources: Mapping[str, str], folder: Path) -> Stage:
+def prepare_run(
+    project: Project, design: Design, config: RunConfig, sources: Mapping[str, str], folder: Path
+) -> PreparedRun:
     """Generate what runs a design; nothing is written.
 
     Args:
@@ -83,70 +85,72 @@ def prepare(project: Project, design: Design, wish: Wish, sources: Mapping[str, 
     """
     designs = tuple(design if each.component == design.component else each for each in project.designs)
     whole = replace(project, designs=designs)
-    chosen = stood_in_of(whole, design, wish)
+    chosen = stubbed_components(whole, design, config)
     stood_in = tuple(name for name in used_components(whole, design) if name in chosen)
-    inputs = inputs_of(whole, design, stood_in)
-    staged = _stand_in(whole, stood_in)
-    _refuse_mistakes(whole, collect_components(staged, (design.component,)))
-    ready = replace(staged, designs=tuple(with_ids(each) for each in staged.designs))
+    inputs = collect_inputs(whole, design, stood_in)
+    staged = _with_stubs(whole, stood_in)
+    _check_errors(whole, collect_components(staged, (design.component,)))
+    ready = replace(staged, designs=tuple(with_decision_ids(each) for each in staged.designs))
     files = generate(ready, components=(design.component,), languages=("python",), sources=sources)
     probes = python_probes(ready, design.component)
-    types = types_of(whole, inputs)
-    class_path = python_class(ready, design.component)
-    runs_by_hand = hand_written(staged, design) - set(stood_in)
+    types = input_types(whole, inputs)
+    class_path = python_class_path(ready, design.component)
+    runs_by_hand = hand_written_components(staged, design) - set(stood_in)
     setup = Setup(
         component=class_path,
         probes=f"{class_path.partition('.')[0]}._probes",
         path=(str(folder.resolve()),),
-        stand_ins=tuple(stand_in_of(component, inputs, types) for component in stood_in),
-        functions=_functions(staged, design, stood_in),
+        stubs=tuple(make_stub(component, inputs, types) for component in stood_in),
+        functions=_function_outputs(staged, design, stood_in),
         parameter_types=tuple((each.name, types[each.key]) for each in inputs if not each.component),
         world=project.world if runs_by_hand else "",
-        seed=wish.seed,
-        tick_ns=round(wish.tick_ms * 1e6),
-        limit_s=wish.limit_s,
-        memory_bytes=wish.memory_bytes,
+        seed=config.seed,
+        tick_ns=round(config.tick_ms * 1e6),
+        limit_s=config.limit_s,
+        memory_bytes=config.memory_bytes,
     )
-    return Stage(design=design, files=(*files, probes), setup=setup, inputs=inputs)
+    return PreparedRun(design=design, files=(*files, probes), setup=setup, inputs=inputs)
 
 
-def with_ids(design: Design) -> Design:
+def with_decision_ids(design: Design) -> Design:
     """The design with every decision's canvas key as its id, so that the run can say which it was."""
-    common = _give_ids(design.common.transitions, ("common", "transitions"))
+    common = _assign_ids(design.common.transitions, ("common", "transitions"))
     states = tuple(_state_with_ids(state) for state in design.states)
     return replace(design, common=replace(design.common, transitions=common), states=states)
 
 
-def meaning_of(project: Project, design: Design) -> object:
+def behavior_key(project: Project, design: Design) -> object:
     """A value that changes exactly when a simulation of the design may go another way: places do not count."""
     names = {design.component, *used_components(project, design)}
     current = (design if each.component == design.component else each for each in project.designs)
-    designs = tuple(_without_places(each) for each in current if each.component in names)
+    designs = tuple(_without_positions(each) for each in current if each.component in names)
     return (designs, project.enumerations, project.constants, project.components, project.world)
 
 
-def _refuse_mistakes(project: Project, components: frozenset[str]) -> None:
+def _check_errors(project: Project, components: frozenset[str]) -> None:
     found = check_project(project, components)
-    errors = [each for each in found if each.severity is Severity.ERROR and each.concerns("python")]
+    errors = [each for each in found if each.severity is Severity.ERROR and each.applies_to("python")]
     if errors:
         first = errors[0]
-        where = f"{first.thing.component}: " if first.thing and first.thing.component else ""
+        where = f"{first.subject.component}: " if first.subject and first.subject.component else ""
         more = f" (and {len(errors) - 1} more)" if len(errors) > 1 else ""
         raise NotReadyError(f"{where}{first.message}{more}. Mend it, then start again.")
 
 
-def _stand_in(project: Project, stood_in: tuple[str, ...]) -> Project:
+def _with_stubs(project: Project, stood_in: tuple[str, ...]) -> Project:
     """The project with stand-ins where the components were."""
     replaced = []
     for component in stood_in:
         interface = project.interface(component) or Interface(component=component)
-        replaced.append(replace(interface, implementation=f"{MODULE}:{component}"))
+        replaced.append(replace(interface, implementation=f"{STUB_MODULE}:{component}"))
     kept = tuple(each for each in project.components if each.component not in stood_in)
     designs = tuple(each for each in project.designs if each.component not in stood_in)
     return replace(project, components=(*kept, *replaced), designs=designs)
 
 
-def _functions(project: Project, design: Design, stood_in: tuple[str, ...]) -> tuple[tuple[str, tuple[str, ...]], ...]:
+def _function_outputs(
+    project: Project, design: Design, stood_in: tuple[str, ...]
+) -> tuple[tuple[str, tuple[str, ...]], ...]:
     """Outputs with arguments of the components that run themselves: they are not called between iterations."""
     found = []
     for use in design.uses:
@@ -158,34 +162,36 @@ def _functions(project: Project, design: Design, stood_in: tuple[str, ...]) -> t
 
 
 def _state_with_ids(state: State) -> State:
-    return replace(state, transitions=_give_ids(state.transitions, ("states", state.name, "transitions")))
+    return replace(state, transitions=_assign_ids(state.transitions, ("states", state.name, "transitions")))
 
 
-def _give_ids(items: tuple[Decision, ...], path: DesignPath) -> tuple[Decision, ...]:
+def _assign_ids(items: tuple[Decision, ...], path: DesignPath) -> tuple[Decision, ...]:
     given: list[Decision] = []
     for index, item in enumerate(items):
         here = (*path, index)
         named = replace(item, id=transition_key(here))
-        if isinstance(named, Group):
-            then, otherwise = _give_ids(named.then, (*here, "then")), _give_ids(named.otherwise, (*here, "else"))
+        if isinstance(named, DecisionGroup):
+            then, otherwise = _assign_ids(named.then, (*here, "then")), _assign_ids(named.otherwise, (*here, "else"))
             named = replace(named, then=then, otherwise=otherwise)
         given.append(named)
     return tuple(given)
 
 
-def _without_places(design: Design) -> Design:
-    common = replace(design.common, at=None, transitions=_unplaced(design.common.transitions))
-    states = (replace(each, at=None, transitions=_unplaced(each.transitions)) for each in design.states)
+def _without_positions(design: Design) -> Design:
+    common = replace(design.common, at=None, transitions=_without_label_positions(design.common.transitions))
+    states = (replace(each, at=None, transitions=_without_label_positions(each.transitions)) for each in design.states)
     uses = (replace(use, at=None) for use in design.uses)
     return replace(design, uses=tuple(uses), common=common, states=tuple(states))
 
 
-def _unplaced(items: tuple[Decision, ...]) -> tuple[Decision, ...]:
+def _without_label_positions(items: tuple[Decision, ...]) -> tuple[Decision, ...]:
     """Decisions without the places of their labels."""
 
     def unplaced(item: Decision) -> Decision:
-        if isinstance(item, Group):
-            return replace(item, then=_unplaced(item.then), otherwise=_unplaced(item.otherwise))
+        if isinstance(item, DecisionGroup):
+            return replace(
+                item, then=_without_label_positions(item.then), otherwise=_without_label_positions(item.otherwise)
+            )
         return replace(item, label_at=None) if isinstance(item, Transition) else item
 
     return tuple(unplaced(item) for item in items)

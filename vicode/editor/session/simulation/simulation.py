@@ -7,22 +7,22 @@ from enum import StrEnum
 from pathlib import Path
 from typing import Any
 
-from vicode.editor.session.simulation.inputs import Input
-from vicode.editor.session.simulation.process import RunFailedError, Runner, start_runner
-from vicode.editor.session.simulation.recording import MOST_MOMENTS, Recording, merge_inputs
-from vicode.editor.session.simulation.setup import Stage
-from vicode.simulation import Inputs, Moment, Request, Stops
-from vicode.simulation.resting import COUNT, reason_to_rest
+from vicode.editor.session.simulation.inputs import SimulationInput
+from vicode.editor.session.simulation.process import RunFailedError, RunProcess, start_process
+from vicode.editor.session.simulation.recording import MAX_ITERATIONS, Recording, merge_inputs
+from vicode.editor.session.simulation.setup import PreparedRun
+from vicode.simulation import Inputs, IterationResult, Request, StopConditions
+from vicode.simulation.resting import COUNT_REACHED, stop_reason
 
 _CHUNK = 25
 _QUIET_CHUNK = 500
-_NOTHING = Stops()
+_NOTHING = StopConditions()
 
 
-class Phase(StrEnum):
+class RunStatus(StrEnum):
     """What a simulation is doing."""
 
-    RESTING = "resting"
+    PAUSED = "paused"
     RUNNING = "running"
     FAILED = "failed"
     ENDED = "ended"
@@ -52,38 +52,38 @@ class Simulation:
         replay: moments to look at instead of running anything.
     """
 
-    stage: Stage
+    prepared: PreparedRun
     cwd: Path
     script: Sequence[Inputs] = ()
-    replay: Sequence[Moment] = ()
+    replay: Sequence[IterationResult] = ()
     on_change: Callable[[], None] = field(default=lambda: None)
     recording: Recording = field(init=False, default_factory=Recording)
     cursor: int = field(init=False, default=0)
-    phase: Phase = field(init=False, default=Phase.RESTING)
+    status: RunStatus = field(init=False, default=RunStatus.PAUSED)
     failure: Failure | None = field(init=False, default=None)
-    note: str = field(init=False, default="")
+    warning: str = field(init=False, default="")
     guards: Mapping[str, Any] = field(init=False, default_factory=dict)
-    rested: str = field(init=False, default="")
+    stop_reason: str = field(init=False, default="")
     """Why it last came to rest."""
-    _runner: Runner | None = field(init=False, default=None)
-    _leaving: list[Runner] = field(init=False, default_factory=list)
-    _done: int = field(init=False, default=0)
+    _process: RunProcess | None = field(init=False, default=None)
+    _closing: list[RunProcess] = field(init=False, default_factory=list)
+    _process_iterations: int = field(init=False, default=0)
     """How many iterations the process has made."""
-    _first_guards: Mapping[str, Any] = field(init=False, default_factory=dict)
+    _initial_guards: Mapping[str, Any] = field(init=False, default_factory=dict)
     _pending: dict[str, dict[str, Any]] = field(init=False, default_factory=dict)
-    _busy: asyncio.Lock = field(init=False, default_factory=asyncio.Lock)
-    _wants_pause: bool = field(init=False, default=False)
+    _lock: asyncio.Lock = field(init=False, default_factory=asyncio.Lock)
+    _pause_requested: bool = field(init=False, default=False)
 
     def __post_init__(self) -> None:
         """Take the moments of a replay; else the first values of all inputs are the first change."""
         for moment in self.replay:
             self.recording.add(moment, {})
-        self._pending = {} if self.replay else _first_inputs(self.stage.inputs)
+        self._pending = {} if self.replay else _initial_inputs(self.prepared.inputs)
 
     @property
-    def moment(self) -> Moment | None:
+    def shown_iteration(self) -> IterationResult | None:
         """What is shown, None before the first iteration."""
-        return self.recording.moment(self.cursor)
+        return self.recording.iteration(self.cursor)
 
     @property
     def is_past(self) -> bool:
@@ -91,17 +91,17 @@ class Simulation:
         return self.cursor < len(self.recording)
 
     @property
-    def can_go_on(self) -> bool:
+    def can_step(self) -> bool:
         """Whether a step forward is possible."""
         if self.is_past:
             return True
-        return not self.replay and self.phase is not Phase.ENDED and not self.recording.is_full
+        return not self.replay and self.status is not RunStatus.ENDED and not self.recording.is_full
 
     @property
     def is_over(self) -> bool:
         """Whether there is nothing more to come from it: it was ended, or failed before the first moment."""
-        failed = self.phase is Phase.FAILED and not len(self.recording)
-        return failed or (self.phase is Phase.ENDED and not self.is_past)
+        failed = self.status is RunStatus.FAILED and not len(self.recording)
+        return failed or (self.status is RunStatus.ENDED and not self.is_past)
 
     @property
     def time_s(self) -> float:
@@ -116,122 +116,122 @@ class Simulation:
             merge_inputs(known, self._pending)
         return known
 
-    def take_over(self, inputs: Inputs) -> None:
+    def restore_inputs(self, inputs: Inputs) -> None:
         """Begin with inputs of an earlier simulation, as far as they are still what they were."""
-        for each in self.stage.inputs:
+        for each in self.prepared.inputs:
             value = _accept(each, inputs.get(each.component, {}).get(each.name))
             if value is not None:
                 merge_inputs(self._pending, {each.component: {each.name: value}})
 
-    async def begin(self) -> None:
+    async def start(self) -> None:
         """Start the process, so that mistakes are told before the first step."""
-        async with self._busy:
-            await self._guarded(self._look)
-            self._first_guards = self.guards
-        self._tell()
+        async with self._lock:
+            await self._catch_failure(self._evaluate_guards)
+            self._initial_guards = self.guards
+        self._notify()
 
-    async def step(self, count: int = 1, stops: Stops = _NOTHING) -> str:
+    async def step(self, count: int = 1, stops: StopConditions = _NOTHING) -> str:
         """Go forward, through the recorded past and on; returns why it rested, "" if it could not go on."""
-        async with self._busy:
-            self._wants_pause = False
-            reason = await self._guarded(lambda: self._forward(count, stops))
-        self.rested = reason or ""
-        self._tell()
-        return self.rested
+        async with self._lock:
+            self._pause_requested = False
+            reason = await self._catch_failure(lambda: self._forward(count, stops))
+        self.stop_reason = reason or ""
+        self._notify()
+        return self.stop_reason
 
     def pause(self) -> None:
         """Let a run come to rest as soon as it can."""
-        self._wants_pause = True
+        self._pause_requested = True
 
-    def back(self, count: int = 1) -> None:
+    def step_back(self, count: int = 1) -> None:
         """Show an earlier moment."""
         self.go_to(self.cursor - count)
 
     def go_to(self, number: int) -> None:
         """Show a recorded moment."""
         self.cursor = min(max(0, number), len(self.recording))
-        self.guards = moment.guards if (moment := self.moment) else self._first_guards
-        self.rested = ""
-        self._tell()
+        self.guards = moment.guards if (moment := self.shown_iteration) else self._initial_guards
+        self.stop_reason = ""
+        self._notify()
 
-    def cut(self) -> None:
+    def truncate(self) -> None:
         """Forget what comes after the moment that is shown, to go on from there."""
         if not self.is_past or self.replay:
             return
         after = self.recording.changes_before(self.cursor + 1)
-        self.recording.cut(self.cursor)
+        self.recording.truncate(self.cursor)
         # What was set before the next iteration stands in the form already.
         self._pending = {component: dict(values) for component, values in after.items()}
-        self._drop_runner()
-        self._forgive()
+        self._kill_process()
+        self._clear_failure()
 
     async def set_input(self, key: tuple[str, str], value: Any) -> bool:
         """Set an input for the next iteration; false if there is no such input or the value is none of its type."""
-        known = next((each for each in self.stage.inputs if each.key == key), None)
-        if known is None or self.phase is Phase.ENDED or self.replay:
+        known = next((each for each in self.prepared.inputs if each.key == key), None)
+        if known is None or self.status is RunStatus.ENDED or self.replay:
             return False
         accepted = _accept(known, value)
         if accepted is None:
             return False
-        self.cut()
-        self._forgive()
+        self.truncate()
+        self._clear_failure()
         merge_inputs(self._pending, {key[0]: {key[1]: accepted}})
-        if not self._busy.locked():
-            async with self._busy:
-                await self._guarded(self._look)
-        self._tell()
+        if not self._lock.locked():
+            async with self._lock:
+                await self._catch_failure(self._evaluate_guards)
+        self._notify()
         return True
 
     def end(self) -> None:
         """Kill the process; the past can still be looked at."""
-        self._wants_pause = True
-        self._drop_runner()
-        self.phase = Phase.ENDED
+        self._pause_requested = True
+        self._kill_process()
+        self.status = RunStatus.ENDED
 
-    async def gone(self) -> None:
+    async def wait_closed(self) -> None:
         """Wait until the processes that were killed have left nothing behind."""
-        while self._leaving:
-            await self._leaving.pop().gone()
+        while self._closing:
+            await self._closing.pop().wait_closed()
 
-    def _forgive(self) -> None:
+    def _clear_failure(self) -> None:
         """Forget a failure: with another input, or without what led to it, it may go well."""
-        if self.phase is Phase.FAILED:
-            self.phase, self.failure = Phase.RESTING, None
+        if self.status is RunStatus.FAILED:
+            self.status, self.failure = RunStatus.PAUSED, None
 
-    async def _forward(self, count: int, stops: Stops) -> str:
+    async def _forward(self, count: int, stops: StopConditions) -> str:
         left = count
-        while left and self.is_past and not self._wants_pause:
-            was_done = self.recording_done(self.cursor)
+        while left and self.is_past and not self._pause_requested:
+            was_done = self.is_done_at(self.cursor)
             self.go_to(self.cursor + 1)
             left -= 1
-            assert self.moment is not None
-            reason = reason_to_rest(self.moment, stops, was_done=was_done)
+            assert self.shown_iteration is not None
+            reason = stop_reason(self.shown_iteration, stops, was_done=was_done)
             if reason:
                 return reason
-        reason = COUNT
-        while left and reason == COUNT and not self._wants_pause:
-            if not self.can_go_on:
-                return self._full()
-            await self._catch_up()
+        reason = COUNT_REACHED
+        while left and reason == COUNT_REACHED and not self._pause_requested:
+            if not self.can_step:
+                return self._end_reason()
+            await self._synchronize_process()
             made = len(self.recording)
-            reason = await self._run_some(min(left, _CHUNK, MOST_MOMENTS - made), stops)
+            reason = await self._run_chunk(min(left, _CHUNK, MAX_ITERATIONS - made), stops)
             left -= len(self.recording) - made
-            self._tell()
-        return "pause" if self._wants_pause and left else reason
+            self._notify()
+        return "pause" if self._pause_requested and left else reason
 
-    def recording_done(self, number: int) -> bool:
+    def is_done_at(self, number: int) -> bool:
         """Whether the component was in a final state in a moment."""
-        moment = self.recording.moment(number)
+        moment = self.recording.iteration(number)
         return moment is not None and moment.done
 
-    def _full(self) -> str:
+    def _end_reason(self) -> str:
         if self.recording.is_full:
-            self.note = f"The recording is full ({MOST_MOMENTS} iterations); start again to go on."
+            self.warning = f"The recording is full ({MAX_ITERATIONS} iterations); start again to go on."
         return "end"
 
-    async def _run_some(self, count: int, stops: Stops) -> str:
-        assert self._runner is not None
-        self.phase = Phase.RUNNING
+    async def _run_chunk(self, count: int, stops: StopConditions) -> str:
+        assert self._process is not None
+        self.status = RunStatus.RUNNING
         changes, self._pending = self._pending, {}
         at = len(self.recording)
         if at < len(self.script):
@@ -239,74 +239,78 @@ class Simulation:
             merge_inputs(changes, self.script[at])
             count = 1
         waiting = [changes]
-        request = Request(do="run", inputs=changes, count=count, stops=stops)
+        request = Request(kind="run", inputs=changes, count=count, stops=stops)
         try:
-            rested = await self._runner.run(request, lambda moment: self._take(moment, waiting))
+            rested = await self._process.run(request, lambda moment: self._add_iteration(moment, waiting))
         except RunFailedError:
             # Inputs that no moment has seen are still to come.
             self._pending = waiting.pop() if waiting else {}
             raise
-        self.phase = Phase.RESTING
+        self.status = RunStatus.PAUSED
         return rested.reason
 
-    def _take(self, moment: Moment, waiting: list[dict[str, dict[str, Any]]]) -> None:
+    def _add_iteration(self, moment: IterationResult, waiting: list[dict[str, dict[str, Any]]]) -> None:
         self.recording.add(moment, waiting.pop() if waiting else {})
-        self._done = self.cursor = len(self.recording)
+        self._process_iterations = self.cursor = len(self.recording)
         self.guards = moment.guards
 
-    async def _catch_up(self) -> None:
+    async def _synchronize_process(self) -> None:
         """Have a process that has made all recorded iterations: if there is none, a new one repeats them."""
-        if self._runner is not None and self._done == len(self.recording):
+        if self._process is not None and self._process_iterations == len(self.recording):
             return
-        self._drop_runner()
-        await self.gone()
-        runner = await start_runner(self.stage, self.cwd)
-        if self.phase is Phase.ENDED:
+        self._kill_process()
+        await self.wait_closed()
+        runner = await start_process(self.prepared, self.cwd)
+        if self.status is RunStatus.ENDED:
             # It was ended while it began.
             runner.kill()
             raise RunFailedError("The simulation was ended.")
-        self._runner = runner
-        latest: list[Moment] = []
-        for changes, count in self.recording.runs(len(self.recording)):
+        self._process = runner
+        latest: list[IterationResult] = []
+        for changes, count in self.recording.input_segments(len(self.recording)):
             inputs = changes
             for begin in range(0, count, _QUIET_CHUNK):
-                request = Request(do="run", inputs=inputs, count=min(_QUIET_CHUNK, count - begin), quiet=True)
-                await self._runner.run(request, latest.append)
+                request = Request(
+                    kind="run", inputs=inputs, count=min(_QUIET_CHUNK, count - begin), suppress_events=True
+                )
+                await self._process.run(request, latest.append)
                 inputs = {}
-        self._done = len(self.recording)
-        if latest and latest[-1] != self.recording.moment(self._done):
-            self.note = "Repeating the past gave something else: the code reads the real time, or noise without a seed."
+        self._process_iterations = len(self.recording)
+        if latest and latest[-1] != self.recording.iteration(self._process_iterations):
+            self.warning = (
+                "Repeating the past gave something else: the code reads the real time, or noise without a seed."
+            )
 
-    async def _look(self) -> None:
+    async def _evaluate_guards(self) -> None:
         """Test the guards with the inputs as they are now."""
-        await self._catch_up()
-        assert self._runner is not None
-        self.guards = (await self._runner.look(self._pending)).guards
+        await self._synchronize_process()
+        assert self._process is not None
+        self.guards = (await self._process.evaluate_guards(self._pending)).guards
 
-    async def _guarded(self, do: Callable[[], Any]) -> Any:
+    async def _catch_failure(self, do: Callable[[], Any]) -> Any:
         try:
             return await do()
         except RunFailedError as error:
-            if self.phase is not Phase.ENDED:
-                self.phase = Phase.FAILED
+            if self.status is not RunStatus.ENDED:
+                self.status = RunStatus.FAILED
                 self.failure = Failure(message=error.message, error=error.error, prints=error.prints)
         except OSError as error:
-            self.phase = Phase.FAILED
+            self.status = RunStatus.FAILED
             self.failure = Failure(message=f"The simulation could not be started: {error}")
-        self._drop_runner()
+        self._kill_process()
         return None
 
-    def _drop_runner(self) -> None:
-        if self._runner is not None:
-            self._runner.kill()
-            self._leaving.append(self._runner)
-        self._runner, self._done = None, 0
+    def _kill_process(self) -> None:
+        if self._process is not None:
+            self._process.kill()
+            self._closing.append(self._process)
+        self._process, self._process_iterations = None, 0
 
-    def _tell(self) -> None:
+    def _notify(self) -> None:
         self.on_change()
 
 
-def _first_inputs(inputs: Sequence[Input]) -> dict[str, dict[str, Any]]:
+def _initial_inputs(inputs: Sequence[SimulationInput]) -> dict[str, dict[str, Any]]:
     first: dict[str, dict[str, Any]] = {}
     for each in inputs:
         value = {"value": each.initial, "table": []} if each.arguments is not None else each.initial
@@ -314,7 +318,7 @@ def _first_inputs(inputs: Sequence[Input]) -> dict[str, dict[str, Any]]:
     return first
 
 
-def _accept(known: Input, value: Any) -> Any | None:
+def _accept(known: SimulationInput, value: Any) -> Any | None:
     """A value, or for a function one for all arguments and a table of others."""
     if known.arguments is None:
         return known.accept(value)

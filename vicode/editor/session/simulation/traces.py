@@ -5,48 +5,48 @@ from collections import defaultdict
 from collections.abc import Iterable, Mapping
 from typing import Any
 
-from vicode.editor.session.simulation.inputs import Input
-from vicode.editor.session.simulation.recording import MOST_MOMENTS
+from vicode.editor.session.simulation.inputs import SimulationInput
+from vicode.editor.session.simulation.recording import MAX_ITERATIONS
 from vicode.editor.view import transition_key
 from vicode.model.design import COMMON, Design
-from vicode.model.walks import walk_transitions
-from vicode.simulation import Inputs, Moment
+from vicode.model.walks import iter_transitions
+from vicode.simulation import Inputs, IterationResult
 
-MOST_BYTES = 50_000_000
+MAX_BYTES = 50_000_000
 
 
 class TraceError(ValueError):
     """A text that is no trace of this design; the message says why in words."""
 
 
-def read_trace(text: str, design: Design) -> tuple[Moment, ...]:
+def read_trace(text: str, design: Design) -> tuple[IterationResult, ...]:
     """The moments of a trace.
 
     Raises:
         TraceError: It is none, or one of another component.
     """
-    if len(text) > MOST_BYTES:
-        raise TraceError(f"the trace is longer than {MOST_BYTES // 1_000_000} MB")
+    if len(text) > MAX_BYTES:
+        raise TraceError(f"the trace is longer than {MAX_BYTES // 1_000_000} MB")
     found = _transitions_by_ends(design)
-    moments: list[Moment] = []
+    moments: list[IterationResult] = []
     for number, line in enumerate(text.splitlines(), start=1):
         record = _parse(line, number)
         if record is None or "tree" not in record:
             continue
-        moments.append(_moment(record, number, design, found))
-        if len(moments) >= MOST_MOMENTS:
+        moments.append(_parse_iteration(record, number, design, found))
+        if len(moments) >= MAX_ITERATIONS:
             break
     if not moments:
         raise TraceError("there is no iteration in it: write one with vicode run --trace FILE")
     return tuple(moments)
 
 
-def script_of(moments: Iterable[Moment], inputs: Iterable[Input]) -> tuple[Inputs, ...]:
+def input_script(moments: Iterable[IterationResult], inputs: Iterable[SimulationInput]) -> tuple[Inputs, ...]:
     """The inputs to set before each iteration, so that stand-ins say what the components said in a trace.
 
     Only what changes is in it. A trace holds values when it was written with --values.
     """
-    names = defaultdict(dict)  # type: defaultdict[str, dict[str, Input]]
+    names = defaultdict(dict)  # type: defaultdict[str, dict[str, SimulationInput]]
     for each in inputs:
         if each.arguments is None:
             names[each.component][each.name] = each
@@ -78,9 +78,9 @@ def _parse(line: str, number: int) -> dict[str, Any] | None:
     return record
 
 
-def _moment(
+def _parse_iteration(
     record: Mapping[str, Any], number: int, design: Design, found: Mapping[tuple[str, str], list[str]]
-) -> Moment:
+) -> IterationResult:
     tree = record["tree"]
     is_tree = isinstance(tree, list) and tree and all(isinstance(step, dict) for step in tree)
     root = tree[0] if is_tree else {}
@@ -91,11 +91,11 @@ def _moment(
         raise TraceError(f"line {number} is no record of an iteration")
     if root.get("component") != design.component:
         raise TraceError(f"it is a trace of {str(root.get('component'))[:60]}, not of {design.component}")
-    return Moment(
+    return IterationResult(
         iteration=numbers[0] or 0,
         time_ns=numbers[1] or 0,
         state=str(state),
-        came_from=came_from,
+        changed_from=came_from,
         transition=_transition(root, design, found),
         worked=root.get("worked") is True,
         done=root.get("done") is True,
@@ -110,7 +110,7 @@ def _transition(root: Mapping[str, Any], design: Design, found: Mapping[tuple[st
     if came_from is None:
         return None
     if given:
-        for located in walk_transitions(design):
+        for located in iter_transitions(design):
             if located.decision.id == given:
                 return transition_key(located.path)
     keys = [*found.get((str(came_from), str(state)), ()), *found.get((COMMON, str(state)), ())]
@@ -119,6 +119,6 @@ def _transition(root: Mapping[str, Any], design: Design, found: Mapping[tuple[st
 
 def _transitions_by_ends(design: Design) -> dict[tuple[str, str], list[str]]:
     found: dict[tuple[str, str], list[str]] = defaultdict(list)
-    for located in walk_transitions(design):
+    for located in iter_transitions(design):
         found[(located.source, getattr(located.decision, "to", ""))].append(transition_key(located.path))
     return found

@@ -7,7 +7,7 @@ from vicode.model.design import Design
 from vicode.model.edits import rename_use
 from vicode.model.names import snake_case
 from vicode.model.project import Interface, Project
-from vicode.model.texts import TextKind, rewrite_text, walk_texts
+from vicode.model.texts import TextKind, iter_texts, rewrite_text
 from vicode.store import read_design, save_design
 
 _FOLDER = Path(__file__).parent
@@ -32,11 +32,11 @@ def list_templates() -> tuple[Template, ...]:
     return tuple(_template(name) for name in _NAMES)
 
 
-def text_from_template(template: Template, component: str, project: Project) -> str:
+def instantiate_template(template: Template, component: str, project: Project) -> str:
     """The text of a new design of that name: the template's, with its comments and order."""
     design = replace(template.design, component=component)
     if design.use(_SENSE) is not None:
-        design = _with_senses_of(design, project)
+        design = _bind_sensor(design, project)
     return save_design(design, template.text)
 
 
@@ -48,15 +48,17 @@ def _template(name: str) -> Template:
     return Template(name=name, title=title, doc=design.doc, text=text, design=design)
 
 
-def _with_senses_of(design: Design, project: Project) -> Design:
+def _bind_sensor(design: Design, project: Project) -> Design:
     """The design on the first component of the project that tells whether something holds; as it is without one."""
-    found = next(((each, seen) for each in project.interfaces().values() if (seen := _flag_of(each))), None)
+    found = next(
+        ((each, seen) for each in project.interfaces().values() if (seen := _first_boolean_output(each))), None
+    )
     if found is None:
         return design
     interface, seen = found
     uses = tuple(replace(use, component=interface.component) for use in design.uses)
     design = replace(design, uses=uses)
-    for placed in walk_texts(design):
+    for placed in iter_texts(design):
         if placed.kind is TextKind.EXPRESSION:
             design = rewrite_text(
                 design, placed.path, lambda text: text.replace(f"{_SENSE}.{_SEEN}", f"{_SENSE}.{seen}")
@@ -64,6 +66,6 @@ def _with_senses_of(design: Design, project: Project) -> Design:
     return rename_use(design, _SENSE, snake_case(interface.component))
 
 
-def _flag_of(interface: Interface) -> str:
+def _first_boolean_output(interface: Interface) -> str:
     """The first output that is true or false and asks for nothing, empty if there is none."""
     return next((each.name for each in interface.outputs if each.type == "bool" and not each.arguments), "")

@@ -1,5 +1,5 @@
 // Typing in a cell: a field laid over it. What is typed is only proposed; Python decides, and a refusal keeps it.
-import { COLUMNS, editorOf, nameOf } from "./columns.js";
+import { COLUMNS, editorKind, rowName } from "./columns.js";
 
 export class CellEditor {
   constructor(table) {
@@ -17,8 +17,8 @@ export class CellEditor {
     return this.field !== null;
   }
 
-  /** Opens a cell; `text` replaces what stands in it, `byHand` opens a list at once. */
-  open(row, column, { text = null, byHand = false, refused = "" } = {}) {
+  /** Opens a cell; `text` replaces what stands in it, `byMouse` opens a list at once. */
+  open(row, column, { text = null, byMouse = false, error = "" } = {}) {
     this.close(false);
     const cell = this.table.cellAt(row.id, column);
     if (!cell) return;
@@ -28,10 +28,10 @@ export class CellEditor {
     this.field = this.#build(row, column, text ?? this.base);
     cell.append(this.field);
     cell.classList.add("is-edited");
-    this.#say(refused, cell);
+    this.#showError(error, cell);
     this.field.focus({ preventScroll: true });
-    if (text === null || refused) this.field.select?.();
-    if (byHand && this.field.tagName === "SELECT") this.#openList();
+    if (text === null || error) this.field.select?.();
+    if (byMouse && this.field.tagName === "SELECT") this.#openList();
   }
 
   /** Ends the typing; `keep` proposes what was typed. */
@@ -46,15 +46,15 @@ export class CellEditor {
   }
 
   #build(row, column, text) {
-    const kind = editorOf(row, column);
+    const kind = editorKind(row, column);
     const field = kind === "choice" ? this.#choice(text) : document.createElement(kind === "lines" ? "textarea" : "input");
     field.value = text;
     field.className = "field-in-cell";
     field.spellcheck = column.name === "doc";
-    field.setAttribute("aria-label", `${column.title} of ${nameOf(row)}`);
+    field.setAttribute("aria-label", `${column.title} of ${rowName(row)}`);
     if (kind === "lines") this.#growWith(field);
     if (column.from) field.placeholder = this.table.lists[column.from].join(", ");
-    field.addEventListener("keydown", (event) => this.#down(event));
+    field.addEventListener("keydown", (event) => this.#onKeyDown(event));
     field.addEventListener("blur", () => this.field === field && this.close(true));
     field.addEventListener("pointerdown", (event) => event.stopPropagation());
     return field;
@@ -80,7 +80,7 @@ export class CellEditor {
   /** A list opened by hand takes what is picked at once; by keys Enter does, as every arrow would be an edit. */
   #openList() {
     const { field } = this;
-    field.addEventListener("change", () => this.#leave(true));
+    field.addEventListener("change", () => this.#closeAndFocus(true));
     try {
       field.showPicker();
     } catch {
@@ -88,24 +88,24 @@ export class CellEditor {
     }
   }
 
-  #down(event) {
+  #onKeyDown(event) {
     event.stopPropagation();
     if (event.isComposing) return;
-    if (event.key === "Escape") this.#leave(false);
-    else if (event.key === "Enter" && !event.shiftKey) this.#leave(true);
+    if (event.key === "Escape") this.#closeAndFocus(false);
+    else if (event.key === "Enter" && !event.shiftKey) this.#closeAndFocus(true);
     else if (event.key === "Tab") {
-      this.#leave(true);
-      this.table.step(event.shiftKey ? -1 : 1);
+      this.#closeAndFocus(true);
+      this.table.moveToEditable(event.shiftKey ? -1 : 1);
     } else return;
     event.preventDefault();
   }
 
-  #leave(keep) {
+  #closeAndFocus(keep) {
     this.close(keep);
-    this.table.takeFocus();
+    this.table.focusGrid();
   }
 
-  #say(words, cell) {
+  #showError(words, cell) {
     this.words.textContent = words;
     this.words.hidden = !words;
     if (!words) return;
@@ -117,4 +117,4 @@ export class CellEditor {
   }
 }
 
-export const columnOf = (name) => COLUMNS.find((column) => column.name === name);
+export const findColumn = (name) => COLUMNS.find((column) => column.name === name);

@@ -14,7 +14,7 @@ export const COLUMNS = [
   { name: "doc", title: "Doc", kind: "text" },
 ];
 
-export const nameOf = (row) => `${row.lead} ${row.cells.name ?? ""}`.trim();
+export const rowName = (row) => `${row.lead} ${row.cells.name ?? ""}`.trim();
 
 const SIGNS = { error: "⬣", warning: "▲", note: "●" };
 
@@ -26,7 +26,7 @@ export function isEditable(row, column) {
 }
 
 /** How a cell is edited: a choice among the states, or a line (a doc: lines) of text. */
-export function editorOf(row, column) {
+export function editorKind(row, column) {
   if (column.name === "name" && row.kind === "transition") return "choice";
   return column.name === "doc" || column.name === "when" ? "lines" : "line";
 }
@@ -51,7 +51,7 @@ function drawFlag(cell, row, column, value) {
   const box = span("flag", "");
   box.setAttribute("role", "checkbox");
   box.setAttribute("aria-checked", String(value));
-  box.setAttribute("aria-label", `${nameOf(row)}: ${column.title}`);
+  box.setAttribute("aria-label", `${rowName(row)}: ${column.title}`);
   cell.title = column.title;
   cell.append(box);
   return box;

@@ -1,61 +1,61 @@
 // The keys of the table. Those it does not know go on to the page.
 
 const STEPS = { ArrowUp: [-1, 0], ArrowDown: [1, 0], ArrowLeft: [0, -1], ArrowRight: [0, 1] };
-const FAR = 1e6;
+const MAX_STEPS = 1e6;
 
 export function keyDown(table, event) {
   if (event.target.closest(".field-in-cell") || event.isComposing) return;
-  const job = jobOf(table, event);
+  const job = findHandler(table, event);
   if (!job) return;
   event.preventDefault();
   event.stopPropagation();
   job();
 }
 
-function jobOf(table, event) {
-  const { row, column } = table.here;
+function findHandler(table, event) {
+  const { row, column } = table.current;
   if (!row) return null;
-  if (event.altKey) return withAlt(table, event, row);
-  if (event.ctrlKey || event.metaKey) return withCtrl(table, event, row);
+  if (event.altKey) return findAltHandler(table, event, row);
+  if (event.ctrlKey || event.metaKey) return findCtrlHandler(table, event, row);
   if (event.key in STEPS) return () => table.go(...STEPS[event.key]);
   const jobs = {
-    Home: () => table.go(0, -FAR),
-    End: () => table.go(0, FAR),
+    Home: () => table.go(0, -MAX_STEPS),
+    End: () => table.go(0, MAX_STEPS),
     PageUp: () => table.go(-table.page, 0),
     PageDown: () => table.go(table.page, 0),
-    Enter: () => table.act(),
-    F2: () => table.act(),
-    Delete: () => clear(table, row, column),
-    Backspace: () => clear(table, row, column),
+    Enter: () => table.editOrToggle(),
+    F2: () => table.editOrToggle(),
+    Delete: () => clearCell(table, row, column),
+    Backspace: () => clearCell(table, row, column),
   };
-  if (event.key === " ") return column.kind === "flag" ? () => table.act() : null;
+  if (event.key === " ") return column.kind === "flag" ? () => table.editOrToggle() : null;
   // Letters typed on a flag say nothing, neither to it nor to the page.
   if (column.kind === "flag" && /^\p{L}$/u.test(event.key)) return () => {};
   // A key that writes begins to type over what stands there, as in a spreadsheet; a choice is only opened.
-  if (event.key.length === 1) return () => table.act({ text: column.name === "name" && row.kind === "transition" ? null : event.key });
+  if (event.key.length === 1) return () => table.editOrToggle({ text: column.name === "name" && row.kind === "transition" ? null : event.key });
   return jobs[event.key];
 }
 
-function withAlt(table, event, row) {
+function findAltHandler(table, event, row) {
   const by = { ArrowUp: -1, ArrowDown: 1 }[event.key];
-  return by && (() => table.wish({ kind: "move", row: row.id, by }));
+  return by && (() => table.sendEdit({ kind: "move", row: row.id, by }));
 }
 
-function withCtrl(table, event, row) {
+function findCtrlHandler(table, event, row) {
   const jobs = {
-    Home: () => table.go(-FAR, -FAR),
-    End: () => table.go(FAR, FAR),
-    Enter: () => table.wish({ kind: event.shiftKey ? "add-state" : "add-transition", row: row.id }),
-    Delete: () => table.wish({ kind: "remove", row: row.id }),
-    Backspace: () => table.wish({ kind: "remove", row: row.id }),
+    Home: () => table.go(-MAX_STEPS, -MAX_STEPS),
+    End: () => table.go(MAX_STEPS, MAX_STEPS),
+    Enter: () => table.sendEdit({ kind: event.shiftKey ? "add-state" : "add-transition", row: row.id }),
+    Delete: () => table.sendEdit({ kind: "remove", row: row.id }),
+    Backspace: () => table.sendEdit({ kind: "remove", row: row.id }),
   };
   return jobs[event.key];
 }
 
 /** The first cell stands for the whole row; others are emptied. */
-function clear(table, row, column) {
-  if (column.name === "name") return table.wish({ kind: "remove", row: row.id });
+function clearCell(table, row, column) {
+  if (column.name === "name") return table.sendEdit({ kind: "remove", row: row.id });
   const base = row.cells[column.name];
   if (typeof base !== "string" || !base || column.kind === "marks") return;
-  table.wish({ kind: "set", row: row.id, column: column.name, value: "", base });
+  table.sendEdit({ kind: "set", row: row.id, column: column.name, value: "", base });
 }

@@ -1,5 +1,5 @@
 // The table itself: rows mounted where they are seen, one cell in the tab order, keys as in a spreadsheet.
-import { CellEditor, columnOf } from "./cell_editor.js";
+import { CellEditor, findColumn } from "./cell_editor.js";
 import { COLUMNS, drawCell, isEditable } from "./columns.js";
 import { keyDown } from "./keys.js";
 
@@ -26,7 +26,7 @@ class Table {
     this.at = { row: null, column: 0 };
     this.#build();
     this.editor = new CellEditor(this);
-    this.#wire();
+    this.#addListeners();
   }
 
   load({ rows, states, uses }) {
@@ -46,7 +46,7 @@ class Table {
     const hadFocus = this.body.contains(document.activeElement) && !this.editor.isOpen;
     for (const row of upsert) if (this.mounted.has(row.id)) this.#drawRow(this.mounted.get(row.id), row);
     this.#reorder(order ?? this.order);
-    if (hadFocus) this.takeFocus();
+    if (hadFocus) this.focusGrid();
   }
 
   select(ids) {
@@ -59,18 +59,18 @@ class Table {
 
   editCell(id, name, options = {}) {
     const row = this.rows.get(id);
-    const column = columnOf(name);
+    const column = findColumn(name);
     if (!row || !column) return;
     this.#goTo(id, COLUMNS.indexOf(column), { focus: true });
     if (isEditable(row, column) && column.kind !== "flag") this.editor.open(row, column, options);
   }
 
   /** An edit was not done: what was typed comes back, with the reason. */
-  refuse({ row, column, value }, words) {
-    if (value !== undefined && this.rows.has(row)) this.editCell(row, column, { text: value, refused: words });
+  showError({ row, column, value }, words) {
+    if (value !== undefined && this.rows.has(row)) this.editCell(row, column, { text: value, error: words });
   }
 
-  takeFocus() {
+  focusGrid() {
     if (!this.rows.has(this.at.row)) this.at = { row: this.order[0] ?? null, column: 0 };
     if (this.at.row === null) return this.scroller.focus();
     this.#goTo(this.at.row, this.at.column, { focus: true, quiet: true });
@@ -85,12 +85,12 @@ class Table {
   }
 
   /** To the next cell that can be edited in this row, else to the next one at all. */
-  step(by) {
+  moveToEditable(by) {
     const row = this.rows.get(this.at.row);
     let column = this.at.column + by;
     while (row && COLUMNS[column] && !isEditable(row, COLUMNS[column])) column += by;
     if (COLUMNS[column]) this.go(0, column - this.at.column);
-    else this.takeFocus();
+    else this.focusGrid();
   }
 
   /** Rows that fit into the window. */
@@ -98,21 +98,21 @@ class Table {
     return Math.max(1, Math.floor(this.scroller.clientHeight / ROW) - 2);
   }
 
-  get here() {
+  get current() {
     return { row: this.rows.get(this.at.row), column: COLUMNS[this.at.column] };
   }
 
   /** Begins to type in the cell, or flips a flag. */
-  act(options = {}) {
-    const { row, column } = this.here;
+  editOrToggle(options = {}) {
+    const { row, column } = this.current;
     if (!row || !isEditable(row, column)) return;
-    if (column.kind === "flag") this.wish({ kind: "toggle", row: row.id, column: column.name });
+    if (column.kind === "flag") this.sendEdit({ kind: "toggle", row: row.id, column: column.name });
     else this.editor.open(row, column, options);
   }
 
   /** Asks Python for something. */
-  wish(payload) {
-    this.#tellSelection();
+  sendEdit(payload) {
+    this.#reportSelection();
     this.emit("edit", payload);
   }
 
@@ -122,7 +122,7 @@ class Table {
   }
 
   dispose() {
-    clearTimeout(this.telling);
+    clearTimeout(this.reportTimer);
     this.sizes.disconnect();
   }
 
@@ -151,27 +151,27 @@ class Table {
     this.host.append(this.scroller);
   }
 
-  #wire() {
+  #addListeners() {
     this.scroller.addEventListener("scroll", () => this.#mount(), { passive: true });
     this.sizes = new ResizeObserver(() => this.#mount());
     this.sizes.observe(this.scroller);
     this.body.addEventListener("keydown", (event) => keyDown(this, event));
-    this.body.addEventListener("pointerdown", (event) => this.#pressed(event));
-    this.body.addEventListener("dblclick", (event) => this.#placeOf(event) && this.act({ byHand: true }));
-    this.body.addEventListener("focusout", () => this.#tellSelection());
+    this.body.addEventListener("pointerdown", (event) => this.#onPointerDown(event));
+    this.body.addEventListener("dblclick", (event) => this.#findCell(event) && this.editOrToggle({ byMouse: true }));
+    this.body.addEventListener("focusout", () => this.#reportSelection());
   }
 
   /** A press selects a cell; a press on the selected one begins to type. */
-  #pressed(event) {
-    const place = this.#placeOf(event);
+  #onPointerDown(event) {
+    const place = this.#findCell(event);
     if (!place || event.button !== 0) return;
     event.preventDefault();
     const again = place.row === this.at.row && place.column === this.at.column && this.body.contains(document.activeElement);
     this.#goTo(place.row, place.column, { focus: true });
-    if (again || COLUMNS[place.column].kind === "flag") this.act({ byHand: true });
+    if (again || COLUMNS[place.column].kind === "flag") this.editOrToggle({ byMouse: true });
   }
 
-  #placeOf(event) {
+  #findCell(event) {
     const cell = event.target.closest(".cell");
     if (!cell || event.target.closest(".field-in-cell")) return null;
     return { row: cell.parentElement.dataset.id, column: [...cell.parentElement.children].indexOf(cell) };
@@ -187,15 +187,15 @@ class Table {
     if (focus) this.#focused()?.focus({ preventScroll: true });
     if (focus) this.#focused()?.scrollIntoView({ block: "nearest", inline: "nearest" });
     if (quiet) return;
-    clearTimeout(this.telling);
-    this.telling = setTimeout(() => this.#tellSelection(), SELECT_MS);
+    clearTimeout(this.reportTimer);
+    this.reportTimer = setTimeout(() => this.#reportSelection(), SELECT_MS);
   }
 
   /** Tells Python which row is worked on, once the keys rest. */
-  #tellSelection() {
-    if (!this.telling) return;
-    clearTimeout(this.telling);
-    this.telling = null;
+  #reportSelection() {
+    if (!this.reportTimer) return;
+    clearTimeout(this.reportTimer);
+    this.reportTimer = null;
     if (!this.rows.has(this.at.row)) return;
     this.#markSelected([this.at.row]);
     this.emit("select", this.at.row);
@@ -226,13 +226,13 @@ class Table {
     this.order = order.filter((id) => this.rows.has(id));
     this.grid.setAttribute("aria-rowcount", String(this.order.length + 1));
     this.body.style.height = `${this.order.length * ROW}px`;
-    if (!this.rows.has(this.at.row)) this.#standNear();
+    if (!this.rows.has(this.at.row)) this.#moveToNearestRow();
     this.#mount();
     this.#tab(0);
   }
 
   /** The row that was worked on is gone: what stands in its place now takes over. */
-  #standNear() {
+  #moveToNearestRow() {
     const index = Math.max(0, Math.min(this.order.length - 1, this.index ?? 0));
     this.at = { row: this.order[index] ?? null, column: this.at.column };
   }

@@ -23,11 +23,11 @@ export default {
     editCell(row, column) {
       this.table.editCell(row, column);
     },
-    refuse(payload, words) {
-      this.table.refuse(payload, words);
+    showError(payload, words) {
+      this.table.showError(payload, words);
     },
-    takeFocus() {
-      this.table.takeFocus();
+    focusGrid() {
+      this.table.focusGrid();
     },
   },
 };
