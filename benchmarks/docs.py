@@ -24,10 +24,10 @@ from collections.abc import Callable
 from functools import partial
 from pathlib import Path
 
-from vicode.cli.sites import DocsBuilder
-from vicode.cli.subjects import load_site_inputs
+from vicode.cli.docs_build import DocsBuilder
+from vicode.cli.docs_inputs import load_site_inputs
 from vicode.diagram.export import export_design
-from vicode.diagram.formats import ExportFormat
+from vicode.diagram.export_formats import ExportFormat
 from vicode.model.design import Design, Guard, State, Transition
 
 # Draws each text of a list that it reads, in one process, as most people would let it be drawn.

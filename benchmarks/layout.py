@@ -17,7 +17,7 @@ import time
 from vicode.diagram import complete_layout
 from vicode.diagram.layout import LayoutService
 from vicode.model.design import Design, Guard, State, Transition
-from vicode.model.walks import iter_transitions
+from vicode.model.traversal import iter_transitions
 
 SIZES = {20: 7, 100: 7, 300: 5, 1000: 5, 3000: 3}
 LIMIT_S = 90.0

@@ -10,7 +10,7 @@ from importlib import import_module
 from importlib.util import find_spec
 from typing import Any, Protocol
 
-from benchmarks.machines import TICK_NS, TIMER_NS, Edge, Machine, TickClock, format_guard, load_source
+from benchmarks.sample_machines import TICK_NS, TIMER_NS, Edge, Machine, TickClock, format_guard, load_source
 from benchmarks.senses import Senses
 
 

@@ -13,7 +13,7 @@ import time
 from collections.abc import Callable, Sequence
 
 from benchmarks.libraries import Candidate, find_libraries
-from benchmarks.machines import Machine, TickClock, load_source, make_machine, write_component, write_if_elif
+from benchmarks.sample_machines import Machine, TickClock, load_source, make_machine, write_component, write_if_elif
 from benchmarks.senses import Senses
 from vicode.bica import Component, Root
 

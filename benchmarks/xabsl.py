@@ -17,9 +17,9 @@ from pathlib import Path
 from statistics import median
 
 from vicode.xabsl.compiler import compile_source, declared_symbols
-from vicode.xabsl.engine.replaying import ReplayRobot
+from vicode.xabsl.engine.replay import ReplayRobot
 from vicode.xabsl.engine.symbols import RobotSymbol
-from vicode.xabsl.sources import load_source
+from vicode.xabsl.source_loader import load_source
 
 ROOT = Path(__file__).parents[1]
 LARGEST = ROOT / "tests" / "xabsl" / "cases" / "programs" / "p11" / "agents.xabsl"

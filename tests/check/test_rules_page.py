@@ -9,7 +9,7 @@ from vicode.check import check_project
 from vicode.findings import RULES, Rule, render_text
 from vicode.store import locate_findings, open_project
 from vicode.xabsl.compiler import compile_source
-from vicode.xabsl.sources import load_source
+from vicode.xabsl.source_loader import load_source
 
 PAGE = Path(__file__).parents[2] / "docs" / "rules.md"
 SECTION = re.compile(r"^### ([A-Z]\d{3})\n(.*?)(?=^##)", re.MULTILINE | re.DOTALL)

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.cli.commands import vicode
+from tests.cli.command_runner import vicode
 
 ROOT = Path(__file__).parents[2]
 _BLOCK = re.compile(r"```(?:yaml|python)\n(?:# (?P<file>\S+\.(?:yaml|py))\n)?(?P<text>.*?)```", re.DOTALL)

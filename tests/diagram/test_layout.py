@@ -10,10 +10,10 @@ from pathlib import Path
 
 import pytest
 
-from tests.diagram.drawn_designs import HOSTILE_NAMES, find_overlaps, list_boxes, ring_design, shipped_designs
+from tests.diagram.diagram_designs import HOSTILE_NAMES, find_overlaps, list_boxes, ring_design, shipped_designs
 from vicode.diagram import complete_layout
 from vicode.diagram.layout import WORKER_COMMAND, LayoutMethod, LayoutResult, LayoutService, compute_layout
-from vicode.diagram.settling import screens_needed
+from vicode.diagram.layout_fit import screens_needed
 from vicode.model.design import Design, State, Transition
 
 PATIENCE_S = 60.0
@@ -135,8 +135,8 @@ def test_a_thousand_states_get_an_answer() -> None:
 
 def test_noise_of_the_library_is_no_answer() -> None:
     program = (
-        "import os; from vicode.diagram.worker import _private_answers\n"
-        "with _private_answers() as answers: os.write(1, b'noise'); answers.write('answer')"
+        "import os; from vicode.diagram.worker import _private_stdout\n"
+        "with _private_stdout() as answers: os.write(1, b'noise'); answers.write('answer')"
     )
     ended = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
     assert (ended.stdout, ended.stderr) == ("answer", "noise")

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import Page
 
-from tests.docsite.browsing import OVERLAPS, crawl_in_browser
+from tests.docsite.browser_crawl import OVERLAPS, crawl_in_browser
 from vicode.cli import main
 
 ROOT = Path(__file__).parents[2]

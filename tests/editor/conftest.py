@@ -17,7 +17,7 @@ import pytest
 from playwright.sync_api import Page
 
 from tests.conftest import opened_beside
-from tests.editor.slow_line import SlowConnection
+from tests.editor.slow_connection import SlowConnection
 
 ROOT = Path(__file__).parents[2]
 
@@ -87,7 +87,7 @@ def started_editor(folder: Path, storage: Path, options: tuple[str, ...] = ("--n
 @cache
 def _fork_server() -> "subprocess.Popen[str]":
     """What all editors of this test process split off from; it ends with it."""
-    command = [sys.executable, "-m", "tests.editor.brood"]
+    command = [sys.executable, "-m", "tests.editor.fork_server"]
     pipe = subprocess.PIPE
     return subprocess.Popen(command, stdin=pipe, stdout=pipe, text=True, env=_environment(), cwd=ROOT)
 

@@ -10,7 +10,7 @@ from tests.generators.sound_designs import project_of, sound_designs
 from vicode.generators import Origin, generate, list_origins
 from vicode.model.design import Design, Transition
 from vicode.model.project import Project
-from vicode.model.walks import find_decision
+from vicode.model.traversal import find_decision
 from vicode.store import open_project
 
 ROOT = Path(__file__).parents[2]

@@ -4,7 +4,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-from tests.generators.formatting import write_files
+from tests.generators.code_tools import write_files
 from vicode.generators import generate, list_outputs
 from vicode.store import open_project
 

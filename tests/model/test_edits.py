@@ -35,7 +35,7 @@ from vicode.model.edits import (
     unique_name,
     update_state,
 )
-from vicode.model.walks import find_decision, iter_transitions
+from vicode.model.traversal import find_decision, iter_transitions
 
 TREE = DecisionGroup(guard=Guard(when="seen"), then=(Transition(to="B"), Stay()), otherwise=(Transition(to="A"),))
 DESIGN = Design(

@@ -46,7 +46,7 @@ def test_only_generated_sources_beside_ours_are_stale(tmp_path: Path) -> None:
     write(tmp_path, "q/other.py", HEADER)
     write(tmp_path, "p/kept.py", HEADER)
     files = [OutputFile(path="p/new.py", text=HEADER)]
-    assert statuses(files, tmp_path, keep=["p/kept.py"]) == {"p/new.py": FileStatus.NEW}
+    assert statuses(files, tmp_path, kept_paths=["p/kept.py"]) == {"p/new.py": FileStatus.NEW}
 
 
 def test_applying_makes_the_folder_agree(tmp_path: Path) -> None:

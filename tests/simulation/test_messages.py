@@ -23,7 +23,7 @@ from vicode.simulation import (
     encode_setup,
 )
 from vicode.simulation.messages import MAX_MESSAGE_BYTES, decode_request, decode_setup, encode_response
-from vicode.simulation.resting import stop_reason
+from vicode.simulation.stop_reasons import stop_reason
 
 SETUP = Setup(
     component="lamps.lamp:Lamp",

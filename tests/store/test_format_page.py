@@ -7,9 +7,17 @@ import pytest
 
 from vicode.store import read_design, read_project_file
 from vicode.store.format import DESIGN_RECORDS, PROJECT_RECORDS
-from vicode.store.lines import MAX_FINDINGS
-from vicode.store.nodes import MAX_BYTES, MAX_DEPTH, MAX_NODES
-from vicode.store.shapes import KeySchema, ListSchema, MapSchema, PairSchema, RecordSchema, ScalarSchema, ValueSchema
+from vicode.store.line_index import MAX_FINDINGS
+from vicode.store.schema_types import (
+    KeySchema,
+    ListSchema,
+    MapSchema,
+    PairSchema,
+    RecordSchema,
+    ScalarSchema,
+    ValueSchema,
+)
+from vicode.store.yaml_tree import MAX_BYTES, MAX_DEPTH, MAX_NODES
 
 PAGE = Path(__file__).parents[2] / "docs" / "design-format.md"
 BLOCK = re.compile(r"(<!-- keys: (\w+) -->\n)((?:\|.*\n)*)")

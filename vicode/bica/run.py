@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, Any, TextIO
 
 from .clock import RealClock, SimulatedClock
 from .errors import ComponentError, CyclicUseError
-from .loading import UserCodeError, load_component, make_world, wrap_user_errors
+from .loader import UserCodeError, load_component, make_world, wrap_user_errors
 from .observer import IterationRecord, Observer, to_json_value
 from .options import make_parser
 from .root import Root

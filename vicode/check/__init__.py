@@ -14,14 +14,14 @@ from vicode.check import (
     names,
     project,
     states,
-    stepping,
+    steps,
     uses,
     xabsl,
     xabsl_project,
 )
 from vicode.check.context import RuleContext, build_context, build_context_with_graphs
+from vicode.check.dependency_view import make_dependency_view
 from vicode.check.graphs import build_graphs
-from vicode.check.surroundings import make_dependency_view
 from vicode.findings import Finding
 from vicode.model.design import Design
 from vicode.model.project import Project
@@ -36,7 +36,7 @@ DESIGN_RULES = (
     *states.RULES,
     *decisions.RULES,
     *expressions.RULES,
-    *stepping.RULES,
+    *steps.RULES,
     *code.RULES,
     *xabsl.RULES,
 )

@@ -8,9 +8,9 @@ from functools import lru_cache
 from vicode import regions
 from vicode.check.context import RuleContext
 from vicode.findings import Finding, Span, did_you_mean
-from vicode.model.parsing import check_compiles, parse_module
-from vicode.model.pieces import PythonSnippet
 from vicode.model.project import LANGUAGES
+from vicode.model.python_parser import check_compiles, parse_module
+from vicode.model.snippets import PythonSnippet
 
 
 def find_unparsable_code(context: RuleContext) -> Iterator[Finding]:

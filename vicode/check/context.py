@@ -4,14 +4,14 @@ from collections.abc import Iterable
 from dataclasses import dataclass, replace
 
 from vicode.check.graphs import ComponentGraphs, StepSite, build_graphs, iter_steps
-from vicode.check.readings import TypedExpression, build_expression_parser, parse_expressions
-from vicode.check.words import find_identifiers
+from vicode.check.identifiers_in_text import find_identifiers
+from vicode.check.typed_expressions import TypedExpression, build_expression_parser, parse_expressions
 from vicode.findings import DesignPath, Finding, FindingSubject, Note, Span, get_rule
 from vicode.model.design import Design
-from vicode.model.enabling import disabled_states
+from vicode.model.disabled import disabled_states
 from vicode.model.expressions import Scope
 from vicode.model.project import Project
-from vicode.model.walks import LocatedAction, LocatedCode, LocatedDecision, iter_actions, iter_code, iter_decisions
+from vicode.model.traversal import LocatedAction, LocatedCode, LocatedDecision, iter_actions, iter_code, iter_decisions
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -5,8 +5,8 @@ from collections.abc import Iterator
 from vicode.check.context import RuleContext
 from vicode.findings import DesignPath, Finding, Note
 from vicode.model.design import Decision, DecisionGroup, Transition
-from vicode.model.enabling import strip_disabled_decision
-from vicode.model.walks import is_exhaustive
+from vicode.model.disabled import strip_disabled_decision
+from vicode.model.traversal import is_exhaustive
 
 
 def find_shadowed_transitions(context: RuleContext) -> Iterator[Finding]:

@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 
 from vicode.check.context import RuleContext
-from vicode.check.readings import literal_value
+from vicode.check.typed_expressions import literal_value
 from vicode.findings import DesignPath, Finding, did_you_mean
 from vicode.model.design import Assign, Declaration
 from vicode.model.expressions import BOOL, FLOAT, INT, UNKNOWN, Scope

@@ -4,8 +4,8 @@ import math
 from collections.abc import Iterator
 
 from vicode.check.context import RuleContext
-from vicode.check.named import with_article
-from vicode.check.readings import ExpressionSite, TypedExpression, literal_value
+from vicode.check.identifiers import with_article
+from vicode.check.typed_expressions import ExpressionSite, TypedExpression, literal_value
 from vicode.findings import Finding, did_you_mean
 from vicode.model.design import Assign
 from vicode.model.expressions import (

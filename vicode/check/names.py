@@ -3,7 +3,7 @@
 from collections.abc import Iterable, Iterator
 
 from vicode.check.context import RuleContext
-from vicode.check.named import (
+from vicode.check.identifiers import (
     Identifier,
     iter_design_identifiers,
     iter_expression_identifiers,

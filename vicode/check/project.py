@@ -9,14 +9,14 @@ from dataclasses import replace
 
 from vicode.check.declarations import validate_declaration, validate_range
 from vicode.check.expressions import find_nonconstant_nodes
-from vicode.check.named import (
+from vicode.check.identifiers import (
     Identifier,
     iter_project_identifiers,
     keyword_languages,
     validate_identifier,
     with_article,
 )
-from vicode.check.readings import (
+from vicode.check.typed_expressions import (
     ExpressionParser,
     TypedExpression,
     build_expression_parser,

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from vicode.check.context import RuleContext
 from vicode.findings import Finding, did_you_mean
 from vicode.model.design import COMMON, Transition
-from vicode.model.enabling import strip_disabled_decision
+from vicode.model.disabled import strip_disabled_decision
 
 
 def find_no_states(context: RuleContext) -> Iterator[Finding]:

@@ -7,17 +7,17 @@ from functools import partial
 
 from vicode.check.context import RuleContext
 from vicode.check.keywords import KEYWORDS
-from vicode.check.readings import ExpressionSite, TypedExpression
+from vicode.check.typed_expressions import ExpressionSite, TypedExpression
 from vicode.findings import DesignPath, Finding
-from vicode.model.constants import evaluate_constants
+from vicode.model.constant_folding import evaluate_constants
 from vicode.model.design import COMMON
-from vicode.model.enabling import is_enabled
+from vicode.model.disabled import is_enabled
 from vicode.model.names import is_valid_state_name
-from vicode.model.walks import is_exhaustive
-from vicode.model.xabsl.limits import find_unsupported_in_design, find_unsupported_in_root, is_done_expressible
+from vicode.model.traversal import is_exhaustive
+from vicode.model.xabsl.expressible import ExpressibilityChecker, expanded_depth
 from vicode.model.xabsl.names import component_name, symbol_name, unqualified_name
-from vicode.model.xabsl.sayable import ExpressibilityChecker, expanded_depth
-from vicode.xabsl.pieces import parse_embedded_actions, parse_embedded_expression
+from vicode.model.xabsl.unsupported import find_unsupported_in_design, find_unsupported_in_root, is_done_expressible
+from vicode.xabsl.embedded_code import parse_embedded_actions, parse_embedded_expression
 
 LANGUAGE = "xabsl"
 MAX_DEPTH = 100

@@ -9,7 +9,6 @@ from vicode.model.design import Declaration
 from vicode.model.expressions import Scope, build_scope
 from vicode.model.names import is_valid_state_name
 from vicode.model.project import Project
-from vicode.model.xabsl.limits import find_unsupported_in_project
 from vicode.model.xabsl.names import (
     CONST,
     INPUT,
@@ -19,6 +18,7 @@ from vicode.model.xabsl.names import (
     list_symbols,
     unqualified_name,
 )
+from vicode.model.xabsl.unsupported import find_unsupported_in_project
 
 
 @dataclass(frozen=True, slots=True)

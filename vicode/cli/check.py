@@ -2,8 +2,8 @@
 
 import argparse
 
-from vicode.cli.opening import load_projects
-from vicode.cli.printing import count_findings, print_findings
+from vicode.cli.console import count_findings, print_findings
+from vicode.cli.project_loader import load_projects
 from vicode.findings import Severity, render_json
 
 

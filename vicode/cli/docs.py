@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-from vicode.cli.printing import print_findings
+from vicode.cli.console import print_findings
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -37,9 +37,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Write the sites; 1 when a design or behavior cannot be read, or with --strict has findings."""
+    from vicode.cli.docs_build import DocsBuilder, describe_build
+    from vicode.cli.docs_inputs import load_site_inputs
     from vicode.cli.progress import progress_bar
-    from vicode.cli.sites import DocsBuilder, describe_build
-    from vicode.cli.subjects import load_site_inputs
 
     is_markdown = args.format == "markdown"
     if args.watch and is_markdown:

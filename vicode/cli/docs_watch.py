@@ -11,12 +11,12 @@ from pathlib import Path
 
 from watchfiles import Change, watch
 
-from vicode.cli.opening import DESIGN_SUFFIXES, XABSL_SUFFIXES
-from vicode.cli.printing import describe_os_error, format_findings, print_findings
+from vicode.cli.console import describe_os_error, format_findings, print_findings
+from vicode.cli.docs_build import DocsBuilder, DocsBuildResult, describe_build
+from vicode.cli.docs_inputs import LoadedSiteInput, load_site_inputs
 from vicode.cli.progress import progress_bar
-from vicode.cli.sites import DocsBuilder, DocsBuildResult, describe_build
-from vicode.cli.subjects import LoadedSiteInput, load_site_inputs
-from vicode.docsite.serving import ReloadBroadcaster, SiteServer
+from vicode.cli.project_loader import DESIGN_SUFFIXES, XABSL_SUFFIXES
+from vicode.docsite.site_server import ReloadBroadcaster, SiteServer
 
 _SUFFIXES = (*XABSL_SUFFIXES, *DESIGN_SUFFIXES)
 # Editors write a file in several steps, and several files at once.

@@ -26,7 +26,7 @@ def _port(text: str) -> int:
 
 def run(args: argparse.Namespace) -> int:
     """Serve the editor until it is ended."""
-    from vicode.cli.opening import require_design_file
+    from vicode.cli.project_loader import require_design_file
     from vicode.editor.serve import choose_address, serve
 
     path = Path(args.path)

@@ -5,7 +5,7 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from vicode.cli.printing import print_findings
+from vicode.cli.console import print_findings
 
 if TYPE_CHECKING:
     from vicode.model.design import Design
@@ -31,7 +31,7 @@ def run(args: argparse.Namespace) -> int:
         return 1
     # Drawing loads Graphviz's and PDF's writers, which --help has no need of.
     from vicode.diagram.export import export_design
-    from vicode.diagram.formats import ExportFormat, ExportOptions
+    from vicode.diagram.export_formats import ExportFormat, ExportOptions
     from vicode.output import write_atomically
 
     only = _states(args.states)

@@ -8,8 +8,8 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from vicode.cli.opening import LoadedProject, load_projects
-from vicode.cli.printing import describe_os_error, print_findings
+from vicode.cli.console import describe_os_error, print_findings
+from vicode.cli.project_loader import LoadedProject, load_projects
 from vicode.findings import Finding, Severity, SourceLocation, get_rule
 from vicode.output import FileDiff, FileStatus, apply_diffs, back_up_edited, compare_files, format_diff
 from vicode.regions import has_header

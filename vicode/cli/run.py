@@ -8,11 +8,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from vicode.bica import options
-from vicode.cli.opening import LoadedProject, load_projects
-from vicode.cli.printing import print_findings
+from vicode.cli.console import print_findings
+from vicode.cli.project_loader import LoadedProject, load_projects
 
 if TYPE_CHECKING:
-    from vicode.cli.watching import TracePrinter
+    from vicode.cli.trace_output import TracePrinter
 
 _DEFAULT_SECONDS = 60.0
 
@@ -105,7 +105,7 @@ def _warn_of_missing_world(opened: LoadedProject) -> None:
 
 
 def _run_process(command: list[str], *, is_plain: bool) -> int:
-    from vicode.cli.watching import PlainTracePrinter, follow_process
+    from vicode.cli.trace_output import PlainTracePrinter, follow_process
     from vicode.simulation.environment import fresh_environment
 
     is_live = sys.stdout.isatty() and not is_plain
@@ -123,7 +123,7 @@ def _run_process(command: list[str], *, is_plain: bool) -> int:
     )
     watcher: TracePrinter = PlainTracePrinter()
     if is_live:
-        from vicode.cli.live import LiveTracePrinter
+        from vicode.cli.live_view import LiveTracePrinter
 
         watcher = LiveTracePrinter()
     return follow_process(child, watcher)

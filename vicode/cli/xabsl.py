@@ -5,8 +5,8 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from vicode.cli.behaviors import compile_behavior, print_behavior_findings, with_display_paths
-from vicode.cli.printing import count_findings, describe_os_error, print_findings
+from vicode.cli.console import count_findings, describe_os_error, print_findings
+from vicode.cli.xabsl_behavior import compile_behavior, print_behavior_findings, with_display_paths
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
@@ -68,8 +68,8 @@ def _compile(args: argparse.Namespace) -> int:
     from vicode.findings import Severity
     from vicode.output import write_atomically
     from vicode.xabsl.compiler import declared_symbols
+    from vicode.xabsl.engine.code_writer import write_code
     from vicode.xabsl.engine.symbols import write_symbols
-    from vicode.xabsl.engine.writing import write_code
 
     compiled = compile_behavior(args.agents)
     # Notes are what `check` is for; here they would hide what matters.
@@ -105,8 +105,8 @@ def _run(args: argparse.Namespace) -> int:
     """Run a compiled behavior on recorded inputs."""
     from vicode.output import write_atomically
     from vicode.xabsl.engine import CodeError, LoadError, ReplayError, SymbolListError
-    from vicode.xabsl.engine.reading import read_code
-    from vicode.xabsl.engine.replaying import measure_cycles_per_second, read_rows, replay, replay_team
+    from vicode.xabsl.engine.code_reader import read_code
+    from vicode.xabsl.engine.replay import measure_cycles_per_second, read_rows, replay, replay_team
     from vicode.xabsl.engine.symbols import read_symbols
 
     file = args.code
@@ -148,7 +148,7 @@ def _add_format(parser: argparse.ArgumentParser) -> None:
 def _format(args: argparse.Namespace) -> int:
     """Lay files out in one way; comments stay, and so does what they mean."""
     from vicode.output import write_atomically
-    from vicode.xabsl.sources import format_file
+    from vicode.xabsl.source_loader import format_file
 
     code = 0
     for path in _files(args.paths):

@@ -2,18 +2,18 @@
 
 from collections.abc import Callable, Collection
 
-from vicode.diagram.drawing import render_design
-from vicode.diagram.formats import ExportFormat, ExportOptions
+from vicode.diagram.export_formats import ExportFormat, ExportOptions
 from vicode.diagram.graphviz_text import write_graphviz
 from vicode.diagram.mermaid import write_mermaid
 from vicode.diagram.palettes import DARK, LIGHT
 from vicode.diagram.pdf import write_pdf
 from vicode.diagram.plantuml import write_plantuml
 from vicode.diagram.png import write_png
-from vicode.diagram.shapes import VectorImage
+from vicode.diagram.primitives import VectorImage
+from vicode.diagram.render import render_design
 from vicode.diagram.svg import write_svg
 from vicode.model.design import Design
-from vicode.model.enabling import strip_disabled
+from vicode.model.disabled import strip_disabled
 
 
 def export_design(design: Design, export_format: ExportFormat, options: ExportOptions | None = None) -> bytes:

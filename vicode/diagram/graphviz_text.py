@@ -4,8 +4,8 @@ from collections.abc import Collection
 
 import graphviz  # type: ignore[import-untyped]
 
-from vicode.diagram.figure import DiagramNode, build_diagram
-from vicode.diagram.listing import describe_dangling_transitions, list_transitions
+from vicode.diagram.diagram_model import DiagramNode, build_diagram
+from vicode.diagram.text_transitions import describe_dangling_transitions, list_transitions
 from vicode.model.design import COMMON, Design
 
 _POINTS_PER_PIXEL = 0.75

@@ -14,9 +14,9 @@ from dataclasses import asdict, dataclass
 from enum import StrEnum
 from pathlib import Path
 
-from vicode.diagram.placing import NodeLayout
-from vicode.diagram.settling import fit_layout, layered_positions, screens_needed
-from vicode.diagram.sketch import LayoutGraph, build_layout_graph
+from vicode.diagram.layered_layout import NodeLayout
+from vicode.diagram.layout_fit import fit_layout, layered_positions, screens_needed
+from vicode.diagram.layout_graph import LayoutGraph, build_layout_graph
 from vicode.model.design import Design, Point
 
 WorkerCommand = tuple[str, ...]

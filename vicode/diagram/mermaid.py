@@ -3,8 +3,8 @@
 import re
 from collections.abc import Collection
 
-from vicode.diagram.listing import EVERY_STATE, describe_dangling_transitions, list_transitions
-from vicode.diagram.naming import assign_ids
+from vicode.diagram.node_ids import assign_ids
+from vicode.diagram.text_transitions import EVERY_STATE, describe_dangling_transitions, list_transitions
 from vicode.model.design import COMMON, Design
 
 # Words of the grammar, and names that JavaScript's objects already have.

@@ -7,7 +7,7 @@ from itertools import groupby
 from pathlib import Path as File
 from typing import Any
 
-from vicode.diagram.shapes import PathShape, TextShape, VectorImage
+from vicode.diagram.primitives import PathShape, TextShape, VectorImage
 
 _POINTS_PER_PIXEL = 0.75
 # PDF knows no larger pages.

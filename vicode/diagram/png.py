@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from vicode.diagram.shapes import VectorImage
+from vicode.diagram.primitives import VectorImage
 from vicode.diagram.svg import write_svg
 
 # So many pixels take about 200 MB while they are painted; a larger drawing is painted smaller.

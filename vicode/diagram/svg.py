@@ -3,8 +3,8 @@
 import re
 from xml.sax.saxutils import escape, quoteattr
 
-from vicode.diagram.lettering import FONT_FAMILIES
-from vicode.diagram.shapes import PathShape, ShapeGroup, TextShape, VectorImage
+from vicode.diagram.primitives import PathShape, ShapeGroup, TextShape, VectorImage
+from vicode.diagram.text_metrics import FONT_FAMILIES
 
 # What XML 1.0 has no way to say.
 _INVALID_XML = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")

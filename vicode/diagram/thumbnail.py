@@ -1,9 +1,9 @@
 """A drawing small enough to stand on a card: as it is where that can be made out, else boxes and lines alone."""
 
-from vicode.diagram.drawing import render_diagram
-from vicode.diagram.figure import Diagram, DiagramNode, build_diagram
+from vicode.diagram.diagram_model import Diagram, DiagramNode, build_diagram
 from vicode.diagram.palettes import DARK, LIGHT, ColorPalette
-from vicode.diagram.shapes import PathCommand, PathShape, ShapeGroup, VectorImage, polyline_path, rounded_rect_path
+from vicode.diagram.primitives import PathCommand, PathShape, ShapeGroup, VectorImage, polyline_path, rounded_rect_path
+from vicode.diagram.render import render_diagram
 from vicode.diagram.svg import write_svg
 from vicode.model.design import Design
 

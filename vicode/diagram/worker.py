@@ -15,8 +15,8 @@ from typing import Any, TextIO
 
 import graphviz  # type: ignore[import-untyped]
 
-from vicode.diagram.dot import POINTS_PER_INCH, LayoutEffort, RankDirection, write_layout_dot
-from vicode.diagram.sketch import LayoutEdge, LayoutGraph, LayoutNode
+from vicode.diagram.layout_dot import POINTS_PER_INCH, LayoutEffort, RankDirection, write_layout_dot
+from vicode.diagram.layout_graph import LayoutEdge, LayoutGraph, LayoutNode
 
 try:
     import pygraphviz

@@ -1,11 +1,10 @@
 """The documentation site of a project: a page a component, with drawings, cross links and a search; plain files."""
 
-from vicode.docsite.addresses import SiteUrls, state_anchor
-from vicode.docsite.homes import plan_site_index
-from vicode.docsite.missing import not_found_page
-from vicode.docsite.site import SiteBuilder, build_site
-from vicode.docsite.subject import ComponentFinding, SiteInput, SourceText, iter_documented_paths, make_site_input
-from vicode.docsite.writing import (
+from vicode.docsite.not_found import not_found_page
+from vicode.docsite.site_builder import SiteBuilder, build_site
+from vicode.docsite.site_index import plan_site_index
+from vicode.docsite.site_input import ComponentFinding, SiteInput, SourceText, iter_documented_paths, make_site_input
+from vicode.docsite.site_writer import (
     Manifest,
     PlannedFile,
     load_manifest,
@@ -13,6 +12,7 @@ from vicode.docsite.writing import (
     save_manifest,
     write_site,
 )
+from vicode.docsite.urls import SiteUrls, state_anchor
 
 __all__ = [
     "ComponentFinding",

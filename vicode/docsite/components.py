@@ -4,14 +4,14 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import groupby
 
-from vicode.docsite.addresses import SiteUrls, path_anchor, state_anchor
 from vicode.docsite.decisions import CodeLinks, code_blocks, pseudocode_lines, transition_rows
 from vicode.docsite.declarations import declaration_tables
-from vicode.docsite.docs import render_doc
-from vicode.docsite.drawings import draw_decision_tree, draw_design, draw_neighbourhood
+from vicode.docsite.diagrams import draw_decision_tree, draw_design, draw_neighbourhood
+from vicode.docsite.doc_text import render_doc
 from vicode.docsite.findings import finding_rows
-from vicode.docsite.linking import NameLinker, join_spans, plain_text
-from vicode.docsite.subject import SiteInput
+from vicode.docsite.name_linker import NameLinker, join_spans, plain_text
+from vicode.docsite.site_input import SiteInput
+from vicode.docsite.urls import SiteUrls, path_anchor, state_anchor
 from vicode.docsite.uses import use_rows, user_rows
 from vicode.docsite.views import (
     ActionPhaseView,
@@ -23,7 +23,7 @@ from vicode.docsite.views import (
     TextSpan,
 )
 from vicode.model.design import COMMON, Action, Assign, Call, Design, RunCode, State
-from vicode.model.walks import iter_transitions
+from vicode.model.traversal import iter_transitions
 
 _PHASES = (("enter", "When it is entered"), ("actions", "At each iteration"), ("leave", "When it is left"))
 

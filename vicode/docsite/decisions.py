@@ -4,15 +4,15 @@ from collections import Counter
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
 
-from vicode.docsite.addresses import SiteUrls, path_anchor
-from vicode.docsite.docs import render_inline_doc, summarize
-from vicode.docsite.linking import NameLinker
-from vicode.docsite.listings import LANGUAGE_TITLES, highlight_block
+from vicode.docsite.doc_text import render_inline_doc, summarize
+from vicode.docsite.name_linker import NameLinker
+from vicode.docsite.syntax_highlighting import LANGUAGE_TITLES, highlight_block
+from vicode.docsite.urls import SiteUrls, path_anchor
 from vicode.docsite.views import CodeBlock, PseudocodeLine, RichText, TextSpan, TransitionRow
 from vicode.findings import DesignPath
 from vicode.model.design import COMMON, Code, Decision, DecisionGroup, Design, Guard, Transition
-from vicode.model.enabling import disabled_states, is_enabled
-from vicode.model.walks import LocatedDecision, is_exhaustive, iter_decisions
+from vicode.model.disabled import disabled_states, is_enabled
+from vicode.model.traversal import LocatedDecision, is_exhaustive, iter_decisions
 
 CodeLinks = Mapping[DesignPath, tuple[TextSpan, ...]]
 """Where a thing stands in the texts of its component."""

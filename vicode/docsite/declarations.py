@@ -2,9 +2,9 @@
 
 from collections.abc import Iterable, Iterator
 
-from vicode.docsite.addresses import slug
-from vicode.docsite.docs import render_inline_doc
-from vicode.docsite.linking import NameLinker
+from vicode.docsite.doc_text import render_inline_doc
+from vicode.docsite.name_linker import NameLinker
+from vicode.docsite.urls import slug
 from vicode.docsite.views import DeclarationRow, DeclarationTable, RichText, TextSpan
 from vicode.model.design import Declaration, Design
 from vicode.model.project import Interface

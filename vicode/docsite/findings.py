@@ -2,8 +2,8 @@
 
 from collections.abc import Iterable
 
-from vicode.docsite.addresses import SiteUrls
-from vicode.docsite.subject import ComponentFinding, SiteInput, SourceText
+from vicode.docsite.site_input import ComponentFinding, SiteInput, SourceText
+from vicode.docsite.urls import SiteUrls
 from vicode.docsite.views import FindingGroup, FindingRow, TextSpan
 from vicode.findings import DesignPath, Severity
 

@@ -3,14 +3,14 @@
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 
-from vicode.docsite.addresses import SiteUrls, slug
 from vicode.docsite.declarations import declaration_rows, declaration_tables, make_declaration_table, used_columns
-from vicode.docsite.docs import render_doc, render_inline_doc, summarize
+from vicode.docsite.doc_text import render_doc, render_inline_doc, summarize
 from vicode.docsite.findings import finding_rows
-from vicode.docsite.linking import NameLinker, join_spans, plain_text
-from vicode.docsite.ordering import natural_sort_key, sorted_designs
+from vicode.docsite.name_linker import NameLinker, join_spans, plain_text
+from vicode.docsite.natural_sort import natural_sort_key, sorted_designs
 from vicode.docsite.references import READ, SET, SymbolReferences, find_symbol_references
-from vicode.docsite.subject import SiteInput
+from vicode.docsite.site_input import SiteInput
+from vicode.docsite.urls import SiteUrls, slug
 from vicode.docsite.uses import user_rows
 from vicode.docsite.views import (
     DeclarationRow,

@@ -5,10 +5,10 @@ from collections.abc import Iterator, Mapping
 from dataclasses import replace
 
 from vicode.check import check_project
-from vicode.docsite.addresses import SiteUrls
 from vicode.docsite.findings import finding_row
-from vicode.docsite.listings import LANGUAGE_TITLES
-from vicode.docsite.subject import ComponentFinding, SiteInput
+from vicode.docsite.site_input import ComponentFinding, SiteInput
+from vicode.docsite.syntax_highlighting import LANGUAGE_TITLES
+from vicode.docsite.urls import SiteUrls
 from vicode.docsite.views import LanguageView
 from vicode.findings import Finding, Severity
 from vicode.generators import GENERATORS

@@ -3,20 +3,20 @@
 from collections.abc import Iterator
 from dataclasses import replace
 
-from vicode.diagram.usage import has_omitted_uses
-from vicode.docsite.addresses import AGENTS, INTERFACES, NAME_INDEX, SYMBOLS, TYPES, SiteUrls
-from vicode.docsite.docs import render_doc, render_inline_doc, summarize
-from vicode.docsite.drawings import draw_dependencies
+from vicode.diagram.dependency_graph import has_omitted_uses
+from vicode.docsite.diagrams import draw_dependencies
+from vicode.docsite.doc_text import render_doc, render_inline_doc, summarize
 from vicode.docsite.findings import finding_groups, finding_rows
 from vicode.docsite.interfaces import symbol_count
-from vicode.docsite.linking import NameLinker, join_spans
-from vicode.docsite.ordering import natural_sort_key, sorted_designs
-from vicode.docsite.subject import SiteInput
+from vicode.docsite.name_linker import NameLinker, join_spans
+from vicode.docsite.natural_sort import natural_sort_key, sorted_designs
+from vicode.docsite.site_input import SiteInput
+from vicode.docsite.urls import AGENTS, INTERFACES, NAME_INDEX, SYMBOLS, TYPES, SiteUrls
 from vicode.docsite.views import AgentRow, AgentView, ComponentRow, HomeView, ReachableComponentRow, TextSpan
 from vicode.generators import collect_components
 from vicode.model.design import Design
 from vicode.model.project import Agent, Project
-from vicode.model.walks import iter_transitions
+from vicode.model.traversal import iter_transitions
 
 
 def home_view(subject: SiteInput, addresses: SiteUrls, svg: str = "") -> HomeView:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from vicode.model.design import COMMON, Assign, Call, Design
 from vicode.model.project import Project
 from vicode.model.texts import LocatedText, TextKind, iter_texts
-from vicode.model.walks import iter_actions
+from vicode.model.traversal import iter_actions
 from vicode.model.xabsl.names import list_symbols
 
 READ, SET = "read", "set"

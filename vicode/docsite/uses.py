@@ -2,13 +2,13 @@
 
 from collections.abc import Iterator
 
-from vicode.docsite.addresses import SiteUrls
-from vicode.docsite.docs import render_inline_doc, summarize
-from vicode.docsite.linking import NameLinker, join_spans
+from vicode.docsite.doc_text import render_inline_doc, summarize
+from vicode.docsite.name_linker import NameLinker, join_spans
+from vicode.docsite.urls import SiteUrls
 from vicode.docsite.views import RichText, TextSpan, UseRow
 from vicode.model.design import COMMON, Call, Design
 from vicode.model.project import Project
-from vicode.model.walks import iter_actions
+from vicode.model.traversal import iter_actions
 
 
 def use_rows(design: Design, linker: NameLinker) -> Iterator[UseRow]:

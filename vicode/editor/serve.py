@@ -69,12 +69,12 @@ def serve(path: Path, address: ServerAddress, *, open_browser: bool = True, tour
     from nicegui import app, background_tasks, ui
     from starlette.middleware.gzip import GZipMiddleware
 
-    from vicode.editor.memory import GcPolicy
-    from vicode.editor.pages.add import register_pages
+    from vicode.editor.gc_policy import GcPolicy
+    from vicode.editor.pages.routes import register_pages
     from vicode.editor.session import Library
-    from vicode.editor.session.keeper import AutosaveService
+    from vicode.editor.session.autosave import AutosaveService
     from vicode.editor.session.recovery import open_recovery_store
-    from vicode.model.parsing import serialize_calls
+    from vicode.model.python_parser import serialize_calls
 
     # NiceGUI reads the quoted values of props by it, while code is parsed beside.
     ast.literal_eval = serialize_calls(ast.literal_eval)
@@ -109,7 +109,7 @@ def serve(path: Path, address: ServerAddress, *, open_browser: bool = True, tour
 
 
 def _add_access_control(app: "App", address: ServerAddress) -> None:
-    from vicode.editor.guard import TOKEN_COOKIE, AccessMiddleware
+    from vicode.editor.access import TOKEN_COOKIE, AccessMiddleware
 
     hosts = ("127.0.0.1", "localhost", "::1") if not address.token else None
     app.add_middleware(AccessMiddleware, hosts=hosts, token=address.token, cookie=f"{TOKEN_COOKIE}_{address.port}")
@@ -123,7 +123,7 @@ def _greeting(path: Path, address: ServerAddress, start: str) -> str:
 
 def _first_page(library: "Library") -> str:
     """What people come to work on: the design of the file, the first agent's root; home where nothing is."""
-    from vicode.editor.view.address import design_url
+    from vicode.editor.view.page_urls import design_url
 
     first = library.initial_design
     return design_url(first[0].key, first[1]) if first else "/"

@@ -5,8 +5,8 @@ from dataclasses import dataclass, replace
 
 from vicode.findings import DesignPath
 from vicode.model.design import Design
-from vicode.model.enabling import disabled_states, is_enabled, strip_disabled
-from vicode.model.walks import iter_decisions
+from vicode.model.disabled import disabled_states, is_enabled, strip_disabled
+from vicode.model.traversal import iter_decisions
 from vicode.output import OutputFile
 
 

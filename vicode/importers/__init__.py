@@ -5,14 +5,14 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from vicode.importers.comments import Anchor, place_comments
+from vicode.importers.declarations import ImportedDeclarations, PlacedComment, import_declarations
 from vicode.importers.names import DesignNames, xabsl_name_or_empty
 from vicode.importers.options import OptionImporter
-from vicode.importers.robot import render_robot_class
-from vicode.importers.vocabulary import ImportedDeclarations, PlacedComment, import_declarations
+from vicode.importers.robot_class import render_robot_class
 from vicode.model.project import Agent, Project
 from vicode.xabsl import tree
 from vicode.xabsl.compiler import CompileResult
-from vicode.xabsl.sources import ProgramSource
+from vicode.xabsl.source_loader import ProgramSource
 
 __all__ = ["ROBOT_WORLD", "ImportResult", "ImportedDesign", "import_behavior", "render_robot_class"]
 

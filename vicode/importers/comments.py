@@ -5,7 +5,7 @@ from bisect import bisect_left
 from collections.abc import Iterable, Iterator, Sequence
 
 from vicode.findings import DesignPath
-from vicode.importers.vocabulary import PlacedComment
+from vicode.importers.declarations import PlacedComment
 from vicode.xabsl.lexer import Comment
 
 Anchor = tuple[int, DesignPath]

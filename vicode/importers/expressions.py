@@ -5,8 +5,8 @@ from dataclasses import dataclass
 
 from vicode.importers.names import to_design_number
 from vicode.xabsl import tree
-from vicode.xabsl.declared import Definition
 from vicode.xabsl.lexer import Tokens
+from vicode.xabsl.symbol_table import Definition
 
 _OPERATORS = {"&&": "and", "||": "or"}
 _KEYWORDS = {"true": "True", "false": "False", "option_time": "component_time"}

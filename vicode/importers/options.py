@@ -5,9 +5,9 @@ from dataclasses import dataclass, field, replace
 
 from vicode.findings import DesignPath
 from vicode.importers.comments import Anchor, comment_text, looks_like_code, place_comments
+from vicode.importers.declarations import ImportedDeclarations, PlacedComment, convert_declaration
 from vicode.importers.expressions import ExpressionTranslator
 from vicode.importers.names import DesignNames, xabsl_name_or_empty
-from vicode.importers.vocabulary import ImportedDeclarations, PlacedComment, convert_declaration
 from vicode.model.design import (
     Action,
     Assign,
@@ -24,9 +24,9 @@ from vicode.model.design import (
     Use,
 )
 from vicode.xabsl import tree
-from vicode.xabsl.declared import Definition
 from vicode.xabsl.lexer import Comment, Tokens
 from vicode.xabsl.parser import ParsedFile
+from vicode.xabsl.symbol_table import Definition
 
 TokenReferences = dict[tuple[int, int], Definition]
 """What a word means: by the identity of its file's tokens and its number."""

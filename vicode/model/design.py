@@ -142,7 +142,7 @@ class State:
     """A state: what it requires, does at each iteration, and where it may go.
 
     `id` outlives a new name, so that code regions follow it. `modulates` are calls done after `actions`.
-    A `disabled` state is kept, and works as if it were not there (`vicode.model.enabling`).
+    A `disabled` state is kept, and works as if it were not there (`vicode.model.disabled`).
     `capacity` is the number of robots that may be in it, `synchronized` how many must enter at once.
     """
 

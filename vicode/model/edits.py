@@ -22,8 +22,8 @@ from vicode.model.design import (
     Use,
 )
 from vicode.model.names import snake_case
-from vicode.model.renaming import rename_alias
-from vicode.model.walks import has_code, iter_decisions
+from vicode.model.rename import rename_alias
+from vicode.model.traversal import has_code, iter_decisions
 
 
 def unique_name(wanted: str, taken: Collection[str]) -> str:

@@ -18,7 +18,7 @@ from vicode.model.design import (
     Stay,
     Transition,
 )
-from vicode.model.walks import iter_code, iter_decisions, iter_expressions
+from vicode.model.traversal import iter_code, iter_decisions, iter_expressions
 
 Rewrite = Callable[[str], str]
 

@@ -17,8 +17,8 @@ from typing import BinaryIO
 
 from vicode.bica import Component, CyclicUseError
 from vicode.bica.errors import describe_exception, make_error_record
-from vicode.bica.loading import UserCodeError, wrap_user_errors
-from vicode.simulation.engine import RunHost
+from vicode.bica.loader import UserCodeError, wrap_user_errors
+from vicode.simulation.host import RunHost
 from vicode.simulation.limits import CapturedOutput, TimeLimitError, limit_memory, time_limit
 from vicode.simulation.messages import (
     Failed,
@@ -33,7 +33,7 @@ from vicode.simulation.messages import (
     decode_setup,
     encode_response,
 )
-from vicode.simulation.resting import COUNT_REACHED, stop_reason
+from vicode.simulation.stop_reasons import COUNT_REACHED, stop_reason
 
 START_LIMIT_S = 60.0
 

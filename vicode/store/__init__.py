@@ -1,13 +1,13 @@
 """The only room that knows YAML: reads designs and projects with all mistakes at once, and patches texts on save."""
 
+from vicode.store.comments import add_comments
 from vicode.store.documents import DesignReadResult, ProjectReadResult, read_design, read_project_file
-from vicode.store.locating import find_faulty_components, find_location, iter_owning_components, locate_findings
+from vicode.store.durable_write import is_read_only, write_text
+from vicode.store.json_schema import design_schema, project_schema
+from vicode.store.locations import find_faulty_components, find_location, iter_owning_components, locate_findings
 from vicode.store.projects import OpenProject, find_design_files, find_project_file, find_projects, open_project
-from vicode.store.remarks import add_comments
-from vicode.store.saving import save_design, save_project_file
-from vicode.store.schema import design_schema, project_schema
-from vicode.store.sources import SourceMap
-from vicode.store.writing import is_read_only, write_text
+from vicode.store.save import save_design, save_project_file
+from vicode.store.source_map import SourceMap
 
 __all__ = [
     "DesignReadResult",

@@ -7,13 +7,13 @@ from pathlib import PurePath
 from vicode.findings import Finding, FindingSubject, sort_findings
 from vicode.model.design import Design
 from vicode.model.project import Project
-from vicode.store.building import decode_design, decode_project
+from vicode.store.decode import decode_design, decode_project
 from vicode.store.format import DESIGN, PROJECT
-from vicode.store.lines import LineIndex, ReadReport
-from vicode.store.nodes import MAX_BYTES, YamlTree, parse_yaml
-from vicode.store.reading import SchemaReader, TypedNode
-from vicode.store.shapes import RecordSchema
-from vicode.store.sources import SourceMap
+from vicode.store.line_index import LineIndex, ReadReport
+from vicode.store.schema_reader import SchemaReader, TypedNode
+from vicode.store.schema_types import RecordSchema
+from vicode.store.source_map import SourceMap
+from vicode.store.yaml_tree import MAX_BYTES, YamlTree, parse_yaml
 
 PROJECT_FILES = ("project.yaml", "project.yml")
 

@@ -4,7 +4,15 @@ Reader, writer, JSON Schema and the tables of docs/design-format.md all come fro
 """
 
 from vicode.model.project import LANGUAGES
-from vicode.store.shapes import KeySchema, ListSchema, MapSchema, PairSchema, RecordSchema, ScalarSchema, ScalarType
+from vicode.store.schema_types import (
+    KeySchema,
+    ListSchema,
+    MapSchema,
+    PairSchema,
+    RecordSchema,
+    ScalarSchema,
+    ScalarType,
+)
 
 VERSION = "1"
 FLOW_WIDTH = 110

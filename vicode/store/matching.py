@@ -4,7 +4,7 @@ from collections.abc import Iterable, Sequence
 from difflib import SequenceMatcher
 from typing import cast
 
-from vicode.store.shapes import FormatValue
+from vicode.store.schema_types import FormatValue
 
 _MIN_SIMILARITY = 0.5
 _MAX_COMPARISONS = 20_000

@@ -18,9 +18,9 @@ from vicode.store.documents import (
     read_design,
     read_project_file,
 )
-from vicode.store.lines import LineIndex, ReadReport
-from vicode.store.nodes import MAX_BYTES
-from vicode.store.sources import SourceMap
+from vicode.store.line_index import LineIndex, ReadReport
+from vicode.store.source_map import SourceMap
+from vicode.store.yaml_tree import MAX_BYTES
 
 DESIGN_SUFFIXES = (".yaml", ".yml")
 _LOOKS_LIKE_DESIGN = re.compile(rb"^(vicode|component|states)[ \t]*:", re.MULTILINE)

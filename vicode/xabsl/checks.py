@@ -5,10 +5,10 @@ from collections.abc import Iterator
 
 from vicode.findings import Note
 from vicode.xabsl import tree
-from vicode.xabsl.declared import Definition, SymbolTable
-from vicode.xabsl.declaring import CompileReport
 from vicode.xabsl.lexer import Tokens
-from vicode.xabsl.sources import ProgramSource
+from vicode.xabsl.source_loader import ProgramSource
+from vicode.xabsl.symbol_collector import CompileReport
+from vicode.xabsl.symbol_table import Definition, SymbolTable
 
 CallsByOption = dict[str, list[tuple[tree.StateNode, list[tree.CallNode]]]]
 

@@ -5,15 +5,15 @@ from dataclasses import dataclass, field
 
 from vicode.findings import Finding, Severity, did_you_mean, sort_findings
 from vicode.xabsl import tree
-from vicode.xabsl.binding import ExpressionCompiler
 from vicode.xabsl.checks import check_semantics
-from vicode.xabsl.declared import BOOLEAN, Definition, SymbolTable
-from vicode.xabsl.declaring import CompileReport, collect_symbols
 from vicode.xabsl.engine.program import CompiledOption, CompiledState, Program, Term, TypedSlot
 from vicode.xabsl.engine.symbols import BasicBehavior, RobotSymbol, SymbolList
+from vicode.xabsl.expression_compiler import ExpressionCompiler
 from vicode.xabsl.lexer import Tokens
 from vicode.xabsl.ranges import check_range
-from vicode.xabsl.sources import ProgramSource
+from vicode.xabsl.source_loader import ProgramSource
+from vicode.xabsl.symbol_collector import CompileReport, collect_symbols
+from vicode.xabsl.symbol_table import BOOLEAN, Definition, SymbolTable
 
 _MODES = {"": "n", "capacity": "c", "synchronized": "s"}
 

@@ -4,9 +4,9 @@ from dataclasses import dataclass
 
 from vicode.findings import Finding
 from vicode.xabsl.cursor import TokenCursor, XabslSyntaxError
+from vicode.xabsl.declaration_parser import parse_agent, parse_namespace, parse_parameters
 from vicode.xabsl.lexer import Tokens, tokenize
-from vicode.xabsl.parsing_declarations import parse_agent, parse_namespace, parse_parameters
-from vicode.xabsl.parsing_states import parse_actions, parse_decision_tree, parse_state
+from vicode.xabsl.state_parser import parse_actions, parse_decision_tree, parse_state
 from vicode.xabsl.tokens import DOC, END, HEADER, STRING
 from vicode.xabsl.tree import (
     ActionBlockNode,

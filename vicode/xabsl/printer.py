@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 
 from vicode.xabsl import tree
-from vicode.xabsl.laying import TokenFormatter
+from vicode.xabsl.formatter import TokenFormatter
 
 MAX_WIDTH = 110
 """Conditions and calls that make a line longer are broken."""

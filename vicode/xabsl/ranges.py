@@ -3,9 +3,9 @@
 import re
 
 from vicode.xabsl import tree
-from vicode.xabsl.declared import Definition
-from vicode.xabsl.declaring import CompileReport
 from vicode.xabsl.lexer import Tokens
+from vicode.xabsl.symbol_collector import CompileReport
+from vicode.xabsl.symbol_table import Definition
 
 _RANGE = re.compile(r"\s*(-?\d+(?:\.\d*)?)\s*\.\.\s*(-?\d+(?:\.\d*)?)\s*")
 

@@ -7,12 +7,12 @@ import pytest
 
 from tests.editor.session.conftest import texts_of
 from vicode.editor.session import Workspace, project_edits
-from vicode.editor.session.declared_names import RenameEdit, apply_symbol_rename, plan_symbol_rename
-from vicode.editor.session.mentions import ReferenceLocation, find_references
 from vicode.editor.session.project_edits import ProjectEditResult, edit_project_file
-from vicode.editor.session.project_spots import ProjectNodePath, project_structure_key
+from vicode.editor.session.project_paths import ProjectNodePath, project_structure_key
+from vicode.editor.session.references import ReferenceLocation, find_references
+from vicode.editor.session.rename_symbol import RenameEdit, apply_symbol_rename, plan_symbol_rename
 from vicode.model.project import Project
-from vicode.model.renaming import SymbolRef, sibling_names
+from vicode.model.rename import SymbolRef, sibling_names
 from vicode.store import open_project
 
 KICK, NET_X = ProjectNodePath.top_level("enumerations", 1), ProjectNodePath.top_level("constants", 9)

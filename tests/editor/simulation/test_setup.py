@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.editor.simulation.lamps import prepare_lamp, write_lamps
+from tests.editor.simulation.lamp_project import prepare_lamp, write_lamps
 from vicode.editor.session.simulation import Breakpoints, behavior_key, used_components
 from vicode.editor.view import ItemRef
 from vicode.model.edits import move_nodes, update_state

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.editor.simulation.lamps import prepare_lamp, recorded_iterations, simulate, write_lamps
+from tests.editor.simulation.lamp_project import prepare_lamp, recorded_iterations, simulate, write_lamps
 from vicode.editor.session.simulation import Simulation
 from vicode.editor.session.simulation.traces import TraceError, input_script, read_trace
 from vicode.model.design import Design

@@ -9,7 +9,7 @@ from nicegui import json, ui
 from nicegui.events import GenericEventArguments
 
 from vicode.editor.canvas.commands import commands_json
-from vicode.editor.canvas.gesture import (
+from vicode.editor.canvas.protocol import (
     ElementKind,
     Gesture,
     NodePosition,
@@ -20,7 +20,7 @@ from vicode.editor.canvas.gesture import (
     SceneChanges,
     SceneItem,
 )
-from vicode.editor.scripts import CANVAS_JS
+from vicode.editor.js_modules import CANVAS_JS
 
 _KINDS = ("states", "transitions", "components", "links")
 
@@ -29,7 +29,7 @@ class Canvas(ui.element, component=CANVAS_JS / "vicode_canvas.js"):
     """A state machine to look at and to work on.
 
     Args:
-        on_gesture: called with every gesture (see `vicode.editor.canvas.gesture`); it may be a coroutine function.
+        on_gesture: called with every gesture (see `vicode.editor.canvas.protocol`); it may be a coroutine function.
         on_pointer: called with where the pointer is (None: not here), while other people are shown.
     """
 

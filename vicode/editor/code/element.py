@@ -7,9 +7,9 @@ from typing import Any
 from nicegui import ui
 from nicegui.events import GenericEventArguments
 
-from vicode.editor.scripts import CODE_JS
-from vicode.editor.session.completing import CompletionResult
-from vicode.editor.session.marking import CodeMark
+from vicode.editor.js_modules import CODE_JS
+from vicode.editor.session.code_marks import CodeMark
+from vicode.editor.session.completion import CompletionResult
 
 _MAX_TEXT_LENGTH = 200_000
 

@@ -5,18 +5,24 @@ from pathlib import Path
 from nicegui import ui
 
 from vicode.editor.code import CodeAssist
-from vicode.editor.pages.keys import register_shortcuts
-from vicode.editor.pages.look import Theme, apply_theme
+from vicode.editor.pages.shortcuts import register_shortcuts
+from vicode.editor.pages.theme import Theme, apply_theme
 from vicode.editor.panels.code_editor import CodeEditorFactory
 from vicode.editor.panels.command import Command, MenuGroup
 from vicode.editor.panels.design_dialogs import DesignDialogs
 from vicode.editor.panels.designs_list import DesignsList
-from vicode.editor.panels.messages import show_toast
-from vicode.editor.panels.rows import primary_button
+from vicode.editor.panels.toasts import show_toast
 from vicode.editor.panels.undo_bar import UndoBar
+from vicode.editor.panels.widgets import primary_button
 from vicode.editor.session import Library, Workspace
-from vicode.editor.session.broken import FileModifiedError, ParsedText, parse_text, read_file_text, write_fixed_text
-from vicode.editor.view.address import design_url
+from vicode.editor.session.broken_file import (
+    FileModifiedError,
+    ParsedText,
+    parse_text,
+    read_file_text,
+    write_fixed_text,
+)
+from vicode.editor.view.page_urls import design_url
 
 
 class BrokenPage:

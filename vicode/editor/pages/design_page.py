@@ -6,30 +6,30 @@ from urllib.parse import quote
 
 from nicegui import core, ui
 
-from vicode.editor.pages.actions import PageCommands
-from vicode.editor.pages.beside import SidePanels
-from vicode.editor.pages.going import HOME, Navigator, PageRequest
-from vicode.editor.pages.keeping import AutosaveControls
-from vicode.editor.pages.keys import register_shortcuts
-from vicode.editor.pages.look import Theme, apply_theme
-from vicode.editor.pages.meeting import PresenceSync
-from vicode.editor.pages.site_pages import docs_command
-from vicode.editor.pages.stage import DesignView
-from vicode.editor.pages.visitor import identify_user
+from vicode.editor.pages.autosave_ui import AutosaveControls
+from vicode.editor.pages.design_view import DesignView
+from vicode.editor.pages.docs_preview import docs_command
+from vicode.editor.pages.navigation import HOME, Navigator, PageRequest
+from vicode.editor.pages.page_commands import PageCommands
+from vicode.editor.pages.presence import PresenceSync
+from vicode.editor.pages.shortcuts import register_shortcuts
+from vicode.editor.pages.side_panels import SidePanels
+from vicode.editor.pages.theme import Theme, apply_theme
+from vicode.editor.pages.user_identity import identify_user
 from vicode.editor.panels.command import Command, MenuGroup
 from vicode.editor.panels.design_dialogs import DesignDialogs
 from vicode.editor.panels.designs_list import DesignsList
-from vicode.editor.panels.desk import WindowContext
 from vicode.editor.panels.export_dialog import ExportDialog
+from vicode.editor.panels.finding_navigation import FindingNavigator
 from vicode.editor.panels.header import Header
 from vicode.editor.panels.help_dialog import show_help
-from vicode.editor.panels.messages import show_toast
-from vicode.editor.panels.problems import FindingNavigator
+from vicode.editor.panels.toasts import show_toast
 from vicode.editor.panels.tour import Tour
 from vicode.editor.panels.undo_bar import UndoBar
+from vicode.editor.panels.window_context import WindowContext
 from vicode.editor.session import DocumentSession, Library, Workspace
-from vicode.editor.session.keeper import AutosaveService
-from vicode.editor.view.address import design_url
+from vicode.editor.session.autosave import AutosaveService
+from vicode.editor.view.page_urls import design_url
 
 # What others do is seen in the drawing first; the panels say it when there is time.
 _CANVAS_DELAY_S = 0.02

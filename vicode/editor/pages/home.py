@@ -6,24 +6,24 @@ from pathlib import Path
 
 from nicegui import ui
 
-from vicode.diagram.drawing import render_diagram
+from vicode.diagram.dependency_graph import dependency_diagram
 from vicode.diagram.palettes import css_variable_palette
+from vicode.diagram.render import render_diagram
 from vicode.diagram.svg import write_svg
-from vicode.diagram.usage import dependency_diagram
-from vicode.editor.pages.keys import register_shortcuts
-from vicode.editor.pages.look import Theme, apply_theme
+from vicode.editor.pages.shortcuts import register_shortcuts
+from vicode.editor.pages.theme import Theme, apply_theme
 from vicode.editor.panels.cards import broken_card, design_card, hand_written_row
 from vicode.editor.panels.code_editor import CodeEditorFactory
 from vicode.editor.panels.command import Command, MenuGroup
+from vicode.editor.panels.command_palette import CommandPalette
 from vicode.editor.panels.design_dialogs import DesignDialogs
-from vicode.editor.panels.messages import show_toast
-from vicode.editor.panels.palette import CommandPalette
-from vicode.editor.panels.rows import icon_button, primary_button
+from vicode.editor.panels.toasts import show_toast
 from vicode.editor.panels.undo_bar import UndoBar
+from vicode.editor.panels.widgets import icon_button, primary_button
 from vicode.editor.session import Library, Workspace
-from vicode.editor.session.finding_things import SearchIndex, SearchTarget
 from vicode.editor.session.overview import ProjectOverview
-from vicode.editor.view.address import design_url
+from vicode.editor.session.search_index import SearchIndex, SearchTarget
+from vicode.editor.view.page_urls import design_url
 
 _SHEET = Path(__file__).parent / "home.css"
 

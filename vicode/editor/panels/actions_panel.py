@@ -6,9 +6,9 @@ from dataclasses import replace
 from nicegui import ui
 
 from vicode.editor.panels.code_field import code_field, pairs_field
-from vicode.editor.panels.desk import WindowContext
 from vicode.editor.panels.fields import Field, FieldBinding
-from vicode.editor.panels.rows import add_button, reorder_buttons
+from vicode.editor.panels.widgets import add_button, reorder_buttons
+from vicode.editor.panels.window_context import WindowContext
 from vicode.findings import DesignPath
 from vicode.model.design import Action, Assign, Call, Code, Declaration, Design, RunCode
 from vicode.model.edits import update_actions

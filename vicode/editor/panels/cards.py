@@ -8,7 +8,7 @@ from vicode.editor.panels.thumbnails import thumbnail_address
 from vicode.editor.session import Workspace
 from vicode.editor.session.overview import BrokenFile, DesignCard, HandWrittenComponent
 from vicode.editor.view import ItemRef
-from vicode.editor.view.address import broken_file_url, design_url
+from vicode.editor.view.page_urls import broken_file_url, design_url
 from vicode.findings import Severity
 
 _ICONS = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.NOTE: "info"}

@@ -9,17 +9,17 @@ from nicegui import ui
 from nicegui.events import CodeMirrorFocusChangeEventArguments
 
 from vicode.editor.code import CodeAssist
-from vicode.editor.panels.desk import WindowContext
 from vicode.editor.panels.dialogs import titled_dialog
 from vicode.editor.panels.fields import Field, FieldBinding
-from vicode.editor.panels.rows import icon_button
-from vicode.editor.session.completing import (
+from vicode.editor.panels.widgets import icon_button
+from vicode.editor.panels.window_context import WindowContext
+from vicode.editor.session.code_marks import CodeMark, mark_assignments, mark_text
+from vicode.editor.session.completion import (
     CompletionResult,
     complete_assignments,
     complete_expression,
     complete_python,
 )
-from vicode.editor.session.marking import CodeMark, mark_assignments, mark_text
 from vicode.findings import DesignPath
 from vicode.model.design import Declaration
 

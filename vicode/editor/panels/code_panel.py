@@ -7,9 +7,9 @@ from nicegui import run, ui
 from nicegui.elements.codemirror.constants import SUPPORTED_LANGUAGES
 
 from vicode.editor.code import CodeAssist
-from vicode.editor.panels.desk import WindowContext
-from vicode.editor.session import preview
-from vicode.editor.session.preview import CodePreview, PreviewFile
+from vicode.editor.panels.window_context import WindowContext
+from vicode.editor.session import code_preview
+from vicode.editor.session.code_preview import CodePreview, PreviewFile
 from vicode.editor.view import ItemRef
 
 _SHOWN_LANGUAGE: dict[str, SUPPORTED_LANGUAGES] = {"python": "Python", "cpp": "C++", "xabsl": "C"}
@@ -56,7 +56,7 @@ class CodePanel:
                 # What is asked for is taken here, not in the thread, where it could change meanwhile.
                 workspace, design = self.context.workspace, self.context.design
                 around = (workspace.source_paths, workspace.output_folder)
-                shown = await run.io_bound(preview.preview_code, workspace.project, design, *around)
+                shown = await run.io_bound(code_preview.preview_code, workspace.project, design, *around)
                 # Nothing comes back while the server is shutting down.
                 if shown is None or self.editor.is_deleted:
                     return

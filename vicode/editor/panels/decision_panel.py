@@ -9,14 +9,14 @@ from nicegui import ui
 from vicode.editor.panels.actions_panel import python_code, replace_python
 from vicode.editor.panels.code_field import code_field, expression_field
 from vicode.editor.panels.decisions_list import decisions_list
-from vicode.editor.panels.desk import WindowContext
 from vicode.editor.panels.fields import Field, FieldBinding, checkbox_field, choice_field, state_names, text_field
-from vicode.editor.panels.rows import heading, panel_title
+from vicode.editor.panels.widgets import heading, panel_title
+from vicode.editor.panels.window_context import WindowContext
 from vicode.editor.view import ItemRef, parse_transition_key
 from vicode.findings import DesignPath
 from vicode.model.design import COMMON, Decision, DecisionGroup, Design, Guard, Transition
 from vicode.model.edits import assign_id, remove_decisions, replace_decision
-from vicode.model.walks import find_decision
+from vicode.model.traversal import find_decision
 
 _CODE_HINT = "return self.perception.ball_seen\n"
 

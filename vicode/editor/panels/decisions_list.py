@@ -4,10 +4,10 @@ from collections.abc import Callable
 
 from nicegui import ui
 
-from vicode.editor.panels.desk import WindowContext
-from vicode.editor.panels.row_dragging import DraggableRows
-from vicode.editor.panels.rows import add_button, reorder_buttons
-from vicode.editor.session.outline import MAX_STATES_IN_MENU
+from vicode.editor.panels.draggable_rows import DraggableRows
+from vicode.editor.panels.widgets import add_button, reorder_buttons
+from vicode.editor.panels.window_context import WindowContext
+from vicode.editor.session.form_key import MAX_STATES_IN_MENU
 from vicode.editor.view import ItemRef, guard_label, transition_key
 from vicode.findings import DesignPath
 from vicode.model.design import Decision, DecisionGroup, Guard, Stay, Transition

@@ -6,17 +6,17 @@ from typing import Any
 
 from nicegui import ui
 
-from vicode.editor.panels.desk import WindowContext
+from vicode.editor.panels.collapsible import collapsible_section
 from vicode.editor.panels.fields import Field, FieldBinding, text_field
-from vicode.editor.panels.folds import collapsible_section
 from vicode.editor.panels.name_field import name_field, rename_declaration
-from vicode.editor.panels.rows import add_button, icon_button
-from vicode.editor.session import numbers
-from vicode.editor.session.declared_names import validate_identifier
+from vicode.editor.panels.widgets import add_button, icon_button
+from vicode.editor.panels.window_context import WindowContext
+from vicode.editor.session import number_text
+from vicode.editor.session.rename_symbol import validate_identifier
 from vicode.findings import DesignPath
 from vicode.model.design import Declaration, Design
 from vicode.model.edits import set_declarations, unique_name
-from vicode.model.renaming import SymbolRef
+from vicode.model.rename import SymbolRef
 
 SECTIONS = (
     ("parameters", "Parameters", "what others may modulate in it"),
@@ -127,7 +127,7 @@ def declaration_caption(declaration: Declaration, kind: str) -> str:
     said = []
     if declaration.range is not None:
         said.append(
-            f"from {numbers.format_number(declaration.range[0])} to {numbers.format_number(declaration.range[1])}"
+            f"from {number_text.format_number(declaration.range[0])} to {number_text.format_number(declaration.range[1])}"
         )
     if declaration.arguments is not None:
         said.append(f"takes {', '.join(each.name for each in declaration.arguments) or 'nothing'}")
@@ -206,14 +206,14 @@ def _with(declaration: Declaration, attribute: str, value: Any) -> Declaration:
 def _range_binding(spot: DeclarationRef) -> FieldBinding:
     def read(design: Design) -> str:
         found = spot.find(design)
-        return numbers.format_range(found.range) if found else ""
+        return number_text.format_range(found.range) if found else ""
 
     return FieldBinding(
         label="Range",
         hint="lowest, highest: 0, 9000",
         read=read,
-        write=lambda design, text: spot.update(design, lambda old: replace(old, range=numbers.parse_range(text))),
-        validate=numbers.validate_range,
+        write=lambda design, text: spot.update(design, lambda old: replace(old, range=number_text.parse_range(text))),
+        validate=number_text.validate_range,
         get_path=lambda design: spot.path(design, "range"),
     )
 

@@ -6,10 +6,10 @@ from dataclasses import dataclass
 from nicegui import ui
 
 from vicode.editor.panels.dialogs import titled_dialog
-from vicode.editor.panels.rows import primary_button
-from vicode.editor.session import Workspace, renaming, templates, trash
+from vicode.editor.panels.widgets import primary_button
+from vicode.editor.session import Workspace, rename_component, templates, trash
 from vicode.editor.session.workspace import TrashedDesign
-from vicode.editor.view.address import design_url
+from vicode.editor.view.page_urls import design_url
 from vicode.model.names import is_valid_name, name_from_text
 
 ShowToast = Callable[[str, str], None]
@@ -72,8 +72,8 @@ class DesignDialogs:
             ui.label("What changes").classes("field-label")
             listed = ui.column().classes("change-list").props('aria-live="polite"')
 
-            def plan() -> renaming.ComponentRenamePlan:
-                return renaming.plan_component_rename(workspace, component, name.value.strip())
+            def plan() -> rename_component.ComponentRenamePlan:
+                return rename_component.plan_component_rename(workspace, component, name.value.strip())
 
             def show() -> None:
                 planned = plan()
@@ -130,21 +130,21 @@ class DesignDialogs:
 
         self.offer_undo(f"{thrown.component} is in the trash", undo)
 
-    def _rename(self, workspace: Workspace, planned: renaming.ComponentRenamePlan) -> bool:
+    def _rename(self, workspace: Workspace, planned: rename_component.ComponentRenamePlan) -> bool:
         def rename() -> None:
-            refused = renaming.apply_component_rename(workspace, planned)
+            refused = rename_component.apply_component_rename(workspace, planned)
             if refused:
                 self._show_error(refused)
                 return
-            back = renaming.plan_component_rename(workspace, planned.new, planned.old)
+            back = rename_component.plan_component_rename(workspace, planned.new, planned.old)
             self.offer_undo(f"{planned.old} is {planned.new} now", lambda: self._rename_back(workspace, back))
 
         return self._run_file_operation(rename)
 
-    def _rename_back(self, workspace: Workspace, planned: renaming.ComponentRenamePlan) -> None:
-        again = renaming.plan_component_rename(workspace, planned.old, planned.new)
+    def _rename_back(self, workspace: Workspace, planned: rename_component.ComponentRenamePlan) -> None:
+        again = rename_component.plan_component_rename(workspace, planned.old, planned.new)
         refused = again.error
-        if refused or not self._run_file_operation(lambda: renaming.apply_component_rename(workspace, again)):
+        if refused or not self._run_file_operation(lambda: rename_component.apply_component_rename(workspace, again)):
             self._show_error(refused)
             return
         self.show_toast(f"It is {planned.new} again", "positive")

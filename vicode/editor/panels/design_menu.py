@@ -3,7 +3,7 @@
 from nicegui import ui
 
 from vicode.editor.panels.design_dialogs import DesignDialogs
-from vicode.editor.panels.rows import icon_button
+from vicode.editor.panels.widgets import icon_button
 from vicode.editor.session import Workspace
 
 

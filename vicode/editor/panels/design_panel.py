@@ -7,14 +7,14 @@ from nicegui import ui
 
 from vicode.editor.panels.actions_panel import actions_panel, replace_python
 from vicode.editor.panels.code_field import code_field
+from vicode.editor.panels.collapsible import collapsible_section
 from vicode.editor.panels.decisions_list import decisions_list
 from vicode.editor.panels.declarations import SECTIONS, declarations_form
-from vicode.editor.panels.desk import WindowContext
 from vicode.editor.panels.fields import Field, FieldBinding, checkbox_field, choice_field, state_names, text_field
-from vicode.editor.panels.folds import collapsible_section
-from vicode.editor.panels.project.form import project_form
-from vicode.editor.panels.rows import add_button, heading, icon_button, panel_title
-from vicode.editor.session import numbers
+from vicode.editor.panels.project.project_form import project_form
+from vicode.editor.panels.widgets import add_button, heading, icon_button, panel_title
+from vicode.editor.panels.window_context import WindowContext
+from vicode.editor.session import number_text
 from vicode.model.design import COMMON
 from vicode.model.edits import add_use, remove_uses
 
@@ -105,10 +105,10 @@ def _frequency() -> FieldBinding:
     return FieldBinding(
         label="Frequency, Hz",
         path=("frequency",),
-        read=lambda design: numbers.format_number(design.frequency_hz),
-        write=lambda design, text: replace(design, frequency_hz=numbers.parse_frequency(text)),
+        read=lambda design: number_text.format_number(design.frequency_hz),
+        write=lambda design, text: replace(design, frequency_hz=number_text.parse_frequency(text)),
         hint="at every step",
-        validate=numbers.validate_frequency,
+        validate=number_text.validate_frequency,
     )
 
 

@@ -8,9 +8,9 @@ from nicegui import ui
 
 from vicode.editor.panels.design_dialogs import DesignDialogs
 from vicode.editor.panels.design_menu import add_design_menu
-from vicode.editor.panels.rows import icon_button
+from vicode.editor.panels.widgets import icon_button
 from vicode.editor.session import Library, Workspace
-from vicode.editor.view.address import broken_file_url, design_url
+from vicode.editor.view.page_urls import broken_file_url, design_url
 
 _MAX_SOLID_NAME = 18
 _FILTER_THRESHOLD = 25

@@ -4,7 +4,7 @@ from html import escape
 
 from nicegui import ui
 
-from vicode.editor.session.diffing import DiffRow, LineStatus, side_by_side
+from vicode.editor.session.text_diff import DiffRow, LineStatus, side_by_side
 
 _SIGNS = {LineStatus.ADDED: "+", LineStatus.REMOVED: "−", LineStatus.CHANGED: "±"}
 _WORDS = {LineStatus.ADDED: "added", LineStatus.REMOVED: "removed", LineStatus.CHANGED: "changed"}

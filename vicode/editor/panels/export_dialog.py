@@ -6,11 +6,11 @@ from collections.abc import Callable
 
 from nicegui import run, ui
 
-from vicode.diagram.formats import ExportFormat, ExportOptions
+from vicode.diagram.export_formats import ExportFormat, ExportOptions
 from vicode.editor.panels.command import Command, MenuGroup
-from vicode.editor.panels.desk import WindowContext
 from vicode.editor.panels.dialogs import titled_dialog
-from vicode.editor.panels.rows import primary_button
+from vicode.editor.panels.widgets import primary_button
+from vicode.editor.panels.window_context import WindowContext
 from vicode.model.names import snake_case
 
 _TITLES = {

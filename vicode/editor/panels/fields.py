@@ -8,11 +8,11 @@ from nicegui import ui
 from nicegui.elements.mixins.disableable_element import DisableableElement
 from nicegui.elements.mixins.value_element import ValueElement
 
-from vicode.editor.panels.desk import WindowContext
 from vicode.editor.panels.text_input import TextInput
-from vicode.editor.session.keystrokes import SentValues
-from vicode.editor.session.outline import has_same_structure
-from vicode.editor.session.wording import describe_path
+from vicode.editor.panels.window_context import WindowContext
+from vicode.editor.session.descriptions import describe_path
+from vicode.editor.session.field_merge import SentValues
+from vicode.editor.session.form_key import has_same_structure
 from vicode.findings import DesignPath, Finding
 from vicode.model.design import Design
 

@@ -6,10 +6,10 @@ from pathlib import PurePath
 
 from nicegui import ui
 
-from vicode.editor.panels.desk import WindowContext
-from vicode.editor.panels.problems import FindingNavigator
+from vicode.editor.panels.finding_navigation import FindingNavigator
+from vicode.editor.panels.window_context import WindowContext
+from vicode.editor.session.finding_list import filter_findings, group_by_severity
 from vicode.editor.session.fixes import is_fixable
-from vicode.editor.session.problems import filter_findings, group_by_severity
 from vicode.editor.view import item_label
 from vicode.findings import Finding, Severity
 

@@ -7,8 +7,8 @@ from nicegui import ui
 
 from vicode.editor.panels.dialogs import titled_dialog
 from vicode.editor.panels.diff_view import diff_view
-from vicode.editor.panels.rows import primary_button
-from vicode.editor.session.generating import PendingOutput
+from vicode.editor.panels.widgets import primary_button
+from vicode.editor.session.code_generation import PendingOutput
 from vicode.output import FileDiff, FileStatus
 
 _ICONS = {FileStatus.NEW: "add_circle", FileStatus.CHANGED: "change_circle", FileStatus.STALE: "remove_circle"}

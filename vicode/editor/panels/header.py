@@ -5,12 +5,12 @@ from collections.abc import Sequence
 from nicegui import ui
 
 from vicode.editor.panels.command import Command
-from vicode.editor.panels.desk import WindowContext
+from vicode.editor.panels.conflict_dialog import ask_to_resolve_conflict
 from vicode.editor.panels.fields import set_enabled
-from vicode.editor.panels.people_chips import PresenceBar
-from vicode.editor.panels.rows import icon_button, primary_button
-from vicode.editor.panels.save_dialog import ask_to_resolve_conflict
-from vicode.editor.view.address import design_url
+from vicode.editor.panels.presence_bar import PresenceBar
+from vicode.editor.panels.widgets import icon_button, primary_button
+from vicode.editor.panels.window_context import WindowContext
+from vicode.editor.view.page_urls import design_url
 
 _ICONS = ("find", "undo", "redo", "lay-out", "links", "page", "theme", "help")
 

@@ -5,11 +5,11 @@ from collections.abc import Callable
 
 from nicegui import ui
 
-from vicode.editor.panels.desk import WindowContext
 from vicode.editor.panels.dialogs import titled_dialog
-from vicode.editor.panels.rows import primary_button
-from vicode.editor.session.history_lines import HistoryRow, list_history_rows
-from vicode.editor.session.people import DISK_USER
+from vicode.editor.panels.widgets import primary_button
+from vicode.editor.panels.window_context import WindowContext
+from vicode.editor.session.history_rows import HistoryRow, list_history_rows
+from vicode.editor.session.presence import DISK_USER
 
 _PAGE = 60
 _WALK = """(event) => {

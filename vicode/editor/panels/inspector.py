@@ -6,14 +6,14 @@ from nicegui import ui
 
 from vicode.editor.panels.decision_panel import decision_panel
 from vicode.editor.panels.design_panel import common_panel, design_panel
-from vicode.editor.panels.desk import WindowContext
 from vicode.editor.panels.fields import Field
-from vicode.editor.panels.several_panel import multi_selection_panel
+from vicode.editor.panels.multi_selection_panel import multi_selection_panel
 from vicode.editor.panels.state_panel import state_panel
 from vicode.editor.panels.use_panel import link_panel, use_panel
-from vicode.editor.session import outline
-from vicode.editor.session.following import rebase_selection
-from vicode.editor.session.project_spots import project_structure_key
+from vicode.editor.panels.window_context import WindowContext
+from vicode.editor.session import form_key
+from vicode.editor.session.project_paths import project_structure_key
+from vicode.editor.session.rebase import rebase_selection
 from vicode.editor.view import ItemRef
 
 # Who went into a field by keys gets back by one. A list that is open, or a completion, takes Escape for itself.
@@ -53,7 +53,7 @@ class Inspector:
         project = project_structure_key(self.context.workspace.project)
         shape = (
             self.context.selected,
-            outline.form_structure_key(self.context.design, self.context.single_selection),
+            form_key.form_structure_key(self.context.design, self.context.single_selection),
             project,
         )
         if shape == self.form_key:

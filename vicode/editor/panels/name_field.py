@@ -6,22 +6,22 @@ from typing import Any
 
 from nicegui import ui
 
-from vicode.editor.panels.desk import WindowContext
 from vicode.editor.panels.dialogs import titled_dialog
 from vicode.editor.panels.fields import Field, FieldBinding
-from vicode.editor.panels.rows import primary_button
 from vicode.editor.panels.text_input import TextInput
+from vicode.editor.panels.widgets import primary_button
+from vicode.editor.panels.window_context import WindowContext
 from vicode.editor.session import apply_gesture
-from vicode.editor.session.declared_names import (
+from vicode.editor.session.descriptions import error_reason
+from vicode.editor.session.rename_symbol import (
     RenameEdit,
     SymbolRenamePlan,
     apply_symbol_rename,
     describe_symbol,
     plan_symbol_rename,
 )
-from vicode.editor.session.wording import error_reason
 from vicode.editor.view import ItemRef
-from vicode.model.renaming import SymbolRef
+from vicode.model.rename import SymbolRef
 
 RenameCallback = Callable[[str, str], str]
 """Takes a new name over, given the old one and the new one; why not, in words."""

@@ -4,12 +4,12 @@ import time
 
 from nicegui import ui
 
-from vicode.editor.panels.desk import WindowContext
 from vicode.editor.panels.dialogs import titled_dialog
-from vicode.editor.panels.rows import primary_button
-from vicode.editor.session.keeper import AutosaveService, format_diff
+from vicode.editor.panels.widgets import primary_button
+from vicode.editor.panels.window_context import WindowContext
+from vicode.editor.session.autosave import AutosaveService, format_diff
+from vicode.editor.session.descriptions import error_reason
 from vicode.editor.session.recovery import RecoverableDesign
-from vicode.editor.session.wording import error_reason
 
 _TODAY_S = 18 * 3600
 

@@ -5,9 +5,9 @@ from functools import partial
 
 from nicegui import run, ui
 
-from vicode.editor.panels.desk import WindowContext
-from vicode.editor.panels.rows import icon_button
-from vicode.editor.session.searching import TextMatch, TextQuery, TextSearchResult, find_text, replace_matches
+from vicode.editor.panels.widgets import icon_button
+from vicode.editor.panels.window_context import WindowContext
+from vicode.editor.session.text_search import TextMatch, TextQuery, TextSearchResult, find_text, replace_matches
 from vicode.editor.view import item_at_path, item_label, part_label
 from vicode.model.texts import TextKind
 

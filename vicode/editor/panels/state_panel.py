@@ -12,13 +12,13 @@ from vicode.editor.panels.actions_panel import (
     parse_assignments,
 )
 from vicode.editor.panels.code_field import pairs_field
+from vicode.editor.panels.collapsible import collapsible_section
 from vicode.editor.panels.decisions_list import decisions_list
-from vicode.editor.panels.desk import WindowContext
 from vicode.editor.panels.fields import Field, FieldBinding, checkbox_field, choice_field, text_field
-from vicode.editor.panels.folds import collapsible_section
 from vicode.editor.panels.name_field import name_field, rename_node
-from vicode.editor.panels.rows import heading, panel_title
-from vicode.editor.session import numbers
+from vicode.editor.panels.widgets import heading, panel_title
+from vicode.editor.panels.window_context import WindowContext
+from vicode.editor.session import number_text
 from vicode.editor.view import ItemRef
 from vicode.model.design import Call, Design, State
 from vicode.model.edits import update_state
@@ -91,9 +91,9 @@ def _team(context: WindowContext, state: State, fields: list[Field]) -> None:
     """What robots of a team agree on, and the name in XABSL: few need them."""
     said = []
     if state.capacity is not None:
-        said.append(f"room for {numbers.format_number(state.capacity)}")
+        said.append(f"room for {number_text.format_number(state.capacity)}")
     if state.synchronized is not None:
-        said.append(f"{numbers.format_number(state.synchronized)} enter together")
+        said.append(f"{number_text.format_number(state.synchronized)} enter together")
     if state.xabsl_name:
         said.append(f"{state.xabsl_name} in XABSL")
 
@@ -117,10 +117,10 @@ def _team(context: WindowContext, state: State, fields: list[Field]) -> None:
 def _count(name: str, label: str, attribute: str) -> FieldBinding:
     def read(design: Design) -> str:
         state = design.state(name)
-        return numbers.format_number(getattr(state, attribute)) if state else ""
+        return number_text.format_number(getattr(state, attribute)) if state else ""
 
     def write(design: Design, text: str) -> Design:
-        changes: dict[str, Any] = {attribute: numbers.parse_count(text)}
+        changes: dict[str, Any] = {attribute: number_text.parse_count(text)}
         return update_state(design, name, lambda state: replace(state, **changes))
 
     return FieldBinding(
@@ -129,7 +129,7 @@ def _count(name: str, label: str, attribute: str) -> FieldBinding:
         read=read,
         write=write,
         hint="no limit" if attribute == "capacity" else "each by itself",
-        validate=numbers.validate_count,
+        validate=number_text.validate_count,
     )
 
 

@@ -4,8 +4,8 @@ from collections.abc import Callable
 
 from nicegui import ui
 
-from vicode.editor.panels.desk import WindowContext
-from vicode.editor.panels.rows import icon_button
+from vicode.editor.panels.widgets import icon_button
+from vicode.editor.panels.window_context import WindowContext
 from vicode.editor.session.table_edits import Payload, apply_table_edit
 from vicode.editor.table import TableGrid
 from vicode.editor.view import TableData, diff_tables, item_row_id, make_table, parse_row_id

@@ -6,8 +6,8 @@ from dataclasses import asdict, dataclass
 from nicegui import ui
 
 from vicode.editor.panels.command import Command, MenuGroup
-from vicode.editor.panels.desk import WindowContext
-from vicode.model.walks import iter_transitions
+from vicode.editor.panels.window_context import WindowContext
+from vicode.model.traversal import iter_transitions
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

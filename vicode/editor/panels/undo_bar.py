@@ -4,7 +4,7 @@ from collections.abc import Callable
 
 from nicegui import ui
 
-from vicode.editor.panels.rows import icon_button
+from vicode.editor.panels.widgets import icon_button
 
 
 class UndoBar:

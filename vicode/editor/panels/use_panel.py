@@ -2,13 +2,13 @@
 
 from nicegui import ui
 
-from vicode.editor.panels.desk import WindowContext
 from vicode.editor.panels.fields import Field, FieldBinding
 from vicode.editor.panels.name_field import name_field, rename_node
-from vicode.editor.panels.project.components import component_form
-from vicode.editor.panels.rows import heading, panel_title
-from vicode.editor.session import numbers
-from vicode.editor.session.project_spots import ProjectNodePath
+from vicode.editor.panels.project.component_forms import component_form
+from vicode.editor.panels.widgets import heading, panel_title
+from vicode.editor.panels.window_context import WindowContext
+from vicode.editor.session import number_text
+from vicode.editor.session.project_paths import ProjectNodePath
 from vicode.editor.view import ItemRef
 from vicode.model.design import Declaration, Use
 from vicode.model.edits import remove_link, remove_uses
@@ -81,7 +81,7 @@ def _alias(context: WindowContext, alias: str) -> Field:
 def _facts(interface: Interface) -> str:
     """What project.yaml says of it beside its declarations."""
     rate = (
-        f"Works at {numbers.format_number(interface.frequency_hz)} Hz"
+        f"Works at {number_text.format_number(interface.frequency_hz)} Hz"
         if interface.frequency_hz
         else "Works at every step"
     )
@@ -95,7 +95,7 @@ def _about(declaration: Declaration) -> str:
         f"takes {', '.join(each.name for each in given) or 'nothing'}" if given is not None else "",
         declaration.type,
         declaration.unit,
-        f"{numbers.format_number(declaration.range[0])} to {numbers.format_number(declaration.range[1])}"
+        f"{number_text.format_number(declaration.range[0])} to {number_text.format_number(declaration.range[1])}"
         if declaration.range
         else "",
         f"= {declaration.initial}" if declaration.initial else "",

@@ -1,11 +1,11 @@
 """Open designs: history, edits by gesture, saving and generating. Knows no NiceGUI."""
 
 from vicode.editor.session.document import DocumentSession, SharedDocument
-from vicode.editor.session.following import rebase_gesture, rebase_selection
 from vicode.editor.session.gestures import EditResult, apply_gesture, apply_layout
 from vicode.editor.session.history import HistoryEntry, UndoHistory
 from vicode.editor.session.library import Library
-from vicode.editor.session.people import DISK_USER, Presence, PresenceRoom, User, UserDirectory
+from vicode.editor.session.presence import DISK_USER, Presence, PresenceRoom, User, UserDirectory
+from vicode.editor.session.rebase import rebase_gesture, rebase_selection
 from vicode.editor.session.workspace import DiskConflictError, Workspace
 
 __all__ = [

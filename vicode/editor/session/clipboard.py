@@ -14,8 +14,7 @@ from vicode.editor.session.gestures import EditResult, parse_point
 from vicode.editor.view import ItemRef, parse_transition_key, transition_key
 from vicode.findings import Severity
 from vicode.model.design import Design, Point
-from vicode.model.names import is_valid_name, is_valid_state_name
-from vicode.model.parts import (
+from vicode.model.fragments import (
     FragmentSelection,
     InsertResult,
     append_decisions,
@@ -23,7 +22,8 @@ from vicode.model.parts import (
     extract_fragment,
     insert_fragment,
 )
-from vicode.model.walks import find_decision
+from vicode.model.names import is_valid_name, is_valid_state_name
+from vicode.model.traversal import find_decision
 from vicode.store import read_design, save_design
 
 MAX_CHARACTERS = 400_000

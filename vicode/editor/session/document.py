@@ -7,15 +7,15 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
+from vicode.editor.session.descriptions import describe_path
 from vicode.editor.session.history import CompoundEdit, HistoryEntry, UndoConflict, UndoHistory
-from vicode.editor.session.people import DISK_USER, PresenceRoom, UserDirectory
-from vicode.editor.session.wording import describe_path
+from vicode.editor.session.presence import DISK_USER, PresenceRoom, UserDirectory
 from vicode.editor.view import Scene, diff_scenes, make_scene, parse_transition_key
 from vicode.findings import Finding
 from vicode.model.design import Design
-from vicode.model.merging import Conflict, merge_designs
+from vicode.model.merge import Conflict, merge_designs
 from vicode.model.project import Project
-from vicode.model.walks import find_decision
+from vicode.model.traversal import find_decision
 
 DocumentListener = Callable[["DocumentSession"], None]
 DesignChecker = Callable[[Design], tuple[Finding, ...]]

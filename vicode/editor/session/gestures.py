@@ -13,6 +13,7 @@ from vicode.editor.session.document import DocumentSession
 from vicode.editor.view import ItemRef, parse_transition_key, transition_key
 from vicode.findings import DesignPath
 from vicode.model.design import COMMON, Design, Point, State, Transition
+from vicode.model.disabled import set_disabled
 from vicode.model.edits import (
     add_modulation,
     add_requirement,
@@ -31,9 +32,8 @@ from vicode.model.edits import (
     unique_name,
     update_state,
 )
-from vicode.model.enabling import set_disabled
 from vicode.model.names import is_valid_name, is_valid_state_name, name_from_text
-from vicode.model.walks import find_decision, iter_decisions
+from vicode.model.traversal import find_decision, iter_decisions
 
 Payload = Mapping[str, Any]
 _MAX_COORDINATE = 1_000_000.0

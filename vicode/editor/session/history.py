@@ -8,7 +8,7 @@ from typing import Protocol
 
 from vicode.findings import DesignPath
 from vicode.model.design import Design
-from vicode.model.merging import merge_designs
+from vicode.model.merge import merge_designs
 
 MAX_ENTRIES = 500
 _MAX_COALESCE_DEPTH = 12

@@ -4,7 +4,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from vicode.editor.session.overview import ProjectOverview
-from vicode.editor.session.people import UserDirectory
+from vicode.editor.session.presence import UserDirectory
 from vicode.editor.session.workspace import Workspace
 from vicode.store import find_projects
 

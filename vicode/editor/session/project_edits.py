@@ -6,15 +6,15 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from vicode.editor.session.declared_names import describe_new_errors, find_errors
+from vicode.editor.session.descriptions import error_reason
 from vicode.editor.session.document import DocumentSession
-from vicode.editor.session.people import DISK_USER
-from vicode.editor.session.project_spots import ProjectNodePath
-from vicode.editor.session.wording import error_reason
+from vicode.editor.session.presence import DISK_USER
+from vicode.editor.session.project_paths import ProjectNodePath
+from vicode.editor.session.rename_symbol import describe_new_errors, find_errors
 from vicode.editor.session.workspace import Workspace
 from vicode.model.design import Declaration
 from vicode.model.edits import unique_name
-from vicode.model.merging import merge_lines
+from vicode.model.merge import merge_lines
 from vicode.model.project import INTERNAL, WORLD, Agent, Enumeration, Interface, Project
 from vicode.store import (
     ProjectReadResult,

@@ -12,6 +12,7 @@ from vicode.editor.session.gestures import EditResult, apply_gesture
 from vicode.editor.view import ItemRef, make_table, parse_row_id, parse_transition_key, transition_key
 from vicode.findings import DesignPath
 from vicode.model.design import COMMON, Call, Decision, Design, State, Transition
+from vicode.model.disabled import set_disabled
 from vicode.model.edits import (
     add_state,
     add_transition,
@@ -24,8 +25,7 @@ from vicode.model.edits import (
     unique_name,
     update_state,
 )
-from vicode.model.enabling import set_disabled
-from vicode.model.walks import find_decision
+from vicode.model.traversal import find_decision
 
 Payload = Mapping[str, Any]
 MAX_CELL_LENGTH = 20_000

@@ -6,14 +6,14 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from vicode.check import check_design, check_project
-from vicode.editor.session import generating
+from vicode.editor.session import code_generation
+from vicode.editor.session.code_generation import GenerationInput, GenerationResult, PendingOutput
 from vicode.editor.session.document import DiskVersion, DocumentSession, FileTransaction, SharedDocument
-from vicode.editor.session.generating import GenerationInput, GenerationResult, PendingOutput
-from vicode.editor.session.people import DISK_USER, UserDirectory
+from vicode.editor.session.presence import DISK_USER, UserDirectory
 from vicode.findings import DesignPath as Way
 from vicode.findings import Finding
 from vicode.model.design import Design, State
-from vicode.model.merging import merge_designs
+from vicode.model.merge import merge_designs
 from vicode.model.names import snake_case
 from vicode.model.project import Project
 from vicode.output import back_up_edited
@@ -256,7 +256,7 @@ class Workspace:
         job = GenerationInput(
             project=replace(self.project, designs=designs), source_paths=self.source_paths, parse_findings=reading
         )
-        return generating.prepare_output(self.output_folder, job, document.design.component)
+        return code_generation.prepare_output(self.output_folder, job, document.design.component)
 
     def generate(self, document: DocumentSession, *, is_forced: bool = False) -> GenerationResult:
         """Write that code; with force files that a person edited are set aside first, else nothing is written then.
@@ -265,7 +265,7 @@ class Workspace:
             ChangedOnDiskError: Another program changed the file of the design.
             OSError: A file cannot be written.
         """
-        return generating.write_output(self.prepare_output(document), is_forced=is_forced)
+        return code_generation.write_output(self.prepare_output(document), is_forced=is_forced)
 
     def _write(self, document: DocumentSession, text: str | None, patched: str) -> None:
         """Write a design by patching a text; `text` is what the file holds."""

@@ -6,7 +6,7 @@ from typing import Any
 from nicegui import ui
 from nicegui.events import GenericEventArguments
 
-from vicode.editor.scripts import TABLE_JS
+from vicode.editor.js_modules import TABLE_JS
 
 Payload = Mapping[str, Any]
 

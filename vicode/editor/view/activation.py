@@ -5,10 +5,10 @@ from dataclasses import dataclass
 from typing import Any
 
 from vicode.editor.view.guard_rows import format_value
+from vicode.editor.view.item_labels import item_label
 from vicode.editor.view.selection import ItemRef, parse_transition_key
-from vicode.editor.view.wording import item_label
 from vicode.model.design import Design
-from vicode.model.walks import find_decision
+from vicode.model.traversal import find_decision
 
 _LINKS = {"requires": "requires", "modulates": "modulates"}
 

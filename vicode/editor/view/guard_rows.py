@@ -4,11 +4,11 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from vicode.diagram.labels import guard_label
+from vicode.diagram.transition_labels import guard_label
 from vicode.editor.view.selection import transition_key
 from vicode.model.design import COMMON, Decision, DecisionGroup, Design, Guard, Transition
-from vicode.model.enabling import disabled_states, is_enabled
-from vicode.model.walks import LocatedDecision, iter_decisions
+from vicode.model.disabled import disabled_states, is_enabled
+from vicode.model.traversal import LocatedDecision, iter_decisions
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -5,13 +5,13 @@ from collections.abc import Iterable
 from typing import Any
 
 from vicode.diagram import complete_layout
-from vicode.diagram.labels import guard_kind, short_transition_label, transition_label
+from vicode.diagram.transition_labels import guard_kind, short_transition_label, transition_label
 from vicode.editor.view.selection import ItemRef, item_at_path, transition_key
 from vicode.findings import Finding, Severity, worst_severity
 from vicode.model.design import COMMON, Call, Design, State, Transition
-from vicode.model.enabling import disabled_states, is_enabled
+from vicode.model.disabled import disabled_states, is_enabled
 from vicode.model.project import Project
-from vicode.model.walks import LocatedDecision, iter_transitions
+from vicode.model.traversal import LocatedDecision, iter_transitions
 
 Scene = dict[str, Any]
 _Findings = dict[ItemRef, list[Finding]]

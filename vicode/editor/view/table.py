@@ -7,7 +7,7 @@ from typing import Any
 from vicode.editor.view.selection import ItemRef, item_at_path, transition_key
 from vicode.findings import DesignPath, Finding, worst_severity
 from vicode.model.design import COMMON, Code, CommonSection, Decision, DecisionGroup, Design, State, Transition
-from vicode.model.walks import LocatedDecision, iter_decisions
+from vicode.model.traversal import LocatedDecision, iter_decisions
 
 RowData = dict[str, Any]
 TableData = dict[str, Any]

@@ -2,8 +2,7 @@
 
 from vicode.generators.plan.component import INTERFACES_MODULE, plan_component
 from vicode.generators.plan.expressions import UnsoundDesignError, literal_value
-from vicode.generators.plan.project import collect_components, plan_package, plan_project
-from vicode.generators.plan.values import (
+from vicode.generators.plan.plan_types import (
     ActionStep,
     AssignStep,
     Branch,
@@ -26,6 +25,7 @@ from vicode.generators.plan.values import (
     UsedComponent,
     ValuePlan,
 )
+from vicode.generators.plan.project import collect_components, plan_package, plan_project
 
 __all__ = [
     "INTERFACES_MODULE",

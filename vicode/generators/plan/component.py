@@ -4,15 +4,15 @@ from collections.abc import Mapping
 from dataclasses import replace
 
 from vicode.findings import DesignPath
-from vicode.generators.plan.bodies import CodePlanner
+from vicode.generators.plan.code import CodePlanner
 from vicode.generators.plan.expressions import (
     UnsoundDesignError,
     initial_value,
     literal_nanoseconds,
     typed_tree,
 )
-from vicode.generators.plan.naming import NameAllocator, identifier_stem
-from vicode.generators.plan.values import (
+from vicode.generators.plan.names import NameAllocator, identifier_stem
+from vicode.generators.plan.plan_types import (
     ActionStep,
     AssignStep,
     Branch,
@@ -45,10 +45,10 @@ from vicode.model.design import (
     Stay,
     Transition,
 )
-from vicode.model.enabling import strip_disabled
+from vicode.model.disabled import strip_disabled
 from vicode.model.expressions import BOOL, FLOAT, Expr, Scope, build_scope
 from vicode.model.project import Project
-from vicode.model.walks import is_exhaustive, iter_expressions
+from vicode.model.traversal import is_exhaustive, iter_expressions
 
 
 def plan_component(project: Project, design: Design, modules: Mapping[str, str], source: str) -> ComponentPlan:

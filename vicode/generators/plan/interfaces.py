@@ -1,7 +1,7 @@
 """From a declared component without a class of its own to what is written for it."""
 
 from vicode.generators.plan.component import plan_functions, plan_values
-from vicode.generators.plan.values import InterfacePlan
+from vicode.generators.plan.plan_types import InterfacePlan
 from vicode.model.expressions import build_scope
 from vicode.model.project import INTERNAL, Interface, Project
 from vicode.model.xabsl.names import is_basic_behavior

@@ -5,8 +5,8 @@ from collections.abc import Collection, Mapping
 from vicode.generators.plan.component import plan_component, plan_values
 from vicode.generators.plan.expressions import UnsoundDesignError, literal_value
 from vicode.generators.plan.interfaces import plan_interface
-from vicode.generators.plan.naming import NameAllocator, identifier_stem, package_name
-from vicode.generators.plan.values import PackagePlan, ProjectPlan
+from vicode.generators.plan.names import NameAllocator, identifier_stem, package_name
+from vicode.generators.plan.plan_types import PackagePlan, ProjectPlan
 from vicode.model.expressions import build_scope
 from vicode.model.project import Project
 

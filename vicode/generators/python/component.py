@@ -10,8 +10,13 @@ from vicode.generators.plan import (
     UnsoundDesignError,
     UsedComponent,
 )
+from vicode.generators.python.expression_doc import format_statement
+from vicode.generators.python.expression_printer import PythonExpressionPrinter, format_number, functions_by_output
 from vicode.generators.python.imports import Import, format_imports
-from vicode.generators.python.layout import (
+from vicode.generators.python.methods import BODY_INDENT, METHOD_INDENT, MethodWriter, python_code
+from vicode.generators.python.names import component_class_name, names_in_code
+from vicode.generators.python.parameters import modulate_method
+from vicode.generators.python.pretty_printer import (
     Doc,
     IfBreak,
     SoftLine,
@@ -21,11 +26,6 @@ from vicode.generators.python.layout import (
     join_docs,
     render_doc,
 )
-from vicode.generators.python.methods import BODY_INDENT, METHOD_INDENT, MethodWriter, python_code
-from vicode.generators.python.names import component_class_name, names_in_code
-from vicode.generators.python.parameters import modulate_method
-from vicode.generators.python.pieces import format_statement
-from vicode.generators.python.spelling import PythonExpressionPrinter, format_number, functions_by_output
 from vicode.generators.python.text import declaration_description, docstring, quoted, section
 from vicode.generators.python.views import ComponentModuleView, MethodView
 from vicode.regions import wrap_region

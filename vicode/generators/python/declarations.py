@@ -1,9 +1,9 @@
 """The module with a project's enumerations and constants in Python."""
 
 from vicode.generators.plan import ProjectPlan, ValuePlan
+from vicode.generators.python.expression_doc import format_statement
+from vicode.generators.python.expression_printer import PythonExpressionPrinter
 from vicode.generators.python.imports import Import, format_imports
-from vicode.generators.python.pieces import format_statement
-from vicode.generators.python.spelling import PythonExpressionPrinter
 from vicode.generators.python.text import comment, declaration_description, docstring, quoted, section
 from vicode.generators.python.views import DeclarationsModuleView, EnumerationClassView
 from vicode.model.project import Enumeration

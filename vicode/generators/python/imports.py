@@ -4,7 +4,7 @@ import re
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from vicode.generators.python.layout import LINE_WIDTH
+from vicode.generators.python.pretty_printer import LINE_WIDTH
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -4,13 +4,13 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from vicode.generators.plan import FunctionPlan, InterfacePlan, ProjectPlan, ValuePlan
+from vicode.generators.python.expression_doc import format_statement
+from vicode.generators.python.expression_printer import PythonExpressionPrinter
 from vicode.generators.python.imports import Import, format_imports
-from vicode.generators.python.layout import Doc, call_doc, concat, render_doc
 from vicode.generators.python.methods import BODY_INDENT
 from vicode.generators.python.names import component_class_name, names_in_code
 from vicode.generators.python.parameters import keyword_signature, modulate_method, type_name
-from vicode.generators.python.pieces import format_statement
-from vicode.generators.python.spelling import PythonExpressionPrinter
+from vicode.generators.python.pretty_printer import Doc, call_doc, concat, render_doc
 from vicode.generators.python.text import declaration_description, docstring, section
 from vicode.generators.python.views import InterfaceClassView, InterfacesModuleView, MethodView
 from vicode.model.expressions import BOOL, FLOAT, INT

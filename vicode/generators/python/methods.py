@@ -19,10 +19,10 @@ from vicode.generators.plan import (
     UnsoundDesignError,
     literal_value,
 )
-from vicode.generators.python.layout import LINE_WIDTH, Doc, call_doc, concat, render_doc
+from vicode.generators.python.expression_doc import AND, atom, format_statement, operator_chain
+from vicode.generators.python.expression_printer import PythonExpressionPrinter
 from vicode.generators.python.names import has_statement
-from vicode.generators.python.pieces import AND, atom, format_statement, operator_chain
-from vicode.generators.python.spelling import PythonExpressionPrinter
+from vicode.generators.python.pretty_printer import LINE_WIDTH, Doc, call_doc, concat, render_doc
 from vicode.generators.python.text import comment, docstring, quoted
 from vicode.generators.python.views import MethodView
 from vicode.model.expressions import Binary, Expr, OutputRef, ScopeSymbolKind, Variable

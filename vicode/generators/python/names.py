@@ -7,7 +7,7 @@ import textwrap
 from collections.abc import Iterable
 
 from vicode.generators.plan import INTERFACES_MODULE, ProjectPlan
-from vicode.model.parsing import parse_module
+from vicode.model.python_parser import parse_module
 
 RESERVED_MODULES = frozenset(
     {*keyword.kwlist, *keyword.softkwlist, "__init__", "bica", "declarations", INTERFACES_MODULE}

@@ -11,7 +11,7 @@ from vicode import regions
 from vicode.findings import DesignPath
 from vicode.generators.origins import Origin
 from vicode.generators.plan import Branch, CodeCondition, ComponentPlan, DecisionPlan
-from vicode.model.parsing import parse_module
+from vicode.model.python_parser import parse_module
 
 _OUTCOMES = ("_change_to", "_stay")
 _COMMON: DesignPath = ("common", "transitions")

@@ -3,9 +3,9 @@
 from collections.abc import Iterable
 
 from vicode.generators.plan import ValuePlan
-from vicode.generators.python.layout import LINE_WIDTH, Doc, DocGroup, call_doc, concat, join_docs, render_doc
+from vicode.generators.python.expression_printer import PythonExpressionPrinter
 from vicode.generators.python.methods import BODY_INDENT, METHOD_INDENT
-from vicode.generators.python.spelling import PythonExpressionPrinter
+from vicode.generators.python.pretty_printer import LINE_WIDTH, Doc, DocGroup, call_doc, concat, join_docs, render_doc
 from vicode.generators.python.text import docstring
 from vicode.generators.python.views import MethodView
 from vicode.model.expressions import BOOL, FLOAT, INT

@@ -12,11 +12,11 @@ from vicode.generators.plan import (
     ProjectPlan,
     TimerCondition,
 )
+from vicode.generators.python.expression_doc import ExpressionDoc
+from vicode.generators.python.expression_printer import PythonExpressionPrinter, functions_by_output
 from vicode.generators.python.imports import Import, format_imports
-from vicode.generators.python.layout import render_doc as lay_out
 from vicode.generators.python.names import assign_global_names
-from vicode.generators.python.pieces import ExpressionDoc
-from vicode.generators.python.spelling import PythonExpressionPrinter, functions_by_output
+from vicode.generators.python.pretty_printer import render_doc as lay_out
 from vicode.generators.python.text import docstring, quoted
 from vicode.generators.python.views import GuardProbeView, ProbesModuleView
 from vicode.model.design import COMMON

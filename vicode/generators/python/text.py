@@ -3,7 +3,7 @@
 import textwrap
 import unicodedata
 
-from vicode.generators.python.layout import LINE_WIDTH
+from vicode.generators.python.pretty_printer import LINE_WIDTH
 from vicode.regions import escape_marks
 
 

@@ -5,12 +5,12 @@ from collections.abc import Callable
 
 from vicode.generators.origins import ComponentCode
 from vicode.generators.plan import ComponentPlan, PackagePlan, ProjectPlan
-from vicode.generators.plan.naming import NameAllocator
+from vicode.generators.plan.names import NameAllocator
+from vicode.generators.xabsl.name_map import XabslNameMap
+from vicode.generators.xabsl.option_printer import print_option
 from vicode.generators.xabsl.options import GeneratedOption, build_option
 from vicode.generators.xabsl.origins import find_origins, option_origins
-from vicode.generators.xabsl.printing import print_option
 from vicode.generators.xabsl.symbols import SymbolsWriter
-from vicode.generators.xabsl.vocabulary import XabslNameMap
 from vicode.model.project import Project
 from vicode.model.xabsl.names import component_name, is_basic_behavior, symbol_declarations
 from vicode.output import OutputFile

@@ -6,7 +6,7 @@ from functools import reduce
 from math import pi
 
 from vicode.generators.plan import Condition, ExpressionCondition, TimerCondition, UnsoundDesignError
-from vicode.generators.xabsl.vocabulary import XabslNameMap, format_decimal, number_node
+from vicode.generators.xabsl.name_map import XabslNameMap, format_decimal, number_node
 from vicode.model.expressions import (
     BOOL,
     FLOAT,
@@ -29,10 +29,10 @@ from vicode.model.expressions import (
     Ternary,
     Variable,
 )
+from vicode.model.xabsl.expressible import ExpressibilityChecker
 from vicode.model.xabsl.names import unqualified_name
-from vicode.model.xabsl.sayable import ExpressibilityChecker
 from vicode.xabsl import tree
-from vicode.xabsl.pieces import parse_embedded_expression
+from vicode.xabsl.embedded_code import parse_embedded_expression
 
 _CHOICE, _OR, _AND, _COMPARISON, _SUM, _PRODUCT, _SIGN, _ATOM = range(8)
 _LEVELS = {

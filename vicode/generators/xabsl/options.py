@@ -18,14 +18,14 @@ from vicode.generators.plan import (
 )
 from vicode.generators.xabsl.decisions import DecisionTreeBuilder, can_be_common_decision
 from vicode.generators.xabsl.expressions import XabslExpressionBuilder
-from vicode.generators.xabsl.printing import AttachedComment, attach_comment, wrap_description
+from vicode.generators.xabsl.name_map import XabslNameMap
+from vicode.generators.xabsl.option_printer import AttachedComment, attach_comment, wrap_description
 from vicode.generators.xabsl.symbols import format_range
-from vicode.generators.xabsl.vocabulary import XabslNameMap
 from vicode.model.design import COMMON
-from vicode.model.xabsl.limits import find_unsupported_in_design, is_done_expressible
 from vicode.model.xabsl.names import component_name, unqualified_name
+from vicode.model.xabsl.unsupported import find_unsupported_in_design, is_done_expressible
 from vicode.xabsl import tree
-from vicode.xabsl.pieces import EmbeddedCode, parse_embedded_actions
+from vicode.xabsl.embedded_code import EmbeddedCode, parse_embedded_actions
 
 _STAY_ONLY = (DecisionPlan(conditions=(), outcome=NoChange()),)
 

@@ -4,8 +4,8 @@ from collections.abc import Iterator
 
 from vicode.generators.origins import Origin
 from vicode.generators.plan import ComponentPlan
+from vicode.generators.xabsl.option_printer import pair_nodes, parse_option
 from vicode.generators.xabsl.options import GeneratedOption, build_option
-from vicode.generators.xabsl.printing import pair_nodes, parse_option
 from vicode.xabsl import tree
 from vicode.xabsl.lexer import Tokens
 from vicode.xabsl.tokens import DOC

@@ -4,9 +4,9 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from vicode.generators.plan import UnsoundDesignError
-from vicode.generators.xabsl.printing import header_comment, title_text, wrap_description
-from vicode.generators.xabsl.vocabulary import XabslNameMap, format_decimal
-from vicode.model.constants import ConstantValue
+from vicode.generators.xabsl.name_map import XabslNameMap, format_decimal
+from vicode.generators.xabsl.option_printer import header_comment, title_text, wrap_description
+from vicode.model.constant_folding import ConstantValue
 from vicode.model.design import Declaration, Design
 from vicode.model.project import Enumeration, Interface, Project
 from vicode.model.xabsl.names import (

@@ -9,7 +9,7 @@ from vicode.model.expressions.functions import FUNCTIONS, NUMBER, BuiltinFunctio
 from vicode.model.expressions.tree import FLOAT, INT, UNKNOWN, Done, Expr, FunctionCall, OutputRef
 
 if TYPE_CHECKING:
-    from vicode.model.expressions.typing import ExpressionBinder
+    from vicode.model.expressions.binder import ExpressionBinder
 
 
 class CallBinder:

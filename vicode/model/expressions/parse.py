@@ -8,10 +8,10 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 from vicode.findings import Rule, Span, get_rule
+from vicode.model.expressions.binder import ExpressionBinder
 from vicode.model.expressions.scope import Scope
 from vicode.model.expressions.tree import Expr
-from vicode.model.expressions.typing import ExpressionBinder
-from vicode.model.parsing import parse_single_expression
+from vicode.model.python_parser import parse_single_expression
 
 MAX_LENGTH = 10_000
 MAX_DEPTH = 60

@@ -4,13 +4,13 @@ from importlib import import_module
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from .code_reader import CodeError, read_code
     from .engine import Engine, OptionView, Trace
-    from .loading import LoadError
     from .program import Program
-    from .reading import CodeError, read_code
-    from .replaying import ReplayError
+    from .replay import ReplayError
     from .symbols import SymbolList, SymbolListError, read_symbols
     from .team import CoopMessage
+    from .validation import LoadError
 
 _MODULES = {
     **dict.fromkeys(("Engine", "OptionView", "Trace"), "engine"),

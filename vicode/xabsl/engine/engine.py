@@ -7,12 +7,12 @@ from types import SimpleNamespace
 from typing import Any
 
 from .arithmetic import divide, remainder
-from .generating import PythonEmitter
-from .linking import NEVER, BehaviorRecord, WorldLinker
-from .loading import LoadError, check_loops, check_structure, check_symbols, select_used_symbols, used_symbols
+from .emitter import PythonEmitter
+from .linker import NEVER, BehaviorRecord, WorldLinker
 from .program import Program
 from .symbols import SymbolList
 from .team import CapacityState, CoopMessage, CoopState, StrictSynchronizedState, SynchronizedState, TeamSettings
+from .validation import LoadError, check_loops, check_structure, check_symbols, select_used_symbols, used_symbols
 
 _MASK = 0xFFFFFFFF
 
@@ -44,7 +44,7 @@ class OptionView:
 
 @dataclass(slots=True)
 class Trace:
-    """What happened in a cycle: nodes as in `vicode.xabsl.engine.replaying`, and the symbols that were set."""
+    """What happened in a cycle: nodes as in `vicode.xabsl.engine.replay`, and the symbols that were set."""
 
     nodes: list[Any] = field(default_factory=list)
     values: dict[str, Any] = field(default_factory=dict)

@@ -10,12 +10,12 @@ from pygls.lsp.server import LanguageServer
 
 from vicode.findings import Finding, Severity
 from vicode.xabsl import tree
-from vicode.xabsl.declared import Definition
 from vicode.xabsl.lexer import Tokens
 from vicode.xabsl.printer import print_file
-from vicode.xabsl.server.behavior import OpenBehavior, RenameError, SymbolOccurrence, find_main_file
-from vicode.xabsl.server.completing import CompletionProposal, complete_at
-from vicode.xabsl.server.describing import hover_text
+from vicode.xabsl.server.completion import CompletionProposal, complete_at
+from vicode.xabsl.server.hover import hover_text
+from vicode.xabsl.server.open_behavior import OpenBehavior, RenameError, SymbolOccurrence, find_main_file
+from vicode.xabsl.symbol_table import Definition
 
 _SEVERITIES = {
     Severity.ERROR: lsp.DiagnosticSeverity.Error,

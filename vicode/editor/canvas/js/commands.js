@@ -1,8 +1,8 @@
 // What the canvas can do by name. Names, words and keys come from Python's table; here is only what happens.
-import { align, distribute, findFreePosition } from "./arranging.js";
+import { align, distribute, findFreePosition } from "./alignment.js";
 import { SNAP } from "./geometry.js";
-import { nudgeLabel } from "./label_moves.js";
-import { nearestInDirection, tabOrder } from "./walking.js";
+import { nudgeLabel } from "./label_drag.js";
+import { nearestInDirection, tabOrder } from "./keyboard_navigation.js";
 
 const ARROWS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
 const PAN = 60;

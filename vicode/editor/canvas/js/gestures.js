@@ -1,10 +1,10 @@
 // From pointer events to gestures: what is under the pointer decides, and movement is taken once per frame.
-import { ConnectDrag, ReconnectDrag } from "./connecting.js";
+import { ConnectDrag, ReconnectDrag } from "./connect_drags.js";
 import { MarqueeDrag, MoveDrag, PanDrag } from "./drags.js";
-import { findFreePosition } from "./arranging.js";
+import { findFreePosition } from "./alignment.js";
 import { distanceToCurve, snap } from "./geometry.js";
-import { LabelDrag } from "./label_moves.js";
-import { ConnectMode } from "./tool.js";
+import { LabelDrag } from "./label_drag.js";
+import { ConnectMode } from "./connect_mode.js";
 import { Touch } from "./touch.js";
 import { Wheel } from "./wheel.js";
 

@@ -1,7 +1,7 @@
 // From far the scene is two bitmaps: a coarse one of everything and a sharp one of what is seen.
 import { bounds, containsRect, grow, overlaps, nodeRect } from "./geometry.js";
 import { html } from "./svg.js";
-import { FONTS } from "./text.js";
+import { FONTS } from "./text_metrics.js";
 
 const COARSE_PIXELS = 1536;
 const SHARP_PIXELS = 4096;

@@ -1,10 +1,10 @@
 // Keeps in the DOM what is near enough to be seen, and nothing else; knows the marks on every thing.
-import { DragLayer } from "./carried.js";
-import { drawEdge, placeEdge, placeLine } from "./edge_art.js";
+import { DragLayer } from "./drag_layer.js";
+import { drawEdge, placeEdge, placeLine } from "./edge_svg.js";
 import { bounds, containsRect, grow, overlaps, nodeRect } from "./geometry.js";
-import { drawNode, placeNode } from "./node_art.js";
-import { bakeTransform } from "./standing.js";
-import { showBreakpoint } from "./stop_sign.js";
+import { drawNode, placeNode } from "./node_svg.js";
+import { bakeTransform } from "./group_transforms.js";
+import { showBreakpoint } from "./breakpoint_sign.js";
 import { bringToFront, svg } from "./svg.js";
 
 // Marked things stay mounted also where the overview bitmap stands for the rest, up to this many of each mark.

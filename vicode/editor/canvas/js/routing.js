@@ -1,9 +1,9 @@
 // The way of every edge and the place of its label. Ways depend on boxes alone; labels also on the ways near them.
 import { Grid } from "./grid.js";
 import { bounds, polylineTouches, curveBounds, grow, curveLength, overlaps, pointOnCurve, sampleCurve, rectAround, nodeRect } from "./geometry.js";
-import { makeEdgeLabel, labelPosition, placeLabel, shorterLabels } from "./labels.js";
+import { makeEdgeLabel, labelPosition, placeLabel, shorterLabels } from "./edge_labels.js";
 import { LINKS, pairKey } from "./scene.js";
-import { parallelCurves, selfLoopCurves, readingOrder, straightCurves } from "./ways.js";
+import { parallelCurves, selfLoopCurves, readingOrder, straightCurves } from "./edge_curves.js";
 
 // What a label would hide, dearer first. A place farther along its line costs less than hiding a line.
 const COST = { box: 12, label: 8, line: 1.4, link: 0.7 };

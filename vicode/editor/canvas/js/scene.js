@@ -1,7 +1,7 @@
 // What Python told us to draw: nodes and edges by key, indexed by place and by pair. No design, no DOM.
 import { Grid } from "./grid.js";
 import { bounds, nodeRect } from "./geometry.js";
-import { truncate, textWidth } from "./text.js";
+import { truncate, textWidth } from "./text_metrics.js";
 
 /** How the keys of links begin. */
 export const LINKS = "l:";

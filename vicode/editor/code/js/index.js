@@ -2,7 +2,7 @@
 import * as CM from "nicegui-codemirror";
 import { createCompletion } from "./completion.js";
 import { expressionLanguage } from "./expression.js";
-import { createLineStyles } from "./lines.js";
+import { createLineStyles } from "./line_styles.js";
 import { createMarks } from "./marks.js";
 import { toUnits } from "./offsets.js";
 

@@ -7,7 +7,7 @@ from vicode.editor.panels.command import Command, MenuGroup
 from vicode.editor.view import ItemRef
 
 if TYPE_CHECKING:
-    from vicode.editor.panels.simulation.simulator import SimulationController
+    from vicode.editor.panels.simulation.controller import SimulationController
 
 _BREAKPOINT_KINDS = ("states", "transitions")
 

@@ -5,7 +5,7 @@ from typing import Any
 
 from nicegui import ui
 
-from vicode.editor.panels.simulation.simulator import SimulationController
+from vicode.editor.panels.simulation.controller import SimulationController
 from vicode.editor.view import ItemRef
 from vicode.editor.view.guard_rows import GuardRow, list_guard_rows
 

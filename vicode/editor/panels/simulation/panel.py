@@ -2,13 +2,13 @@
 
 from nicegui import ui
 
+from vicode.editor.panels.simulation.activation_and_output import ActivationTree, ConsoleOutput
+from vicode.editor.panels.simulation.controller import SimulationController
 from vicode.editor.panels.simulation.controls import SimulationControls
 from vicode.editor.panels.simulation.guards_list import GuardsList
-from vicode.editor.panels.simulation.happenings import ActivationTree, ConsoleOutput
+from vicode.editor.panels.simulation.input_source import InputSourceForm
 from vicode.editor.panels.simulation.inputs_form import InputsForm
-from vicode.editor.panels.simulation.simulator import SimulationController
 from vicode.editor.panels.simulation.timeline import Timeline
-from vicode.editor.panels.simulation.ways import InputSourceForm
 from vicode.editor.panels.tabs import Tabs
 
 _POLL_INTERVAL_S = 0.08
@@ -31,7 +31,11 @@ class SimulationPanel:
                     self.inputs = InputsForm(controller)
                 with ui.element("section").classes("simulation-part").props('aria-label="Guards of the active state"'):
                     self.guards = GuardsList(controller)
-                with ui.element("section").classes("simulation-part simulation-results").props('aria-label="What happened"'):
+                with (
+                    ui.element("section")
+                    .classes("simulation-part simulation-results")
+                    .props('aria-label="What happened"')
+                ):
                     self.tabs = Tabs(_RESULT_TABS, "simulation-results", "What happened")
         builders = lambda: Timeline(controller), lambda: ActivationTree(controller), lambda: ConsoleOutput(controller)
         self.tabs.build(dict(zip(_RESULT_TABS, builders, strict=True)))

@@ -6,8 +6,8 @@ from typing import Any
 from nicegui import ui
 from nicegui.events import GenericEventArguments
 
+from vicode.editor.panels.simulation.controller import SimulationController
 from vicode.editor.panels.simulation.range_input import RangeInput
-from vicode.editor.panels.simulation.simulator import SimulationController
 from vicode.editor.session.simulation import Simulation
 from vicode.editor.view.plot import PlotSeries, band_labels, render_plot
 

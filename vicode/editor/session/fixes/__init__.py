@@ -5,7 +5,7 @@ from collections.abc import Callable, Mapping
 
 from vicode.check import check_design
 from vicode.editor.session.fixes import code, decisions, declarations, expressions, names, states, uses
-from vicode.editor.session.fixes.case import Fix, FixContext
+from vicode.editor.session.fixes.context import Fix, FixContext
 from vicode.findings import RULES, Finding, Severity
 from vicode.model.design import Design
 from vicode.model.project import Project

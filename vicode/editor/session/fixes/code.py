@@ -2,11 +2,11 @@
 
 from dataclasses import replace
 
-from vicode.editor.session.fixes.case import Fix, FixContext
+from vicode.editor.session.fixes.context import Fix, FixContext
 from vicode.findings import DesignPath
 from vicode.model.design import Code, Design, RunCode
 from vicode.model.edits import remove_decisions, replace_action, replace_decision
-from vicode.model.walks import find_decision, iter_actions, iter_code
+from vicode.model.traversal import find_decision, iter_actions, iter_code
 
 
 def fix_unknown_language(case: FixContext) -> list[Fix]:

@@ -2,11 +2,11 @@
 
 from dataclasses import replace
 
-from vicode.editor.session.fixes.case import Fix, FixContext
+from vicode.editor.session.fixes.context import Fix, FixContext
 from vicode.findings import DesignPath
 from vicode.model.design import DecisionGroup, Design, Stay, Transition
 from vicode.model.edits import remove_decisions, replace_decision, update_state
-from vicode.model.walks import find_decision
+from vicode.model.traversal import find_decision
 
 
 def fix_shadowed_decision(case: FixContext) -> list[Fix]:

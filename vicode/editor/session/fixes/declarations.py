@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from dataclasses import replace
 
-from vicode.editor.session.fixes.case import DesignEdit, Fix, FixContext
+from vicode.editor.session.fixes.context import DesignEdit, Fix, FixContext
 from vicode.findings import DesignPath
 from vicode.model.design import Declaration, Design
 from vicode.model.edits import set_declarations

@@ -2,7 +2,7 @@
 
 from dataclasses import replace
 
-from vicode.editor.session.fixes.case import Fix, FixContext
+from vicode.editor.session.fixes.context import Fix, FixContext
 from vicode.editor.session.fixes.uses import add_use_fixes
 from vicode.findings import DesignPath
 from vicode.model.design import Assign, Declaration, Design
@@ -19,7 +19,7 @@ from vicode.model.expressions import (
 )
 from vicode.model.names import is_valid_name
 from vicode.model.texts import iter_texts, rewrite_text
-from vicode.model.walks import iter_actions, iter_expressions
+from vicode.model.traversal import iter_actions, iter_expressions
 
 
 def fix_unknown_name(case: FixContext) -> list[Fix]:

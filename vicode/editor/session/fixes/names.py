@@ -3,12 +3,12 @@
 import re
 from dataclasses import replace
 
-from vicode.editor.session.fixes.case import Fix, FixContext
+from vicode.editor.session.fixes.context import Fix, FixContext
 from vicode.findings import DesignPath
 from vicode.model.design import Design, RunCode
 from vicode.model.edits import rename_state, rename_use, replace_action, replace_decision, unique_name, update_state
 from vicode.model.names import is_valid_state_name
-from vicode.model.walks import find_decision, iter_actions
+from vicode.model.traversal import find_decision, iter_actions
 
 
 def fix_bad_name(case: FixContext) -> list[Fix]:

@@ -2,7 +2,7 @@
 
 from dataclasses import replace
 
-from vicode.editor.session.fixes.case import DesignEdit, Fix, FixContext
+from vicode.editor.session.fixes.context import DesignEdit, Fix, FixContext
 from vicode.model.design import COMMON, Design, State, Transition
 from vicode.model.edits import add_state, remove_decisions, remove_states, replace_decision, update_state
 from vicode.model.names import is_valid_state_name

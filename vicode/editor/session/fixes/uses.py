@@ -2,12 +2,12 @@
 
 from dataclasses import replace
 
-from vicode.editor.session.fixes.case import Fix, FixContext
+from vicode.editor.session.fixes.context import Fix, FixContext
 from vicode.findings import DesignPath
 from vicode.model.design import Call, Design, State, Use
 from vicode.model.edits import add_requirement, remove_uses, replace_action, update_actions, update_state
 from vicode.model.names import is_valid_name, snake_case
-from vicode.model.walks import iter_actions
+from vicode.model.traversal import iter_actions
 
 
 def fix_unknown_component(case: FixContext) -> list[Fix]:

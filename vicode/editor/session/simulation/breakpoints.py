@@ -4,7 +4,7 @@ from dataclasses import dataclass, field
 
 from vicode.editor.view import ItemRef, transition_key
 from vicode.model.design import Design
-from vicode.model.walks import iter_transitions
+from vicode.model.traversal import iter_transitions
 from vicode.simulation import StopConditions
 
 _KINDS = ("states", "transitions")

@@ -14,7 +14,7 @@ from vicode.model.design import Decision, DecisionGroup, Design, State, Transiti
 from vicode.model.project import INTERNAL, Interface, Project
 from vicode.output import OutputFile
 from vicode.simulation import Setup
-from vicode.simulation.stand_ins import STUB_MODULE
+from vicode.simulation.stubs import STUB_MODULE
 
 
 class NotReadyError(Exception):

@@ -12,7 +12,7 @@ from vicode.editor.session.simulation.process import RunFailedError, RunProcess,
 from vicode.editor.session.simulation.recording import MAX_ITERATIONS, Recording, merge_inputs
 from vicode.editor.session.simulation.setup import PreparedRun
 from vicode.simulation import Inputs, IterationResult, Request, StopConditions
-from vicode.simulation.resting import COUNT_REACHED, stop_reason
+from vicode.simulation.stop_reasons import COUNT_REACHED, stop_reason
 
 _CHUNK = 25
 _QUIET_CHUNK = 500

@@ -9,7 +9,7 @@ from vicode.editor.session.simulation.inputs import SimulationInput
 from vicode.editor.session.simulation.recording import MAX_ITERATIONS
 from vicode.editor.view import transition_key
 from vicode.model.design import COMMON, Design
-from vicode.model.walks import iter_transitions
+from vicode.model.traversal import iter_transitions
 from vicode.simulation import Inputs, IterationResult
 
 MAX_BYTES = 50_000_000

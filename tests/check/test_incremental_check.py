@@ -1,0 +1,43 @@
+"""Checking a project again finds what checking every design by itself finds, whatever was edited."""
+
+import random
+from dataclasses import replace
+
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from tests.docsite.random_edits import EDITS, FORWARD, Edit
+from vicode.check import PROJECT_RULES, check_design, check_project
+from vicode.model.design import Design, State, Use
+from vicode.model.project import LANGUAGES, Project
+
+STEPS = st.lists(st.tuples(st.sampled_from(EDITS), st.integers(0, 99)), min_size=1, max_size=8)
+
+
+@settings(max_examples=40, deadline=None)
+@given(steps=STEPS, has_all_languages=st.booleans())
+def test_what_was_found_before_is_what_is_found_now(steps: list[tuple[Edit, int]], has_all_languages: bool) -> None:
+    project = FORWARD
+    for edit, seed in steps:
+        project = edit(project, random.Random(seed))
+        if has_all_languages:
+            project = replace(project, languages=LANGUAGES)
+        expected = [finding for rule in PROJECT_RULES for finding in rule(project)]
+        for design in project.designs:
+            expected += check_design(project, design)
+        assert check_project(project) == tuple(dict.fromkeys(expected))
+
+
+def design_of(name: str, *used: str) -> Design:
+    state = State(name="Only", requires=used)
+    return Design(
+        component=name, initial="Only", uses=tuple(Use(alias=each, component=each) for each in used), states=(state,)
+    )
+
+
+def test_what_another_design_steps_counts() -> None:
+    ends = (design_of("top", "left", "right"), design_of("left", "low"), design_of("low"))
+    twice = Project(name="Steps", designs=(*ends, design_of("right", "low")))
+    once = replace(twice, designs=(*ends, design_of("right")))
+    found = ["D425" in [each.rule.code for each in check_project(project)] for project in (once, twice, once)]
+    assert found == [False, True, False]

@@ -1,0 +1,89 @@
+"""vicode run: a fresh process plays, we watch; Ctrl-C ends both."""
+
+import json
+import os
+import re
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from tests.cli.command_runner import LAMP, lamps, vicode
+
+__all__ = ["lamps"]
+
+PROGRAM = "import sys; from vicode.cli import main; sys.exit(main())"
+HOME = str(Path(__file__).parents[2])
+
+
+def start(*arguments: str) -> "subprocess.Popen[str]":
+    environment = {**os.environ, "PYTHONPATH": HOME}
+    command = [sys.executable, "-c", PROGRAM, "run", *arguments]
+    return subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=environment)
+
+
+def test_changes_of_state_and_a_summary_are_printed(lamps: Path) -> None:
+    process = start("lamps/lamp.yaml", "--seconds", "0.5")
+    out, err = process.communicate(timeout=60)
+    assert (process.returncode, err) == (0, "")
+    lines = out.splitlines()
+    assert lines[:5] == [
+        "    0.00 s  Lamp: Dark",
+        "    0.10 s  Lamp: Dark → Lit",
+        "    0.10 s  Bulb: On",
+        "    0.30 s  Lamp: Lit → Dark",
+        "    0.40 s  Lamp: Dark → Lit",
+    ]
+    assert re.search(r"^0\.4\d s in 25 iterations, stopped: limit, last state: Lit$", out, re.MULTILINE)
+    assert re.search(r"^Bulb +\d+ ", out, re.MULTILINE)
+    assert lines[-1] == "errors: 0"
+
+
+def test_a_trace_has_values_when_they_are_asked_for(lamps: Path) -> None:
+    process = start("lamps/lamp.yaml", "--ticks", "2", "--trace", "trace", "--values")
+    process.communicate(timeout=60)
+    assert "values" in json.loads(Path("trace").read_text().splitlines()[0])["tree"][0]
+
+
+def test_the_same_seed_gives_the_same_trace(lamps: Path) -> None:
+    for name in ("one", "two"):
+        process = start("lamps/lamp.yaml", "--ticks", "40", "--seed", "3", "--trace", name)
+        process.communicate(timeout=60)
+        assert process.returncode == 0
+    assert Path("one").read_bytes() == Path("two").read_bytes()
+    assert json.loads(Path("one").read_text().splitlines()[0])["tree"][0]["component"] == "Lamp"
+
+
+def test_an_interrupt_ends_it_with_a_summary(lamps: Path) -> None:
+    process = start("lamps/lamp.yaml", "--real-time")
+    assert process.stdout is not None
+    assert process.stdout.readline() == "    0.00 s  Lamp: Dark\n"
+    process.send_signal(signal.SIGINT)
+    out, err = process.communicate(timeout=60)
+    assert process.returncode == 130
+    assert "stopped: interrupted" in out
+    assert err == "stopping after this iteration; press Ctrl-C again to end at once\n"
+
+
+def test_failing_code_is_told_and_counted(lamps: Path) -> None:
+    (lamps / "lamp.yaml").write_text(LAMP.replace("self.count = 1", "self.count = 1 / 0"), encoding="utf-8")
+    process = start("lamps/lamp.yaml", "--seconds", "0.1")
+    out, err = process.communicate(timeout=60)
+    assert process.returncode == 1
+    assert "errors: 1\n" in out
+    assert "lamp.yaml" in err
+    assert "ZeroDivisionError" in err
+
+
+def test_what_cannot_start_is_told(lamps: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    assert vicode("run", "lamps") == 2
+    assert "name the design to run" in capfd.readouterr().err
+    with (lamps / "project.yaml").open("a", encoding="utf-8") as file:
+        file.write("world: nowhere:World\n")
+    assert vicode("run", "lamps/lamp.yaml", "--ticks", "1") == 2
+    assert "nowhere" in capfd.readouterr().err
+    (lamps / "lamp.yaml").write_text(LAMP.replace("to: Lit", "to: Lot"), encoding="utf-8")
+    assert vicode("run", "lamps/lamp.yaml") == 1
+    assert "D402" in capfd.readouterr().err

@@ -1,0 +1,117 @@
+"""How a run ends that does not end by itself as it should: Ctrl-C, and programs that end themselves."""
+
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+from tests.cli.command_runner import LAMP, lamps, vicode
+from vicode.cli import trace_output
+from vicode.cli.trace_output import PlainTracePrinter, follow_process
+
+__all__ = ["lamps"]
+
+DEAF = "import signal, time; signal.signal(signal.SIGINT, signal.SIG_IGN); print('up', flush=True); time.sleep(60)"
+AGAIN = "stopping after this iteration; press Ctrl-C again to end at once\n"
+
+
+class InterruptingPrinter(PlainTracePrinter):
+    """Presses Ctrl-C as often as it is told to when the program says something."""
+
+    def __init__(self, times: int) -> None:
+        self.times = times
+
+    def show_text(self, text: str) -> None:
+        del text
+        for _ in range(self.times):
+            signal.raise_signal(signal.SIGINT)
+
+
+def follow_unresponsive_program(times: int) -> int:
+    child = subprocess.Popen([sys.executable, "-c", DEAF], stdout=subprocess.PIPE, text=True, start_new_session=True)
+    return follow_process(child, InterruptingPrinter(times))
+
+
+def test_a_program_that_does_not_answer_is_ended(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(trace_output, "_INTERRUPT_TIMEOUT_S", 0.1)
+    assert follow_unresponsive_program(1) == 130
+    assert capsys.readouterr().err == AGAIN + "it did not stop, and was ended\n"
+
+
+def test_the_second_interrupt_ends_it_at_once(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(trace_output, "_INTERRUPT_TIMEOUT_S", 30.0)
+    assert follow_unresponsive_program(2) == 130
+    assert "Traceback" not in capsys.readouterr().err
+
+
+@pytest.fixture
+def endless(lamps: Path) -> Path:
+    text = LAMP.replace("self.count = 1\n", "print('up', flush=True)\n      while True: pass\n")
+    (lamps / "lamp.yaml").write_text(text, encoding="utf-8")
+    return lamps
+
+
+def test_an_endless_loop_of_the_user_ends_without_a_traceback(endless: Path) -> None:
+    program = "import sys; from vicode.cli import main; sys.exit(main())"
+    child = subprocess.Popen(
+        [sys.executable, "-c", program, "run", str(endless / "lamp.yaml")],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        cwd=Path(__file__).parents[2],
+    )
+    assert child.stdout is not None
+    assert child.stdout.readline() == "up\n"
+    child.send_signal(signal.SIGINT)
+    time.sleep(0.2)
+    child.send_signal(signal.SIGINT)
+    _out, err = child.communicate(timeout=30)
+    assert child.returncode == 130
+    assert "Traceback" not in err
+    assert err.startswith(AGAIN)
+
+
+@pytest.mark.parametrize(
+    ("code", "ending"),
+    [
+        ("import sys; sys.exit(5)", "by itself with exit code 5"),
+        ("import os; os._exit(0)", "by itself with exit code 0"),
+        ("import os; os._exit(2)", "by itself with exit code 2"),
+        ("import os; os.kill(os.getpid(), 9)", "by signal SIGKILL"),
+    ],
+)
+def test_a_program_that_ends_itself_is_told(
+    lamps: Path, code: str, ending: str, capfd: pytest.CaptureFixture[str]
+) -> None:
+    (lamps / "lamp.yaml").write_text(LAMP.replace("self.count = 1", code), encoding="utf-8")
+    assert vicode("run", "lamps/lamp.yaml", "--ticks", "3") == 1
+    assert capfd.readouterr().err.splitlines()[-1] == f"the program ended {ending}"
+
+
+def test_a_mistake_before_the_start_is_one_line(lamps: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    text = LAMP.replace("initial: Dark\n", "initial: Dark\nmodule: 1 / 0\n")
+    (lamps / "lamp.yaml").write_text(text, encoding="utf-8")
+    assert vicode("run", "lamps/lamp.yaml") == 2
+    err = capfd.readouterr().err
+    assert err.count("\n") == 1
+    assert "lamp.yaml, module, line 1: ZeroDivisionError" in err
+
+
+@pytest.mark.parametrize("arguments", [("--seconds", "nan"), ("--ticks", "-3"), ("--tick-ms", "-5")])
+def test_numbers_without_sense_are_refused(lamps: Path, arguments: tuple[str, str]) -> None:
+    assert vicode("run", "lamps/lamp.yaml", *arguments) == 2
+
+
+def test_the_runtimes_own_stops_can_be_asked_for(lamps: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    assert vicode("run", "lamps/bulb.yaml", "--until-done") == 0
+    assert "stopped: done" in capfd.readouterr().out
+    (lamps / "lamp.yaml").write_text(LAMP.replace("self.count = 1", "1 / 0"), encoding="utf-8")
+    assert vicode("run", "lamps/lamp.yaml", "--on-error", "stop") == 1
+    assert "stopped: error" in capfd.readouterr().out

@@ -1,0 +1,129 @@
+"""`vicode xabsl`: its commands as one types them."""
+
+import json
+import os
+import shutil
+from pathlib import Path
+
+import pytest
+
+from tests.xabsl.xabsl_cases import CASES, parse_words, read_case
+from vicode.cli.entry_point import main
+
+CIRCLE = CASES / "programs" / "drive_circle"
+
+
+def test_a_behavior_is_compiled_and_run(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    code, symbols, trace = (tmp_path / name for name in ("circle.dat", "circle.sym", "circle.jsonl"))
+    assert main(["xabsl", "compile", str(CIRCLE / "agents.xabsl"), "-o", str(code), "--symbols", str(symbols)]) == 0
+    assert parse_words(code.read_text()) == parse_words(read_case("drive_circle", "intermediate.dat"))
+    inputs = ["--symbols", str(symbols), "--inputs", str(CIRCLE / "inputs.csv")]
+    assert main(["xabsl", "run", str(code), *inputs, "--trace", str(trace)]) == 0
+    wanted = [json.loads(line) for line in read_case("drive_circle", "trace.jsonl").splitlines()]
+    assert [json.loads(line) for line in trace.read_text().splitlines()] == wanted
+    assert main(["xabsl", "run", str(code), *inputs, "--bench", "3"]) == 0
+    assert "cycles a second" in capsys.readouterr().out
+
+
+def test_the_file_with_the_agents_is_found_or_named(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    shutil.copytree(CIRCLE, tmp_path / "circle")
+    monkeypatch.chdir(tmp_path)
+    option = "circle/Options/drive_circle.xabsl"
+    for command in (["xabsl", "compile", option], ["import", option, "--out", "made"], ["docs", option]):
+        assert main(command) == 2
+        assert f"{option} has no agents; name the file that has them: circle/agents.xabsl" in capsys.readouterr().err
+    assert main(["check", "circle"]) == 2
+    assert "'vicode import circle/agents.xabsl' makes designs" in capsys.readouterr().err
+    assert main(["docs", "circle", "--out", "site"]) == 0
+    assert (tmp_path / "site" / "component-drive_circle.html").is_file()
+    shutil.copytree(CIRCLE, tmp_path / "other")
+    assert main(["docs", ".", "--out", "site"]) == 2
+    assert "holds several behaviors; name one of circle/agents.xabsl, other/agents.xabsl" in capsys.readouterr().err
+
+
+def test_without_output_the_code_is_printed(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["xabsl", "compile", str(CIRCLE / "agents.xabsl")]) == 0
+    assert parse_words(capsys.readouterr().out) == parse_words(read_case("drive_circle", "intermediate.dat"))
+
+
+def test_nothing_is_written_where_something_is_wrong(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    shutil.copytree(CIRCLE, tmp_path / "circle")
+    file = tmp_path / "circle" / "Options" / "drive_circle.xabsl"
+    file.write_text(file.read_text().replace("goto stop", "goto stopp"))
+    agents, code = str(tmp_path / "circle" / "agents.xabsl"), tmp_path / "circle.dat"
+    assert main(["xabsl", "compile", agents, "-o", str(code)]) == 1
+    said = capsys.readouterr().err
+    assert "did you mean 'stop'?" in said
+    assert "^^^^^" in said
+    assert not code.exists()
+    assert main(["xabsl", "check", agents, "--json"]) == 1
+    (finding,) = [each for each in json.loads(capsys.readouterr().out) if each["severity"] == "error"]
+    assert (finding["code"], finding["file"]) == ("X621", str(file))
+
+
+def test_strict_refuses_slips(tmp_path: Path) -> None:
+    shutil.copytree(CIRCLE, tmp_path / "circle")
+    agents = tmp_path / "circle" / "agents.xabsl"
+    assert main(["xabsl", "check", str(agents), "--strict"]) == 0
+    agents.write_text(agents.read_text() + "// no line break")
+    assert main(["xabsl", "check", str(agents)]) == 0
+    assert main(["xabsl", "check", str(agents), "--strict"]) == 1
+
+
+def test_files_are_laid_out_once(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    shutil.copytree(CIRCLE, tmp_path / "circle")
+    (tmp_path / "circle" / "broken.xabsl").write_text("option {")
+    option = tmp_path / "circle" / "Options" / "drive_circle.xabsl"
+    before = option.read_text()
+    option.write_text(before.replace("  ", " "))
+    assert main(["xabsl", "format", "--check", str(tmp_path)]) == 1
+    assert f"{option}: would change" in capsys.readouterr().out
+    assert main(["xabsl", "format", str(tmp_path)]) == 1
+    assert "broken.xabsl: not formatted" in capsys.readouterr().err
+    (tmp_path / "circle" / "broken.xabsl").unlink()
+    assert main(["xabsl", "format", "--check", str(tmp_path)]) == 0
+    assert main(["xabsl", "compile", str(tmp_path / "circle" / "agents.xabsl")]) == 0
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "told"),
+    [
+        ("code", "0 0 1", "the code ends too early"),
+        ("symbols", "din", "line 1: words are missing"),
+        ("inputs", "time,nothing\n0,3\n", "no input symbol nothing"),
+        ("inputs", "time,amount_turned\n0,many\n", "many is no number"),
+        ("inputs", "time,amount_turned\n0,3,4\n", "line 2: more cells than columns"),
+        ("symbols", "bb turn 1 d turn.speed\n", "decimal input symbol amount_turned is not registered"),
+    ],
+)
+def test_files_that_do_not_fit_are_told(
+    name: str, text: str, told: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    given = {"code": CIRCLE / "intermediate.dat", "symbols": CIRCLE / "symbols.txt", "inputs": CIRCLE / "inputs.csv"}
+    given[name] = tmp_path / name
+    given[name].write_text(text)
+    files = ["--symbols", str(given["symbols"]), "--inputs", str(given["inputs"])]
+    assert main(["xabsl", "run", str(given["code"]), *files]) == 1
+    assert told in capsys.readouterr().err
+
+
+def test_a_file_that_is_not_there_is_told(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["xabsl", "compile", "nowhere.xabsl"]) == 1
+    assert "nowhere.xabsl cannot be read" in capsys.readouterr().err
+    assert main(["xabsl", "run", "nowhere.dat", "--symbols", "x", "--inputs", "y"]) == 2
+
+
+# Behaviors of teams, fetched by whoever wants to try them: paths of files with agents, divided by colons.
+BEHAVIORS = [path for path in os.environ.get("VICODE_XABSL_BEHAVIORS", "").split(":") if path]
+
+
+@pytest.mark.parametrize("agents", BEHAVIORS or [str(CIRCLE / "agents.xabsl")])
+def test_behaviors_of_teams_compile_without_errors(agents: str, tmp_path: Path) -> None:
+    """Beside each may lie `intermediate.dat`, what the original compiler made of it."""
+    code = tmp_path / "code.dat"
+    assert main(["xabsl", "compile", agents, "-o", str(code)]) == 0
+    original = Path(agents).with_name("intermediate.dat")
+    if original.exists():
+        assert parse_words(code.read_text()) == parse_words(original.read_text())

@@ -1,0 +1,271 @@
+"""Drawings taken out: every form is well made, shows what the design says, and holds no markup from it."""
+
+import re
+from io import BytesIO
+from itertools import combinations
+from pathlib import Path
+from xml.etree import ElementTree
+
+import pytest
+from pypdf import PdfReader
+
+from tests.diagram.diagram_designs import HOSTILE_NAMES, ring_design, shipped_designs
+from vicode.diagram.diagram_model import build_diagram
+from vicode.diagram.edge_routing import route_edges
+from vicode.diagram.export import export_design
+from vicode.diagram.export_formats import ExportFormat, ExportOptions
+from vicode.diagram.palettes import DARK, LIGHT, ColorPalette
+from vicode.diagram.spatial_index import Rect
+from vicode.model.design import Code, CommonSection, DecisionGroup, Design, Guard, State, Transition, Use
+
+CANVAS_SHEET = Path(__file__).parents[2] / "vicode" / "editor" / "canvas" / "js" / "canvas.css"
+SVG = "{http://www.w3.org/2000/svg}"
+DESIGNS = {design.component: design for design in shipped_designs()}
+
+
+def everything() -> Design:
+    """A small design with each thing that is drawn in a way of its own."""
+    look = State(
+        name="Look",
+        requires=("eyes",),
+        enter=(),
+        transitions=(
+            Transition(to="end", guard=Guard(when="eyes.seen and x > 3")),
+            DecisionGroup(guard=Guard(when="eyes.far"), then=(Transition(to="Look", guard=Guard(after="2.5")),)),
+            Transition(to="end", guard=Guard(code=Code(texts=(("python", "return True"),)))),
+        ),
+    )
+    return Design(
+        component="Everything",
+        doc="Look & see.",
+        initial="Look",
+        uses=(Use(alias="eyes", component="Eyes"),),
+        common=CommonSection(transitions=(Transition(to="Look", guard=Guard(when="fallen")),)),
+        states=(look, State(name="end", final=True), State(name="2nd")),
+    )
+
+
+def svg_of(design: Design, wish: ExportOptions | None = None) -> ElementTree.Element:
+    return ElementTree.fromstring(export_design(design, ExportFormat.SVG, wish))
+
+
+def texts_of(root: ElementTree.Element) -> list[str]:
+    return [element.text or "" for element in root.iter(f"{SVG}text")]
+
+
+@pytest.mark.parametrize("component", sorted(DESIGNS))
+def test_svg_shows_every_state(component: str) -> None:
+    design = DESIGNS[component]
+    texts = texts_of(svg_of(design))
+    assert {state.name for state in design.states} <= set(texts)
+    assert {use.alias for use in design.uses} <= set(texts)
+
+
+def test_svg_draws_what_is_chosen() -> None:
+    player = DESIGNS["Player"]
+    without_links = texts_of(svg_of(player, ExportOptions(links=False)))
+    assert "Kick" in without_links
+    assert "perception" not in without_links
+    part = texts_of(svg_of(player, ExportOptions(only=frozenset({"Kick", "WatchBall"}))))
+    assert {"Kick", "WatchBall", "kicker", "kicked"} <= set(part)
+    assert not {"LookForBall", "search_ball", "every state"} & set(part)
+
+
+def test_svg_holds_everything_it_draws() -> None:
+    root = svg_of(DESIGNS["Player"])
+    left, top, width, height = map(float, root.attrib["viewBox"].split())
+    for element in root.iter(f"{SVG}text"):
+        assert left < float(element.attrib["x"]) < left + width
+        assert top < float(element.attrib["y"]) < top + height
+
+
+@pytest.mark.parametrize("form", list(ExportFormat))
+def test_hostile_texts_are_only_texts(form: ExportFormat) -> None:
+    states = tuple(
+        State(name=name, doc=name, transitions=(Transition(to=name, doc=name, guard=Guard(when=name)),))
+        for name in HOSTILE_NAMES
+    )
+    uses = tuple(Use(alias=name, component=name) for name in HOSTILE_NAMES)
+    design = Design(component='</title><script>"', doc="]]>", initial=HOSTILE_NAMES[0], states=states, uses=uses)
+    content = export_design(design, form, ExportOptions(scale=0.5))
+    assert content
+    if form is ExportFormat.SVG:
+        root = ElementTree.fromstring(content)
+        known = {"svg", "title", "desc", "rect", "g", "path", "text"}
+        assert {element.tag.removeprefix(SVG) for element in root.iter()} <= known
+    if form in (ExportFormat.MERMAID, ExportFormat.PLANTUML):
+        lines = content.decode().splitlines()
+        assert not [line for line in lines if "<script" in line or "<b>" in line]
+
+
+@pytest.mark.parametrize("form", list(ExportFormat))
+def test_a_design_without_states_can_be_taken_out(form: ExportFormat) -> None:
+    assert export_design(Design(component="Nothing"), form)
+
+
+def test_png_has_the_size_asked_for() -> None:
+    root = svg_of(DESIGNS["Player"])
+    content = export_design(DESIGNS["Player"], ExportFormat.PNG, ExportOptions(scale=1.5))
+    assert content[:8] == b"\x89PNG\r\n\x1a\n"
+    width, height = int.from_bytes(content[16:20]), int.from_bytes(content[20:24])
+    assert width == pytest.approx(float(root.attrib["width"]) * 1.5, abs=2)
+    assert height == pytest.approx(float(root.attrib["height"]) * 1.5, abs=2)
+
+
+def test_pdf_can_be_read_and_searched() -> None:
+    content = export_design(DESIGNS["Player"], ExportFormat.PDF)
+    reader = PdfReader(BytesIO(content))
+    (page,) = reader.pages
+    text = page.extract_text()
+    assert "LookForBall" in text
+    assert "ball lost" in text
+    assert reader.metadata is not None
+    assert reader.metadata.title == "Player"
+    assert export_design(DESIGNS["Player"], ExportFormat.PDF) == content
+
+
+def test_pdf_shows_letters_that_helvetica_has_not() -> None:
+    state = State(name="A", transitions=(Transition(to="B", doc="α → β", guard=Guard(when="x" * 40)),))
+    design = Design(component="Greek", initial="A", states=(state, State(name="B")))
+    text = PdfReader(BytesIO(export_design(design, ExportFormat.PDF))).pages[0].extract_text()
+    assert "α" in text
+
+
+@pytest.mark.nightly
+def test_large_designs_fit_into_what_the_forms_allow() -> None:
+    design = ring_design(400)
+    page = PdfReader(BytesIO(export_design(design, ExportFormat.PDF))).pages[0]
+    assert max(page.mediabox.width, page.mediabox.height) <= 14_400
+    assert export_design(design, ExportFormat.SVG).count(b'class="state"') == 400
+
+
+def test_mermaid() -> None:
+    assert export_design(everything(), ExportFormat.MERMAID).decode() == (
+        "---\n"
+        'title: "Everything"\n'
+        "---\n"
+        "stateDiagram-v2\n"
+        "    direction LR\n"
+        "    Look\n"
+        '    state "end" as s_end\n'
+        '    state "2nd" as s_2nd\n'
+        '    state "every state" as s_2\n'
+        "    [*] --> Look\n"
+        "    s_2 --> Look : fallen\n"
+        "    Look --> s_end : 1. eyes.seen and x #62; 3\n"
+        "    Look --> Look : 2. eyes.far #8250; after 2.5 s\n"
+        "    Look --> s_end : 3. #123; code #125;\n"
+        "    s_end --> [*]\n"
+    )
+
+
+@pytest.mark.parametrize("component", sorted(DESIGNS))
+def test_mermaid_follows_its_grammar(component: str) -> None:
+    lines = export_design(DESIGNS[component], ExportFormat.MERMAID).decode().splitlines()
+    name = r"(\[\*\]|[A-Za-z]\w*)"
+    # What the lexer of stateDiagram-v2 takes: no colon, semicolon, quote or bracket inside a text.
+    form = re.compile(
+        rf'    ({name} --> {name}( : [^:;"<>{{}}\[\]%#]*(#\d+;[^:;"<>{{}}\[\]%#]*)*)?|state "[^"]+" as \w+|\w+)'
+    )
+    assert lines[:5] == ["---", f'title: "{component}"', "---", "stateDiagram-v2", "    direction LR"]
+    assert [line for line in lines[5:] if not form.fullmatch(line)] == []
+
+
+def test_what_is_disabled_is_drawn_set_back_and_not_listed() -> None:
+    away = Transition(to="Off", guard=Guard(when="x"))
+    design = Design(
+        component="Half", initial="On", states=(State(name="On", transitions=(away,)), State(name="Off", disabled=True))
+    )
+    struck = [each.text for each in svg_of(design).iter(f"{SVG}text") if "text-decoration" in each.attrib]
+    assert sorted(struck, key=str) == ["Off", "x"]
+    assert "Off" not in export_design(design, ExportFormat.MERMAID).decode()
+
+
+def test_a_label_stays_where_it_was_put() -> None:
+    def at(label_at: tuple[float, float] | None) -> tuple[float, float]:
+        away = Transition(to="B", guard=Guard(when="x"), label_at=label_at)
+        states = (State(name="A", at=(0, 0), transitions=(away,)), State(name="B", at=(400, 0)))
+        (route,) = route_edges(build_diagram(Design(component="D", initial="A", states=states)))
+        return route.label_position
+
+    assert at(None) == pytest.approx((200, 0))
+    # A quarter of the way, and 20 pixels to the right of who walks from A to B.
+    x, y = at((0.25, 20))
+    assert x < 150
+    assert y == pytest.approx(20)
+
+
+def test_plantuml() -> None:
+    text = export_design(everything(), ExportFormat.PLANTUML).decode()
+    lines = text.splitlines()
+    assert (lines[0], lines[-1]) == ("@startuml", "@enduml")
+    assert 'state "end" as s_end' in lines
+    assert "[*] --> Look" in lines
+    assert "Look --> s_end : 1. eyes.seen and x <U+003E> 3" in lines
+    assert "Look --> Look : 2. eyes.far <U+203A> after 2.5 s" in lines
+    assert "s_2 -[dashed]-> Look : fallen" in lines
+    assert "s_end --> [*]" in lines
+
+
+def test_dot_is_drawn_by_graphviz() -> None:
+    import pygraphviz
+
+    graph = pygraphviz.AGraph(string=export_design(DESIGNS["Player"], ExportFormat.DOT).decode())
+    labels = {node.attr["label"] for node in graph.nodes()}
+    assert {"LookForBall", "perception", "every state"} <= labels
+    # A used component is linked, and every transition has an arrow of its own.
+    assert len(graph.edges()) == len(re.findall("->", export_design(DESIGNS["Player"], ExportFormat.DOT).decode()))
+    plain = pygraphviz.AGraph(
+        string=export_design(DESIGNS["Player"], ExportFormat.DOT, ExportOptions(links=False)).decode()
+    )
+    assert "perception" not in {node.attr["label"] for node in plain.nodes()}
+
+
+@pytest.mark.parametrize(("palette", "selector"), [(LIGHT, ".stage {"), (DARK, '.stage[data-theme="dark"] {')])
+def test_colours_are_those_of_the_canvas(palette: ColorPalette, selector: str) -> None:
+    sheet = CANVAS_SHEET.read_text(encoding="utf-8")
+    rules = sheet.split(selector, 1)[1].split("}", 1)[0]
+    shown = dict(re.findall(r"--([\w-]+):\s*(#[0-9a-f]{6})", rules))
+    names = [name for name in ColorPalette.__dataclass_fields__ if name.replace("_", "-") in shown]
+    assert len(names) > 10
+    for name in names:
+        assert getattr(palette, name) == shown[name.replace("_", "-")], name
+
+
+@pytest.mark.parametrize(
+    ("form", "mark"), [(ExportFormat.MERMAID, "%% "), (ExportFormat.PLANTUML, "' "), (ExportFormat.DOT, "// ")]
+)
+def test_a_text_says_what_leads_to_no_state(form: ExportFormat, mark: str) -> None:
+    gone = Transition(to="Gone\nend")
+    lost = Design(
+        component="Lost",
+        initial="A",
+        common=CommonSection(transitions=(Transition(to="Nowhere"),)),
+        states=(State(name="A", transitions=(gone, Transition(to="B"))), State(name="B")),
+    )
+    lines = [line.strip() for line in export_design(lost, form).decode().splitlines()]
+    said = [line for line in lines if "not drawn" in line]
+    assert said == [
+        f"{mark}not drawn: every state to Nowhere, as there is no such state",
+        f"{mark}not drawn: A to Gone end, as there is no such state",
+    ]
+    # What is left out because only some states are wanted is nobody's mistake.
+    some = export_design(lost, form, ExportOptions(only=frozenset({"B"}))).decode()
+    assert "A to" not in some
+
+
+def test_no_label_hides_another_where_there_is_little_room() -> None:
+    guard = Guard(when="state_time > 0 and (motion.head_target_reached or motion.head_got_stuck)")
+    names = ("A", "B", "C", "D", "E", "F")
+    states = tuple(
+        State(
+            name=name,
+            at=(220 * (index % 3), 100 * (index // 3)),
+            transitions=tuple(Transition(to=to, guard=guard) for to in names if (index + names.index(to)) % 3),
+        )
+        for index, name in enumerate(names)
+    )
+    routes = route_edges(build_diagram(Design(component="D", initial="A", states=states)))
+    labels = [Rect.from_center(route.label_position, route.label.size) for route in routes if route.label]
+    assert len(labels) == 24
+    assert not [(one, other) for one, other in combinations(labels, 2) if one.overlaps(other)]

@@ -1,0 +1,72 @@
+"""Every file of a design as it would be written, with the lines of each thing and what was edited on disk."""
+
+from dataclasses import replace
+from pathlib import Path
+
+from vicode.editor.session.code_preview import preview_code
+from vicode.editor.view import ItemRef
+from vicode.generators import generate
+from vicode.model.design import Design, Guard, State, Transition
+from vicode.model.project import Project
+from vicode.output import apply_diffs, compare_files
+from vicode.store import open_project
+
+ROOT = Path(__file__).parents[3]
+PROJECT = open_project(ROOT / "designs" / "forward").project
+PLAYER = next(design for design in PROJECT.designs if design.component == "Player")
+
+
+def test_the_component_comes_first_then_what_is_shared() -> None:
+    shown = preview_code(PROJECT, PLAYER, {})
+    assert [file.path for file in shown.files] == [
+        "python/forward/player.py",
+        "python/forward/__init__.py",
+        "python/forward/declarations.py",
+    ]
+    assert shown.files[0].text == next(each.text for each in generate(PROJECT) if each.path.endswith("player.py"))
+    assert shown.files[1].origins == ()
+
+
+def test_lines_and_things_lead_to_each_other() -> None:
+    file = preview_code(PROJECT, PLAYER, {}).files[0]
+    for thing in (
+        ItemRef(kind="states", id="Kick"),
+        ItemRef(kind="transitions", id="Kick/0"),
+        ItemRef(kind="transitions", id="@common/0"),
+    ):
+        first, last = file.item_lines(thing)
+        assert 0 < first <= last
+    first, _last = file.item_lines(ItemRef(kind="transitions", id="Kick/0"))
+    assert file.item_at(first) == ItemRef(kind="transitions", id="Kick/0")
+    assert file.item_at(1) is None
+    assert file.item_lines(ItemRef(kind="states", id="Nobody")) == (0, 0)
+
+
+def test_every_language_is_shown_or_says_why_not() -> None:
+    states = (State(name="A", transitions=(Transition(to="B", guard=Guard(after="1")),)), State(name="B", final=True))
+    design = Design(component="One", initial="A", states=states)
+    project = Project(name="Both", languages=("python", "xabsl"), designs=(design,))
+    shown = preview_code(project, design, {})
+    option = next(file for file in shown.files if file.path == "xabsl/both/Options/One.xabsl")
+    first, last = option.item_lines(ItemRef(kind="transitions", id="A/0"))
+    assert "goto B;" in "\n".join(option.text.split("\n")[first - 1 : last])
+    assert option.item_at(last) == ItemRef(kind="transitions", id="A/0")
+    shown = preview_code(project, replace(design, resume=True), {})
+    assert {file.language for file in shown.files} == {"python"}
+    assert shown.note.startswith("No code for xabsl yet: ")
+
+
+def test_a_design_with_mistakes_or_without_a_language_says_so() -> None:
+    assert preview_code(PROJECT, replace(PLAYER, initial="Nowhere"), {}).note.startswith("No code yet")
+    assert "klingon" in preview_code(replace(PROJECT, languages=("klingon",)), PLAYER, {}).note
+
+
+def test_regions_edited_on_disk_are_told(tmp_path: Path) -> None:
+    apply_diffs(compare_files(generate(PROJECT), tmp_path), tmp_path)
+    assert preview_code(PROJECT, PLAYER, {}, tmp_path).files[0].edited_regions == ()
+    file = tmp_path / "python" / "forward" / "player.py"
+    file.write_text(file.read_text().replace("import logging\n", "import logging\nimport math\n"))
+    shown = preview_code(PROJECT, PLAYER, {}, tmp_path).files[0]
+    assert shown.edited_regions == ("module",)
+    lines = shown.text.split("\n")
+    assert {lines[at - 1] for at in shown.edited_lines()} >= {"import logging"}

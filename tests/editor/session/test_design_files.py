@@ -1,0 +1,163 @@
+"""Whole designs: renamed with all their uses, copied, thrown away, put back, made from templates."""
+
+from pathlib import Path
+
+import pytest
+
+from tests.editor.session.conftest import texts_of
+from vicode.check import check_project
+from vicode.editor.session import Library, Workspace, rename_component, templates, trash
+from vicode.editor.session.overview import ProjectOverview
+from vicode.findings import Severity
+from vicode.store import open_project
+
+
+def assert_sound(folder: Path) -> None:
+    opened = open_project(folder)
+    findings = [*opened.findings, *check_project(opened.project)]
+    assert [each for each in findings if each.severity is Severity.ERROR] == []
+
+
+def test_a_renaming_changes_every_name_and_nothing_else(workspace: Workspace, folder: Path) -> None:
+    before = texts_of(folder)
+    plan = rename_component.plan_component_rename(workspace, "Player", "Striker")
+    assert texts_of(folder) == before
+    assert [change.file.name for change in plan.changes] == ["striker.yaml", "project.yaml"]
+    assert rename_component.apply_component_rename(workspace, plan) == ""
+    after = texts_of(folder)
+    assert after["striker.yaml"] == before["player.yaml"].replace("component: Player", "component: Striker")
+    assert after["project.yaml"] == before["project.yaml"].replace("root: Player", "root: Striker")
+    assert workspace.project.design("Striker") is not None
+    assert workspace.project.design("Player") is None
+    assert workspace.removed_components == {"Player": "Striker"}
+    assert_sound(folder)
+
+
+def test_a_renaming_can_be_taken_back(workspace: Workspace, folder: Path) -> None:
+    before = texts_of(folder)
+    assert workspace.open_document("Player") is not None
+    for old, new in (("FaceBall", "LookAtBall"), ("LookAtBall", "FaceBall")):
+        plan = rename_component.plan_component_rename(workspace, old, new)
+        assert {change.file.name for change in plan.changes} >= {"player.yaml", "follow_ball.yaml"}
+        assert rename_component.apply_component_rename(workspace, plan) == ""
+        assert_sound(folder)
+    assert texts_of(folder) == before
+    player = workspace.open_document("Player")
+    assert player is not None
+    assert player.is_saved
+    assert {use.component for use in player.design.uses} >= {"FaceBall"}
+
+
+def test_whoever_is_killed_in_the_middle_leaves_a_sound_project(workspace: Workspace, folder: Path) -> None:
+    plan = rename_component.plan_component_rename(workspace, "FaceBall", "LookAtBall")
+    for change in plan.changes:
+        change.file.write_text(change.new)
+        assert_sound(folder)
+        assert (folder / "face_ball.yaml").exists()
+
+
+@pytest.mark.parametrize(
+    ("new", "words"),
+    [
+        ("Turn", "already a component Turn"),
+        ("Perception", "already a component Perception"),
+        ("1st", "letters, digits"),
+        ("../x", "letters, digits"),
+        ("FaceBall", "its name already"),
+        ("Taken", "already a file taken.yaml"),
+    ],
+)
+def test_a_renaming_is_refused_in_words(workspace: Workspace, folder: Path, new: str, words: str) -> None:
+    (folder / "taken.yaml").write_text("nothing: of ours\n")
+    before = texts_of(folder)
+    plan = rename_component.plan_component_rename(workspace, "FaceBall", new)
+    assert words in plan.error
+    assert plan.changes == ()
+    assert texts_of(folder) == before
+
+
+def test_unsaved_work_and_other_programs_come_first(workspace: Workspace, folder: Path) -> None:
+    player = workspace.open_document("Player")
+    assert player is not None
+    player.edit("doc", lambda design: design.__class__(component="Player", doc="mine"))
+    player.undo()
+    plan = rename_component.plan_component_rename(workspace, "FaceBall", "LookAtBall")
+    assert plan.error == ""
+    file = folder / "follow_ball.yaml"
+    file.write_text(file.read_text() + "# theirs\n")
+    assert "just changed by another program" in rename_component.apply_component_rename(workspace, plan)
+    assert (folder / "face_ball.yaml").exists()
+    player.edit("add", lambda design: design.__class__(component="Player", uses=design.uses, states=design.states))
+    assert (
+        "Player has unsaved changes"
+        in rename_component.plan_component_rename(workspace, "FaceBall", "LookAtBall").error
+    )
+
+
+def test_a_copy_keeps_comments(workspace: Workspace, folder: Path) -> None:
+    name = trash.copy_name(workspace, "Player")
+    trash.duplicate_design(workspace, "Player", name)
+    assert name == "Player2"
+    text = (folder / "player2.yaml").read_text()
+    assert text == (folder / "player.yaml").read_text().replace("component: Player", "component: Player2")
+    assert_sound(folder)
+
+
+def test_what_is_thrown_away_can_be_put_back(
+    workspace: Workspace, folder: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    # Where desktops of Linux keep their trash; elsewhere the system's own is used and not looked into.
+    monkeypatch.setenv("XDG_DATA_HOME", str(tmp_path / "data"))
+    before = (folder / "turn.yaml").read_bytes()
+    assert trash.find_dependents(workspace, "Turn") == ("Body",)
+    thrown = trash.move_to_trash(workspace, "Turn")
+    assert not (folder / "turn.yaml").exists()
+    assert workspace.project.design("Turn") is None
+    assert workspace.removed_components == {"Turn": ""}
+    assert trash.restore_from_trash(workspace, thrown) == ""
+    assert (folder / "turn.yaml").read_bytes() == before
+    assert workspace.project.design("Turn") is not None
+    assert workspace.removed_components == {}
+    assert "another turn.yaml" in trash.restore_from_trash(workspace, thrown)
+
+
+def test_unsaved_work_is_not_thrown_away(workspace: Workspace) -> None:
+    turn = workspace.open_document("Turn")
+    assert turn is not None
+    turn.edit("doc", lambda design: design.__class__(component="Turn"))
+    assert "unsaved changes" in trash.validate_move_to_trash(workspace, "Turn")
+
+
+@pytest.mark.parametrize("template", templates.list_templates(), ids=lambda template: template.name)
+def test_every_template_makes_a_sound_design(workspace: Workspace, folder: Path, template: templates.Template) -> None:
+    text = templates.instantiate_template(template, "Fresh", workspace.project)
+    workspace.create("Fresh", text)
+    assert (folder / "fresh.yaml").read_text() == text
+    assert_sound(folder)
+    assert workspace.project.design("Fresh") is not None
+
+
+def test_a_template_follows_what_the_project_can_see(workspace: Workspace) -> None:
+    template = next(each for each in templates.list_templates() if each.name == "follow_what_is_seen")
+    text = templates.instantiate_template(template, "Fresh", workspace.project)
+    assert "perception.ball_seen" in text
+    assert "sense" not in text
+
+
+def test_the_overview_counts_findings_and_names_what_is_broken(folder: Path) -> None:
+    (folder / "wobbly.yaml").write_text("vicode: 1\ncomponent: Wobbly\nstates: {A: {transitions: [{to: B}]}}\n")
+    (folder / "broken.yaml").write_text("vicode: 1\ncomponent: Broken\nstates: [\n")
+    workspace = Library(folder).workspaces[0]
+    overview = ProjectOverview(workspace)
+    cards = {card.component: card for card in overview.cards()}
+    assert cards["Wobbly"].counts[Severity.ERROR] >= 1
+    assert cards["Player"].counts == {}
+    assert cards["Player"].is_root
+    (broken,) = overview.broken_files()
+    assert (broken.file, broken.line) == ("broken.yaml", 3)
+    kicker = next(each for each in overview.hand_written_components() if each.component == "Kicker")
+    assert kicker.used_by == ("Player",)
+    document = workspace.open_document("Wobbly")
+    assert document is not None
+    document.edit("states", lambda design: design.__class__(component="Wobbly"))
+    assert {card.component for card in overview.cards() if card.is_unsaved} == {"Wobbly"}

@@ -1,0 +1,85 @@
+"""What the documentation is about while a project is edited."""
+
+import shutil
+from dataclasses import replace
+from pathlib import Path
+
+from vicode.docsite import build_site
+from vicode.editor.session import Workspace
+from vicode.editor.session.docs_snapshot import load_docs_subject, take_snapshot
+from vicode.store import save_design
+
+ROOT = Path(__file__).parents[3]
+
+
+def open_forward(folder: Path) -> Workspace:
+    shutil.copytree(ROOT / "designs/forward", folder / "forward")
+    return Workspace(folder=folder / "forward", key="forward")
+
+
+def rename_doc(workspace: Workspace, doc: str) -> None:
+    document = workspace.open_document("Turn")
+    assert document is not None
+    document.edit("doc", lambda design: replace(design, doc=doc))
+
+
+def test_the_site_of_unsaved_work_is_that_of_the_saved(tmp_path: Path) -> None:
+    workspace = open_forward(tmp_path)
+    rename_doc(workspace, "Turns around.")
+    unsaved = take_snapshot(workspace)
+    drafted = build_site(load_docs_subject(unsaved))
+    document = workspace.open_document("Turn")
+    assert document is not None
+    workspace.save(document)
+    workspace.sync_from_disk()
+    saved = take_snapshot(workspace)
+    assert saved != unsaved
+    assert not saved.unsaved_designs
+    assert build_site(load_docs_subject(saved)) == drafted
+    assert any("Turns around." in file.text for file in drafted)
+
+
+def test_findings_are_those_of_the_draft(tmp_path: Path) -> None:
+    workspace = open_forward(tmp_path)
+    assert not load_docs_subject(take_snapshot(workspace)).findings
+    document = workspace.open_document("Turn")
+    assert document is not None
+    document.edit("initial", lambda design: replace(design, initial="Nowhere"))
+    subject = load_docs_subject(take_snapshot(workspace))
+    assert {each.component for each in subject.findings} == {"Turn"}
+    assert "Turn" in subject.components_with_errors["python"]
+
+
+def test_a_broken_file_spoils_only_itself(tmp_path: Path) -> None:
+    workspace = open_forward(tmp_path)
+    (tmp_path / "forward/turn.yaml").write_text("vicode: 1\ncomponent: [")
+    subject = load_docs_subject(take_snapshot(workspace))
+    assert subject.project.design("Turn") is None
+    # Body uses it; nothing else is concerned.
+    assert subject.components_with_errors["python"] == {"(broken)", "Body"}
+
+
+def test_a_draft_that_no_file_can_hold_is_described_all_the_same(tmp_path: Path) -> None:
+    workspace = open_forward(tmp_path)
+    document = workspace.open_document("Player")
+    assert document is not None
+    document.edit("twice", lambda design: replace(design, states=(*design.states, design.states[0])))
+    snapshot = take_snapshot(workspace)
+    try:
+        save_design(document.design, document.shared.disk_text)
+    except ValueError:
+        subject = load_docs_subject(snapshot)
+        assert subject.project.design("Player") == document.design
+    else:
+        raise AssertionError("a file can hold it")
+
+
+def test_a_finding_of_the_file_is_told_once_beside_a_draft(tmp_path: Path) -> None:
+    workspace = open_forward(tmp_path)
+    file = tmp_path / "forward/turn.yaml"
+    file.write_text(f"{file.read_text().rstrip()}\nstrange: 1\n")
+    workspace.sync_from_disk()
+    rename_doc(workspace, "Turns\n\naround.\n")
+    snapshot = take_snapshot(workspace)
+    assert "Turn" in snapshot.unsaved_designs
+    assert [each.component for each in load_docs_subject(snapshot).findings] == ["Turn"]

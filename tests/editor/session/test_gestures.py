@@ -1,0 +1,225 @@
+"""Gestures of the canvas become edits of the open design; what they cannot mean changes nothing."""
+
+from pathlib import Path
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from vicode.editor.session import DocumentSession, SharedDocument, apply_gesture
+from vicode.editor.view import ItemRef
+from vicode.model.design import COMMON, Call, DecisionGroup, Design, Guard, State, Transition, Use
+from vicode.model.traversal import iter_transitions
+
+DESIGN = Design(
+    component="Player",
+    initial="A",
+    uses=(Use(alias="head", component="Head"),),
+    states=(
+        State(
+            name="A", transitions=(Transition(to="B"), DecisionGroup(guard=Guard(when="x"), then=(Transition(to="A"),)))
+        ),
+        State(name="B"),
+    ),
+)
+
+
+@pytest.fixture
+def document() -> DocumentSession:
+    return DocumentSession(
+        SharedDocument(file=Path("player.yaml"), disk_text="", saved=DESIGN, check=lambda _design: ())
+    )
+
+
+def names(document: DocumentSession) -> list[str]:
+    return [state.name for state in document.design.states]
+
+
+def arrows(document: DocumentSession) -> list[tuple[str, str]]:
+    found = iter_transitions(document.design)
+    return [(at.source, at.decision.to) for at in found if isinstance(at.decision, Transition)]
+
+
+def test_create_selects_the_new_state_for_naming(document: DocumentSession) -> None:
+    outcome = apply_gesture(document, {"kind": "create", "x": 10.4, "y": 20})
+    assert outcome.state_to_rename == "State"
+    assert outcome.new_selection == (ItemRef(kind="states", id="State"),)
+    assert document.design.states[-1].at == (10, 20)
+    apply_gesture(document, {"kind": "create", "x": 0, "y": 0})
+    assert names(document) == ["A", "B", "State", "State2"]
+
+
+def test_connect_to_a_state_to_itself_and_to_nowhere(document: DocumentSession) -> None:
+    outcome = apply_gesture(document, {"kind": "connect", "source": "B", "target": "A", "x": None, "y": None})
+    assert outcome.new_selection == (ItemRef(kind="transitions", id="B/0"),)
+    apply_gesture(document, {"kind": "connect", "source": "B", "target": "B"})
+    apply_gesture(document, {"kind": "connect", "source": "B", "target": None, "x": 5, "y": 5})
+    apply_gesture(document, {"kind": "connect", "source": COMMON, "target": "A"})
+    assert arrows(document) == [(COMMON, "A"), ("A", "B"), ("A", "A"), ("B", "A"), ("B", "B"), ("B", "State")]
+
+
+def test_disable_works_on_all_that_is_named_and_back(document: DocumentSession) -> None:
+    items = [{"of": "states", "id": "B"}, {"of": "transitions", "id": "A/1/then/0"}, {"of": "components", "id": "head"}]
+    apply_gesture(document, {"kind": "disable", "items": items[:1]})
+    assert document.design.states[1].disabled
+    apply_gesture(document, {"kind": "disable", "items": items})
+    group = document.design.states[0].transitions[1]
+    assert isinstance(group, DecisionGroup)
+    assert (document.design.states[1].disabled, group.then[0].disabled) == (True, True)
+    apply_gesture(document, {"kind": "disable", "items": items})
+    assert document.design == DESIGN
+    assert apply_gesture(document, {"kind": "disable", "items": items[2:]}).error
+
+
+def test_reconnect_moves_an_end(document: DocumentSession) -> None:
+    apply_gesture(document, {"kind": "reconnect", "id": "A/0", "end": "target", "state": "A"})
+    assert arrows(document)[0] == ("A", "A")
+    outcome = apply_gesture(document, {"kind": "reconnect", "id": "A/0", "end": "source", "state": "B"})
+    assert outcome.new_selection == (ItemRef(kind="transitions", id="B/0"),)
+    assert arrows(document) == [("A", "A"), ("B", "A")]
+
+
+def test_branches_of_a_tree_keep_their_source(document: DocumentSession) -> None:
+    outcome = apply_gesture(document, {"kind": "reconnect", "id": "A/1/then/0", "end": "source", "state": "B"})
+    assert "tree" in outcome.error
+    apply_gesture(document, {"kind": "reconnect", "id": "A/1/then/0", "end": "target", "state": "B"})
+    assert arrows(document) == [("A", "B"), ("A", "B")]
+
+
+def test_rename_refuses_names_that_are_taken_or_none(document: DocumentSession) -> None:
+    for name in ("B", "two words", "", "<b>"):
+        assert apply_gesture(document, {"kind": "rename", "of": "states", "id": "A", "name": name}).error
+    apply_gesture(document, {"kind": "rename", "of": "states", "id": "A", "name": " on "})
+    assert names(document) == ["on", "B"]
+    apply_gesture(document, {"kind": "rename", "of": "components", "id": "head", "name": "neck"})
+    assert document.design.uses[0].alias == "neck"
+    assert apply_gesture(document, {"kind": "rename", "of": "components", "id": "neck", "name": "1x"}).error
+
+
+def test_link_and_delete(document: DocumentSession) -> None:
+    for kind in ("requires", "modulates"):
+        payload = {"kind": "link", "kind_of_link": kind, "state": "B", "component": "head"}
+        apply_gesture(document, payload)
+    assert document.design.states[1].requires == ("head",)
+    assert document.design.states[1].modulates == (Call(alias="head"),)
+    items = [{"of": "links", "id": "requires/B/head"}, {"of": "transitions", "id": "A/0"}]
+    apply_gesture(document, {"kind": "delete", "items": items})
+    assert document.design.states[1].requires == ()
+    assert arrows(document) == [("A", "A")]
+    apply_gesture(
+        document, {"kind": "delete", "items": [{"of": "states", "id": "A"}, {"of": "components", "id": "head"}]}
+    )
+    assert (names(document), document.design.uses, document.design.initial) == (["B"], (), "B")
+    document.undo()
+    assert names(document) == ["A", "B"]
+
+
+def test_move_is_one_undoable_step(document: DocumentSession) -> None:
+    items = [{"of": "states", "id": "A", "x": 1.2, "y": 2}, {"of": "components", "id": "head", "x": 3, "y": 4}]
+    apply_gesture(document, {"kind": "move", "items": items})
+    assert (document.design.states[0].at, document.design.uses[0].at) == ((1, 2), (3, 4))
+    assert document.undo_label == "move 2 things"
+    apply_gesture(document, {"kind": "undo"})
+    assert document.design == DESIGN
+    apply_gesture(document, {"kind": "redo"})
+    assert document.design.states[0].at == (1, 2)
+
+
+@pytest.mark.parametrize(
+    "payload",
+    [
+        {},
+        {"kind": "format the disk"},
+        {"kind": "move", "items": [{"of": "states", "id": "A", "x": float("nan"), "y": 0}]},
+        {"kind": "move", "items": [{"of": "states", "id": "A", "x": 1e300, "y": 0}]},
+        {"kind": "move", "items": [{"of": "walls", "id": "A", "x": 1, "y": 0}]},
+        {"kind": "move", "items": 7},
+        {"kind": "connect", "source": "A", "target": "Nowhere"},
+        {"kind": "connect", "source": "Nowhere", "target": "A"},
+        {"kind": "rename", "of": "states", "id": "Nowhere", "name": "C"},
+        {"kind": "delete", "items": [{"of": "links", "id": "x"}]},
+        {"kind": "delete", "items": [{"of": "transitions", "id": "A/0/then/x"}]},
+        {"kind": "delete", "items": [{"of": "transitions", "id": "@common"}, {"of": "transitions", "id": "A"}]},
+        {"kind": "link", "kind_of_link": "requires", "state": "A", "component": "ghost"},
+        {"kind": "reconnect", "id": "A/99", "end": "target", "state": "B"},
+    ],
+)
+def test_what_no_page_of_ours_sends_changes_nothing(document: DocumentSession, payload: dict[str, object]) -> None:
+    apply_gesture(document, payload)
+    assert document.design == DESIGN
+    assert document.rev == 0
+
+
+_KINDS = st.sampled_from(["create", "connect", "delete", "rename", "move", "link", "reconnect", "undo", "redo"])
+_NAMES = st.sampled_from(["A", "B", "State", "C", COMMON, "head", "A/0", "B/0", "requires/A/head", "A/1/then/0"])
+
+
+@given(
+    st.lists(
+        st.fixed_dictionaries(
+            {
+                "kind": _KINDS,
+                "id": _NAMES,
+                "name": _NAMES,
+                "source": _NAMES,
+                "target": st.none() | _NAMES,
+                "state": _NAMES,
+                "end": st.sampled_from(["source", "target"]),
+                "of": st.sampled_from(["states", "components"]),
+                "component": _NAMES,
+                "kind_of_link": st.sampled_from(["requires", "modulates"]),
+                "x": st.integers(-900, 900),
+                "y": st.integers(-900, 900),
+                "items": st.lists(
+                    st.fixed_dictionaries(
+                        {
+                            "of": st.sampled_from(["states", "components", "transitions", "links", "common"]),
+                            "id": _NAMES,
+                            "x": st.integers(-9, 9),
+                            "y": st.integers(-9, 9),
+                        }
+                    ),
+                    max_size=3,
+                ),
+            }
+        ),
+        max_size=12,
+    )
+)
+def test_undoing_everything_equals_the_start(payloads: list[dict[str, object]]) -> None:
+    document = DocumentSession(
+        SharedDocument(file=Path("player.yaml"), disk_text="", saved=DESIGN, check=lambda _design: ())
+    )
+    for payload in payloads:
+        apply_gesture(document, payload)
+    end = document.design
+    steps = len(document.history.path) - 1
+    for _step in range(steps):
+        document.undo()
+    assert document.design == DESIGN
+    for _step in range(steps):
+        document.redo()
+    assert document.design.states == end.states
+
+
+def test_typing_in_a_field_is_one_step(document: DocumentSession) -> None:
+    from dataclasses import replace
+
+    for text in ("f", "fo", "foo"):
+        document.edit("edit Doc", lambda design, text=text: replace(design, doc=text), coalesce_key="doc")
+    assert len(document.history.path) == 2
+    document.edit("edit Doc", lambda design: replace(design, doc="bar"), coalesce_key="other")
+    assert len(document.history.path) == 3
+    document.undo()
+    document.edit("edit Doc", lambda design: replace(design, doc="food"), coalesce_key="doc")
+    assert len(document.history.path) == 3
+
+
+def test_watchers_hear_every_change_until_they_leave(document: DocumentSession) -> None:
+    heard: list[int] = []
+    unwatch = document.subscribe(lambda changed: heard.append(changed.rev))
+    apply_gesture(document, {"kind": "create", "x": 0, "y": 0})
+    apply_gesture(document, {"kind": "undo"})
+    unwatch()
+    apply_gesture(document, {"kind": "redo"})
+    assert heard == [1, 2]

@@ -1,0 +1,69 @@
+"""Things are found again after others renamed, moved and removed things; so are gestures that come late."""
+
+import pytest
+from hypothesis import given
+
+from tests.strategies.designs import designs
+from vicode.editor.session import rebase_gesture, rebase_selection
+from vicode.editor.view import ItemRef, transition_key
+from vicode.model.design import DecisionGroup, Design, Guard, State, Stay, Transition, Use
+from vicode.model.edits import remove_decisions, remove_states, rename_state, rename_use, reorder_decision
+from vicode.model.traversal import iter_decisions
+
+GROUP = DecisionGroup(guard=Guard(when="x"), then=(Stay(), Transition(to="B")))
+OLD = Design(
+    component="Player",
+    initial="A",
+    uses=(Use(alias="head", component="Head"),),
+    states=(
+        State(name="A", at=(0, 0), requires=("head",), transitions=(Transition(to="B"), GROUP, Stay(doc="last"))),
+        State(name="B", at=(9, 9)),
+    ),
+)
+
+
+@pytest.mark.parametrize(
+    ("of", "key", "new", "found"),
+    [
+        ("states", "A", rename_state(OLD, "A", "Z"), "Z"),
+        ("states", "B", remove_states(OLD, ["B"]), None),
+        ("components", "head", rename_use(OLD, "head", "neck"), "neck"),
+        ("links", "requires/A/head", rename_use(rename_state(OLD, "A", "Z"), "head", "neck"), "requires/Z/neck"),
+        ("transitions", "A/0", rename_state(OLD, "A", "Z"), "Z/0"),
+        ("transitions", "A/2", remove_decisions(OLD, [("states", "A", "transitions", 0)]), "A/1"),
+        ("transitions", "A/0", remove_decisions(OLD, [("states", "A", "transitions", 0)]), None),
+        ("transitions", "A/1/then/1", reorder_decision(OLD, ("states", "A", "transitions", 1), 0), "A/0/then/1"),
+        ("transitions", "nonsense", OLD, "nonsense"),
+        ("transitions", "Z/9", rename_state(OLD, "A", "Z"), None),
+        ("design", "", remove_states(OLD, ["B"]), ""),
+    ],
+)
+def test_a_thing_is_found_again(of: str, key: str, new: Design, found: str | None) -> None:
+    assert rebase_selection(ItemRef(kind=of, id=key), OLD, new) == (
+        None if found is None else ItemRef(kind=of, id=found)
+    )
+
+
+@given(designs, designs)
+def test_following_never_raises(old: Design, new: Design) -> None:
+    for located in iter_decisions(old):
+        rebase_selection(ItemRef(kind="transitions", id=transition_key(located.path)), old, new)
+    for state in old.states:
+        rebase_selection(ItemRef(kind="states", id=state.name), old, new)
+
+
+def test_a_late_gesture_is_done_to_what_it_was_made_on() -> None:
+    new = remove_decisions(rename_state(OLD, "A", "Z"), [("states", "Z", "transitions", 0)])
+    items = [{"of": "transitions", "id": "A/2"}, {"of": "transitions", "id": "A/0"}, {"of": "states", "id": "A"}]
+    assert rebase_gesture({"kind": "delete", "items": items}, OLD, new) == {
+        "kind": "delete",
+        "items": [{"of": "transitions", "id": "Z/1"}, {"of": "states", "id": "Z"}],
+    }
+    late = rebase_gesture({"kind": "reconnect", "id": "A/1", "end": "target", "state": "A"}, OLD, new)
+    assert late == {"kind": "reconnect", "id": "Z/0", "end": "target", "state": "Z"}
+    assert rebase_gesture({"kind": "reconnect", "id": "A/0", "end": "target", "state": "B"}, OLD, new) is None
+    assert rebase_gesture({"kind": "connect", "source": "A", "target": None}, OLD, new) == {
+        "kind": "connect",
+        "source": "Z",
+        "target": None,
+    }

@@ -1,0 +1,100 @@
+"""Finding by name: what is listed, what a query means first, and how it is told which letters were found."""
+
+from pathlib import Path
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from vicode.editor.session import Library
+from vicode.editor.session.fuzzy_match import align
+from vicode.editor.session.search_index import SearchIndex, SearchItem, SearchKind, SearchTarget, rank_items
+from vicode.editor.view import ItemRef
+
+DESIGNS = Path(__file__).parents[3] / "designs"
+
+
+@pytest.fixture(scope="module")
+def things() -> list[SearchItem]:
+    return SearchIndex(Library(DESIGNS)).items()
+
+
+def first(things: list[SearchItem], query: str, here: SearchTarget | None = None) -> SearchItem:
+    return rank_items(things, query, here)[0].item
+
+
+@pytest.mark.parametrize(
+    ("query", "kind", "title", "component"),
+    [
+        ("kick", SearchKind.STATE, "Kick", "Player"),
+        ("lfb", SearchKind.STATE, "LookForBall", "Player"),
+        ("player", SearchKind.COMPONENT, "Player", "Player"),
+        ("ball lost", SearchKind.TRANSITION, "WatchBall → LookForBall", "Player"),
+        ("wb", SearchKind.STATE, "WatchBall", "Player"),
+        ("net beside", SearchKind.TRANSITION, "SearchNet → AlignLateral", "Player"),
+        ("fallen", SearchKind.TRANSITION, "every state → GetUp", "Player"),
+        ("kicks", SearchKind.DECLARATION, "kicks", "Player"),
+        ("stand_up", SearchKind.USE, "stand_up", "Player"),
+    ],
+)
+def test_what_is_meant_comes_first(
+    things: list[SearchItem], query: str, kind: SearchKind, title: str, component: str
+) -> None:
+    found = first(things, query, SearchTarget(project="forward", component="Player"))
+    assert (found.kind, found.title) == (kind, title)
+    assert found.target is not None
+    assert found.target.component == component
+
+
+def test_where_a_thing_is(things: list[SearchItem]) -> None:
+    tree = first(things, "net beside")
+    assert tree.target == SearchTarget(
+        project="forward", component="Player", selected=ItemRef(kind="transitions", id="SearchNet/0/then/2")
+    )
+    assert tree.location == "Player · Forward"
+    hand_written = first(things, "kicker hand-written")
+    assert hand_written.target is not None
+    assert hand_written.target.selected == ItemRef(kind="components", id="kicker")
+
+
+def test_the_open_design_comes_before_others(things: list[SearchItem]) -> None:
+    for component in ("Player", "FaceBall", "FollowBall"):
+        here = SearchTarget(project="forward", component=component)
+        found = rank_items(things, "", here)
+        assert {match.item.target.component for match in found[:3] if match.item.target} == {component}
+
+
+def test_every_word_must_be_found(things: list[SearchItem]) -> None:
+    assert rank_items(things, "kick zzz") == ()
+    assert rank_items(things, "qqqq") == ()
+
+
+def test_found_letters_are_told(things: list[SearchItem]) -> None:
+    (match, *_rest) = rank_items(things, "lfb")
+    assert [match.item.title[place] for place in match.positions] == ["L", "F", "B"]
+
+
+def test_only_what_changed_is_listed_again() -> None:
+    index = SearchIndex(Library(DESIGNS))
+    before = {id(thing) for thing in index.items() if thing.target and thing.kind is SearchKind.STATE}
+    after = {id(thing) for thing in index.items() if thing.target and thing.kind is SearchKind.STATE}
+    assert before == after
+
+
+@given(word=st.text("abAB_ ", min_size=1, max_size=5), text=st.text("abAB_. ", max_size=12))
+def test_aligned_letters_are_those_of_the_word(word: str, text: str) -> None:
+    found = align(word.lower(), text)
+    rest = iter(text.lower())
+    is_subsequence = all(letter in rest for letter in word.lower())
+    assert (found is not None) == is_subsequence
+    if found:
+        assert "".join(text[place].lower() for place in found.positions) == word.lower()
+        assert list(found.positions) == sorted(set(found.positions))
+
+
+@given(st.text(max_size=30))
+def test_no_query_is_too_odd(query: str) -> None:
+    things = [
+        SearchItem(SearchKind.STATE, title) for title in ("Kick", "İstanbul", "ß", "[a-z]*", "", "a\nb", "x" * 500)
+    ]
+    rank_items(things, query)

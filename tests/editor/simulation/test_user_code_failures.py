@@ -1,0 +1,225 @@
+"""User code that fails, hangs, floods or dies is told in words with its place, and nothing of it reaches the editor."""
+
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+from tests.editor.simulation.lamp_project import LAMP, prepare_lamp, simulate, write_lamps
+from vicode.editor.session.simulation import NotReadyError, RunStatus, Simulation
+from vicode.editor.view.activation import code_error_view
+from vicode.simulation import StopConditions
+
+DESIGN = """
+vicode: 1
+component: Lamp
+initial: Dark
+states:
+  Dark:
+    enter: |
+      import os, sys, time
+      {enter}
+    transitions: [{{to: Lit, after: 0.02}}]
+  Lit:
+    actions:
+      - code: |
+          import os, sys, time
+          {code}
+"""
+
+
+def lamp(folder: Path, code: str, enter: str = "pass") -> Path:
+    return write_lamps(folder / "lamps", DESIGN.format(code=code, enter=enter))
+
+
+def failure_words(simulation: Simulation) -> str:
+    failure = simulation.failure
+    assert failure is not None
+    if failure.error is None:
+        return failure.message
+    return code_error_view(simulation.prepared.design, failure.error).text
+
+
+def test_an_endless_loop_is_told_with_its_line(tmp_path: Path) -> None:
+    folder = lamp(tmp_path, "while True: pass")
+
+    async def act(simulation: Simulation) -> None:
+        assert await simulation.step(5) == ""
+        assert simulation.status is RunStatus.FAILED
+        assert simulation.cursor == 1
+        words = failure_words(simulation)
+        assert words.startswith("Lamp, state Lit, Lit.actions, line 2: did not come to an end within 1.5 s")
+        # The past is still there, and a step from it meets the same end.
+        simulation.step_back()
+        assert await simulation.step(5) == ""
+        assert simulation.cursor == 1
+
+    simulate(prepare_lamp(folder, limit_s=1.5), folder, act)
+
+
+def test_a_loop_that_catches_everything_is_killed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("vicode.editor.session.simulation.process._GRACE_S", 0.5)
+    code = "while True:\n              try: time.sleep(9)\n              except BaseException: pass"
+    folder = lamp(tmp_path, code)
+
+    async def act(simulation: Simulation) -> None:
+        assert await simulation.step(5) == ""
+        assert "lamp, Lit.actions, line" in failure_words(simulation)
+        assert "did not come to an end within" in failure_words(simulation)
+
+    simulate(prepare_lamp(folder, limit_s=1.5), folder, act)
+
+
+@pytest.mark.parametrize(
+    ("code", "words"),
+    [
+        ("os._exit(3)", "left the program with exit code 3"),
+        ("sys.exit(4)", "Lamp, state Lit, Lit.actions, line 2: left the program by SystemExit: 4"),
+        ("os.kill(os.getpid(), 11)", "lamp, Lit.actions, line 2: was ended by SIGSEGV"),
+    ],
+)
+def test_a_death_is_told(tmp_path: Path, code: str, words: str) -> None:
+    folder = lamp(tmp_path, code)
+
+    async def act(simulation: Simulation) -> None:
+        assert await simulation.step(5) == ""
+        assert words in failure_words(simulation)
+
+    simulate(prepare_lamp(folder), folder, act)
+
+
+def test_an_exception_is_told_and_the_run_goes_on(tmp_path: Path) -> None:
+    folder = lamp(tmp_path, "1 / 0")
+
+    async def act(simulation: Simulation) -> None:
+        assert await simulation.step(9, StopConditions(errors=True)) == "error"
+        assert simulation.shown_iteration is not None
+        mistake = code_error_view(simulation.prepared.design, simulation.shown_iteration.errors[0])
+        assert mistake.text == "Lamp, state Lit, Lit.actions, line 2: ZeroDivisionError: division by zero"
+        assert mistake.item is not None
+        assert (mistake.item.kind, mistake.item.id) == ("states", "Lit")
+        assert await simulation.step(3) == "count"
+
+    simulate(prepare_lamp(folder), folder, act)
+
+
+def test_a_flood_of_prints_is_bounded(tmp_path: Path) -> None:
+    folder = lamp(tmp_path, "for n in range(50000): print('x' * 50)")
+
+    async def act(simulation: Simulation) -> None:
+        await simulation.step(2)
+        assert simulation.shown_iteration is not None
+        assert (len(simulation.shown_iteration.prints), simulation.shown_iteration.omitted_lines) == (200, 49_800)
+
+    simulate(prepare_lamp(folder, limit_s=20.0), folder, act)
+
+
+def test_writing_past_python_does_not_reach_the_protocol(tmp_path: Path) -> None:
+    folder = lamp(tmp_path, """os.write(1, b'{"kind":"failed"}\\n' * 5000); os.write(2, b'y' * 100000)""")
+
+    async def act(simulation: Simulation) -> None:
+        assert await simulation.step(4) == "count"
+        assert simulation.failure is None
+
+    simulate(prepare_lamp(folder), folder, act)
+
+
+def test_memory_is_bounded(tmp_path: Path) -> None:
+    folder = lamp(tmp_path, "self.much = bytearray(2 << 30)")
+
+    async def act(simulation: Simulation) -> None:
+        await simulation.step(2)
+        assert simulation.shown_iteration is not None
+        assert simulation.shown_iteration.errors[0]["message"] == "MemoryError"
+
+    simulate(prepare_lamp(folder, memory_bytes=300 << 20), folder, act)
+
+
+def test_what_cannot_be_loaded_is_told(tmp_path: Path) -> None:
+    folder = write_lamps(tmp_path / "lamps")
+    (folder / "hands.py").write_text("import nothing_of_this_name\n")
+
+    async def act(simulation: Simulation) -> None:
+        await simulation.start()
+        assert simulation.status is RunStatus.FAILED
+        assert "No module named 'nothing_of_this_name' [" in failure_words(simulation)
+        assert "hands.py:1]" in failure_words(simulation)
+
+    simulate(prepare_lamp(folder, stubbed=frozenset()), folder, act)
+
+
+def test_a_design_with_mistakes_is_not_started(tmp_path: Path) -> None:
+    states = "{Dark: {transitions: [{to: Dark, when: nobody}]}}"
+    folder = write_lamps(tmp_path / "lamps", f"vicode: 1\ncomponent: Lamp\ninitial: Dark\nstates: {states}\n")
+    with pytest.raises(NotReadyError, match=r"Lamp: .*nobody.* Mend it, then start again"):
+        prepare_lamp(folder)
+
+
+def test_code_that_reads_the_real_time_is_noticed(tmp_path: Path) -> None:
+    folder = lamp(tmp_path, "self.noise = time.time_ns()")
+
+    async def act(simulation: Simulation) -> None:
+        await simulation.step(5)
+        simulation.step_back()
+        simulation.truncate()
+        await simulation.step()
+        assert simulation.warning.startswith("Repeating the past gave something else")
+
+    simulate(prepare_lamp(folder), folder, act)
+
+
+def test_inputs_before_a_failure_are_not_lost(tmp_path: Path) -> None:
+    folder = write_lamps(tmp_path / "lamps", LAMP.replace('print("lit", self.turns)', '"while True: pass"'))
+
+    async def act(simulation: Simulation) -> None:
+        await simulation.step()
+        await simulation.set_input(("Eye", "seen"), True)
+        for _again in range(2):
+            assert await simulation.step() == ""
+            assert "Lamp, state Lit" in failure_words(simulation)
+            assert simulation.inputs["Eye"]["seen"] is True
+        await simulation.set_input(("Eye", "seen"), False)
+        assert simulation.failure is None
+        assert await simulation.step() == "count"
+
+    simulate(prepare_lamp(folder, limit_s=1.5), folder, act)
+
+
+def test_the_process_ends_when_the_editor_is_killed(tmp_path: Path) -> None:
+    folder = lamp(tmp_path, "while True:\n              try: time.sleep(9)\n              except BaseException: pass")
+    program = f"""
+import asyncio
+from pathlib import Path
+from tests.editor.simulation.lamp_project import prepare_lamp
+from vicode.editor.session.simulation import Simulation
+
+async def main():
+    folder = Path({str(folder)!r})
+    simulation = Simulation(prepared=prepare_lamp(folder, limit_s=60.0), cwd=folder)
+    await simulation.start()
+    print(simulation._process.pid, simulation._process._folder, flush=True)
+    await simulation.step(100)
+
+asyncio.run(main())
+"""
+    command = [sys.executable, "-c", program]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True, cwd=Path(__file__).parents[3]) as editor:
+        assert editor.stdout is not None
+        number, generated = editor.stdout.readline().split()
+        editor.kill()
+    pid = int(number)
+    end = time.monotonic() + 20
+    while Path(f"/proc/{pid}").exists() and "Z" not in state_of(pid) and time.monotonic() < end:
+        time.sleep(0.05)
+    assert not Path(f"/proc/{pid}").exists() or "Z" in state_of(pid)
+    assert not Path(generated).exists()
+
+
+def state_of(pid: int) -> str:
+    """The letter of a process' state; Z is one that only waits to be forgotten."""
+    try:
+        return Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0]
+    except OSError:
+        return "Z"

@@ -1,0 +1,260 @@
+"""A design is simulated as a person does it: inputs set, stepped, played, stopped, gone back in, edited meanwhile."""
+
+import json
+import re
+from pathlib import Path
+
+import pytest
+from playwright.sync_api import Locator, Page, expect
+
+from tests.editor.player_page import PLAYER, select_state, state
+from tests.editor.test_accessibility_browser import complaints
+
+expect.set_options(timeout=30_000)
+
+
+def active(page: Page) -> Locator:
+    return page.locator("g.node.active")
+
+
+def open_player(page: Page, url: str, design: str = PLAYER) -> None:
+    page.set_viewport_size({"width": 1366, "height": 768})
+    page.goto(url + design)
+    expect(page.locator('g[data-kind="state"]').first).to_be_visible()
+
+
+def open_simulation(page: Page, url: str, design: str = PLAYER) -> None:
+    open_player(page, url, design)
+    page.get_by_role("tab", name="Simulate").click()
+    expect(page.get_by_text("not started")).to_be_visible()
+
+
+def where(page: Page, words: str) -> None:
+    expect(page.locator(".simulation-where")).to_contain_text(words)
+
+
+def choose(page: Page, label: str, option: str) -> None:
+    page.get_by_role("combobox", name=label).click()
+    page.get_by_role("option", name=option).click()
+
+
+def test_an_input_is_set_and_the_state_follows(editor: str, page: Page) -> None:
+    open_simulation(page, editor)
+    page.keyboard.press("F10")
+    where(page, "0.00 s · iteration 1 · LookForBall")
+    expect(active(page)).to_have_attribute("data-id", "LookForBall")
+    guard = page.locator(".guard", has_text="→ FollowBall")
+    expect(guard).to_contain_text("false")
+
+    # A switch changes the truth of the guard at once, and the next decision follows it.
+    page.get_by_role("switch", name="Perception ball_seen").click()
+    expect(guard).to_contain_text("true")
+    expect(guard).to_contain_text("perception.ball_seen = true")
+    for _step in range(5):
+        page.get_by_role("button", name="One step (F10)").click()
+    expect(active(page)).to_have_attribute("data-id", "FollowBall")
+    expect(page.locator('g.edge.taken[data-id="LookForBall/0"]')).to_have_count(1)
+    where(page, "0.10 s · iteration 6 · FollowBall")
+    expect(page.locator("svg.plot rect.plot-state")).to_have_count(2)
+
+    # Back to the past, with its inputs, and on again.
+    page.keyboard.press("Control+Shift+F10")
+    expect(active(page)).to_have_attribute("data-id", "LookForBall")
+    expect(page.get_by_text("The past, 1 iteration before the newest.")).to_be_visible()
+    page.keyboard.press("F10")
+    expect(active(page)).to_have_attribute("data-id", "FollowBall")
+
+    # A number beside a slider, and who is active.
+    age = page.get_by_role("spinbutton", name="Perception ball_age, number")
+    age.fill("3.5")
+    expect(page.locator(".guard", has_text="→ LookForBall")).to_contain_text("ball_age = 3.5")
+    page.get_by_role("slider", name="Perception ball_y").press("ArrowRight")
+    expect(page.get_by_role("spinbutton", name="Perception ball_y, number")).to_have_value("5")
+    page.get_by_role("tab", name="Active components").click()
+    expect(page.locator(".tree-row", has_text="FaceBall").first).to_be_visible()
+    page.get_by_role("button", name="Run until the state changes (Shift+F6)").click()
+    expect(active(page)).to_have_attribute("data-id", "LookForBall")
+
+
+def test_breakpoints_stop_a_run(editor: str, page: Page) -> None:
+    open_simulation(page, editor)
+    select_state(page, "FollowBall")
+    page.keyboard.press("F9")
+    expect(state(page, "FollowBall").locator(".breakpoint-sign")).to_have_count(1)
+    page.get_by_role("button", name="Play or pause (F6)").click()
+    expect(active(page)).to_have_attribute("data-id", "LookForBall")
+    page.get_by_role("switch", name="Perception ball_seen").click()
+    expect(page.get_by_text("Stopped on entering FollowBall")).to_be_visible()
+
+    # One on a transition, by the gutter of its guard.
+    page.get_by_role("button", name="Breakpoint on → LookForBall").click()
+    expect(page.locator('g.chip[data-id="FollowBall/0"] .breakpoint-sign')).to_have_count(1)
+    page.get_by_role("spinbutton", name="Perception ball_age, number").fill("9")
+    page.keyboard.press("F6")
+    expect(page.get_by_text("Stopped at a breakpoint: the transition to LookForBall")).to_be_visible()
+    page.keyboard.press("F9")
+    expect(state(page, "FollowBall").locator(".breakpoint-sign")).to_have_count(0)
+
+
+def test_an_edit_ends_the_run_and_offers_to_start_again(editor: str, page: Page) -> None:
+    open_simulation(page, editor)
+    page.keyboard.press("F10")
+    expect(active(page)).to_have_attribute("data-id", "LookForBall")
+    select_state(page, "LookForBall")
+
+    # A move changes nothing that runs; another initial state does.
+    page.keyboard.press("ArrowRight")
+    select_state(page, "FollowBall")
+    page.keyboard.press("F10")
+    where(page, "iteration 2")
+    page.get_by_role("checkbox", name="Initial").click()
+    expect(page.get_by_text("The design has changed")).to_be_visible()
+    page.get_by_role("button", name="Start again", exact=True).click()
+    where(page, "before the first step")
+    page.keyboard.press("F10")
+    expect(active(page)).to_have_attribute("data-id", "FollowBall")
+
+
+def test_the_player_plays_in_its_own_world(editor: str, page: Page) -> None:
+    open_simulation(page, editor)
+    choose(page, "Simulate with", "All in field.world:World")
+    page.get_by_role("button", name="Run until the state changes (Shift+F6)").click()
+    expect(page.get_by_text("Entered FollowBall")).to_be_visible()
+    expect(page.get_by_text("Nothing to set: every component runs itself.")).to_be_visible()
+    time = page.get_by_role("spinbutton", name="Go to this time")
+    time.fill("1.00")
+    time.press("Enter")
+    where(page, "1.00 s · iteration 51")
+    expect(page.get_by_text("The past,")).to_be_visible()
+
+
+def test_code_that_never_ends_is_told_with_its_line(editor: str, page: Page, project: Path) -> None:
+    file = project / "forward" / "player.yaml"
+    text = file.read_text()
+    file.write_text(text.replace('log = logging.getLogger("player")', 'print("<b>loaded</b>")\n    log = None'))
+    open_simulation(page, editor)
+    page.keyboard.press("F10")
+    where(page, "iteration 1")
+    page.get_by_role("tab", name="Output").click()
+    expect(page.get_by_text("<b>loaded</b>")).to_be_visible()
+    file.write_text(text.replace("self._distances: list[float] = []", "while True: pass"))
+    expect(page.get_by_text("The design has changed")).to_be_visible()
+    select_state(page, "WatchBall")
+    page.get_by_role("checkbox", name="Initial").click()
+    expect(state(page, "WatchBall")).to_have_attribute("aria-label", re.compile("initial"))
+    page.keyboard.press("F10")
+    expect(page.locator(".simulation-message")).to_contain_text(
+        "Player, state WatchBall, WatchBall.enter, line 1: did not come to an end within 2 s"
+    )
+
+
+def test_a_recorded_trace_is_looked_at(editor: str, page: Page, tmp_path: Path) -> None:
+    trace = tmp_path / "trace.jsonl"
+    root = {"component": "Player", "by": None, "link": "root", "changed_from": None, "values": {"kicks": 0}}
+    lines = [{"iteration": 1, "time_ns": 0, "tree": [{**root, "state": "LookForBall"}]}]
+    lines.append(
+        {"iteration": 2, "time_ns": 10**8, "tree": [{**root, "state": "GetUp", "changed_from": "LookForBall"}]}
+    )
+    trace.write_text("\n".join(json.dumps(line) for line in lines))
+    open_simulation(page, editor)
+    choose(page, "Simulate with", "Look at a trace")
+    with page.expect_file_chooser() as chooser:
+        page.get_by_role("button", name="Choose a trace …").click()
+    chooser.value.set_files(trace)
+    expect(page.get_by_role("button", name="trace.jsonl")).to_be_visible()
+    where(page, "before the first step")
+    page.keyboard.press("Shift+F6")
+    where(page, "0.10 s · iteration 2 · GetUp")
+    expect(active(page)).to_have_attribute("data-id", "GetUp")
+    expect(page.locator('g.edge.taken[data-id="@common/0"]')).to_have_count(1)
+    page.keyboard.press("Control+Shift+F10")
+    expect(active(page)).to_have_attribute("data-id", "LookForBall")
+
+
+def test_the_menu_runs_to_a_state_and_sets_breakpoints(editor: str, page: Page) -> None:
+    open_simulation(page, editor)
+    expect(state(page, "FollowBall")).to_be_in_viewport()
+    page.wait_for_function("document.querySelector('.vicode-canvas').vicode.view().resting")
+    select_state(page, "LookForBall")
+    page.keyboard.press("Shift+F10")
+    page.get_by_role("menuitem", name="Breakpoint, or none").click()
+    expect(state(page, "LookForBall").locator(".breakpoint-sign")).to_have_count(1)
+    select_state(page, "FollowBall")
+    page.keyboard.press("Control+F10")
+    expect(page.get_by_text("Stopped on entering LookForBall")).to_be_visible()
+    page.get_by_role("switch", name="Perception ball_seen").click()
+    select_state(page, "FollowBall")
+    page.keyboard.press("Control+F10")
+    expect(page.get_by_text("Stopped on entering FollowBall")).to_be_visible()
+
+
+@pytest.mark.nightly
+def test_a_long_run_can_be_paused_and_time_gone_through(editor: str, page: Page) -> None:
+    open_simulation(page, editor)
+    page.keyboard.press("Shift+F6")
+    where(page, "iteration 1")
+    page.get_by_role("button", name="Play or pause (F6)").click()
+    expect(page.get_by_text("Paused")).to_be_visible()
+    slider = page.get_by_role("slider", name="Moment that is shown")
+    slider.focus()
+    slider.press("Home")
+    expect(page.get_by_text("before the first step")).to_be_visible()
+    slider.press("ArrowRight")
+    where(page, "0.00 s · iteration 1 ·")
+    page.get_by_role("button", name="Go on from here").click()
+    expect(page.get_by_text("The past,")).to_have_count(0)
+    page.keyboard.press("F10")
+    where(page, "0.02 s · iteration 2 ·")
+
+
+def test_texts_from_strangers_stay_texts_while_simulated(editor: str, page: Page, project: Path) -> None:
+    evil = "<img src=x onerror=document.title='owned'>\"' {{7*7}}"
+    quoted = json.dumps(evil)
+    file = project / "forward" / "project.yaml"
+    eye = (
+        f"  Eye:\n    implementation: hands:Eye\n    outputs:\n      seen: {{type: bool, doc: {quoted}}}\n"
+        f"      far: {{type: float, range: [0, 9], unit: {quoted}}}\n"
+    )
+    file.write_text(file.read_text().replace("\ncomponents:\n", f"\ncomponents:\n{eye}"))
+    (project / "forward" / "watcher.yaml").write_text(
+        "vicode: 1\ncomponent: Watcher\nuses: {eye: Eye}\ninitial: Off\nstates:\n"
+        f"  Off: {{doc: {quoted}, transitions: [{{to: On, when: eye.seen, doc: {quoted}}}]}}\n"
+        "  On:\n    actions:\n      - code: |\n"
+        f"          print({evil!r})\n          raise ValueError({evil!r})\n"
+    )
+    open_player(page, editor)
+    expect(page.get_by_role("link", name="Watcher")).to_be_visible()
+    open_simulation(page, editor, "design/forward/Watcher")
+    page.keyboard.press("F10")
+    where(page, "iteration 1")
+    page.get_by_text("seen", exact=True).hover()
+    page.get_by_role("switch", name="Eye seen").click()
+    page.keyboard.press("F10")
+    expect(page.locator(".simulation-message")).to_contain_text("Watcher, state On, On.actions, line 2: ValueError:")
+    expect(page.locator(".simulation-message")).to_contain_text("onerror")
+    page.get_by_role("tab", name="Output").click()
+    expect(page.locator(".output-line").first).to_contain_text("<img src=x")
+    page.get_by_role("tab", name="Active components").click()
+    expect(page.locator(".tree-row").first).to_be_visible()
+    assert page.locator("img[src=x]").count() == 0
+    assert "owned" not in page.title()
+
+
+@pytest.mark.nightly
+@pytest.mark.parametrize("colours", ["light", "dark"])
+def test_axe_finds_nothing_while_it_runs(editor: str, page: Page, colours: str) -> None:
+    page.emulate_media(color_scheme="dark" if colours == "dark" else "light", reduced_motion="reduce")
+    open_simulation(page, editor)
+    found = complaints(page)
+    page.keyboard.press("F10")
+    where(page, "iteration 1")
+    page.get_by_text("How to run").click()
+    expect(page.get_by_label("Seed of the world")).to_be_visible()
+    for tab in ("Plot", "Active components", "Output"):
+        page.get_by_role("tab", name=tab).click()
+        expect(page.get_by_role("tab", name=tab)).to_have_attribute("aria-selected", "true")
+        found += complaints(page)
+    page.keyboard.press("Control+Shift+F10")
+    expect(page.get_by_text("The past,")).to_be_visible()
+    found += complaints(page)
+    assert not found, "\n".join(found)

@@ -1,0 +1,47 @@
+"""Addresses: what is selected and the way one came are in them, and nothing in them is trusted."""
+
+import pytest
+
+from vicode.editor.view import ItemRef
+from vicode.editor.view.page_urls import (
+    design_url,
+    extend_trail,
+    format_selection,
+    parse_selection,
+    parse_trail,
+)
+
+
+@pytest.mark.parametrize(
+    "selected",
+    [
+        ItemRef(kind="states", id="Kick"),
+        ItemRef(kind="states", id="2nd"),
+        ItemRef(kind="transitions", id="Kick/0/then/1"),
+        ItemRef(kind="transitions", id="@common/0"),
+        ItemRef(kind="common", id="@common"),
+        ItemRef(kind="components", id="kicker"),
+        ItemRef(kind="links", id="requires/Kick/perception"),
+    ],
+)
+def test_a_selection_comes_back_from_its_text(selected: ItemRef) -> None:
+    assert parse_selection(format_selection(selected)) == selected
+
+
+def test_addresses_are_readable() -> None:
+    assert design_url("forward", "Player", ItemRef(kind="states", id="Kick")) == "/design/forward/Player?select=Kick"
+    assert design_url("forward", "Turn", trail=("Player", "Fixmove")) == "/design/forward/Turn?from=Player,Fixmove"
+    assert design_url("a/b?c", "x#y") == "/design/a%2Fb%3Fc/x%23y"
+
+
+@pytest.mark.parametrize("text", ["", "javascript:alert(1)", "design:", "nothing:x"])
+def test_what_is_no_thing_is_none(text: str) -> None:
+    assert parse_selection(text) is None
+
+
+def test_a_trail_holds_only_what_exists_and_never_goes_in_circles() -> None:
+    known = {"A", "B", "C"}
+    assert parse_trail("A,<b>,C", known, "B") == ("A", "C")
+    assert parse_trail("A,B,C", known, "B") == ("A",)
+    assert extend_trail(("A", "B"), "C") == ("A", "B", "C")
+    assert len(extend_trail(tuple("DEFGHIJKLMN"), "C")) == 6

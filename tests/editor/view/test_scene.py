@@ -1,0 +1,120 @@
+"""The scene that the canvas draws, and what changes in it."""
+
+from vicode.editor.view import (
+    ItemRef,
+    diff_scenes,
+    guard_label,
+    item_at_path,
+    make_scene,
+    parse_transition_key,
+    transition_key,
+)
+from vicode.findings import Finding, FindingSubject, get_rule
+from vicode.model.design import Code, CommonSection, DecisionGroup, Design, Guard, RunCode, State, Stay, Transition, Use
+from vicode.model.disabled import set_disabled
+from vicode.model.edits import move_nodes, rename_state
+from vicode.model.project import Project
+
+DESIGN = Design(
+    component="Player",
+    initial="A",
+    uses=(Use(alias="head", component="Head"),),
+    common=CommonSection(transitions=(Transition(to="B", guard=Guard(when="fallen")),)),
+    states=(
+        State(
+            name="A",
+            at=(100, 100),
+            requires=("head",),
+            actions=(RunCode(code=Code(texts=(("python", "pass"),))),),
+            transitions=(
+                DecisionGroup(
+                    guard=Guard(when="seen"),
+                    then=(Transition(to="B", guard=Guard(after="5")), Stay()),
+                    otherwise=(Transition(to="A"),),
+                ),
+                Transition(to="B", guard=Guard(when="a\n  and b", code=Code(texts=(("python", "return True"),)))),
+            ),
+        ),
+        State(name="B", final=True),
+    ),
+)
+PROJECT = Project(name="p", designs=(DESIGN,))
+
+
+def test_transitions_are_numbered_in_the_order_they_are_tested() -> None:
+    scene = make_scene(PROJECT, DESIGN, (), 7)
+    rows = [
+        (each["id"], each["source"], each["target"], each["label"], each["order"], each["of"], each["kind"])
+        for each in scene["transitions"]
+    ]
+    assert rows == [
+        ("@common/0", "@common", "B", "fallen", 1, 1, "guard"),
+        ("A/0/then/0", "A", "B", "seen › 5 s", 1, 3, "tree"),
+        ("A/0/else/0", "A", "A", "else", 2, 3, "tree"),
+        ("A/1", "A", "B", "a and b and { code }", 3, 3, "code"),
+    ]
+    assert scene["rev"] == 7
+
+
+def test_what_does_not_work_is_marked() -> None:
+    scene = make_scene(PROJECT, set_disabled(DESIGN, ["B"], [("states", "A", "transitions", 0)], disabled=True), (), 0)
+    assert [each["disabled"] for each in scene["states"]] == [False, True]
+    assert [each["disabled"] for each in scene["transitions"]] == [True, True, True, True]
+    scene = make_scene(
+        PROJECT, set_disabled(DESIGN, [], [("states", "A", "transitions", 0, "else", 0)], disabled=True), (), 0
+    )
+    assert [each["disabled"] for each in scene["transitions"]] == [False, False, True, False]
+
+
+def test_everything_has_a_place() -> None:
+    scene = make_scene(PROJECT, DESIGN, (), 0)
+    places = [(each["x"], each["y"]) for each in (*scene["states"], *scene["components"], scene["common"])]
+    assert len(set(places)) == len(places) == 4
+    assert places[0] == (100, 100)
+
+
+def test_findings_mark_the_smallest_thing_that_holds_them() -> None:
+    finding = Finding(
+        rule=get_rule("E303"),
+        message="'sen' is not declared",
+        subject=FindingSubject(component="Player", path=("states", "A", "transitions", 0, "then", 0, "when")),
+    )
+    elsewhere = Finding(
+        rule=get_rule("D421"), message="x", subject=FindingSubject(component="Other", path=("states", "A"))
+    )
+    scene = make_scene(PROJECT, DESIGN, (finding, elsewhere), 0)
+    marked = {each["id"]: each["messages"] for each in (*scene["transitions"], *scene["states"]) if each["severity"]}
+    assert marked == {"A/0/then/0": ["'sen' is not declared"]}
+
+
+def test_difference_is_what_the_canvas_needs_to_follow() -> None:
+    old = make_scene(PROJECT, DESIGN, (), 0)
+    assert diff_scenes(old, old) == {
+        "rev": 0,
+        "upsert": {"states": [], "transitions": [], "components": [], "links": []},
+        "remove": {"states": [], "transitions": [], "components": [], "links": []},
+    }
+    new = make_scene(PROJECT, move_nodes(rename_state(DESIGN, "B", "C"), {"A": (5, 5)}), (), 1)
+    changes = diff_scenes(old, new)
+    assert [each["id"] for each in changes["upsert"]["states"]] == ["A", "C"]
+    assert changes["remove"]["states"] == ["B"]
+    assert {each["target"] for each in changes["upsert"]["transitions"]} == {"C"}
+
+
+def test_keys_lead_back_to_their_paths() -> None:
+    for path in (
+        ("states", "A", "transitions", 0, "then", 0),
+        ("common", "transitions", 2),
+        ("states", "0", "transitions", 1),
+    ):
+        assert parse_transition_key(transition_key(path)) == path
+    assert item_at_path(("states", "A", "actions", 0, "code")) == ItemRef(kind="states", id="A")
+    assert item_at_path(("common", "actions", 0)) == ItemRef(kind="common", id="@common")
+    assert item_at_path(("uses", "head")) == ItemRef(kind="components", id="head")
+    assert item_at_path(("variables", "tries", "initial")) == ItemRef(kind="design")
+
+
+def test_guards_in_a_line() -> None:
+    assert guard_label(Guard()) == ""
+    assert guard_label(Guard(when="x", after="2.5")) == "x and 2.5 s"
+    assert guard_label(Guard(when="x", after="2.5"), "ms") == "x and 2.5 ms"

@@ -1,0 +1,244 @@
+"""Generated components do what docs/semantics.md says."""
+
+import math
+
+from tests.generators.run_harness import StartHarness, play
+
+__all__ = ["play"]
+
+TWO = """
+component: Two
+frequency: {frequency}
+uses: {{eyes: Eyes, legs: Legs}}
+initial: A
+states:
+  A:
+    requires: [eyes]
+    enter: self.world.log.append("enter A")
+    leave: self.world.log.append("leave A " + self.state)
+    actions: [{{call: legs, with: {{speed: 1}}}}]
+    transitions: [{{to: B, when: eyes.seen, id: sees}}]
+  B:
+    requires: [eyes, legs]
+    enter: self.world.log.append("enter B " + self.state)
+    actions: self.world.log.append("act B")
+    transitions: [{{to: A, after: patience}}]
+"""
+
+
+def test_entering_requiring_deciding_acting_in_order(play: StartHarness) -> None:
+    two = play(TWO.format(frequency=1000))
+    assert two.tick() == ["enter A", "eyes", "legs restart", "legs 1 8"]
+    assert two.tick() == ["eyes", "legs 1 8"]
+    assert two.tick(seen=True) == ["eyes", "leave A A", "enter B B", "legs 1 8", "act B"]
+    assert two.tick() == ["eyes", "legs 1 8", "act B"]
+
+
+def test_times_are_kept_to_the_nanosecond(play: StartHarness) -> None:
+    two = play(TWO.format(frequency=1000))
+    two.tick(seen=True)
+    assert two.main.state == "B"
+    two.tick(499)
+    two.clock.advance(999_999)
+    two.tick(0)
+    assert two.main.state == "B"
+    two.clock.advance(1)
+    two.tick(0)
+    assert two.main.state == "A"
+
+
+def test_between_periods_only_requirements_and_calls_are_stepped(play: StartHarness) -> None:
+    two = play(TWO.format(frequency=2))
+    two.tick()
+    assert two.tick(100, seen=True) == ["eyes", "legs 1 8"]
+    assert two.main.state == "A"
+    assert two.tick(400)[:2] == ["eyes", "leave A A"]
+
+
+CALLER = """
+component: Caller
+uses: {eyes: Eyes, two: Two}
+initial: On
+states:
+  On: {requires: [eyes], modulates: [two], transitions: [{to: Off, when: eyes.distance > 0}]}
+  Off: {requires: [eyes], transitions: [{to: On, when: eyes.distance == 0}]}
+"""
+
+
+def test_whoever_paused_restarts(play: StartHarness) -> None:
+    caller = play(CALLER, TWO.format(frequency=1000))
+    caller.tick(seen=True)
+    assert caller.main.two.state == "B"
+    caller.tick(distance=1.0)
+    log = caller.tick(distance=0.0, seen=False)
+    assert "enter A" in log
+    assert "leave B" not in log
+    assert caller.main.two.state == "A"
+
+
+def test_whoever_resumes_goes_on(play: StartHarness) -> None:
+    caller = play(CALLER, "resume: true\n" + TWO.format(frequency=1000))
+    caller.tick(seen=True)
+    caller.tick(distance=1.0)
+    assert "enter A" not in caller.tick(distance=0.0, seen=False)
+    assert caller.main.two.state == "B"
+
+
+TREE = """
+component: Tree
+variables: {x: 0}
+initial: S
+common:
+  actions: [{set: {x: x + 100}}]
+  transitions: [{to: C, when: x == 1}, {stay: true, when: x == 2}]
+states:
+  S:
+    transitions:
+      - {to: D, when: x == 2}
+      - when: x >= 10 and x < 20
+        then: [{to: A, when: x == 10}, {stay: true, when: x == 11}]
+        else: [{to: B, when: x == 20}]
+      - {to: C, when: x == 11 or x == 12 or x == 21}
+      - {to: S, when: x == 30}
+      - {to: D, when: x == 30}
+      - to: D
+        code: |
+          return self.x == 40
+  A: {}
+  B: {}
+  C: {}
+  D: {final: true}
+"""
+
+
+def test_decision_trees_fall_through_and_stay(play: StartHarness) -> None:
+    expected = {1: "C", 2: "S", 10: "A", 11: "S", 12: "C", 20: "B", 21: "C", 30: "S", 40: "D", 50: "S"}
+    for x, state in expected.items():
+        tree = play(TREE)
+        tree.tick()
+        tree.main.x = x
+        tree.tick()
+        assert (tree.main.state, tree.main.x) == (state, x + 100), x
+
+
+VALUES = """
+component: Values
+uses: {eyes: Eyes, legs: Legs}
+parameters: {side: Side.right, speed: {type: float, default: 3}}
+outputs: {a: 0.0, n: 0, yes: false, where: Side.left}
+initial: S
+states:
+  S:
+    requires: [eyes]
+    modulates: {legs: {turn: "-speed"}}
+    actions:
+      - set: {a: 1 / zero, n: n + 1, yes: side == Side.right, where: side}
+    leave: [{set: {a: 2}}]
+    transitions: [{to: T, when: eyes.seen}]
+  T:
+    requires: [eyes]
+    enter: [{set: {n: 10}}, {set: {n: n + 1}}, {code: self.n *= 2}]
+    actions: [{set: {a: "eyes.twice(4, plus=n % 5)"}}]
+"""
+
+
+def test_values_are_set_as_declared(play: StartHarness) -> None:
+    values = play(VALUES)
+    assert (values.main.speed, type(values.main.speed)) == (3.0, float)
+    assert values.tick()[-1] == "legs 7 -3"
+    main = values.main
+    assert (main.a, main.n, main.yes, main.where) == (math.inf, 1, True, main.side)
+    values.tick(seen=True)
+    assert (main.n, main.a) == (22, 10.0)
+
+
+NESTED = """
+component: Nested
+uses: {last: Last}
+outputs: {count: 0}
+initial: Work
+states:
+  Work: {modulates: [last], transitions: [{to: Rest, when: done(last)}]}
+  Rest: {actions: [{set: {count: count + 1}}]}
+"""
+LAST = """
+component: Last
+initial: One
+states:
+  One: {transitions: [{to: Two, after: 0.2}]}
+  Two: {final: true}
+"""
+
+
+def test_a_final_state_is_told_to_the_caller(play: StartHarness) -> None:
+    nested = play(NESTED, LAST)
+    states = []
+    for _ in range(5):
+        nested.tick()
+        states.append(nested.main.state)
+    assert states == ["Work", "Work", "Work", "Rest", "Rest"]
+
+
+FAILING = """
+component: Failing
+outputs: {n: 0}
+initial: S
+states:
+  S:
+    actions:
+      - set: {n: n + 1}
+      - code: |
+          if self.n == 2:
+              raise ValueError("two")
+      - set: {n: n + 10}
+"""
+
+
+def test_an_exception_is_reported_with_its_place_and_work_goes_on(play: StartHarness) -> None:
+    failing = play(FAILING)
+    failing.main.n = 1
+    failing.tick()
+    (error,) = failing.errors
+    assert (error.component, error.design_file, error.state) == ("Failing", "design0.yaml", "S")
+    assert "S.actions" in str(error)
+    assert "ValueError: two" in str(error)
+    assert failing.main.n == 2
+    failing.tick()
+    assert (failing.main.n, len(failing.errors)) == (13, 1)
+
+
+MILLISECONDS = """
+component: Milliseconds
+time_unit: ms
+initial: A
+states:
+  A: {transitions: [{to: B, when: state_time >= 300}]}
+  B: {transitions: [{to: C, after: 200}]}
+  C: {final: true}
+"""
+
+
+def test_times_may_count_milliseconds(play: StartHarness) -> None:
+    component = play(MILLISECONDS)
+    states = []
+    for _ in range(6):
+        component.tick(100)
+        states.append(component.main.state)
+    assert states == ["A", "A", "A", "B", "B", "C"]
+
+
+ARM = """
+component: Armed
+uses: {arm: Arm}
+initial: Rest
+states:
+  Rest: {modulates: [arm], transitions: [{to: Lift, after: 1}]}
+  Lift: {modulates: {arm: {lift: 2, side: Side.right}}}
+"""
+
+
+def test_hand_written_components_get_the_declared_defaults(play: StartHarness) -> None:
+    armed = play(ARM)
+    assert armed.tick() == ["arm 2.0 False left 7"]
+    assert armed.tick(1000) == ["arm 2.0 False right 2"]
+    assert armed.errors == []

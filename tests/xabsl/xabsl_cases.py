@@ -1,0 +1,66 @@
+"""Cases from the original compiler and engine: tiny programs with its verdicts, whole behaviors with its traces."""
+
+import gzip
+import json
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from vicode.xabsl.source_loader import ProgramSource, load_source
+
+CASES = Path(__file__).parent / "cases"
+PROGRAMS = sorted(path.name for path in (CASES / "programs").iterdir())
+
+
+@dataclass(frozen=True)
+class Probe:
+    """A tiny program, and what the original compiler said of it."""
+
+    name: str
+    files: dict[str, str]
+    accepted: bool
+    message: str
+    code: str
+
+
+def read_probes() -> list[Probe]:
+    raw = json.loads((CASES / "probes.json").read_text(encoding="utf-8"))
+    return [
+        Probe(each["name"], each["files"], each["accepted"], each["message"], each["code_of_states_one_and_two"])
+        for each in raw
+    ]
+
+
+def load_texts(files: dict[str, str], main: str = "agents.xabsl") -> ProgramSource:
+    """Load a program whose files are texts."""
+    root = Path("/behavior")
+
+    def read(path: Path) -> str:
+        text = files.get(str(path.relative_to(root)))
+        if text is None:
+            raise FileNotFoundError(2, "No such file or directory")
+        return text
+
+    return load_source(root / main, read)
+
+
+def read_case(program: str, name: str) -> str:
+    """A file of a whole behavior, packed or not."""
+    path = CASES / "programs" / program / name
+    if path.exists():
+        return path.read_text(encoding="utf-8")
+    with gzip.open(f"{path}.gz", "rt", encoding="utf-8") as file:
+        return file.read()
+
+
+def parse_words(code: str) -> list[Any]:
+    """Intermediate code, numbers as numbers."""
+    plain = " ".join(line for line in code.splitlines() if not line.startswith("//"))
+    return [_number(word) for word in plain.split()]
+
+
+def _number(word: str) -> float | str:
+    try:
+        return float(word)
+    except ValueError:
+        return word

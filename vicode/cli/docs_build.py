@@ -1,0 +1,126 @@
+"""Builds the sites of a command, once or again and again: one alone, several beside each other with a home."""
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from vicode.cli.console import count_findings
+from vicode.cli.docs_inputs import LoadedSiteInput
+
+if TYPE_CHECKING:
+    from vicode.docsite import PlannedFile, SiteBuilder
+
+ProgressCallback = Callable[[str, int, int], None]
+"""Told which site is being built, how many of its files are done, and of how many."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class DocsBuildResult:
+    """What became of a command's folder: all its files and those that were touched, relative to it.
+
+    `foreign` is a file of somebody else that stands in the way, "" for none.
+    """
+
+    files: tuple[str, ...] = ()
+    changed: tuple[str, ...] = ()
+    foreign: str = ""
+
+
+@dataclass(slots=True)
+class DocsBuilder:
+    """The sites in a folder; `ignores_cache` makes all pages anew the first time. Close it in the end.
+
+    `title` is what the whole is called: the one site, or the home of several.
+    """
+
+    out: Path
+    ignores_cache: bool = False
+    is_markdown: bool = False
+    title: str = ""
+    _builders: dict[str, "SiteBuilder"] = field(default_factory=dict)
+
+    def build(
+        self, readings: Sequence[LoadedSiteInput], step: ProgressCallback = lambda _name, _done, _all: None
+    ) -> DocsBuildResult:
+        """Build the sites of all that could be read; pages of what is gone are taken away."""
+        from vicode.docsite import SiteBuilder, plan_site_index
+
+        named = {name: each for name, each in _assign_folders(readings).items() if each.site_input is not None}
+        plans: dict[str, tuple[PlannedFile, ...]] = {}
+        for name, reading in named.items():
+            step(reading.name, 0, 0)
+            builder = self._builders.setdefault(name, SiteBuilder())
+            assert reading.site_input is not None
+            subject = (
+                reading.site_input
+                if name
+                else replace(reading.site_input, title=self.title or reading.site_input.title)
+            )
+            plans[name] = builder.plan(subject, is_markdown=self.is_markdown)
+        if len(readings) > 1:
+            subjects = {name: each.site_input for name, each in named.items() if each.site_input}
+            plans[""] = plan_site_index(subjects, title=self.title, is_markdown=self.is_markdown)
+        built = DocsBuildResult()
+        for name, plan in plans.items():
+            title = named[name].name if name in named else self.out.name
+            built = _merge_results(built, self._write(name, plan, partial(step, title)))
+            if built.foreign:
+                return built
+        self.ignores_cache = False
+        return built
+
+    def close(self) -> None:
+        """End the processes behind it."""
+        for builder in self._builders.values():
+            builder.close()
+
+    def __enter__(self) -> "DocsBuilder":
+        return self
+
+    def __exit__(self, *_exception: object) -> None:
+        self.close()
+
+    def _write(self, name: str, plan: "Sequence[PlannedFile]", step: Callable[[int, int], None]) -> DocsBuildResult:
+        from vicode.docsite import Manifest, load_manifest, manifest_path, save_manifest, write_site
+
+        out = self.out / name
+        kept = manifest_path(out)
+        written = write_site(plan, out, Manifest() if self.ignores_cache else load_manifest(kept), step)
+        if written.foreign:
+            return DocsBuildResult(foreign=(out / written.foreign[0]).as_posix())
+        if written.changed or not kept.is_file():
+            save_manifest(written.manifest, kept)
+        before = f"{name}/" if name else ""
+        return DocsBuildResult(
+            files=tuple(before + each.path for each in plan), changed=tuple(before + each for each in written.changed)
+        )
+
+
+def _assign_folders(readings: Sequence[LoadedSiteInput]) -> Mapping[str, LoadedSiteInput]:
+    """Each with its folder below that of the command; one alone has none. Case does not tell two apart."""
+    if len(readings) == 1:
+        return {"": readings[0]}
+    named: dict[str, LoadedSiteInput] = {}
+    taken: set[str] = set()
+    for each in readings:
+        name, number = each.name, 1
+        while name.casefold() in taken:
+            number += 1
+            name = f"{each.name}-{number}"
+        taken.add(name.casefold())
+        named[name] = each
+    return named
+
+
+def _merge_results(one: DocsBuildResult, other: DocsBuildResult) -> DocsBuildResult:
+    return DocsBuildResult(files=one.files + other.files, changed=one.changed + other.changed, foreign=other.foreign)
+
+
+def describe_build(built: DocsBuildResult, readings: Sequence[LoadedSiteInput], out: Path) -> str:
+    """What was written, in a line."""
+    findings = [each.finding for reading in readings if reading.site_input for each in reading.site_input.findings]
+    counts = f"{len(built.files)} files, {len(built.changed)} changed, {count_findings(findings)}"
+    home = "index.md" if "index.md" in built.files else "index.html"
+    return f"wrote {(out / home).as_posix()}: {counts}"

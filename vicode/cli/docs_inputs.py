@@ -1,0 +1,165 @@
+"""What sites are about, read from disk: projects of designs, and behaviors in XABSL."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from functools import lru_cache
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from vicode.cli.project_loader import DESIGN_SUFFIXES, XABSL_SUFFIXES, LoadedProject, load_projects
+from vicode.findings import Finding, Severity
+
+if TYPE_CHECKING:
+    from vicode.docsite import SiteInput, SourceText
+    from vicode.findings import DesignPath as ThingPath
+    from vicode.importers import ImportResult
+    from vicode.xabsl.compiler import CompileResult
+    from vicode.xabsl.parser import ParsedFile
+    from vicode.xabsl.source_loader import ProgramSource
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class LoadedSiteInput:
+    """One project or behavior as it stands on disk.
+
+    `read_errors` is what stands in the way of reading it; `is_incomplete` says that something is missing because of it, and
+    without a subject all is. `folders` are those that hold its files.
+    """
+
+    name: str
+    site_input: "SiteInput | None"
+    read_errors: tuple[Finding, ...]
+    is_incomplete: bool
+    folders: tuple[Path, ...]
+
+
+def load_site_inputs(paths: Sequence[Path]) -> tuple[LoadedSiteInput, ...]:
+    """Read all that paths name, each once.
+
+    Raises:
+        OSError: A path does not exist or cannot be read.
+    """
+    readings: list[LoadedSiteInput] = []
+    for path in dict.fromkeys(_find_behavior(each) or each for each in paths):
+        if path.suffix in XABSL_SUFFIXES:
+            readings.append(_load_behavior_input(path))
+        elif path.is_file() and path.suffix not in DESIGN_SUFFIXES:
+            raise OSError(
+                f"{path} is neither a design nor an XABSL behavior; "
+                "name a design (.yaml), a folder with designs, or the .xabsl file with the agents"
+            )
+        else:
+            readings += [_load_project_input(opened) for opened in load_projects([str(path)])]
+    return tuple(readings)
+
+
+def _find_behavior(folder: Path) -> Path | None:
+    """The file with the agents, of a folder without designs that holds one behavior."""
+    from vicode.store import find_projects
+    from vicode.xabsl.source_loader import find_agent_files
+
+    if not folder.is_dir() or find_projects(folder):
+        return None
+    found = tuple(find_agent_files(folder))
+    if len(found) > 1:
+        more = f" and {len(found) - 2} more" if len(found) > 2 else ""
+        raise OSError(f"{folder} holds several behaviors; name one of {found[0]}, {found[1]}{more}")
+    return found[0] if found else None
+
+
+def _load_project_input(opened: LoadedProject) -> LoadedSiteInput:
+    folder = opened.open_project.folder.resolve()
+    # Where nothing can be read, nothing is told of it: pages of a better time are worth more.
+    is_readable = bool(opened.selected_designs) or not opened.open_project.broken_files
+    return LoadedSiteInput(
+        name=folder.name,
+        site_input=_project_site_input(opened) if is_readable else None,
+        read_errors=tuple(each for each in opened.findings if each.severity is Severity.ERROR),
+        is_incomplete=bool(opened.open_project.broken_files),
+        folders=(folder,),
+    )
+
+
+def _project_site_input(opened: LoadedProject) -> "SiteInput":
+    from vicode.docsite import make_site_input
+
+    project = opened.open_project.project
+    meant = set(opened.selected_designs)
+    part = replace(project, designs=tuple(each for each in project.designs if each.component in meant))
+    faulty = {language: opened.components_with_errors(language) for language in project.languages}
+    return make_site_input(opened.open_project, part, opened.findings, faulty)
+
+
+def _load_behavior_input(agents: Path) -> LoadedSiteInput:
+    """A behavior as a project, with its files of XABSL as sources."""
+    from vicode.cli.xabsl_behavior import load_behavior, with_display_paths
+    from vicode.xabsl.compiler import compile_source
+
+    source = load_behavior(agents, _parse_cached)
+    compiled = compile_source(source)
+    errors = [each for each in compiled.findings if each.severity is Severity.ERROR]
+    is_broken = compiled.program is None
+    return LoadedSiteInput(
+        name=agents.resolve().parent.name,
+        site_input=None if is_broken else _behavior_site_input(agents, source, compiled),
+        read_errors=with_display_paths(errors, agents) if is_broken else (),
+        is_incomplete=is_broken,
+        folders=tuple(sorted({path.resolve().parent for path in (agents, *source.files)})),
+    )
+
+
+# While a behavior is watched, an edit leaves all other files as they were.
+@lru_cache(maxsize=2000)
+def _parse_cached(text: str, name: str) -> "ParsedFile":
+    from vicode.xabsl.parser import parse
+
+    return parse(text, name)
+
+
+def _behavior_site_input(agents: Path, source: "ProgramSource", compiled: "CompileResult") -> "SiteInput":
+    from vicode.check import check_project
+    from vicode.docsite import ComponentFinding, SiteInput
+    from vicode.importers import import_behavior
+    from vicode.store.documents import default_project_name
+
+    imported = import_behavior(source, compiled, default_project_name(agents.resolve().parent.name))
+    project = imported.project
+    found = [
+        ComponentFinding(component=each.subject.component if each.subject else "", line=0, finding=each)
+        for each in check_project(project)
+    ]
+    errors = [each for each in found if each.finding.severity is Severity.ERROR]
+    faulty = {
+        language: frozenset(each.component for each in errors if each.finding.applies_to(language))
+        for language in project.languages
+    }
+    # The only thing in XABSL that has a title.
+    title = project.agents[0].title if len(project.agents) == 1 else ""
+    return SiteInput(
+        project=project,
+        findings=tuple(found),
+        sources=_sources(source, imported),
+        components_with_errors=faulty,
+        title=title,
+    )
+
+
+def _sources(source: "ProgramSource", imported: "ImportResult") -> "dict[str, SourceText]":
+    """The files of a behavior by component, each with the lines of its option's states, decisions and parameters."""
+    from vicode.docsite import SourceText, iter_documented_paths
+    from vicode.xabsl.source_loader import read_text
+
+    def text_of(path: Path, lines: "dict[ThingPath, int]") -> SourceText:
+        folder = source.main.parent
+        shown = path.relative_to(folder).as_posix() if path.is_relative_to(folder) else path.name
+        return SourceText(path=shown, text=read_text(path), language="xabsl", line_numbers=lines)
+
+    sources = {"": text_of(source.main, {})}
+    for made, design in zip(imported.designs, imported.project.designs, strict=True):
+        tokens, described = source.files[made.file].tokens, set(iter_documented_paths(design))
+        lines: dict[ThingPath, int] = {}
+        for token, path in made.anchors:
+            if path in described:
+                lines.setdefault(path, tokens.line_at(tokens.starts[token]))
+        sources[made.component] = text_of(made.file, lines)
+    return sources

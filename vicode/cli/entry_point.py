@@ -1,0 +1,59 @@
+"""Where the command line begins: finds the command, runs it, turns what happened into an exit code."""
+
+import argparse
+import os
+import sys
+from collections.abc import Sequence
+
+from vicode import __version__
+from vicode.cli import check, docs, edit, export, gen, import_command, run, schema, xabsl
+from vicode.cli.console import describe_os_error
+
+COMMANDS = {
+    "edit": edit,
+    "gen": gen,
+    "check": check,
+    "docs": docs,
+    "run": run,
+    "export": export,
+    "import": import_command,
+    "schema": schema,
+    "xabsl": xabsl,
+}
+EXIT_OK, EXIT_FINDINGS, EXIT_FAILED, EXIT_INTERRUPTED = 0, 1, 2, 130
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run one command; returns 0 when all is sound, 1 with findings or stale files, 2 when it could not run."""
+    parsed = _make_parser().parse_args(arguments)
+    try:
+        code: int = parsed.run(parsed)
+        # A language server has closed it by then.
+        if not sys.stdout.closed:
+            sys.stdout.flush()
+    except KeyboardInterrupt:
+        return EXIT_INTERRUPTED
+    except BrokenPipeError:
+        # Whoever read our output has gone; the interpreter's last flush must not complain either.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return EXIT_FAILED
+    except OSError as error:
+        print(f"vicode: {describe_os_error(error)}", file=sys.stderr)
+        return EXIT_FAILED
+    return code
+
+
+def _make_parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(
+        prog="vicode",
+        description="Design robot state machines in the browser, check them, and generate the code that runs them.",
+        epilog="Exit codes: 0 all is sound, 1 findings or stale files, 2 it could not run.",
+    )
+    parser.add_argument("--version", action="version", version=f"vicode {__version__}")
+    commands = parser.add_subparsers(title="commands", metavar="COMMAND", required=True)
+    for name, module in COMMANDS.items():
+        summary = (module.__doc__ or "").strip().split("\n")[0]
+        command = commands.add_parser(name, help=summary, description=summary)
+        module.add_arguments(command)
+        command.set_defaults(run=module.run)
+    return parser

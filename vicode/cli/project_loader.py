@@ -1,0 +1,118 @@
+"""Opens what paths on the command line name: designs, project folders, folders of projects."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from vicode.findings import Finding, Severity
+
+if TYPE_CHECKING:
+    from vicode.store import OpenProject
+
+DESIGN_SUFFIXES = (".yaml", ".yml")
+XABSL_SUFFIXES = (".xabsl", ".yabsl")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class LoadedProject:
+    """A project and the components that are meant (all of it: None), with what is wrong with them.
+
+    `requested` are the components whose files were given; the others that are meant are used by them.
+    """
+
+    open_project: "OpenProject"
+    selected_components: frozenset[str] | None
+    requested: tuple[str, ...] = ()
+    findings: tuple[Finding, ...]
+
+    @property
+    def selected_designs(self) -> tuple[str, ...]:
+        """Names of the components that are meant and have a design, in order."""
+        designs = (design.component for design in self.open_project.project.designs)
+        return tuple(name for name in designs if self.selected_components is None or name in self.selected_components)
+
+    def components_with_errors(self, language: str) -> frozenset[str]:
+        """Components that nothing can be generated for in a language; mistakes in project.yaml make all of them so."""
+        from vicode.store import find_faulty_components
+
+        return find_faulty_components(self.errors_for(language), self.open_project)
+
+    def errors_for(self, language: str) -> tuple[Finding, ...]:
+        """What stands in the way of generating in a language."""
+        return tuple(each for each in self.findings if each.severity is Severity.ERROR and each.applies_to(language))
+
+    @property
+    def design_paths(self) -> dict[str, str]:
+        """The design files by component, relative to the project's folder."""
+        folder = self.open_project.folder.resolve()
+        files = {name: path.resolve() for name, path in self.open_project.files.items() if name}
+        return {
+            name: path.relative_to(folder).as_posix() if path.is_relative_to(folder) else path.name
+            for name, path in files.items()
+        }
+
+
+def load_projects(paths: Sequence[str]) -> tuple[LoadedProject, ...]:
+    """Open every path, each project once.
+
+    Raises:
+        OSError: A path does not exist or cannot be read, or there is no design at all.
+    """
+    # Reading designs is not needed for --help, and takes longer than that.
+    from vicode.store import find_projects
+
+    wanted: dict[Path, set[Path] | None] = {}
+    for path in (Path(each) for each in paths):
+        path.stat()
+        require_design_file(path)
+        if path.is_dir():
+            wanted.update(dict.fromkeys(find_projects(path)))
+        elif path.name in ("project.yaml", "project.yml"):
+            wanted[path.parent] = None
+        else:
+            (folder,) = find_projects(path)
+            files = wanted.setdefault(folder, set())
+            if files is not None:
+                files.add(path)
+    if not wanted:
+        raise OSError(f"no designs in {', '.join(paths)}{_import_hint(paths)}")
+    return tuple(_load_project(folder, files) for folder, files in wanted.items())
+
+
+def _import_hint(paths: Sequence[str]) -> str:
+    """What to do where there are behaviors instead."""
+    from vicode.xabsl.source_loader import find_agent_files
+
+    found = next((file for path in paths for file in find_agent_files(Path(path))), None)
+    return f"; 'vicode import {found}' makes designs of a behavior in XABSL" if found else ""
+
+
+def require_design_file(path: Path) -> None:
+    """Raise OSError for a file that is no design."""
+    if path.is_file() and path.suffix not in DESIGN_SUFFIXES:
+        way = "; 'vicode import' makes designs of a behavior in XABSL" if path.suffix in XABSL_SUFFIXES else ""
+        raise OSError(f"{path} is no design; name a design (.yaml), or a folder with designs{way}")
+
+
+def _load_project(folder: Path, files: set[Path] | None) -> LoadedProject:
+    from vicode.check import check_project
+    from vicode.generators import collect_components
+    from vicode.store import locate_findings, open_project
+
+    if files is None:
+        opened = open_project(folder)
+        return LoadedProject(
+            open_project=opened,
+            selected_components=None,
+            findings=locate_findings([*opened.findings, *check_project(opened.project)], opened),
+        )
+    opened = open_project(min(files))
+    found = (opened.find_component(file) for file in sorted(files))
+    named = tuple(name for name in found if name is not None)
+    components = collect_components(opened.project, named)
+    relevant = {opened.files[name].resolve() for name in (*components, "") if name in opened.files}
+    relevant |= {file.resolve() for file in files}
+    findings = locate_findings([*opened.findings, *check_project(opened.project, components)], opened)
+    kept = tuple(each for each in findings if each.location is None or Path(each.location.file).resolve() in relevant)
+    return LoadedProject(open_project=opened, selected_components=components, requested=named, findings=kept)

@@ -1,0 +1,67 @@
+"""What the commands about XABSL share: compiling a behavior, and showing what is wrong with it."""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from vicode.cli.console import print_findings
+
+if TYPE_CHECKING:
+    from vicode.findings import Finding
+    from vicode.xabsl.compiler import CompileResult
+    from vicode.xabsl.source_loader import ParseText, ProgramSource
+
+
+_FOLDERS_ABOVE = 4
+
+
+def load_behavior(agents: Path, parse_text: "ParseText | None" = None) -> "ProgramSource":
+    """Read the behavior whose agents are in this file.
+
+    Raises:
+        OSError: It is another file of a behavior, of which the words would mean nothing alone.
+    """
+    from vicode.xabsl.parser import parse
+    from vicode.xabsl.source_loader import load_source
+
+    source = load_source(agents, parse_text=parse_text or parse)
+    main = source.files.get(source.main)
+    if main is not None and main.file.body and not source.has_agents:
+        found = next(_nearby_agent_files(agents), None)
+        raise OSError(f"{agents} has no agents; name the file that has them{f': {found}' if found else ''}")
+    return source
+
+
+def _nearby_agent_files(file: Path) -> Iterator[Path]:
+    from vicode.xabsl.source_loader import find_agent_files
+
+    folder = file.parent
+    for _ in range(_FOLDERS_ABOVE):
+        yield from find_agent_files(folder, recursive=False)
+        folder = folder / ".." if folder.name in ("", "..") else folder.parent
+
+
+def compile_behavior(agents: Path) -> "CompileResult":
+    """Compile the behavior whose agents are in this file.
+
+    Raises:
+        OSError: It is another file of a behavior.
+    """
+    from vicode.xabsl.compiler import compile_source
+
+    return compile_source(load_behavior(agents))
+
+
+def with_display_paths(findings: "Sequence[Finding]", agents: Path) -> "tuple[Finding, ...]":
+    """Findings with the paths of files as they are seen from here."""
+    folder = agents.parent
+    return tuple(
+        replace(each, location=replace(each.location, file=str(folder / each.location.file)) if each.location else None)
+        for each in findings
+    )
+
+
+def print_behavior_findings(findings: "Sequence[Finding]", agents: Path, *, to_stderr: bool = True) -> None:
+    """Print findings."""
+    print_findings(with_display_paths(findings, agents), to_stderr=to_stderr)

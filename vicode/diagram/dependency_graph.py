@@ -1,0 +1,178 @@
+"""Who uses whom in a project: components in columns by how deep they are used, as a figure to draw."""
+
+from collections import defaultdict
+from collections.abc import Callable, Collection, Iterator, Mapping
+
+from vicode.diagram.diagram_model import Diagram, DiagramEdge, DiagramNode
+from vicode.diagram.node_geometry import use_size
+from vicode.diagram.text_metrics import NAME_FONT, shorten
+from vicode.model.design import Call, Design, Point
+from vicode.model.project import Project
+
+_COLUMN_GAP, _ROW_HEIGHT = 110.0, 90.0
+_MAX_NAME_WIDTH = 230.0
+_SWEEPS = 4
+_MAX_EDGES = 150
+
+UsesByComponent = Mapping[str, Mapping[str, frozenset[str]]]
+"""By user and used component: "requires", "modulates", neither or both."""
+
+
+def dependency_diagram(
+    project: Project, href_for: Callable[[str], str] = lambda _component: "", *, sparse: bool = False
+) -> Diagram:
+    """The figure of all components that use others or are used.
+
+    Args:
+        project: Whose components.
+        address_of: Where a click on a design leads.
+        sparse: Where there are too many arrows to be followed, leave out what is only asked (`has_omitted_uses`).
+    """
+    uses = _project_uses(project)
+    if sparse and has_omitted_uses(project):
+        uses = _without_read_only(uses, {design.component for design in project.designs})
+    shown = [name for name in project.interfaces() if name in uses or any(name in used for used in uses.values())]
+    shown += [design.component for design in project.designs if design.component not in shown]
+    places = _positions(shown, uses)
+    roots = {agent.root for agent in project.agents}
+    return Diagram(
+        nodes=tuple(_diagram_node(project, name, places[name], href_for, is_root=name in roots) for name in shown),
+        edges=tuple(dependency_edges(uses, set(shown))),
+    )
+
+
+def has_omitted_uses(project: Project) -> bool:
+    """Whether a sparse figure has less than the whole: there are many arrows, some to what is only asked."""
+    uses = _project_uses(project)
+    count = sum(max(1, len(kinds)) for used in uses.values() for kinds in used.values())
+    designs = {design.component for design in project.designs}
+    return count > _MAX_EDGES and _without_read_only(uses, designs) != uses
+
+
+def _without_read_only(uses: UsesByComponent, designs: Collection[str]) -> UsesByComponent:
+    """The uses without those of hand-written components that are neither required nor modulated."""
+    return {
+        user: {name: kinds for name, kinds in used.items() if kinds or name in designs} for user, used in uses.items()
+    }
+
+
+def _project_uses(project: Project) -> UsesByComponent:
+    return {design.component: found for design in project.designs if (found := component_uses(design))}
+
+
+def component_uses(design: Design) -> Mapping[str, frozenset[str]]:
+    """What a design uses, and how."""
+    components = {use.alias: use.component for use in design.uses}
+    kinds: dict[str, set[str]] = {component: set() for component in components.values()}
+    actions = [*design.common.actions, *(action for state in design.states for action in state.all_actions)]
+    for state in design.states:
+        for alias in state.requires:
+            kinds.get(components.get(alias, ""), set()).add("requires")
+    for action in actions:
+        if isinstance(action, Call):
+            kinds.get(components.get(action.alias, ""), set()).add("modulates")
+    return {component: frozenset(found) for component, found in kinds.items()}
+
+
+def _diagram_node(
+    project: Project, name: str, at: Point, address_of: Callable[[str], str], *, is_root: bool
+) -> DiagramNode:
+    design = project.design(name)
+    interface = project.interface(name)
+    count = len(design.states) if design else 0
+    second = f"{count} state{'s' * (count != 1)}" if design else "hand-written"
+    doc = " ".join(interface.doc.split()) if interface else ""
+    return DiagramNode(
+        key=name,
+        node_type="state" if design else "component",
+        center=at,
+        size=use_size(name, second),
+        label=shorten(name, NAME_FONT, _MAX_NAME_WIDTH),
+        subtitle=second,
+        title="\n".join(part for part in (name, doc) if part),
+        initial=is_root,
+        href=address_of(name) if design else "",
+    )
+
+
+def dependency_edges(uses: UsesByComponent, shown: Collection[str]) -> Iterator[DiagramEdge]:
+    """The arrows between the components that are shown."""
+    for user, found in uses.items():
+        for used, kinds in found.items():
+            if used not in shown:
+                continue
+            for kind in sorted(kinds) or ["uses"]:
+                # As in a design: what is required comes to its user, what is modulated is steered by it.
+                source, target = (used, user) if kind == "requires" else (user, used)
+                of = "transition" if kind == "uses" else kind
+                yield DiagramEdge(
+                    key=f"{kind}/{user}/{used}",
+                    edge_type=of,
+                    source=source,
+                    target=target,
+                    title=f"{user} {kind} {used}",
+                )
+
+
+def _positions(names: list[str], uses: UsesByComponent) -> dict[str, Point]:
+    """Columns by depth, rows so that users and used stand near each other."""
+    depths = _depths(names, uses)
+    columns: dict[int, list[str]] = defaultdict(list)
+    for name in names:
+        columns[depths[name]].append(name)
+    neighbours = _neighbours(uses)
+    for _sweep in range(_SWEEPS):
+        for depth in sorted(columns):
+            rows = {name: row - len(column) / 2 for column in columns.values() for row, name in enumerate(column)}
+            columns[depth].sort(key=lambda name: _barycenter(rows, name, neighbours[name]))
+    places: dict[str, Point] = {}
+    left = 0.0
+    for depth in sorted(columns):
+        width = max(use_size(name, "hand-written").width for name in columns[depth])
+        for row, name in enumerate(columns[depth]):
+            places[name] = (left + width / 2, (row - (len(columns[depth]) - 1) / 2) * _ROW_HEIGHT)
+        left += width + _COLUMN_GAP
+    return places
+
+
+def _depths(names: list[str], uses: UsesByComponent) -> dict[str, int]:
+    """The longest way from a component that nobody uses; a circle is cut at the arrow that closes it."""
+    used_by_others = {used for user, found in uses.items() for used in found if used != user}
+    onwards: dict[str, list[str]] = defaultdict(list)
+    seen, is_open, order = set[str](), set[str](), list[str]()
+    for start in sorted(names, key=lambda name: name in used_by_others):
+        waiting = [(start, iter(uses.get(start, ())))] if start not in seen else []
+        seen.add(start)
+        is_open.add(start)
+        while waiting:
+            name, rest = waiting[-1]
+            used = next(rest, None)
+            if used is None:
+                order.append(name)
+                is_open.discard(name)
+                waiting.pop()
+            elif used not in is_open:
+                onwards[name].append(used)
+                if used not in seen:
+                    seen.add(used)
+                    is_open.add(used)
+                    waiting.append((used, iter(uses.get(used, ()))))
+    depths = dict.fromkeys(order, 0)
+    for name in reversed(order):
+        for used in onwards[name]:
+            depths[used] = max(depths[used], depths[name] + 1)
+    return depths
+
+
+def _neighbours(uses: UsesByComponent) -> Mapping[str, set[str]]:
+    neighbours: dict[str, set[str]] = defaultdict(set)
+    for user, found in uses.items():
+        for used in found:
+            neighbours[user].add(used)
+            neighbours[used].add(user)
+    return neighbours
+
+
+def _barycenter(rows: Mapping[str, float], name: str, neighbours: set[str]) -> float:
+    found = [rows[each] for each in neighbours if each in rows]
+    return sum(found) / len(found) if found else rows[name]

@@ -1,0 +1,185 @@
+"""What a drawing of a design shows, with finished texts and sizes: nodes, and arrows between them."""
+
+from collections import Counter
+from collections.abc import Collection, Iterator
+from dataclasses import dataclass
+
+from vicode.diagram.layered_layout import NodeLayout, complete_layout
+from vicode.diagram.node_geometry import COMMON_SIZE, Size, state_size, use_size
+from vicode.diagram.text_metrics import NAME_FONT, SMALL_FONT, shorten
+from vicode.diagram.transition_labels import GuardKind, guard_kind, short_transition_label, transition_label
+from vicode.model.design import COMMON, Call, Design, Point, State, Transition
+from vicode.model.disabled import disabled_states, is_enabled
+from vicode.model.traversal import iter_transitions
+
+_MAX_NAME_WIDTH, _MAX_SUBTITLE_WIDTH = 230.0, 200.0
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class DiagramNode:
+    """A box: `of` is state, component or common; `badges` are words and counts for the row below the name.
+
+    `href` is where a click leads, nothing for nowhere.
+    """
+
+    key: str
+    node_type: str
+    center: Point
+    size: Size
+    label: str
+    title: str
+    subtitle: str = ""
+    initial: bool = False
+    final: bool = False
+    disabled: bool = False
+    badges: tuple[tuple[str, int], ...] = ()
+    href: str = ""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class DiagramEdge:
+    """A transition or a link: `of` is transition, requires or modulates; `order` is 0 for one that is alone.
+
+    `href` is where a click leads, nothing for nowhere.
+    """
+
+    key: str
+    edge_type: str
+    source: str
+    target: str
+    title: str
+    label: str = ""
+    order: int = 0
+    guard_kind: GuardKind = GuardKind.ALWAYS
+    disabled: bool = False
+    label_at: Point | None = None
+    href: str = ""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Diagram:
+    """Everything that is drawn; arrows only between nodes that are there."""
+
+    nodes: tuple[DiagramNode, ...]
+    edges: tuple[DiagramEdge, ...]
+
+
+def build_diagram(design: Design, *, only: Collection[str] | None = None, links: bool = True) -> Diagram:
+    """The figure of a design, or of these states and what they use."""
+    arrows = (*_transition_edges(design), *(_use_edges(design) if links else ()))
+    nodes = tuple(_diagram_nodes(design, complete_layout(design)))
+    if only is not None:
+        wanted = {_state_key(name) for name in only}
+        used = {arrow.source for arrow in arrows if arrow.edge_type == "requires" and arrow.target in wanted}
+        used |= {arrow.target for arrow in arrows if arrow.edge_type == "modulates" and arrow.source in wanted}
+        nodes = tuple(node for node in nodes if node.key in wanted | used)
+    elif not links:
+        nodes = tuple(node for node in nodes if node.node_type != "component")
+    known = {node.key for node in nodes}
+    return Diagram(
+        nodes=nodes, edges=tuple(arrow for arrow in arrows if arrow.source in known and arrow.target in known)
+    )
+
+
+def _state_key(name: str) -> str:
+    return f"s:{name}"
+
+
+def _use_key(alias: str) -> str:
+    return f"c:{alias}"
+
+
+def _source_key(source: str) -> str:
+    return "common" if source == COMMON else _state_key(source)
+
+
+def _diagram_nodes(design: Design, placement: NodeLayout) -> Iterator[DiagramNode]:
+    for use in design.uses:
+        yield DiagramNode(
+            key=_use_key(use.alias),
+            node_type="component",
+            center=placement.uses[use.alias],
+            size=use_size(use.alias, use.component),
+            label=shorten(use.alias, NAME_FONT, _MAX_NAME_WIDTH),
+            subtitle=shorten(use.component, SMALL_FONT, _MAX_SUBTITLE_WIDTH) if use.component != use.alias else "",
+            title=f"{use.alias}: component {use.component}",
+        )
+    if design.common.transitions or design.common.actions:
+        yield DiagramNode(
+            key="common",
+            node_type="common",
+            center=placement.common,
+            size=COMMON_SIZE,
+            label="every state",
+            title="\n".join(part for part in ("Common transitions of every state", design.common.doc) if part),
+        )
+    for state in design.states:
+        yield _state_node(design, state, placement.states[state.name])
+
+
+def _state_node(design: Design, state: State, at: Point) -> DiagramNode:
+    return DiagramNode(
+        key=_state_key(state.name),
+        node_type="state",
+        center=at,
+        size=state_size(state.name),
+        label=shorten(state.name, NAME_FONT, _MAX_NAME_WIDTH),
+        title="\n".join(part for part in (f"State {state.name}", state.doc) if part),
+        initial=state.name == design.initial,
+        final=state.final,
+        disabled=state.disabled,
+        badges=tuple(_badges(state)),
+    )
+
+
+def _badges(state: State) -> Iterator[tuple[str, int]]:
+    called = {action.alias for action in state.all_actions if isinstance(action, Call)}
+    works = any(not isinstance(action, Call) for action in state.actions)
+    for name, flag in (("enter", bool(state.enter)), ("actions", works), ("leave", bool(state.leave))):
+        if flag:
+            yield name, 0
+    for name, count in (("requires", len(state.requires)), ("modulates", len(called))):
+        if count:
+            yield name, count
+
+
+def _transition_edges(design: Design) -> Iterator[DiagramEdge]:
+    all_of_them = list(iter_transitions(design))
+    counts = Counter(located.source for located in all_of_them)
+    orders: Counter[str] = Counter()
+    off = disabled_states(design)
+    for located in all_of_them:
+        transition = located.decision
+        assert isinstance(transition, Transition)
+        orders[located.source] += 1
+        source = "every state" if located.source == COMMON else located.source
+        way = f"{source} → {transition.to}"
+        yield DiagramEdge(
+            key="t:" + "/".join(map(str, located.path)),
+            edge_type="transition",
+            source=_source_key(located.source),
+            target=_state_key(transition.to),
+            title="\n".join(
+                part for part in (way, transition_label(located, design.time_unit), transition.doc) if part
+            ),
+            label=short_transition_label(located, design.time_unit),
+            order=orders[located.source] if counts[located.source] > 1 else 0,
+            guard_kind=guard_kind(located),
+            disabled=not is_enabled(located, off),
+            label_at=transition.label_at,
+        )
+
+
+def _use_edges(design: Design) -> Iterator[DiagramEdge]:
+    for state in design.states:
+        calls = (action.alias for action in state.all_actions if isinstance(action, Call))
+        for alias in dict.fromkeys(state.requires):
+            key, title = f"requires/{state.name}/{alias}", f"{state.name} requires {alias}"
+            yield DiagramEdge(
+                key=key, edge_type="requires", source=_use_key(alias), target=_state_key(state.name), title=title
+            )
+        for alias in dict.fromkeys(calls):
+            key, title = f"modulates/{state.name}/{alias}", f"{state.name} modulates {alias}"
+            yield DiagramEdge(
+                key=key, edge_type="modulates", source=_state_key(state.name), target=_use_key(alias), title=title
+            )

@@ -1,0 +1,234 @@
+"""The way of every arrow and the place of its label, found as the canvas finds them."""
+
+import math
+from collections import defaultdict
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+
+from vicode.diagram.diagram_model import Diagram, DiagramEdge, DiagramNode
+from vicode.diagram.edge_curves import (
+    CLEARANCE,
+    curve_length,
+    parallel_curves,
+    point_on_curve,
+    reading_order,
+    sample_curve,
+    self_loop_curves,
+)
+from vicode.diagram.edge_labels import EdgeLabel, make_edge_label, shorter_labels, textless_labels
+from vicode.diagram.spatial_index import CubicBezier, ObstacleIndex, PointIndex, Rect, RectIndex
+from vicode.diagram.transition_labels import GuardKind
+from vicode.model.design import Point
+
+# What a label would hide, dearer first. A place farther along its line costs less than hiding a line.
+_BOX_COST, _LABEL_COST, _EDGE_COST, _USE_EDGE_COST = 12.0, 8.0, 1.4, 0.7
+# In a figure of more arrows labels do not look for lines: there are too many to be spared.
+_MAX_AVOIDED_EDGES = 600
+_SAMPLE_DISTANCE = 8.0
+# Parts of the way, and how far beside it: 1 is just beside the line, 2 a little farther; the best first.
+_LABEL_POSITIONS = sorted(
+    (
+        (abs(part - 0.5) * 2.4 + abs(side) * 1.2, part, side)
+        for part in (0.5, 0.42, 0.58, 0.34, 0.66, 0.27, 0.73, 0.2, 0.8, 0.14, 0.86)
+        for side in (0, 1, -1, 2, -2)
+    ),
+    key=lambda place: place[0],
+)
+_LOOP_OFFSETS = ((0.0, 0), (0.4, 0), (0.8, 1), (1.2, -1))
+# Where nothing of all that is free: ever farther from the line, so that every label can be read.
+_DISTANT_POSITIONS = [
+    (side, part) for side in (3, -3, 4, -4, 5, -5, 6, -6) for part in (0.5, 0.42, 0.58, 0.34, 0.66, 0.2, 0.8)
+]
+_DISTANT_LOOP_OFFSETS = (0, 1, -1, 2, -2, 3, -3)
+_VERTICAL_OFFSETS = sorted(range(-40, 44, 4), key=abs)
+_DISTANT_STEP = 14.0
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class EdgeRoute:
+    """The curve of an arrow, and its label with the place for its middle."""
+
+    edge: DiagramEdge
+    curve: CubicBezier
+    label: EdgeLabel | None
+    label_position: Point
+
+
+def route_edges(diagram: Diagram) -> tuple[EdgeRoute, ...]:
+    """A route for every arrow, in the figure's order."""
+    router = _EdgeRouter(diagram)
+    ways = [way for pair in router.edge_pairs() for way in router.route_pair(pair)]
+    # Those with the least choice first.
+    ways.sort(key=lambda way: curve_length(way[1]))
+    routes = {arrow.key: router.place_label(arrow, curve, chip) for arrow, curve, chip in ways}
+    for key in router.overlapping:
+        router.resolve_overlap(key, routes)
+    return tuple(routes[arrow.key] for arrow in diagram.edges)
+
+
+class _EdgeRouter:
+    """Knows what is drawn already."""
+
+    def __init__(self, figure: Diagram) -> None:
+        self.nodes = {node.key: node for node in figure.nodes}
+        self.boxes, self.labels, self.lines = RectIndex(), RectIndex(), PointIndex()
+        self.obstacles = ObstacleIndex(CLEARANCE)
+        self.overlapping: list[str] = []
+        has_labels = any(
+            arrow.label or arrow.order or arrow.guard_kind is not GuardKind.ALWAYS for arrow in figure.edges
+        )
+        self.avoids_edges = has_labels and len(figure.edges) <= _MAX_AVOIDED_EDGES
+        self._edges_at: dict[str, list[DiagramEdge]] = defaultdict(list)
+        self._pairs: dict[tuple[str, ...], list[DiagramEdge]] = defaultdict(list)
+        self._links = {arrow.key for arrow in figure.edges if arrow.edge_type != "transition"}
+        for node in figure.nodes:
+            rect = Rect.from_center(node.center, node.size)
+            self.boxes.add(node.key, rect)
+            self.obstacles.add(node.key, rect)
+        for arrow in figure.edges:
+            self._pairs[tuple(sorted((arrow.source, arrow.target)))].append(arrow)
+            for end in {arrow.source, arrow.target}:
+                self._edges_at[end].append(arrow)
+
+    def edge_pairs(self) -> Iterator[list[DiagramEdge]]:
+        """The arrows between each two nodes as they are read: onwards first, each way by its order in the design."""
+        for arrows in self._pairs.values():
+            first, _second = reading_order(*self._ends(arrows[0]))
+            yield sorted(arrows, key=lambda arrow: (arrow.source != first.key, arrow.order))
+
+    def route_pair(self, arrows: Sequence[DiagramEdge]) -> Iterator[tuple[DiagramEdge, CubicBezier, EdgeLabel | None]]:
+        """The curves of one pair, with the labels as they are wanted."""
+        source, target = self._ends(arrows[0])
+        chips = [make_edge_label(arrow, (source, target), parallel_count=len(arrows)) for arrow in arrows]
+        if source is target:
+            others = [node for arrow in self._edges_at[source.key] for node in self._ends(arrow) if node is not source]
+            curves = self_loop_curves(source, chips, others, self.boxes)
+        else:
+            curves = parallel_curves(arrows, chips, (source, target), self.obstacles)
+        for arrow, curve, chip in zip(arrows, curves, chips, strict=True):
+            if self.avoids_edges:
+                count = max(2, math.ceil(curve_length(curve) / _SAMPLE_DISTANCE))
+                self.lines.add(arrow.key, sample_curve(curve, count))
+            yield arrow, curve, chip
+
+    def place_label(self, arrow: DiagramEdge, curve: CubicBezier, wanted: EdgeLabel | None) -> EdgeRoute:
+        """The route with the best place for the label; where any would hide something, a shorter one may not."""
+        if wanted is None:
+            return EdgeRoute(edge=arrow, curve=curve, label=None, label_position=point_on_curve(curve, 0.5))
+        if arrow.label_at is not None:
+            part, shift = arrow.label_at
+            chip, at = wanted, _offset_point(curve, min(1.0, max(0.0, part)), shift)
+        else:
+            chip, at = self._find_label_position(arrow, curve, wanted)
+            if not self._is_free(Rect.from_center(at, chip.size)):
+                self.overlapping.append(arrow.key)
+        self.labels.add(arrow.key, Rect.from_center(at, chip.size))
+        return EdgeRoute(edge=arrow, curve=curve, label=chip, label_position=at)
+
+    def resolve_overlap(self, key: str, routes: dict[str, EdgeRoute]) -> None:
+        """Let the labels that a crowded one stands on go elsewhere, where they can."""
+        for other in sorted(self._overlapping_labels(routes[key]) - {key}):
+            route = routes[other]
+            if route.edge.label_at is not None or route.label is None:
+                continue
+            self.labels.remove(other, Rect.from_center(route.label_position, route.label.size))
+            chip, at = self._find_label_position(route.edge, route.curve, route.label)
+            routes[other] = replace(route, label=chip, label_position=at)
+            self.labels.add(other, Rect.from_center(at, chip.size))
+
+    def _overlapping_labels(self, route: EdgeRoute) -> set[str]:
+        assert route.label is not None
+        return self.labels.overlapping(Rect.from_center(route.label_position, route.label.size).expanded(2))
+
+    def _ends(self, arrow: DiagramEdge) -> tuple[DiagramNode, DiagramNode]:
+        return self.nodes[arrow.source], self.nodes[arrow.target]
+
+    def _find_label_position(
+        self, arrow: DiagramEdge, curve: CubicBezier, wanted: EdgeLabel
+    ) -> tuple[EdgeLabel, Point]:
+        best, chosen, least = point_on_curve(curve, 0.5), wanted, math.inf
+        for chip in (wanted, *shorter_labels(arrow, wanted)):
+            for price, at in _label_positions(arrow, curve, chip):
+                if price >= least:
+                    break
+                cost = price + self._overlap_cost(Rect.from_center(at, chip.size), arrow.key, least - price)
+                if cost < least:
+                    best, chosen, least = at, chip, cost
+            if least < _LABEL_COST:
+                return chosen, best
+        return self._find_distant_position(arrow, curve, chip) or (chosen, best)
+
+    def _find_distant_position(
+        self, arrow: DiagramEdge, curve: CubicBezier, shortest: EdgeLabel
+    ) -> tuple[EdgeLabel, Point] | None:
+        """A place that hides no text, farther away; if need be for the order alone, whose link tells the rest."""
+        for chip in (shortest, *textless_labels(arrow)):
+            near = [at for _price, at in _label_positions(arrow, curve, chip)] if chip is not shortest else []
+            for at in (*near, *_distant_positions(arrow, curve, chip)):
+                if self._is_free(Rect.from_center(at, chip.size)):
+                    return chip, at
+        return None
+
+    def _is_free(self, rect: Rect) -> bool:
+        """Whether a label there would hide no box and no other label."""
+        wide = rect.expanded(2)
+        return not self.boxes.overlapping(wide) and not self.labels.overlapping(wide)
+
+    def _overlap_cost(self, rect: Rect, own: str, enough: float) -> float:
+        """What lies under a rectangle, or would be under a label there; from `enough` on nobody looks further."""
+        wide = rect.expanded(2)
+        crowd = _BOX_COST * len(self.boxes.overlapping(wide)) + _LABEL_COST * len(self.labels.overlapping(wide))
+        if crowd >= enough:
+            return crowd
+        hidden = self.lines.within(rect) - {own}
+        links = len(hidden & self._links)
+        return crowd + _USE_EDGE_COST * links + _EDGE_COST * (len(hidden) - links)
+
+
+def _label_positions(arrow: DiagramEdge, curve: CubicBezier, chip: EdgeLabel) -> Iterator[tuple[float, Point]]:
+    """Places for a label with what each costs, the best first."""
+    if arrow.source == arrow.target:
+        yield from ((price, _loop_label_position(curve, chip, slip, is_out=price > 0)) for price, slip in _LOOP_OFFSETS)
+        return
+    for price, part, side in _LABEL_POSITIONS:
+        yield price, _position_beside_curve(curve, chip, part, side) if side else point_on_curve(curve, part)
+
+
+def _distant_positions(arrow: DiagramEdge, curve: CubicBezier, chip: EdgeLabel) -> Iterator[Point]:
+    if arrow.source == arrow.target:
+        hung = [_loop_label_position(curve, chip, slip, is_out=True) for slip in _DISTANT_LOOP_OFFSETS]
+        return ((x, y + rise) for rise in _VERTICAL_OFFSETS for x, y in hung)
+    return (_position_beside_curve(curve, chip, part, side) for side, part in _DISTANT_POSITIONS)
+
+
+def _loop_label_position(curve: CubicBezier, chip: EdgeLabel, slip: int, *, is_out: bool) -> Point:
+    """The label of a loop hangs on its outermost point, so that the loop itself stays visible."""
+    apex = point_on_curve(curve, 0.5)
+    out = (apex[0] - (curve[0] + curve[6]) / 2, apex[1] - (curve[1] + curve[7]) / 2)
+    if abs(out[0]) < abs(out[1]):
+        return (apex[0] + slip * chip.size.width * 0.4, apex[1] + (math.copysign(9, out[1]) if is_out else 0))
+    return (apex[0] + math.copysign(chip.size.width / 2 - 8, out[0]), apex[1] + slip * 18)
+
+
+def _position_beside_curve(curve: CubicBezier, chip: EdgeLabel, part: float, side: int) -> Point:
+    """So far beside the line that it stays visible."""
+    dx, dy = _direction(curve, part)
+    reach = (abs(dy) * chip.size.width + abs(dx) * chip.size.height) / 2
+    beyond = 3 if abs(side) == 1 else 9 + _DISTANT_STEP * (abs(side) - 2)
+    shift = math.copysign(reach + beyond, side)
+    x, y = point_on_curve(curve, part)
+    return (x - dy * shift, y + dx * shift)
+
+
+def _offset_point(curve: CubicBezier, part: float, shift: float) -> Point:
+    """To the right of who walks along the curve."""
+    x, y = point_on_curve(curve, part)
+    dx, dy = _direction(curve, part)
+    return (x - dy * shift, y + dx * shift)
+
+
+def _direction(curve: CubicBezier, part: float) -> Point:
+    behind, ahead = point_on_curve(curve, max(0.0, part - 0.02)), point_on_curve(curve, min(1.0, part + 0.02))
+    dx, dy = ahead[0] - behind[0], ahead[1] - behind[1]
+    length = math.hypot(dx, dy) or 1
+    return (dx / length, dy / length)

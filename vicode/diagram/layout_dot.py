@@ -1,0 +1,81 @@
+"""A sketch as DOT text, written by the `graphviz` package; the same sketch gives the same text."""
+
+from enum import StrEnum
+
+import graphviz  # type: ignore[import-untyped]
+
+from vicode.diagram.layout_graph import LayoutGraph, LayoutNode
+
+POINTS_PER_INCH = 72.0
+_MAX_LABEL_LENGTH = 24
+
+
+class RankDirection(StrEnum):
+    """Which way the arrows go; the values are Graphviz's."""
+
+    RIGHT = "LR"
+    DOWN = "TB"
+
+
+class LayoutEffort(StrEnum):
+    """How much work goes into a picture."""
+
+    FULL = "full"
+    BOUNDED = "bounded"
+    QUICK = "quick"
+
+
+_LIMITS = {
+    LayoutEffort.FULL: {},
+    LayoutEffort.BOUNDED: {"nslimit": "1", "nslimit1": "1"},
+    LayoutEffort.QUICK: {"nslimit": "0.1", "nslimit1": "0.1", "mclimit": "0.1"},
+}
+# Free pixels between neighbours of a rank and between ranks: the canvas routes the arrows there. An arrow that passes a
+# rank takes that much as well, so that wide gaps between neighbours cost more than they show.
+_NODE_GAP = 30.0
+_RANK_GAP = 70.0
+# Beside a shown label stay 30 pixels of its arrow; the canvas shortens labels to the room there is.
+_LABEL_MARGIN, _MAX_RANK_GAP = 30.0, 110.0
+
+
+def write_layout_dot(layout_graph: LayoutGraph, direction: RankDirection, effort: LayoutEffort) -> str:
+    """The DOT text: boxes of fixed size, one arrow a pair, no routes (the canvas routes)."""
+    graph = graphviz.Digraph(
+        graph_attr={
+            "rankdir": str(direction),
+            "splines": "none",
+            "nodesep": _inches(_NODE_GAP),
+            "ranksep": _inches(_rank_gap(layout_graph, direction)),
+            **_LIMITS[effort],
+        },
+        node_attr={"shape": "box", "fixedsize": "true", "fontsize": "10"},
+    )
+    for node in layout_graph.nodes:
+        _write_node(graph, node)
+    for edge in layout_graph.edges:
+        beside = {"minlen": "0"} if edge.may_share_rank else {}
+        graph.edge(edge.source, edge.target, weight=str(edge.weight), **beside)
+    return str(graph.source)
+
+
+def _rank_gap(sketch: LayoutGraph, direction: RankDirection) -> float:
+    # Labels as Graphviz knows them cost minutes at 150 states and pull ranks apart; a wider gap holds them as well.
+    if direction is RankDirection.DOWN:
+        return _RANK_GAP
+    return min(_MAX_RANK_GAP, max((_RANK_GAP, *(edge.label_width + _LABEL_MARGIN for edge in sketch.edges))))
+
+
+def _write_node(graph: graphviz.Digraph, node: LayoutNode) -> None:
+    graph.node(node.id, label=_escape(node.label), width=_inches(node.width), height=_inches(node.height))
+
+
+def _inches(pixels: float) -> str:
+    return f"{pixels / POINTS_PER_INCH:.4f}"
+
+
+def _escape(text: str) -> str:
+    """One line of printable letters, with nothing in it that Graphviz takes for markup."""
+    line = "".join(letter if letter.isprintable() else "\ufffd" for letter in " ".join(text.split()))
+    # It stays of the type that `escape` gave it: a plain text in <> would be written as markup.
+    escaped: str = graphviz.escape(line if len(line) <= _MAX_LABEL_LENGTH else line[: _MAX_LABEL_LENGTH - 1] + "…")
+    return escaped

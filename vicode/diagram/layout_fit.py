@@ -1,0 +1,114 @@
+"""From a picture somewhere in the plane to places on the canvas: on the grid, and clear of what stays."""
+
+from collections.abc import Collection, Iterator, Mapping
+from dataclasses import replace
+from itertools import count
+
+from vicode.diagram.layered_layout import ORIGIN, NodeLayout, complete_layout
+from vicode.diagram.layout_graph import COMMON_ID, state_ids, use_ids
+from vicode.diagram.node_geometry import COMMON_SIZE, MIN_WIDTH, OccupancyGrid, Size, state_size, use_size
+from vicode.model.design import CommonSection, Design, Point
+from vicode.model.edits import move_nodes
+
+GRID = 10.0
+_STEPS = 60
+_SCREEN, _BOX = Size(width=1280, height=800), Size(width=MIN_WIDTH, height=60)
+
+
+def fit_layout(design: Design, centres: Mapping[str, Point], only: Collection[str] | None) -> NodeLayout:
+    """Places for all of a design, given new centres by id: of everything, or of the states in `only`."""
+    states = {name: centres[id_] for name, id_ in state_ids(design).items() if id_ in centres}
+    if only is not None:
+        return _fit_part(design, states)
+    uses = {alias: centres[id_] for alias, id_ in use_ids(design).items() if id_ in centres}
+    common = centres.get(COMMON_ID)
+    if not centres:
+        return complete_layout(design)
+    left, top = min(x for x, _y in centres.values()), min(y for _x, y in centres.values())
+    by = (ORIGIN[0] - left, ORIGIN[1] - top)
+    moved = move_nodes(
+        design,
+        {name: _snapped(at, by) for name, at in states.items()},
+        {alias: _snapped(at, by) for alias, at in uses.items()},
+        _snapped(common, by) if common else None,
+    )
+    return complete_layout(moved)
+
+
+def layered_positions(design: Design, only: Collection[str] | None) -> dict[str, Point]:
+    """Centres by id as `place` finds them for what is to be moved, as if none had a place."""
+    states = tuple(replace(state, at=None) for state in design.states if only is None or state.name in only)
+    if only is not None:
+        part = replace(design, states=states, uses=(), common=CommonSection())
+        return {state_ids(design)[name]: at for name, at in complete_layout(part).states.items()}
+    uses = tuple(replace(use, at=None) for use in design.uses)
+    placement = complete_layout(replace(design, states=states, uses=uses, common=replace(design.common, at=None)))
+    centres = {id_: placement.states[name] for name, id_ in state_ids(design).items()}
+    centres |= {id_: placement.uses[alias] for alias, id_ in use_ids(design).items()}
+    if design.common.transitions or design.common.actions:
+        centres[COMMON_ID] = placement.common
+    return centres
+
+
+def screens_needed(centres: Collection[Point]) -> float:
+    """How many screens of 1280 by 800 pixels are needed to the wider side for boxes with these centres."""
+    xs, ys = [x for x, _y in centres] or [0.0], [y for _x, y in centres] or [0.0]
+    return max((max(xs) - min(xs) + _BOX.width) / _SCREEN.width, (max(ys) - min(ys) + _BOX.height) / _SCREEN.height)
+
+
+def _fit_part(design: Design, states: Mapping[str, Point]) -> NodeLayout:
+    """The part stands as a whole where it was, or as near as there is room for it."""
+    before = complete_layout(design)
+    if not states:
+        return before
+    rest = _occupied_by_others(design, before, states)
+    wanted, is_now = _center([before.states[name] for name in states]), _center(states.values())
+    start = (wanted[0] - is_now[0], wanted[1] - is_now[1])
+    sizes = {name: state_size(name) for name in states}
+    by = next(
+        by
+        for by in _candidate_shifts(start, _search_extent(before, states))
+        if all(rest.is_free(_snapped(at, by), sizes[name]) for name, at in states.items())
+    )
+    return replace(before, states=before.states | {name: _snapped(at, by) for name, at in states.items()})
+
+
+def _occupied_by_others(design: Design, placement: NodeLayout, moved: Collection[str]) -> OccupancyGrid:
+    ground = OccupancyGrid()
+    for name, at in placement.states.items():
+        if name not in moved:
+            ground.occupy(at, state_size(name))
+    for use in design.uses:
+        ground.occupy(placement.uses[use.alias], use_size(use.alias, use.component))
+    if design.common.transitions or design.common.actions:
+        ground.occupy(placement.common, COMMON_SIZE)
+    return ground
+
+
+def _center(points: Collection[Point]) -> Point:
+    xs, ys = [x for x, _y in points], [y for _x, y in points]
+    return (min(xs) + max(xs)) / 2, (min(ys) + max(ys)) / 2
+
+
+def _search_extent(placement: NodeLayout, states: Mapping[str, Point]) -> Size:
+    """How far all and the part extend: so far a part is moved at most before it is clear of the rest."""
+    xs = [x for x, _y in (*placement.states.values(), *placement.uses.values())]
+    ys = [y for _x, y in (*placement.states.values(), *placement.uses.values())]
+    wide = max(x for x, _y in states.values()) - min(x for x, _y in states.values())
+    high = max(y for _x, y in states.values()) - min(y for _x, y in states.values())
+    return Size(width=max(xs) - min(xs) + wide + 600, height=max(ys) - min(ys) + high + 300)
+
+
+def _candidate_shifts(start: Point, reach: Size) -> Iterator[Point]:
+    """Shifts ever farther from the start, to the four sides in turn; more of them would not be seen on a screen."""
+    yield start
+    for step in count(1):
+        right, down = max(GRID, reach.width / _STEPS) * step, max(GRID, reach.height / _STEPS) * step
+        yield start[0], start[1] + down
+        yield start[0] + right, start[1]
+        yield start[0], start[1] - down
+        yield start[0] - right, start[1]
+
+
+def _snapped(at: Point, by: Point) -> Point:
+    return round((at[0] + by[0]) / GRID) * GRID, round((at[1] + by[1]) / GRID) * GRID

@@ -1,0 +1,151 @@
+"""A design as Graphviz needs it: boxes with sizes and arrows with weights, under ids that are safe everywhere."""
+
+from collections.abc import Collection, Iterator
+from dataclasses import dataclass, replace
+
+from vicode.diagram.node_geometry import COMMON_SIZE, Size, estimate_text_width, state_size, use_size
+from vicode.model.design import COMMON, Call, Design, Guard, Transition
+from vicode.model.traversal import iter_transitions
+
+COMMON_ID = "common"
+_TRANSITION_WEIGHT, _LINK_WEIGHT = 8, 1
+_MAX_LABEL_WIDTH = 150.0
+# Beyond so many boxes arrows within a layer are left out: they cost more time than they improve.
+_MAX_NODES_WITH_LAYER_EDGES = 150
+# Labels are in smaller and lighter letters than names.
+_LABEL_SCALE = 0.75
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class LayoutNode:
+    """A box; `label` is what a person calls it, any text."""
+
+    id: str
+    label: str
+    width: float
+    height: float
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class LayoutEdge:
+    """One arrow for all from a box to another; heavy ones are kept short. `label_width` is of the first of them.
+
+    `may_share_rank`: the two may be in one rank, which spares used components ranks of their own.
+    """
+
+    source: str
+    target: str
+    weight: int
+    label_width: float = 0.0
+    may_share_rank: bool = False
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class LayoutGraph:
+    """What is laid out; the first node stands first."""
+
+    nodes: tuple[LayoutNode, ...]
+    edges: tuple[LayoutEdge, ...]
+
+
+def build_layout_graph(design: Design, only: Collection[str] | None = None) -> LayoutGraph:
+    """All of a design, or only these states and what goes on among them."""
+    nodes = tuple(_layout_nodes(design, only))
+    known = {node.id for node in nodes}
+    arrows = (*_transition_edges(design), *_use_edges(design))
+    edges = [edge for edge in arrows if edge.source in known and edge.target in known and edge.source != edge.target]
+    return LayoutGraph(nodes=nodes, edges=_orient_edges(nodes, edges))
+
+
+def state_ids(design: Design) -> dict[str, str]:
+    """The id of every state by its name; the first counts, should two have the same."""
+    return {name: f"s{index}" for index, name in enumerate(dict.fromkeys(state.name for state in design.states))}
+
+
+def use_ids(design: Design) -> dict[str, str]:
+    """The id of every used component by its alias."""
+    return {alias: f"u{index}" for index, alias in enumerate(dict.fromkeys(use.alias for use in design.uses))}
+
+
+def _layout_nodes(design: Design, only: Collection[str] | None) -> Iterator[LayoutNode]:
+    ids = state_ids(design)
+    # Graphviz breaks circles where it meets them first: beginning with the initial state puts that one in front.
+    for name in sorted(ids, key=lambda name: name != design.initial):
+        if only is None or name in only:
+            yield _layout_node(ids[name], name, state_size(name))
+    if only is not None:
+        return
+    if design.common.transitions or design.common.actions:
+        yield _layout_node(COMMON_ID, "every state", COMMON_SIZE)
+    components = {use.alias: use.component for use in design.uses}
+    for alias, id_ in use_ids(design).items():
+        yield _layout_node(id_, alias, use_size(alias, components[alias]))
+
+
+def _orient_edges(nodes: tuple[LayoutNode, ...], edges: list[LayoutEdge]) -> tuple[LayoutEdge, ...]:
+    """One edge a pair, turned to point away from the first node.
+
+    Left to itself Graphviz makes ranks of the longest way through the circles: 72 for 100 states, which takes
+    minutes and fits no screen. Distances from the start are few, and are what a reader expects.
+    """
+    transitions = [edge for edge in edges if edge.weight == _TRANSITION_WEIGHT]
+    layers = _layers(nodes, transitions)
+    # The badge of common transitions comes before all states, used components come after them.
+    order = {COMMON_ID: -1} | {id_: index for index, id_ in enumerate(layers) if id_ != COMMON_ID}
+    if len(nodes) > _MAX_NODES_WITH_LAYER_EDGES:
+        edges = [edge for edge in edges if edge.weight != _TRANSITION_WEIGHT or _crosses_layers(edge, layers)]
+    merged: dict[tuple[str, str], LayoutEdge] = {}
+    for edge in edges:
+        source, target = sorted((edge.source, edge.target), key=order.__getitem__)
+        merged.setdefault((source, target), replace(edge, source=source, target=target))
+    return tuple(merged.values())
+
+
+def _crosses_layers(edge: LayoutEdge, layers: dict[str, int]) -> bool:
+    return layers[edge.source] != layers[edge.target]
+
+
+def _layers(nodes: tuple[LayoutNode, ...], edges: list[LayoutEdge]) -> dict[str, int]:
+    """The number of arrows from the first node, in the order in which nodes are met; then from the next one left."""
+    leads: dict[str, list[str]] = {}
+    for edge in edges:
+        leads.setdefault(edge.source, []).append(edge.target)
+    layers: dict[str, int] = {}
+    for node in nodes:
+        layers.setdefault(node.id, 0)
+        waiting = [node.id] if layers[node.id] == 0 else []
+        for id_ in waiting:
+            news = [target for target in dict.fromkeys(leads.get(id_, ())) if target not in layers]
+            layers |= dict.fromkeys(news, layers[id_] + 1)
+            waiting += news
+    return layers
+
+
+def _layout_node(id_: str, label: str, size: Size) -> LayoutNode:
+    return LayoutNode(id=id_, label=label, width=size.width, height=size.height)
+
+
+def _transition_edges(design: Design) -> Iterator[LayoutEdge]:
+    ids = {COMMON: COMMON_ID, **state_ids(design)}
+    for located in iter_transitions(design):
+        transition = located.decision
+        assert isinstance(transition, Transition)
+        weight = _LINK_WEIGHT if located.source == COMMON else _TRANSITION_WEIGHT
+        target = ids.get(transition.to, "") if transition.to != COMMON else ""
+        yield LayoutEdge(
+            source=ids[located.source], target=target, weight=weight, label_width=_label_width(transition.guard)
+        )
+
+
+def _label_width(guard: Guard) -> float:
+    label = guard.when or (f"{guard.after} s" if guard.after else "") or ("{ code }" if guard.code is not None else "")
+    return min(_MAX_LABEL_WIDTH, estimate_text_width(label) * _LABEL_SCALE)
+
+
+def _use_edges(design: Design) -> Iterator[LayoutEdge]:
+    ids, aliases = state_ids(design), use_ids(design)
+    for state in design.states:
+        calls = (action.alias for action in state.all_actions if isinstance(action, Call))
+        for alias in dict.fromkeys((*state.requires, *calls)):
+            target = aliases.get(alias, "")
+            yield LayoutEdge(source=ids[state.name], target=target, weight=_LINK_WEIGHT, may_share_rank=True)

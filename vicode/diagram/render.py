@@ -1,0 +1,285 @@
+"""Draws a figure as the canvas does: the same shapes, signs and colours, made of paths and texts."""
+
+import math
+from collections.abc import Collection, Iterable
+
+from vicode.diagram.diagram_model import Diagram, DiagramEdge, DiagramNode, build_diagram
+from vicode.diagram.edge_curves import HEX_SLANT, point_on_curve
+from vicode.diagram.edge_labels import PADDING, EdgeLabel
+from vicode.diagram.edge_routing import EdgeRoute, route_edges
+from vicode.diagram.palettes import LIGHT, ColorPalette
+from vicode.diagram.primitives import (
+    PathShape,
+    ShapeGroup,
+    TextShape,
+    VectorImage,
+    circle_path,
+    curve_path,
+    polyline_path,
+    polylines_path,
+    rounded_rect_path,
+)
+from vicode.diagram.spatial_index import CubicBezier
+from vicode.diagram.text_metrics import LABEL_FONT, NAME_FONT, SMALL_FONT, Font, text_width
+from vicode.diagram.transition_labels import GuardKind
+from vicode.model.design import Design, Point
+
+_MARGIN = 24.0
+_ARROWHEAD_LENGTH = 10.0
+# So many points of a curve tell how far it bows, within a pixel or two.
+_SAMPLES = 8
+_BADGE_ROW, _NAME_OFFSET, _BADGE_GAP = 16.0, -8.0, 9.0
+_HEXAGON = (((2.5, -4.0), (7.5, -4.0), (10.0, 0.0), (7.5, 4.0), (2.5, 4.0), (0.0, 0.0), (2.5, -4.0)),)
+_BADGES: dict[str, tuple[float, tuple[tuple[Point, ...], ...]]] = {
+    "enter": (11, (((0, 0), (7, 0)), ((4.5, -2.8), (7.3, 0), (4.5, 2.8)), ((10.3, -4), (10.3, 4)))),
+    "actions": (10, (((0, -3.5), (10, -3.5)), ((0, 0), (10, 0)), ((0, 3.5), (6, 3.5)))),
+    "leave": (11, (((0.7, -4), (0.7, 4)), ((3.5, 0), (10.5, 0)), ((8, -2.8), (10.8, 0), (8, 2.8)))),
+    "requires": (10, _HEXAGON),
+    "modulates": (10, _HEXAGON),
+}
+_ICONS: dict[GuardKind, tuple[tuple[Point, ...], ...]] = {
+    GuardKind.TIMER: (((5, -2.6), (5, 0.3), (7, 1.6)),),
+    GuardKind.CODE: (((3, -3.5), (-0.2, 0), (3, 3.5)), ((7, -3.5), (10.2, 0), (7, 3.5))),
+    GuardKind.TREE: (((1.5, -4.5), (1.5, 1), (3.2, 3), (8.5, 3)), ((1.5, -1), (3.2, -3), (8.5, -3))),
+}
+
+
+def render_design(
+    design: Design, *, only: Collection[str] | None = None, links: bool = True, palette: ColorPalette = LIGHT
+) -> VectorImage:
+    """The drawing of a design, or of some states and what they use.
+
+    Args:
+        design: What to draw; what has no place gets one.
+        only: The names of the states to draw, None for all.
+        links: Whether used components are shown, with who requires and modulates them.
+        palette: The colours.
+    """
+    figure = build_diagram(design, only=only, links=links)
+    return render_diagram(figure, title=design.component, doc=design.doc, palette=palette)
+
+
+def render_diagram(diagram: Diagram, *, title: str, doc: str = "", palette: ColorPalette = LIGHT) -> VectorImage:
+    """The drawing of a figure: links below transitions, labels above all."""
+    routes = route_edges(diagram)
+    artist = _DiagramRenderer(palette)
+    groups = (
+        *(artist.edge(route) for route in routes if route.edge.edge_type != "transition"),
+        *(artist.edge(route) for route in routes if route.edge.edge_type == "transition"),
+        *(artist.node(node) for node in diagram.nodes),
+        *(artist.label(route.label, route) for route in routes if route.label),
+    )
+    left, top, right, bottom = _bounds(diagram, routes)
+    return VectorImage(
+        title=title,
+        doc=doc,
+        left=left - _MARGIN,
+        top=top - _MARGIN,
+        width=right - left + 2 * _MARGIN,
+        height=bottom - top + 2 * _MARGIN,
+        background=palette.paper,
+        groups=groups,
+    )
+
+
+class _DiagramRenderer:
+    """Knows the colours."""
+
+    def __init__(self, palette: ColorPalette) -> None:
+        self.palette = palette
+
+    def node(self, node: DiagramNode) -> ShapeGroup:
+        """A state, a used component or the badge of common transitions."""
+        drawers = {"state": self._state, "component": self._component, "common": self._common}
+        shapes = tuple(drawers[node.node_type](node))
+        return ShapeGroup(title=node.title, css_class=node.node_type, shapes=shapes, href=node.href, key=node.key)
+
+    def edge(self, route: EdgeRoute) -> ShapeGroup:
+        """A curve with its head."""
+        pal, arrow, ends = self.palette, route.edge, (route.edge.source, route.edge.target)
+        tip, base = _arrowhead(route.curve)
+        shaft = curve_path((*route.curve[:6], *base))
+        if arrow.edge_type == "requires":
+            drawn = PathShape(commands=shaft, stroke=pal.requires, width=1.3, dash=(9, 4))
+            head = PathShape(commands=tip, fill=pal.paper, stroke=pal.requires, width=1.3)
+        elif arrow.edge_type == "modulates":
+            drawn = PathShape(commands=shaft, stroke=pal.modulates, width=2, dash=(1.5, 4))
+            head = PathShape(commands=tip, fill=pal.modulates)
+        else:
+            is_common = arrow.source == "common"
+            colour = pal.common if is_common else pal.edge
+            drawn = PathShape(commands=shaft, stroke=colour, width=1.6, dash=_dash(arrow))
+            head = PathShape(commands=tip, fill=colour)
+        is_echo = route.label is not None
+        return ShapeGroup(
+            title=arrow.title,
+            css_class=arrow.edge_type,
+            shapes=(drawn, head),
+            href=arrow.href,
+            end_keys=ends,
+            is_decorative=is_echo,
+        )
+
+    def label(self, chip: EdgeLabel | None, route: EdgeRoute) -> ShapeGroup:
+        """The label of an arrow."""
+        assert chip is not None
+        pal, (x, y) = self.palette, route.label_position
+        plate = PathShape(
+            commands=rounded_rect_path(route.label_position, chip.size.width, chip.size.height, 11),
+            fill=pal.plate,
+            stroke=pal.plate_line,
+        )
+        shapes: list[PathShape | TextShape] = [plate]
+        x += PADDING - chip.size.width / 2
+        if chip.order:
+            shapes.append(TextShape(x=x, y=y, text=chip.order, fill=pal.muted))
+        x += chip.order_width
+        if chip.icon:
+            shapes += [PathShape(commands=steps, stroke=pal.muted, width=1.3) for steps in _icon(chip.icon, (x, y))]
+        x += chip.icon_width
+        if chip.text:
+            is_off = route.edge.disabled
+            colour = pal.muted if is_off else pal.text
+            shapes.append(TextShape(x=x, y=y, text=chip.text, fill=colour, font=LABEL_FONT, is_struck_through=is_off))
+        arrow = route.edge
+        ends = (arrow.source, arrow.target)
+        return ShapeGroup(title=arrow.title, css_class="label", shapes=tuple(shapes), href=arrow.href, end_keys=ends)
+
+    def _state(self, node: DiagramNode) -> Iterable[PathShape | TextShape]:
+        pal, (x, y), size = self.palette, node.center, node.size
+        fill, dash = (pal.faint, (4, 4)) if node.disabled else (pal.box, ())
+        yield PathShape(
+            commands=rounded_rect_path(node.center, size.width, size.height, 12),
+            fill=fill,
+            stroke=pal.box_line,
+            dash=dash,
+        )
+        if node.final:
+            yield PathShape(
+                commands=rounded_rect_path(node.center, size.width - 8, size.height - 8, 8), stroke=pal.box_line
+            )
+        if node.initial:
+            yield from self._initial_marker(node)
+        yield _name_text(
+            node, pal.muted if node.disabled else pal.text, rise=_NAME_OFFSET if node.badges or node.subtitle else 0
+        )
+        if node.subtitle:
+            yield _subtitle_text(node, pal.muted)
+        if node.badges:
+            yield from self._badges(node.badges, (x, y + _BADGE_ROW))
+
+    def _initial_marker(self, node: DiagramNode) -> Iterable[PathShape]:
+        pal = self.palette
+        left, top = node.center[0] - node.size.width / 2, node.center[1] - node.size.height / 2
+        dot, tip = (left - 12, top - 20), (left + 22, top - 1)
+        end = (tip[0], tip[1] - 6)
+        corner = (tip[0], dot[1])
+        bow = [value for ends in (dot, end) for value in _quadratic_to_cubic(ends, corner)]
+        yield PathShape(commands=curve_path((*dot, *bow, *end)), stroke=pal.start, width=1.6)
+        yield PathShape(
+            commands=polyline_path((tip, (tip[0] - 4.5, tip[1] - 8), (tip[0] + 4.5, tip[1] - 8)), closed=True),
+            fill=pal.start,
+        )
+        yield PathShape(commands=circle_path(dot, 6), fill=pal.start)
+
+    def _badges(self, marks: tuple[tuple[str, int], ...], at: Point) -> Iterable[PathShape | TextShape]:
+        pal = self.palette
+        colours = {"requires": pal.requires, "modulates": pal.modulates}
+        widths = [_BADGES[name][0] + (3 + 7 * len(str(count)) if count else 0) for name, count in marks]
+        x = at[0] - (sum(widths) + _BADGE_GAP * (len(marks) - 1)) / 2
+        for (name, count), width in zip(marks, widths, strict=True):
+            colour = colours.get(name, pal.muted)
+            fill = colour if name == "modulates" else ""
+            yield PathShape(
+                commands=polylines_path(*_BADGES[name][1], at=(x, at[1])), fill=fill, stroke=colour, width=1.4
+            )
+            if count:
+                yield TextShape(x=x + _BADGES[name][0] + 3, y=at[1], text=str(count), fill=colour, font=SMALL_FONT)
+            x += width + _BADGE_GAP
+
+    def _component(self, node: DiagramNode) -> Iterable[PathShape | TextShape]:
+        pal, (x, y) = self.palette, node.center
+        w, h, slant = node.size.width / 2, node.size.height / 2, HEX_SLANT
+        corners = ((-w, 0.0), (-w + slant, -h), (w - slant, -h), (w, 0.0), (w - slant, h), (-w + slant, h))
+        steps = polyline_path([(x + dx, y + dy) for dx, dy in corners], closed=True)
+        yield PathShape(commands=steps, fill=pal.component, stroke=pal.component_line, dash=(6, 3))
+        yield _name_text(node, pal.component_text, rise=_NAME_OFFSET if node.subtitle else 0)
+        if node.subtitle:
+            yield _subtitle_text(node, pal.muted)
+
+    def _common(self, node: DiagramNode) -> Iterable[PathShape | TextShape]:
+        pal, (x, y), size = self.palette, node.center, node.size
+        outline = rounded_rect_path(node.center, size.width, size.height, size.height / 2)
+        yield PathShape(commands=outline, fill=pal.common_fill, stroke=pal.common, dash=(5, 4))
+        star = (((-52, -6), (-52, 6)), ((-57.2, -3), (-46.8, 3)), ((-57.2, 3), (-46.8, -3)))
+        yield PathShape(commands=polylines_path(*star, at=node.center), stroke=pal.common, width=1.4)
+        yield TextShape(x=x + 4, y=y, text=node.label, fill=pal.text, font=Font(size=13, bold=True), is_centered=True)
+
+
+def _name_text(node: DiagramNode, colour: str, *, rise: float) -> TextShape:
+    return TextShape(
+        x=node.center[0],
+        y=node.center[1] + rise,
+        text=node.label,
+        fill=colour,
+        font=NAME_FONT,
+        is_centered=True,
+        is_struck_through=node.disabled,
+    )
+
+
+def _subtitle_text(node: DiagramNode, colour: str) -> TextShape:
+    return TextShape(
+        x=node.center[0], y=node.center[1] + 12, text=node.subtitle, fill=colour, font=SMALL_FONT, is_centered=True
+    )
+
+
+def _dash(arrow: DiagramEdge) -> tuple[float, ...]:
+    if arrow.disabled:
+        return (2, 5)
+    return (6, 4) if arrow.source == "common" else ()
+
+
+def _icon(kind: GuardKind, at: Point) -> Iterable[tuple[tuple[str, tuple[float, ...]], ...]]:
+    yield polylines_path(*_ICONS[kind], at=at)
+    if kind is GuardKind.TIMER:
+        yield circle_path((at[0] + 5, at[1]), 5)
+
+
+def _quadratic_to_cubic(end: Point, control: Point) -> Point:
+    """The control of a cubic curve for that of a quadratic one."""
+    return (end[0] + 2 / 3 * (control[0] - end[0]), end[1] + 2 / 3 * (control[1] - end[1]))
+
+
+def _arrowhead(of: CubicBezier) -> tuple[tuple[tuple[str, tuple[float, ...]], ...], Point]:
+    """The arrow head, and the point where the line meets it."""
+    dx, dy = of[6] - of[4], of[7] - of[5]
+    length = math.hypot(dx, dy) or 1
+    ux, uy = dx / length, dy / length
+    base = (of[6] - ux * _ARROWHEAD_LENGTH, of[7] - uy * _ARROWHEAD_LENGTH)
+    side = (-uy * _ARROWHEAD_LENGTH * 0.42, ux * _ARROWHEAD_LENGTH * 0.42)
+    notch = (base[0] + ux * 2, base[1] + uy * 2)
+    corners = ((of[6], of[7]), (base[0] + side[0], base[1] + side[1]), notch, (base[0] - side[0], base[1] - side[1]))
+    return polyline_path(corners, closed=True), notch
+
+
+def _bounds(figure: Diagram, routes: Iterable[EdgeRoute]) -> tuple[float, float, float, float]:
+    """The edges of the whole, labels and bows included."""
+    xs: list[float] = []
+    ys: list[float] = []
+    for node in figure.nodes:
+        room = 20 if node.initial else 0
+        xs += [node.center[0] - node.size.width / 2 - room, node.center[0] + node.size.width / 2]
+        ys += [node.center[1] - node.size.height / 2 - room - 6 * bool(room), node.center[1] + node.size.height / 2]
+    for route in routes:
+        for step in range(_SAMPLES + 1):
+            x, y = point_on_curve(route.curve, step / _SAMPLES)
+            xs.append(x)
+            ys.append(y)
+        if route.label:
+            half = route.label.size.width / 2
+            xs += [route.label_position[0] - half, route.label_position[0] + half]
+            ys += [route.label_position[1] - 11, route.label_position[1] + 11]
+    if not xs:
+        return (0, 0, text_width("No states yet", LABEL_FONT), 20)
+    return (min(xs), min(ys), max(xs), max(ys))

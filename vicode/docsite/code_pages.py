@@ -1,0 +1,158 @@
+"""The texts of a component, as pages of code whose lines and things link each other."""
+
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
+from functools import partial
+
+from vicode.docsite.build_cache import BuildCache, compute_digest
+from vicode.docsite.languages import GenerationErrors, find_components_with_errors
+from vicode.docsite.page_inputs import strip_to_interfaces
+from vicode.docsite.site_input import SiteInput
+from vicode.docsite.syntax_highlighting import LANGUAGE_TITLES, code_row, highlight_lines
+from vicode.docsite.urls import SiteUrls
+from vicode.docsite.views import CodeView, TextSpan
+from vicode.findings import DesignPath
+from vicode.generators import GENERATORS, ComponentCode, Origin, component_generator
+from vicode.model.design import Design
+
+_LINKED_SECTIONS = ("states", "common", "parameters", "outputs", "variables")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class CodeFile:
+    """A text of a component: `variant` is "source" or a language; `line_numbers` are where the things in it begin."""
+
+    component: str
+    variant: str
+    path: str
+    text: str
+    language: str
+    line_numbers: Mapping[DesignPath, int]
+
+    @property
+    def title(self) -> str:
+        """What links call it."""
+        return "Source" if self.variant == "source" else LANGUAGE_TITLES.get(self.variant, self.variant)
+
+
+class CodeFiles:
+    """All texts by component: what somebody wrote, and what is generated where nothing stands in the way.
+
+    Those of a component are made when they are asked for, which takes longer than all the rest of its page.
+    """
+
+    def __init__(self, subject: SiteInput, unsaid: GenerationErrors, memory: BuildCache) -> None:
+        project = subject.project
+        self._site_input, self._cache = subject, memory
+        self._interfaces_digest = compute_digest(strip_to_interfaces(project))
+        self._sources = {name: source.path for name, source in subject.sources.items() if name}
+        self._components_with_errors = {
+            language: find_components_with_errors(subject, language, unsaid) for language in GENERATORS
+        }
+        self._generators = {language: component_generator(project, language, self._sources) for language in GENERATORS}
+        self._loaded: dict[str, tuple[CodeFile, ...]] = {}
+        self.component_names = tuple(
+            dict.fromkeys([*subject.sources, *(design.component for design in project.designs)])
+        )
+
+    def files_of(self, name: str) -> tuple[CodeFile, ...]:
+        """The texts of a component, "" for those of the project."""
+        if name not in self._loaded:
+            self._loaded[name] = (*self._source(name), *self._generated(self._site_input.project.design(name)))
+        return self._loaded[name]
+
+    def _source(self, name: str) -> Iterator[CodeFile]:
+        source = self._site_input.sources.get(name)
+        if source:
+            yield CodeFile(
+                component=name,
+                variant="source",
+                path=source.path,
+                text=source.text,
+                language=source.language,
+                line_numbers=source.line_numbers,
+            )
+
+    def _generated(self, design: Design | None) -> Iterator[CodeFile]:
+        """The text in each language in which nothing is wrong with it."""
+        for language in GENERATORS:
+            if design is None or design.component in self._components_with_errors[language]:
+                continue
+            used = tuple(self._site_input.project.interface(use.component) for use in design.uses)
+            key = (language, design, used, self._sources.get(design.component, ""), self._interfaces_digest)
+            written = self._cache.get_or_create("text", key, partial(self._generators[language], design))
+            if written is not None:
+                yield _generated_file(design.component, language, written)
+
+
+def code_links_by_path(texts: tuple[CodeFile, ...], addresses: SiteUrls) -> dict[DesignPath, tuple[TextSpan, ...]]:
+    """Where each thing of a component stands in its texts."""
+    places: dict[DesignPath, tuple[TextSpan, ...]] = {}
+    for text in texts:
+        page = addresses.code(text.component, text.variant)
+        for path, line in text.line_numbers.items():
+            part = TextSpan(text=f"{text.title} {line}", href=f"{page}#L{line}", title=f"{text.path}, line {line}")
+            places[path] = (*places.get(path, ()), part)
+    return places
+
+
+def code_page_title(text: CodeFile) -> str:
+    """What the page of a text is called."""
+    return f"{text.component or 'Project'}: {text.title}"
+
+
+def code_view(text: CodeFile, links: tuple[TextSpan, ...], addresses: SiteUrls, component: TextSpan) -> CodeView:
+    """The page of a text; `links` lead to all texts of its component."""
+    begins: dict[int, DesignPath] = {}
+    for path, line in text.line_numbers.items():
+        begins.setdefault(line, path)
+    lines_html = highlight_lines(text.text, text.language)
+    rows = []
+    for number, html in enumerate(lines_html, start=1):
+        path = begins.get(number, ())
+        href = addresses.design_path(text.component, path) if path and text.component else ""
+        rows.append(code_row(number, html, href, _path_label(path)))
+    return CodeView(
+        title=code_page_title(text),
+        path=text.path,
+        component=component,
+        code_pages=links,
+        lines_html=lines_html,
+        rows_html="\n".join(rows),
+    )
+
+
+def code_page_links(texts: tuple[CodeFile, ...], addresses: SiteUrls) -> tuple[TextSpan, ...]:
+    """The pages of a component's texts."""
+    return tuple(
+        TextSpan(text=each.title, href=addresses.code(each.component, each.variant), title=each.path) for each in texts
+    )
+
+
+def _generated_file(component: str, language: str, written: ComponentCode) -> CodeFile:
+    file, lines = written.file, _line_numbers(written.origins)
+    return CodeFile(
+        component=component, variant=language, path=file.path, text=file.text, language=language, line_numbers=lines
+    )
+
+
+def _line_numbers(origins: Iterable[Origin]) -> dict[DesignPath, int]:
+    lines: dict[DesignPath, int] = {}
+    for origin in origins:
+        if origin.path and origin.path[0] in _LINKED_SECTIONS and origin.path[-1] != "code":
+            lines.setdefault(origin.path, origin.first)
+    return lines
+
+
+def _path_label(path: DesignPath) -> str:
+    match path:
+        case ("states", str(name), "transitions", *_):
+            return f"a decision of {name}"
+        case ("states", str(name), *_):
+            return f"state {name}"
+        case ("common", *_):
+            return "common to every state"
+        case (_section, str(name), *_):
+            return name
+        case _:
+            return ""

@@ -1,0 +1,129 @@
+"""Drawings for pages: laid out where a design gives no place, every box and arrow a link, colours left to the page."""
+
+from collections.abc import Sequence
+from dataclasses import replace
+from functools import lru_cache, partial
+
+from vicode.diagram.decision_tree import TreeLinks, render_decision_tree
+from vicode.diagram.dependency_graph import dependency_diagram
+from vicode.diagram.diagram_model import Diagram, DiagramEdge, DiagramNode, build_diagram
+from vicode.diagram.layout import LayoutService
+from vicode.diagram.neighborhood import MORE_USED, MORE_USERS, neighborhood_diagram
+from vicode.diagram.palettes import css_variable_palette
+from vicode.diagram.render import render_diagram
+from vicode.diagram.svg import write_svg
+from vicode.docsite.build_cache import BuildCache
+from vicode.docsite.urls import SiteUrls, path_anchor
+from vicode.findings import DesignPath
+from vicode.model.design import Decision, Design
+from vicode.model.edits import move_nodes
+from vicode.model.project import Project
+from vicode.model.traversal import iter_transitions
+
+_LAYOUT_TIMEOUT_S = 5.0
+
+
+def add_missing_layouts(project: Project, service: LayoutService, memory: BuildCache) -> Project:
+    """The project with a place for everything in the designs that give none; a place that is given stays."""
+    if all(_has_layout(design) for design in project.designs):
+        return project
+    designs = (
+        memory.get_or_create("places", design, partial(_add_layout, design, service)) for design in project.designs
+    )
+    return replace(project, designs=tuple(designs))
+
+
+def draw_design(design: Design, addresses: SiteUrls) -> str:
+    """The state machine; states and arrows lead to where they are described, used components to their pages."""
+    figure = build_diagram(design)
+    components = {use.alias: use.component for use in design.uses}
+    things = {
+        f"t:{'/'.join(map(str, located.path))}": addresses.design_path(design.component, located.path)
+        for located in iter_transitions(design)
+    }
+
+    def linked_node(node: DiagramNode) -> DiagramNode:
+        kind, _colon, name = node.key.partition(":")
+        if kind == "c":
+            return replace(node, href=addresses.component(components[name]))
+        path = ("states", name) if kind == "s" else ("common",)
+        return replace(node, href=addresses.design_path(design.component, path))
+
+    def linked_arrow(arrow: DiagramEdge) -> DiagramEdge:
+        if arrow.edge_type == "transition":
+            return replace(arrow, href=things.get(arrow.key, ""))
+        state = arrow.target if arrow.edge_type == "requires" else arrow.source
+        return replace(arrow, href=addresses.design_path(design.component, ("states", state.partition(":")[2])))
+
+    # A component that no arrow leads to would only say that it is there, as the table of uses does.
+    ends = {end for arrow in figure.edges for end in (arrow.source, arrow.target)}
+    nodes = tuple(linked_node(node) for node in figure.nodes if node.node_type != "component" or node.key in ends)
+    arrows = tuple(map(linked_arrow, figure.edges))
+    return _render_svg(Diagram(nodes=nodes, edges=arrows), f"State machine of {design.component}")
+
+
+def draw_decision_tree(
+    items: Sequence[Decision], path: DesignPath, design: Design, addresses: SiteUrls
+) -> tuple[str, bool]:
+    """The decision tree of a state, or the common one, and whether a part of it is folded; "" for no decisions."""
+    is_common = path[0] == "common"
+    links = TreeLinks(
+        condition_href=lambda path: addresses.design_path(design.component, path),
+        target_href=lambda name: (
+            addresses.design_path(design.component, ("states", name)) if design.state(name) else ""
+        ),
+        fallthrough_label="what the state itself decides" if is_common else "stay",
+        decision_key=path_anchor,
+        time_unit=design.time_unit,
+    )
+    title = "Decision tree of every state" if is_common else f"Decision tree of {path[1]}"
+    drawing = render_decision_tree(items, path, title=title, links=links, palette=css_variable_palette())
+    if drawing is None:
+        return "", False
+    return write_svg(drawing, is_embedded=True), any(group.css_class == "folded" for group in drawing.groups)
+
+
+def draw_dependencies(project: Project, addresses: SiteUrls, title: str) -> str:
+    """Who uses whom in a project or a part of one; an arrow leads to its user."""
+    figure = dependency_diagram(project, sparse=True)
+    nodes = tuple(replace(node, href=addresses.component(node.key)) for node in figure.nodes)
+    return _render_svg(Diagram(nodes=nodes, edges=_linked_dependencies(figure, addresses)), title) if nodes else ""
+
+
+def draw_neighbourhood(design: Design, project: Project, addresses: SiteUrls) -> str:
+    """A design with who uses it and what it uses; "" for one that is alone. An arrow leads to its user."""
+    name = design.component
+    figure = neighborhood_diagram(project, name, addresses.has_design)
+    if len(figure.nodes) == 1:
+        return ""
+    rest = {MORE_USERS: "#used-by", MORE_USED: "#uses"}
+    nodes = tuple(
+        node if node.key == name else replace(node, href=rest.get(node.key) or addresses.component(node.key))
+        for node in figure.nodes
+    )
+    return _render_svg(Diagram(nodes=nodes, edges=_linked_dependencies(figure, addresses)), f"Neighbors of {name}")
+
+
+def _linked_dependencies(figure: Diagram, addresses: SiteUrls) -> tuple[DiagramEdge, ...]:
+    users = (arrow.target if arrow.edge_type == "requires" else arrow.source for arrow in figure.edges)
+    return tuple(
+        replace(arrow, href=f"{page}#uses" if (page := addresses.component(user)) else "#used-by")
+        for arrow, user in zip(figure.edges, users, strict=True)
+    )
+
+
+@lru_cache(maxsize=256)
+def _render_svg(figure: Diagram, title: str) -> str:
+    return write_svg(render_diagram(figure, title=title, palette=css_variable_palette()), is_embedded=True)
+
+
+def _has_layout(design: Design) -> bool:
+    return not design.states or any(state.at for state in design.states)
+
+
+def _add_layout(design: Design, service: LayoutService) -> Design:
+    if _has_layout(design):
+        return design
+    places = service.compute(design, timeout_s=_LAYOUT_TIMEOUT_S).layout
+    common = places.common if design.common.transitions or design.common.actions else None
+    return move_nodes(design, places.states, places.uses, common)

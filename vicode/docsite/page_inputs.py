@@ -1,0 +1,49 @@
+"""The part of a project that a page is made from: the page sees nothing else, so that nothing else can change it."""
+
+from collections.abc import Iterable
+from dataclasses import replace
+
+from vicode.docsite.site_input import SiteInput
+from vicode.model.design import Action, Call, Code, CommonSection, Design, State
+from vicode.model.project import Project
+
+
+def restrict_to_component(subject: SiteInput, design: Design) -> SiteInput:
+    """What the page of a design shows: the design, those that use it, and the interfaces of what it uses."""
+    project, name = subject.project, design.component
+    designs = tuple(
+        each for each in project.designs if each is design or any(use.component == name for use in each.uses)
+    )
+    kept = {each.component for each in designs}
+    used = dict.fromkeys(use.component for use in design.uses if use.component not in kept)
+    interfaces = (project.interface(each) for each in used)
+    part = replace(project, designs=designs, components=tuple(each for each in interfaces if each is not None))
+    sources = {each: replace(source, text="") for each, source in subject.sources.items() if each in ("", name)}
+    findings = tuple(each for each in subject.findings if each.component in ("", name))
+    return SiteInput(project=part, findings=findings, sources=sources, title=subject.title)
+
+
+def strip_to_usage(project: Project) -> Project:
+    """What maps of a project show: who uses whom and how, without what anything decides or says."""
+    return replace(project, designs=tuple(map(_usage_only, project.designs)))
+
+
+def strip_to_interfaces(project: Project) -> Project:
+    """What the texts of other components see of each design: names and declarations."""
+    return replace(project, designs=tuple(_interface_only(design) for design in project.designs))
+
+
+def _usage_only(design: Design) -> Design:
+    states = tuple(
+        State(name=state.name, requires=state.requires, actions=_calls(state.all_actions)) for state in design.states
+    )
+    common = CommonSection(actions=_calls(design.common.actions))
+    return Design(component=design.component, doc=design.doc, uses=design.uses, common=common, states=states)
+
+
+def _calls(actions: Iterable[Action]) -> tuple[Call, ...]:
+    return tuple(Call(alias=action.alias) for action in actions if isinstance(action, Call))
+
+
+def _interface_only(design: Design) -> Design:
+    return replace(design, doc="", states=(), common=CommonSection(), module=Code(), members=Code())

@@ -1,0 +1,291 @@
+"""All files of a site: a pure function of its subject, the same bytes every time."""
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field, replace
+from functools import cache, partial
+
+from vicode.diagram.layout import LayoutService
+from vicode.docsite.build_cache import BuildCache, compute_digest
+from vicode.docsite.code_pages import (
+    CodeFile,
+    CodeFiles,
+    code_links_by_path,
+    code_page_links,
+    code_page_title,
+    code_view,
+)
+from vicode.docsite.components import ComponentInputs, component_view
+from vicode.docsite.diagrams import add_missing_layouts, draw_dependencies
+from vicode.docsite.doc_text import summarize
+from vicode.docsite.interfaces import (
+    constant_table,
+    enumeration_views,
+    interface_rows,
+    interface_views,
+    make_interface_inputs,
+    symbol_count,
+    symbol_groups,
+)
+from vicode.docsite.languages import GenerationErrors, find_generation_errors, language_views
+from vicode.docsite.markdown_pages import PageContent, markdown_files
+from vicode.docsite.natural_sort import sorted_designs
+from vicode.docsite.overview import agent_view, home_view
+from vicode.docsite.page_inputs import restrict_to_component, strip_to_usage
+from vicode.docsite.site_input import SiteInput
+from vicode.docsite.site_search import search_entries, search_script
+from vicode.docsite.site_writer import PlannedFile
+from vicode.docsite.urls import AGENTS, HOME, INTERFACES, NAME_INDEX, SYMBOLS, TYPES, SiteUrls
+from vicode.docsite.views import PageHead, TextSpan
+from vicode.generators import GENERATORS
+from vicode.model.design import Design
+from vicode.model.project import Agent, Project
+from vicode.output import OutputFile
+from vicode.templating import read_asset, render
+
+TemplateContext = dict[str, object]
+"""What a template sees, by name."""
+
+_SEARCH = "search.js"
+_SCRIPT = """\
+/* vicode docs: search, and drawings that can be moved. Without it every page can be read all the same. */
+(() => {{
+"use strict";
+
+{}}})();
+"""
+# In this order: what is joined shares its names.
+_SCRIPT_FILES = ("search_box", "diagram_viewer", "decision_trees", "menu")
+
+
+def build_site(subject: SiteInput) -> tuple[OutputFile, ...]:
+    """The files of a site, all in one folder."""
+    with SiteBuilder() as builder:
+        return tuple(OutputFile(path=each.path, text=each.render()) for each in builder.plan(subject))
+
+
+class SiteBuilder:
+    """Builds one site again and again: what an edit does not concern is not made anew. Close it in the end."""
+
+    def __init__(self) -> None:
+        self._cache = BuildCache()
+        self._service = LayoutService()
+
+    def plan(self, subject: SiteInput, *, is_markdown: bool = False) -> tuple[PlannedFile, ...]:
+        """The files of a site with what each is made from; they are made when they are asked for.
+
+        In Markdown all are made at once, since only the pages know how many pictures there are.
+        """
+        planner = self._planner(subject)
+        files = tuple(planner.plan_files())
+        self._cache.evict_unused()
+        if is_markdown:
+            return tuple(_plain_file(each.path, each.text) for each in markdown_files(planner.page_contents))
+        return tuple(sorted(files, key=lambda file: file.path))
+
+    def make_file_lookup(self, subject: SiteInput) -> Callable[[str], PlannedFile | None]:
+        """What finds single files of a site by their paths, each made from as little as it needs; None for no file."""
+        # What was asked of the one before is remembered until the next.
+        self._cache.evict_unused()
+        planner = self._planner(subject)
+        return cache(lambda path: next((each for each in planner.plan_files(path) if each.path == path), None))
+
+    def _planner(self, subject: SiteInput) -> "_SitePlanner":
+        whole = replace(subject, project=add_missing_layouts(subject.project, self._service, self._cache))
+        return _make_planner(whole, self._cache)
+
+    def close(self) -> None:
+        """End the process that lays designs out."""
+        self._service.close()
+
+    def __enter__(self) -> "SiteBuilder":
+        return self
+
+    def __exit__(self, *_exception: object) -> None:
+        self.close()
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _SitePlanner:
+    """What all pages are made with. A page is made from what its key names, and from what `shared_digest` is the digest of."""
+
+    site_input: SiteInput
+    urls: SiteUrls
+    code_files: CodeFiles
+    generation_errors: GenerationErrors
+    menu: tuple[TextSpan, ...]
+    state_machines: tuple[TextSpan, ...]
+    shared_digest: str
+    page_contents: list[PageContent] = field(default_factory=list)
+    _menus: list[str] = field(default_factory=list)
+
+    def plan_files(self, only: str = "") -> Iterator[PlannedFile]:
+        """All files, or some of those among which the one with a path is."""
+        if only not in {each.path for each in self._assets()}:
+            yield from self._overview_pages(only)
+            yield from self._interface_pages(only)
+            yield from self._component_pages(only)
+            yield from self._code_pages(only)
+        yield from self._assets()
+
+    def _assets(self) -> Iterator[PlannedFile]:
+        yield _plain_file("site.css", read_asset("docsite/site.css"))
+        parts = "\n".join(read_asset(f"docsite/js/{name}.js") for name in _SCRIPT_FILES)
+        yield _plain_file("site.js", _SCRIPT.format(parts))
+
+    def _overview_pages(self, only: str = "") -> Iterator[PlannedFile]:
+        """The pages about the whole, and what the search looks through."""
+        agents = {self.urls.agent(agent.name) for agent in self.site_input.project.agents}
+        if only and only not in {HOME, AGENTS, NAME_INDEX, _SEARCH, *agents}:
+            return
+        project, addresses = self.site_input.project, self.urls
+        bones = strip_to_usage(project)
+        maps, home = compute_digest(bones), home_view(self.site_input, addresses)
+        title = f"Who uses whom in {self.site_input.name}"
+
+        def drawn_home() -> TemplateContext:
+            return {"view": replace(home, svg=draw_dependencies(bones, addresses, title))}
+
+        yield self._page(_head(HOME, self.site_input.name), "home", (maps, home), drawn_home)
+        if project.agents:
+            yield self._page_from_context(_head(AGENTS, "Agents"), "agents", agents=home.agents)
+        for agent in project.agents:
+            head = _head(addresses.agent(agent.name), agent.title or agent.name, TextSpan(text="Agents", href=AGENTS))
+            yield self._page(head, "agent", (maps, agent.name), partial(_agent, bones, agent, addresses))
+        entries = search_entries(project, addresses, self.site_input.name)
+        yield self._page_from_context(_head(NAME_INDEX, "Everything"), "all", entries=entries)
+        yield PlannedFile(path=_SEARCH, key=compute_digest(entries), render=partial(search_script, entries))
+
+    def _interface_pages(self, only: str = "") -> Iterator[PlannedFile]:
+        """The pages about what designs know and share; none about what there is nothing of."""
+        pages = {self.urls.component(each.component) for each in self.site_input.project.components}
+        if only and only not in {INTERFACES, SYMBOLS, TYPES, *pages}:
+            return
+        known = make_interface_inputs(self.site_input, self.urls)
+        project = known.project
+        if project.components:
+            behaviors, others = interface_rows(known)
+            yield self._page_from_context(
+                _head(INTERFACES, "Interfaces"), "interfaces", behaviors=behaviors, others=others
+            )
+        for view in interface_views(known):
+            crumb = TextSpan(text="Interfaces", href=INTERFACES)
+            yield self._page_from_context(_head(view.file, view.name, crumb), "interface", view=view)
+        if symbol_count(project):
+            yield self._page_from_context(_head(SYMBOLS, "Symbols"), "symbols", groups=tuple(symbol_groups(known)))
+        if project.enumerations or project.constants:
+            types, constants = tuple(enumeration_views(known)), constant_table(known)
+            yield self._page_from_context(
+                _head(TYPES, "Types and constants"), "types", enumerations=types, constants=constants
+            )
+
+    def _component_pages(self, only: str = "") -> Iterator[PlannedFile]:
+        """A page a design."""
+        for design in self.site_input.project.designs:
+            name = design.component
+            if only not in ("", self.urls.component(name)):
+                continue
+            texts = self.code_files.files_of(name)
+            written = {text.variant: text.path for text in texts}
+            made = ComponentInputs(
+                site_input=restrict_to_component(self.site_input, design),
+                urls=self.urls,
+                code_links=code_links_by_path(texts, self.urls),
+                code_pages=code_page_links(texts, self.urls),
+                languages=tuple(language_views(self.site_input, name, written, self.generation_errors, self.urls)),
+            )
+            key = (made.site_input, made.code_links, made.code_pages, made.languages)
+            head = _head(self.urls.component(name), name)
+            yield self._page(head, "component", key, partial(_component, design, made))
+
+    def _code_pages(self, only: str = "") -> Iterator[PlannedFile]:
+        """A page a text."""
+        for name in self.code_files.component_names:
+            if only and only not in {self.urls.code(name, form) for form in ("source", *GENERATORS)}:
+                continue
+            texts = self.code_files.files_of(name)
+            component = TextSpan(text=name or self.site_input.name, href=self.urls.component(name) or HOME)
+            links = code_page_links(texts, self.urls)
+            for text in texts:
+                crumbs = (component,) if name else ()
+                head = _head(self.urls.code(name, text.variant), code_page_title(text), *crumbs)
+                views = partial(_code, text, links, self.urls, component)
+                yield self._page(head, "code", (text, links, component), views)
+
+    def _page_from_context(self, head: PageHead, template: str, **views: object) -> PlannedFile:
+        """A page whose views are quickly made: they are its key."""
+        return self._page(head, template, views, lambda: views)
+
+    def _page(self, head: PageHead, template: str, key: object, views: Callable[[], TemplateContext]) -> PlannedFile:
+        name, about = self.site_input.name, summarize(self.site_input.project.doc)
+        self.page_contents.append(PageContent(head=head, template=template, site=name, views=views))
+
+        def make() -> str:
+            menu, page = self._menu_html(head.menu_href), f"docsite/{template}.html.jinja"
+            return render(page, page=head, site=name, about=about, menu_html=menu, **views())
+
+        return PlannedFile(path=head.file, key=compute_digest(template, head, self.shared_digest, key), render=make)
+
+    def _menu_html(self, here: str) -> str:
+        """The menu with one of its entries marked: it is made once, and marked for each page."""
+        if not self._menus:
+            self._menus.append(render("docsite/menu.html.jinja", menu=self.menu, machines=self.state_machines))
+        # Addresses hold letters, digits and the like alone: nothing in them is escaped.
+        return self._menus[0].replace(f'<a href="{here}"', f'<a href="{here}" aria-current="page"', 1)
+
+
+def _make_planner(subject: SiteInput, memory: BuildCache) -> _SitePlanner:
+    project, unsaid = subject.project, find_generation_errors(subject)
+    addresses, texts = SiteUrls(project), CodeFiles(subject, unsaid, memory)
+    menu, machines = (
+        tuple(_menu(project, addresses, has_file="" in texts.component_names)),
+        tuple(_state_machine_links(project, addresses)),
+    )
+    return _SitePlanner(
+        site_input=subject,
+        urls=addresses,
+        code_files=texts,
+        generation_errors=unsaid,
+        menu=menu,
+        state_machines=machines,
+        shared_digest=compute_digest(subject.name, project.doc, menu, machines, addresses.key),
+    )
+
+
+def _menu(project: Project, addresses: SiteUrls, *, has_file: bool) -> Iterator[TextSpan]:
+    yield TextSpan(text="Home", href=HOME)
+    if project.agents:
+        yield TextSpan(text="Agents", href=AGENTS)
+    if project.components:
+        yield TextSpan(text="Interfaces", href=INTERFACES)
+    if symbol_count(project):
+        yield TextSpan(text="Symbols", href=SYMBOLS)
+    if project.enumerations or project.constants:
+        yield TextSpan(text="Types and constants", href=TYPES)
+    yield TextSpan(text="Everything", href=NAME_INDEX)
+    if has_file:
+        yield TextSpan(text="Project file", href=addresses.code("", "source"))
+
+
+def _state_machine_links(project: Project, addresses: SiteUrls) -> Iterator[TextSpan]:
+    for each in sorted_designs(project):
+        yield TextSpan(text=each.component, href=addresses.component(each.component), title=summarize(each.doc))
+
+
+def _plain_file(path: str, text: str) -> PlannedFile:
+    return PlannedFile(path=path, key=compute_digest(text), render=partial(str, text))
+
+
+def _head(file: str, title: str, *crumbs: TextSpan) -> PageHead:
+    return PageHead(title=title, file=file, menu_href=crumbs[-1].href if crumbs else file, breadcrumbs=crumbs)
+
+
+def _agent(bones: Project, agent: Agent, addresses: SiteUrls) -> TemplateContext:
+    return {"view": agent_view(bones, agent, addresses)}
+
+
+def _component(design: Design, made: ComponentInputs) -> TemplateContext:
+    return {"view": component_view(design, made)}
+
+
+def _code(text: CodeFile, links: tuple[TextSpan, ...], addresses: SiteUrls, component: TextSpan) -> TemplateContext:
+    return {"view": code_view(text, links, addresses, component)}

@@ -1,0 +1,104 @@
+"""What a site is about: a project, what is found in it, and its files as somebody wrote them."""
+
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, field
+from pathlib import Path as FilePath
+
+from vicode.findings import DesignPath, Finding
+from vicode.model.design import Design
+from vicode.model.project import Project
+from vicode.model.traversal import iter_decisions
+from vicode.store import OpenProject, SourceMap
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SourceText:
+    """A file as it was written: `path` as readers know it, `line_numbers` of the things in it, counted from 1."""
+
+    path: str
+    text: str
+    language: str
+    line_numbers: Mapping[DesignPath, int] = field(default_factory=dict)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ComponentFinding:
+    """A finding with the component it is about, "" for the project, and its line, 0 for none.
+
+    `file` is the file it is in when that is none of the subject's sources, as one that cannot be read.
+    """
+
+    component: str
+    line: int
+    finding: Finding
+    file: str = ""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SiteInput:
+    """All that a site is made from.
+
+    `sources` are by component, "" is the project's own file; `components_with_errors` names by language the components that nothing
+    can be generated for.
+    """
+
+    project: Project
+    findings: tuple[ComponentFinding, ...] = ()
+    sources: Mapping[str, SourceText] = field(default_factory=dict)
+    components_with_errors: Mapping[str, frozenset[str]] = field(default_factory=dict)
+    title: str = ""
+
+    @property
+    def name(self) -> str:
+        """What readers call it: its title, else the name of the project."""
+        return self.title or self.project.name
+
+
+def make_site_input(
+    opened: OpenProject, project: Project, findings: Iterable[Finding], faulty: Mapping[str, frozenset[str]]
+) -> SiteInput:
+    """The subject of a project on disk; `project` may be a part of it."""
+    folder = opened.folder.resolve()
+    sources = {}
+    for name, source in opened.sources.items():
+        design = project.design(name)
+        if name and design is None:
+            continue
+        lines = _line_numbers(design, source) if design else {}
+        shown = _display_path(opened.files[name], folder)
+        sources[name] = SourceText(path=shown, text=opened.texts[name], language="yaml", line_numbers=lines)
+    owners = {source.file: name for name, source in opened.sources.items()}
+    own = (_component_finding(finding, owners, folder) for finding in findings)
+    kept = tuple(each for each in own if not each.component or project.design(each.component))
+    return SiteInput(project=project, findings=kept, sources=sources, components_with_errors=faulty)
+
+
+def _component_finding(finding: Finding, owners: Mapping[str, str], folder: FilePath) -> ComponentFinding:
+    component, file = finding.subject.component if finding.subject else "", ""
+    line = finding.location.line if finding.location else 0
+    if finding.location and not finding.subject:
+        component = owners.get(finding.location.file, "")
+        file = "" if finding.location.file in owners else _display_path(FilePath(finding.location.file), folder)
+    return ComponentFinding(component=component, line=line, finding=finding, file=file)
+
+
+def _display_path(file: FilePath, folder: FilePath) -> str:
+    whole = file.resolve()
+    return whole.relative_to(folder).as_posix() if whole.is_relative_to(folder) else whole.name
+
+
+def iter_documented_paths(design: Design) -> Iterator[DesignPath]:
+    """The paths of all things in a design that a page describes."""
+    yield ("common",)
+    yield from (("states", state.name) for state in design.states)
+    yield from ((section, declaration.name) for section, declaration in design.declarations())
+    yield from (located.path for located in iter_decisions(design))
+
+
+def _line_numbers(design: Design, source: SourceMap) -> dict[DesignPath, int]:
+    # A thing with a name begins with it; decisions, which end with a number, have none.
+    return {
+        path: source.locate(path, of_key=not isinstance(path[-1], int)).line
+        for path in iter_documented_paths(design)
+        if source.contains(path)
+    }

@@ -1,0 +1,204 @@
+"""Shows a site in the browsers of this machine while it is built again and again; pages reload by themselves.
+
+What makes them reload is put into a page on its way to the browser: the files on disk know nothing of it.
+"""
+
+import json
+import posixpath
+import secrets
+import threading
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+from http import HTTPStatus
+from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
+from pathlib import Path
+from urllib.parse import parse_qs, unquote, urlsplit
+
+from vicode.docsite.not_found import not_found_page
+from vicode.templating import read_asset
+
+HOST = "127.0.0.1"
+_INTERNAL_PREFIX = "/-/"
+_TYPES = {
+    ".html": "text/html; charset=utf-8",
+    ".css": "text/css; charset=utf-8",
+    ".js": "text/javascript; charset=utf-8",
+    ".svg": "image/svg+xml",
+}
+_PING_S = 15.0
+
+
+@dataclass(slots=True)
+class ReloadBroadcaster:
+    """What happened to a site, told to all browsers: which files changed when, and what stands in the way now."""
+
+    errors: str = ""
+    _server_id: str = field(default_factory=lambda: secrets.token_hex(4))
+    _build_number: int = 0
+    _changed: dict[str, int] = field(default_factory=dict)
+    _condition: threading.Condition = field(default_factory=threading.Condition)
+    _is_closed: bool = False
+
+    @property
+    def build_id(self) -> str:
+        """What a page that is sent now has been built by."""
+        return f"{self._server_id}.{self._build_number}"
+
+    def publish(self, changed: Iterable[str], errors: str) -> None:
+        """The files that changed, by their addresses, and all that is wrong."""
+        with self._condition:
+            self._build_number += 1
+            self._changed |= dict.fromkeys(changed, self._build_number)
+            self.errors = errors
+            self._condition.notify_all()
+
+    def close(self) -> None:
+        """Let everybody who waits go."""
+        with self._condition:
+            self._is_closed = True
+            self._condition.notify_all()
+
+    def message_since(self, build: str) -> str:
+        """What a page of a build has to know, as JSON; of a build of another time all has changed."""
+        name, _dot, number = build.partition(".")
+        is_known = name == self._server_id and number.isdecimal()
+        changed = [path for path, at in self._changed.items() if at > int(number)] if is_known else ["*"]
+        return json.dumps({"changed": sorted(changed), "errors": self.errors})
+
+    def wait(self, number: int) -> int | None:
+        """The number of the latest news, as soon as it is another, or a while is over; None at the end."""
+        with self._condition:
+            self._condition.wait_for(lambda: self._is_closed or self._build_number != number, timeout=_PING_S)
+            return None if self._is_closed else self._build_number
+
+
+class SiteServer:
+    """Serves a folder to this machine alone, from threads of its own. Close it in the end."""
+
+    def __init__(self, folder: Path, broadcaster: ReloadBroadcaster, port: int = 0) -> None:
+        """Listen on a port, a free one if left out.
+
+        Raises:
+            OSError: The port is taken.
+        """
+        self._broadcaster = broadcaster
+        self._server = _HttpServer(folder.resolve(), broadcaster, port)
+        self._thread = threading.Thread(target=self._server.serve_forever, daemon=True)
+        self._thread.start()
+
+    @property
+    def url(self) -> str:
+        """Where the site is seen."""
+        return f"http://{HOST}:{self._server.server_port}/"
+
+    def close(self) -> None:
+        """Stop listening."""
+        self._broadcaster.close()
+        self._server.shutdown()
+        self._server.server_close()
+        self._thread.join()
+
+    def __enter__(self) -> "SiteServer":
+        return self
+
+    def __exit__(self, *_exception: object) -> None:
+        self.close()
+
+
+def add_reload_script(html: str, build_id: str) -> str:
+    """A page with what makes it reload."""
+    style = f'<link rel="stylesheet" href="{_INTERNAL_PREFIX}live_reload.css">'
+    script = f'<script src="{_INTERNAL_PREFIX}live_reload.js" data-build="{build_id}" defer></script>'
+    return html.replace("</head>", f"{style}\n{script}\n</head>", 1)
+
+
+class _HttpServer(ThreadingHTTPServer):
+    daemon_threads = True
+
+    def __init__(self, folder: Path, news: ReloadBroadcaster, port: int) -> None:
+        self.folder, self.broadcaster = folder, news
+        super().__init__((HOST, port), _RequestHandler)
+
+
+class _RequestHandler(BaseHTTPRequestHandler):
+    """Answers one browser."""
+
+    protocol_version = "HTTP/1.1"
+    server: _HttpServer
+
+    def do_GET(self) -> None:
+        """Send a file of the site, or the news."""
+        address = urlsplit(self.path)
+        if not self._has_local_host():
+            self._send(HTTPStatus.FORBIDDEN, b"This server answers to 127.0.0.1 and localhost alone.\n", "text/plain")
+        elif address.path == f"{_INTERNAL_PREFIX}events":
+            self._send_events(parse_qs(address.query).get("since", [""])[0])
+        elif address.path.startswith(_INTERNAL_PREFIX):
+            self._send_internal(address.path.removeprefix(_INTERNAL_PREFIX))
+        else:
+            self._send_file(unquote(address.path))
+
+    def _has_local_host(self) -> bool:
+        """A page of a stranger whose name leads here has that name as its host."""
+        port = self.server.server_port
+        return self.headers.get("Host") in (f"{HOST}:{port}", f"localhost:{port}")
+
+    def _send_internal(self, name: str) -> None:
+        if name not in ("live_reload.js", "live_reload.css"):
+            self._send(HTTPStatus.NOT_FOUND, b"", "text/plain")
+            return
+        self._send(HTTPStatus.OK, read_asset(f"docsite/{name}").encode(), _TYPES[Path(name).suffix])
+
+    def _send_file(self, path: str) -> None:
+        content = _read_site_file(self.server.folder, path)
+        status = HTTPStatus.NOT_FOUND if content is None else HTTPStatus.OK
+        kind = _TYPES.get(posixpath.splitext(path)[1], _TYPES[".html"])
+        if content is None or kind == _TYPES[".html"]:
+            html = not_found_page("/") if content is None else content.decode("utf-8", "replace")
+            content, kind = add_reload_script(html, self.server.broadcaster.build_id).encode(), _TYPES[".html"]
+        self._send(status, content, kind)
+
+    def _send_events(self, build: str) -> None:
+        self.send_response(HTTPStatus.OK)
+        self.send_header("Content-Type", "text/event-stream")
+        self.send_header("Cache-Control", "no-store")
+        self.send_header("Connection", "close")
+        self.end_headers()
+        self.close_connection = True
+        number: int | None = None
+        try:
+            while True:
+                text = f"data: {self.server.broadcaster.message_since(build)}\n\n"
+                self.wfile.write(text.encode())
+                self.wfile.flush()
+                number = self.server.broadcaster.wait(-1 if number is None else number)
+                if number is None:
+                    return
+        except OSError:
+            # The page was closed.
+            return
+
+    def _send(self, status: HTTPStatus, content: bytes, kind: str) -> None:
+        self.send_response(status)
+        self.send_header("Content-Type", kind)
+        self.send_header("Content-Length", str(len(content)))
+        self.send_header("Cache-Control", "no-store")
+        self.send_header("X-Content-Type-Options", "nosniff")
+        self.end_headers()
+        self.wfile.write(content)
+
+    def log_message(self, format: str, *args: object) -> None:  # noqa: A002 - as the library has it
+        """Nobody reads it."""
+
+
+def _read_site_file(folder: Path, path: str) -> bytes | None:
+    """A file of the site by its address; nothing outside of the folder, and nothing else that lies in it."""
+    name = path.removeprefix("/")
+    if not name or name.endswith("/"):
+        name += "index.html"
+    try:
+        file = (folder / name).resolve()
+        is_meant = file.is_relative_to(folder) and file.suffix in _TYPES
+        return file.read_bytes() if is_meant else None
+    except (OSError, ValueError):
+        return None

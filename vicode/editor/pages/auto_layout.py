@@ -1,0 +1,145 @@
+"""Automatic layout in one window: found beside the server, shown on the canvas, and taken or not."""
+
+from collections.abc import Collection, Iterator
+from dataclasses import dataclass, field
+
+from nicegui import run, ui
+from nicegui.events import ClickEventArguments, Handler
+
+from vicode.diagram import NodeLayout
+from vicode.diagram.layout import LayoutMethod, LayoutService
+from vicode.editor.canvas.protocol import NodePosition as Spot
+from vicode.editor.pages.canvas_controller import CanvasController
+from vicode.editor.pages.shortcuts import ESCAPE_ATTRIBUTE
+from vicode.editor.panels.command import Command, MenuGroup
+from vicode.editor.panels.widgets import primary_button
+from vicode.editor.panels.window_context import WindowContext
+from vicode.editor.session import apply_layout
+from vicode.model.design import Design
+
+# Beyond so many states Graphviz needs longer, and a person expects it.
+_MANY = 500
+_LIMIT_S, _LONG_LIMIT_S = 5.0, 15.0
+_WORDS = {LayoutMethod.GRAPHVIZ: "by Graphviz", LayoutMethod.LAYERS: "in layers"}
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class LayoutProposal:
+    """Places that are shown and not yet taken."""
+
+    placement: NodeLayout
+    only: tuple[str, ...] | None
+
+
+@dataclass(eq=False)
+class AutoLayout:
+    """The bar over the canvas that tells of a layout under way, and asks whether its places are wanted."""
+
+    context: WindowContext
+    canvas_controller: CanvasController
+    proposal: LayoutProposal | None = None
+    service: LayoutService | None = None
+    bar: ui.element = field(init=False)
+
+    def __post_init__(self) -> None:
+        """Build the bar, which is not seen before there is something to tell."""
+        self.bar = ui.element("div").classes("layout-bar").props('role="region" aria-label="Layout"')
+        self.bar.set_visibility(False)
+        self.canvas_controller.on_preview = self.finish_preview
+
+    def commands(self) -> tuple[Command, ...]:
+        """What can be asked of it."""
+        label = "Lay out what is selected, or everything"
+        return (Command("lay-out", label, self.start, MenuGroup.EDIT, icon="auto_awesome_mosaic"),)
+
+    def start(self) -> None:
+        """Find places for the selected states, or for everything, and show them."""
+        if self.service is None:
+            self.discard_preview()
+            self.context.run_in_background(self._propose(), "lay out")
+
+    async def cancel(self) -> None:
+        """Give up looking for places."""
+        service, self.service = self.service, None
+        self.bar.set_visibility(False)
+        if service is not None:
+            await run.io_bound(service.close)
+
+    def finish_preview(self, *, accepted: bool) -> None:
+        """Take the places that are shown, as one edit, or leave everything as it was."""
+        if not accepted:
+            self.discard_preview()
+            return
+        proposal, self.proposal = self.proposal, None
+        if proposal is None:
+            return
+        self.bar.set_visibility(False)
+        self.context.edit("lay out", lambda design: apply_layout(design, proposal.placement, proposal.only))
+        self.canvas_controller.canvas.end_preview()
+
+    def discard_preview(self) -> None:
+        """End a preview: it is not wanted, or the design it was made for changed."""
+        if self.proposal is not None:
+            self.proposal = None
+            self.bar.set_visibility(False)
+            self.canvas_controller.canvas.show_preview([])
+
+    async def _propose(self) -> None:
+        design, rev = self.context.design, self.context.document.rev
+        only = tuple(thing.id for thing in self.context.selected if thing.kind == "states") or None
+        count = len(only or design.states)
+        limit_s = _LIMIT_S if count <= _MANY else _LONG_LIMIT_S
+        self._show_progress(_count(count), limit_s)
+        self.service = service = LayoutService()
+        layout = await run.io_bound(service.compute, design, only=only, timeout_s=limit_s)
+        is_wanted, self.service = self.service is service, None
+        await run.io_bound(service.close)
+        if layout is None or self.canvas_controller.canvas.is_deleted or not is_wanted:
+            return
+        self.bar.set_visibility(False)
+        if self.context.document.rev != rev:
+            self.context.show_toast("The design changed meanwhile: lay it out again", "info")
+            return
+        self.proposal = LayoutProposal(placement=layout.layout, only=only)
+        self.canvas_controller.canvas.show_preview(list(_node_positions(design, layout.layout, only)))
+        self._show_preview(f"{_count(count)} {_WORDS[LayoutMethod(layout.method)]}", layout.note)
+
+    def _show_progress(self, what: str, limit_s: float) -> None:
+        self.bar.clear()
+        with self.bar:
+            ui.label(f"Laying out {what}, {limit_s:g} s at most").classes("layout-words").props('role="status"')
+            ui.element("div").classes("layout-progress").style(f"--limit: {limit_s:g}s")
+            self._cancel_button(self.cancel)
+        self.bar.set_visibility(True)
+
+    def _cancel_button(self, leave: Handler[ClickEventArguments]) -> None:
+        button = ui.button("Cancel", on_click=leave, color=None).props(f"flat no-caps dense {ESCAPE_ATTRIBUTE}")
+        button.tooltip("Escape")
+
+    def _show_preview(self, what: str, note: str) -> None:
+        self.bar.clear()
+        with self.bar:
+            with ui.element("div").classes("layout-words").props('role="status"'):
+                ui.label(f"Preview: {what}")
+                if note:
+                    ui.label(note).classes("small")
+            primary_button("Apply", lambda: self.finish_preview(accepted=True)).tooltip("Enter")
+            self._cancel_button(self.discard_preview)
+        self.bar.set_visibility(True)
+
+
+def _count(states: int) -> str:
+    return f"{states} state" + ("" if states == 1 else "s")
+
+
+def _node_positions(design: Design, placement: NodeLayout, only: Collection[str] | None) -> Iterator[Spot]:
+    """The places of a layout as the canvas wants them."""
+    for name, (x, y) in placement.states.items():
+        if only is None or name in only:
+            yield {"of": "states", "id": name, "x": x, "y": y}
+    if only is not None:
+        return
+    for alias, (x, y) in placement.uses.items():
+        yield {"of": "components", "id": alias, "x": x, "y": y}
+    if design.common.transitions or design.common.actions:
+        yield {"of": "common", "id": "@common", "x": placement.common[0], "y": placement.common[1]}

@@ -1,0 +1,73 @@
+"""One window among the others: it is announced while it is connected, and shows what the others are at."""
+
+from typing import cast
+
+from nicegui import core, ui
+
+from vicode.editor.canvas import Canvas
+from vicode.editor.canvas.protocol import RemoteUser, SceneItem
+from vicode.editor.pages.user_identity import store_name
+from vicode.editor.panels.presence_bar import PresenceBar
+from vicode.editor.panels.window_context import WindowContext
+from vicode.editor.session import Presence, User
+
+_UPDATE_DELAY_S = 0.04
+
+
+class PresenceSync:
+    """Keeps the company informed of this window, and this window of the company."""
+
+    def __init__(self, context: WindowContext, person: User, canvas: Canvas, chips: PresenceBar) -> None:
+        """Come in when the browser connects; go when it is closed, or loses the server."""
+        self.context, self.person, self.canvas, self.presence_bar = context, person, canvas, chips
+        chips.rename = self.rename
+        self.shown_typing: object = None
+        self.is_update_scheduled = False
+        client = ui.context.client
+        client.on_connect(self._join)
+        client.on_disconnect(lambda: context.presence.leave(context.window))
+        client.on_delete(lambda: context.presence.leave(context.window))
+        client.on_delete(context.presence.subscribe(self._on_presence_change))
+        context.subscribe(lambda: context.presence.update(context.window, selected=context.selected))
+
+    def rename(self, name: str) -> None:
+        """Give this person another name, here and in the browser's memory."""
+        store_name(name)
+        self.person = self.context.document.shared.users.get_or_create_user(self.person.id, name)
+        for presence in self.context.presence.presences:
+            if presence.user.id == self.person.id:
+                self.context.presence.update(presence.window, person=self.person)
+
+    def _join(self) -> None:
+        self.context.presence.join(self.context.window, self.person)
+        self.context.presence.update(self.context.window, selected=self.context.selected)
+
+    def _on_presence_change(self) -> None:
+        if not self.is_update_scheduled and core.loop is not None:
+            self.is_update_scheduled = True
+            # Where many are, news of people may wait; edits do not.
+            core.loop.call_later(_UPDATE_DELAY_S * max(1, len(self.context.presence.presences) / 4), self._show)
+
+    def _show(self) -> None:
+        self.is_update_scheduled = False
+        if self.canvas.is_deleted:
+            return
+        others = self.context.presence.others(self.context.window)
+        typing = [(each.user.name, each.editing_path) for each in others if each.editing_path]
+        with self.canvas.client:
+            self.canvas.show_presence([_other_user(each) for each in others if each.user.id != self.person.id])
+            self.presence_bar.refresh()
+            if typing != self.shown_typing:
+                self.shown_typing = typing
+                self.context.notify_listeners()
+
+
+def _other_user(presence: Presence) -> RemoteUser:
+    items = [{"of": thing.kind, "id": thing.id} for thing in presence.selected if thing.kind != "design"]
+    point = presence.pointer
+    return {
+        "name": presence.user.name,
+        "colour": presence.user.colour,
+        "items": cast("list[SceneItem]", items),
+        "pointer": {"x": point[0], "y": point[1]} if point else None,
+    }

@@ -1,0 +1,85 @@
+"""Registers the pages of the editor for one library of designs."""
+
+import contextlib
+
+from nicegui import ui
+from starlette.requests import Request
+
+from vicode.editor.pages.autosave_ui import run_autosave
+from vicode.editor.pages.design_page import DesignPage
+from vicode.editor.pages.docs_preview import serve_docs_preview
+from vicode.editor.pages.navigation import PageRequest
+from vicode.editor.pages.theme import apply_theme
+from vicode.editor.panels.thumbnails import serve_thumbnails
+from vicode.editor.panels.toasts import show_internal_error
+from vicode.editor.session import Library, Workspace
+from vicode.editor.session.autosave import AutosaveService
+from vicode.editor.session.search_index import SearchIndex
+from vicode.editor.view.page_urls import broken_file_url, parse_trail
+
+
+def register_pages(library: Library, autosave: AutosaveService | None = None, *, tour: bool = False) -> None:
+    """Serve the designs of a library: `/` is their home, `/design/PROJECT/COMPONENT` edits one."""
+    index = SearchIndex(library)
+    if autosave is not None:
+        run_autosave(autosave)
+
+    serve_thumbnails(library)
+    serve_docs_preview(library)
+
+    @ui.page("/", title="vicode")
+    def home(request: Request) -> None:
+        from vicode.editor.pages.home import HomePage
+
+        ui.on_exception(show_internal_error)
+        HomePage(library, index, request.query_params.get("gone", ""))
+
+    @ui.page("/design/{key}/{component}", title="vicode")
+    def design(key: str, component: str, request: Request) -> None:
+        workspace = _workspace_as_on_disk(library, key)
+        document = workspace.open_document(component) if workspace else None
+        if workspace is None or document is None:
+            _nothing(f"There is no design {component[:80]} here", "It may have been renamed or removed.", workspace)
+            return
+        ui.page_title(f"{component} – vicode")
+        query = request.query_params
+        trail = parse_trail(query.get("from", ""), workspace.project.interfaces(), component)
+        ui.on_exception(show_internal_error)
+        way = PageRequest(index=index, trail=trail, select=query.get("select", ""), tour=tour)
+        DesignPage(library, workspace, document, way, autosave)
+
+    @ui.page("/broken/{key}/{file:path}", title="vicode")
+    def broken(key: str, file: str) -> None:
+        from vicode.editor.pages.broken_page import BrokenPage
+
+        workspace = _workspace_as_on_disk(library, key)
+        # Only what was found to be broken is opened, so that no address leads to any other file.
+        path = workspace.broken_files.get(file) if workspace else None
+        if workspace is None or path is None:
+            _nothing(f"There is no broken file {file[:80]} here", "It may have been mended or removed.")
+            return
+        ui.page_title(f"{file} – vicode")
+        ui.on_exception(show_internal_error)
+        BrokenPage(library, workspace, path, file)
+
+
+def _workspace_as_on_disk(library: Library, key: str) -> Workspace | None:
+    """The project of a key; a file may be younger than what was read last."""
+    workspace = library.workspace(key)
+    if workspace:
+        with contextlib.suppress(OSError):
+            workspace.sync_from_disk()
+    return workspace
+
+
+def _nothing(title: str, hint: str, workspace: Workspace | None = None) -> None:
+    """Say that there is nothing at an address; what is sought may be in a file that cannot be read."""
+    apply_theme()
+    with ui.element("main").classes("nothing"):
+        ui.label(title).classes("dialog-title").props("role=heading aria-level=1")
+        ui.label(hint).classes("empty")
+        if workspace is not None and workspace.broken_file_names:
+            ui.label("Or it is in a file that cannot be read just now:").classes("empty")
+            for file in workspace.broken_file_names:
+                ui.link(file, broken_file_url(workspace.key, file))
+        ui.link("Show the designs", "/")

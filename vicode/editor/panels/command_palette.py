@@ -1,0 +1,131 @@
+"""The search palette: finds everything of the folder by name, and goes there."""
+
+from collections.abc import Callable, Sequence
+from typing import Any
+
+from nicegui import ui
+from nicegui.events import GenericEventArguments
+
+from vicode.editor.panels.command import Command
+from vicode.editor.session.search_index import (
+    SearchIndex,
+    SearchItem,
+    SearchKind,
+    SearchMatch,
+    SearchTarget,
+    rank_items,
+)
+
+NavigateTo = Callable[[SearchTarget], object]
+
+_ICONS = {
+    SearchKind.COMMAND: "bolt",
+    SearchKind.COMPONENT: "account_tree",
+    SearchKind.STATE: "crop_16_9",
+    SearchKind.USE: "hexagon",
+    SearchKind.DECLARATION: "data_object",
+    SearchKind.TRANSITION: "trending_flat",
+}
+_MAX_DETAIL_LENGTH = 160
+
+
+class CommandPalette(ui.element, component="command_palette.js"):
+    """Opens over the page; `open` shows it.
+
+    Args:
+        index: what there is to find.
+        navigate: leads to a thing.
+        current: the design that is open, None on the home page.
+    """
+
+    def __init__(self, index: SearchIndex, navigate: NavigateTo, current: SearchTarget | None = None) -> None:
+        """Build it closed."""
+        super().__init__()
+        self._index, self._navigate, self._current = index, navigate, current
+        self.commands: Sequence[Command] = ()
+        self._items: list[SearchItem] = []
+        self._last_result: tuple[str, tuple[SearchMatch, ...]] = ("", ())
+        self._opening_id: object = None
+        # Handlers added after the first rendering would make NiceGUI mount the element anew.
+        self.on("ask", self._on_query)
+        self.on("choose", self._on_choose)
+
+    def open(self) -> None:
+        """Show it."""
+        self.run_method("open")
+
+    def _reload_items(self, event: GenericEventArguments) -> None:
+        """Look at what there is now, once every time it is opened."""
+        opening = event.args.get("opening") if isinstance(event.args, dict) else None
+        if opening == self._opening_id:
+            return
+        self._opening_id = opening
+        self._items = [*self._index.items(), *(_command_item(command) for command in self.commands)]
+        self._last_result = ("", ())
+
+    def _on_query(self, event: GenericEventArguments) -> None:
+        self._reload_items(event)
+        text = _text(event)
+        matches = self._find(text)
+        count = f"{len(matches)} found" if matches else "Nothing found: try fewer or other letters"
+        self.run_method("answer", {"text": text, "hits": [_hit(match) for match in matches], "words": count})
+
+    def _on_choose(self, event: GenericEventArguments) -> None:
+        self._reload_items(event)
+        matches = self._find(_text(event))
+        index = event.args.get("index")
+        if not isinstance(index, int) or not 0 <= index < len(matches):
+            return
+        thing = matches[index].item
+        if thing.target is not None:
+            self._navigate(thing.target)
+            return
+        command = next((each for each in self.commands if each.name == thing.command), None)
+        if command is not None:
+            command.handler()
+
+    def _find(self, text: str) -> tuple[SearchMatch, ...]:
+        if not self._last_result[1] or self._last_result[0] != text:
+            self._last_result = text, rank_items(self._items, text, self._current)
+        return self._last_result[1]
+
+
+def _text(event: GenericEventArguments) -> str:
+    return str(event.args.get("text", "")) if isinstance(event.args, dict) else ""
+
+
+def _command_item(command: Command) -> SearchItem:
+    return SearchItem(
+        SearchKind.COMMAND,
+        command.label,
+        "",
+        str(command.menu_group),
+        command=command.name,
+        keys=", ".join(command.keys),
+    )
+
+
+def _hit(match: SearchMatch) -> dict[str, Any]:
+    """What a line of the list shows; all of it is set as text."""
+    thing = match.item
+    return {
+        "icon": _ICONS[thing.kind],
+        "kind": str(thing.kind),
+        "parts": _parts(thing.title, match.positions),
+        "detail": " ".join(thing.detail.split())[:_MAX_DETAIL_LENGTH],
+        "where": thing.location,
+        "keys": thing.keys,
+    }
+
+
+def _parts(title: str, places: Sequence[int]) -> list[dict[str, Any]]:
+    """The title in runs of letters that were found or not."""
+    found = set(places)
+    parts: list[dict[str, Any]] = []
+    for at, letter in enumerate(title):
+        is_found = at in found
+        if parts and parts[-1]["found"] == is_found:
+            parts[-1]["text"] += letter
+        else:
+            parts.append({"text": letter, "found": is_found})
+    return parts

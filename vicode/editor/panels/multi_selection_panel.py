@@ -1,0 +1,57 @@
+"""Several selected things: what can be done with all of them at once."""
+
+from collections import Counter
+from functools import partial
+
+from nicegui import ui
+
+from vicode.editor.panels.widgets import heading, icon_button, panel_title
+from vicode.editor.panels.window_context import WindowContext
+
+_WORDS = {
+    "states": ("state", "states"),
+    "transitions": ("transition", "transitions"),
+    "components": ("component", "components"),
+    "links": ("link", "links"),
+    "common": ("common part", "common parts"),
+}
+_ALIGN = (
+    ("align-left", "align_horizontal_left", "Align left sides (Alt+A)"),
+    ("align-centre", "align_horizontal_center", "Align centres (Alt+H)"),
+    ("align-right", "align_horizontal_right", "Align right sides (Alt+D)"),
+    ("align-top", "align_vertical_top", "Align tops (Alt+W)"),
+    ("align-middle", "align_vertical_center", "Align middles (Alt+V)"),
+    ("align-bottom", "align_vertical_bottom", "Align bottoms (Alt+S)"),
+)
+_SPREAD = (
+    ("distribute-across", "horizontal_distribute", "Equal gaps across (Alt+Shift+H)"),
+    ("distribute-down", "vertical_distribute", "Equal gaps downwards (Alt+Shift+V)"),
+)
+_EDIT = (
+    ("duplicate", "content_copy", "Duplicate (Ctrl+D)"),
+    ("disable", "block", "Disable, or enable again (D)"),
+    ("zoom-selection", "zoom_in_map", "Zoom to the selection (2)"),
+    ("delete", "delete", "Delete (Delete)"),
+)
+
+
+def multi_selection_panel(context: WindowContext) -> None:
+    """Build it for what is selected."""
+    counts = Counter(thing.kind for thing in context.selected)
+    parts = [f"{counts[of]} {words[counts[of] > 1]}" for of, words in _WORDS.items() if counts[of]]
+    panel_title(", ".join(parts) + " selected")
+    boxes = sum(counts[of] for of in ("states", "components", "common"))
+    if boxes > 1:
+        heading("Line up")
+        _row(context, _ALIGN)
+    if boxes > 2:
+        heading("Spread out")
+        _row(context, _SPREAD)
+    heading("All of them")
+    _row(context, _EDIT)
+
+
+def _row(context: WindowContext, buttons: tuple[tuple[str, str, str], ...]) -> None:
+    with ui.row().classes("multi-selection-row"):
+        for command, icon, label in buttons:
+            icon_button(icon, label, partial(context.run_canvas_command, command))

@@ -1,0 +1,115 @@
+"""Who was active in an iteration, and what user code printed or did wrong."""
+
+from collections.abc import Callable
+
+from nicegui import ui
+
+from vicode.editor.panels.simulation.controller import SimulationController
+from vicode.editor.view import ItemRef
+from vicode.editor.view.activation import ActivationRow, activation_rows, code_error_view, value_rows
+
+_MAX_LINES = 200
+_MAX_ITERATIONS = 400
+
+
+class ActivationTree:
+    """The steps of the shown iteration, and the design's own values."""
+
+    def __init__(self, controller: SimulationController) -> None:
+        """Build the empty tree."""
+        self.controller = controller
+        self._shown: object = None
+        self.body = (
+            ui.column().classes("activation").props('tabindex=0 role=group aria-label="Steps of this iteration"')
+        )
+
+    def refresh(self) -> None:
+        """Show the iteration."""
+        simulation = self.controller.simulation
+        moment = simulation.shown_iteration if simulation else None
+        rows = activation_rows(moment.tree) if moment else ()
+        component = self.controller.context.design.component
+        values = value_rows(moment.tree, component) if moment else ()
+        if (rows, values) == self._shown:
+            return
+        self._shown = (rows, values)
+        self.body.clear()
+        with self.body:
+            if not rows:
+                ui.label("Who steps whom is shown here while it runs.").classes("empty")
+            for row in rows:
+                _tree_row(row)
+            if values:
+                ui.label(f"Values of {component}").classes("field-label")
+            for name, value in values:
+                ui.label(f"{name} = {value}").classes("mono")
+
+
+class ConsoleOutput:
+    """What user code printed up to the shown moment, and its errors; an error leads to its thing."""
+
+    def __init__(self, controller: SimulationController) -> None:
+        """Build the empty list."""
+        self.controller = controller
+        self._shown: object = None
+        self.body = ui.column().classes("output").props('tabindex=0 role=group aria-label="What was printed"')
+
+    def refresh(self) -> None:
+        """Show the newest lines."""
+        lines = self._lines()
+        if lines == self._shown:
+            return
+        self._shown = lines
+        self.body.clear()
+        with self.body:
+            if not lines:
+                ui.label("What the code prints stands here, and its errors.").classes("empty")
+            for kind, text, thing in lines[-_MAX_LINES:]:
+                if kind == "error":
+                    with ui.element("button").classes("output-line error").props('type="button"') as row:
+                        ui.icon("error").props('aria-hidden="true"')
+                        ui.label(text).classes("mono")
+                    row.on("click", self._opener(thing))
+                else:
+                    ui.label(text).classes("output-line mono")
+
+    def _lines(self) -> list[tuple[str, str, ItemRef | None]]:
+        simulation = self.controller.simulation
+        if simulation is None:
+            return []
+        design = simulation.prepared.design
+        lines: list[tuple[str, str, ItemRef | None]] = []
+        for number in simulation.recording.iterations_with_output(simulation.cursor, _MAX_ITERATIONS):
+            moment = simulation.recording.iteration(number)
+            assert moment is not None
+            time = f"{moment.time_ns / 1e9:.2f} s  "
+            lines += [("print", time + line, None) for line in moment.prints]
+            if moment.omitted_lines:
+                lines.append(("print", f"{time}… and {moment.omitted_lines} more lines", None))
+            mistakes = (code_error_view(design, record) for record in moment.errors)
+            lines += [("error", time + mistake.text, mistake.item) for mistake in mistakes]
+        failure = simulation.failure
+        if failure is not None and not simulation.is_past:
+            lines += [("print", line, None) for line in failure.prints]
+            found = code_error_view(design, failure.error) if failure.error else None
+            lines.append(("error", found.text if found else failure.message, found.item if found else None))
+        return lines
+
+    def _opener(self, thing: ItemRef | None) -> Callable[[], None]:
+        def select() -> None:
+            if thing is not None:
+                self.controller.context.select(thing)
+                self.controller.context.reveal(thing)
+
+        return select
+
+
+def _tree_row(row: ActivationRow) -> None:
+    with ui.element("div").classes("tree-row").style(f"padding-left: {16 * row.depth}px"):
+        if row.link:
+            ui.label(row.link).classes("tree-link")
+        ui.label(row.component).classes("tree-name" + ("" if row.has_run else " is-idle"))
+        if row.state:
+            ui.label(row.state).classes("tree-state mono")
+        if row.detail:
+            ui.label(row.detail).classes("tree-detail mono")

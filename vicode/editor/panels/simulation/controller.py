@@ -1,0 +1,293 @@
+"""The simulation of one window: begins and ends it, plays it, and shows on the canvas where it is."""
+
+import asyncio
+import time
+from collections.abc import Callable
+from typing import cast
+
+from nicegui import run
+
+from vicode.editor.canvas import Canvas
+from vicode.editor.canvas.protocol import SceneItem
+from vicode.editor.panels.window_context import WindowContext
+from vicode.editor.session.simulation import (
+    Breakpoints,
+    NotReadyError,
+    PreparedRun,
+    RunConfig,
+    RunStatus,
+    Simulation,
+    behavior_key,
+    prepare_run,
+)
+from vicode.editor.session.simulation.traces import TraceError, input_script, read_trace
+from vicode.editor.view import ItemRef
+from vicode.generators import UnsoundDesignError
+from vicode.simulation import IterationResult, StopConditions
+from vicode.simulation.stop_reasons import COUNT_REACHED
+
+SPEEDS = (0.1, 0.25, 0.5, 1.0, 2.0, 5.0, 20.0)
+_PLAY_INTERVAL_S = 0.04
+_MAX_STEPS_PER_INTERVAL = 100
+_UNLIMITED = 1_000_000
+
+
+class SimulationController:
+    """What the commands and the panel of one window work on."""
+
+    def __init__(self, context: WindowContext, canvas: Canvas) -> None:
+        """Begin with no simulation."""
+        self.context, self.canvas = context, canvas
+        self.simulation: Simulation | None = None
+        self.breakpoints = Breakpoints()
+        self.config = RunConfig()
+        self.trace: tuple[IterationResult, ...] = ()
+        self.is_replay = False
+        self.speed = 1.0
+        self.pauses_on_errors = True
+        self.is_playing = False
+        self.is_running = False
+        """Whether it makes more than a step without being played."""
+        self.is_starting = False
+        self.is_stale = False
+        self.start_error = ""
+        """Why it could not be started."""
+        self.revision = 0
+        """Counts what the panel has to show anew."""
+        self.refresh_panel: Callable[[], None] = lambda: None
+        """Bring the panel up to date at once, if it is there."""
+        self._behavior_key: object = None
+        self._seen_project: object = None
+        self._starting = asyncio.Lock()
+        self._is_closed = False
+        self._seq = 0
+        canvas.client.on_disconnect(self.pause)
+        canvas.client.on_delete(self.close)
+
+    async def restart(self) -> None:
+        """Begin anew with the design as it is now."""
+        self.pause()
+        async with self._starting:
+            await self._start()
+
+    async def step(self) -> None:
+        """One iteration."""
+        await self._run(1, StopConditions())
+
+    async def step_to_change(self) -> None:
+        """Go on until another state is entered, a breakpoint is hit, or the room for it is used up."""
+        await self._run(_UNLIMITED, self._stop_conditions(changes=True))
+
+    async def run_to(self, state: str) -> None:
+        """Go on until a state is entered."""
+        await self._run(_UNLIMITED, self._stop_conditions(also=state))
+
+    async def run_to_time(self, seconds: float) -> None:
+        """Show the moment at a time: a recorded one, or go on until then."""
+        if not await self._ensure_started():
+            return
+        simulation = self._current
+        number = round(seconds * 1e9 / simulation.prepared.setup.tick_ns) + 1
+        if number <= len(simulation.recording):
+            simulation.go_to(number)
+        else:
+            await self._run(number - simulation.cursor, self._stop_conditions())
+
+    def step_back(self) -> None:
+        """Show the iteration before."""
+        self.pause()
+        if self.simulation is not None:
+            self.simulation.step_back()
+        self.refresh_panel()
+
+    def toggle_play(self) -> None:
+        """Play, or pause."""
+        if self.is_playing or self.is_running:
+            self.pause()
+            return
+        self.is_playing = True
+        self.context.run_in_background(self._play(), "simulation")
+        self._notify()
+
+    def pause(self) -> None:
+        """Come to rest."""
+        self.is_playing = False
+        if self.simulation is not None:
+            self.simulation.pause()
+        self._notify()
+
+    def set_config(self, wish: RunConfig) -> None:
+        """Simulate in another way from the next start on."""
+        self.config = wish
+        self.is_stale = self.simulation is not None
+        self._notify()
+
+    def use_trace(self, text: str, *, is_replay: bool) -> None:
+        """Use a recorded trace: to look at, or to set the inputs.
+
+        Raises:
+            TraceError: It is no trace of this design.
+        """
+        self.trace, self.is_replay = read_trace(text, self.context.design), is_replay
+        self.is_stale = self.simulation is not None
+        self._notify()
+
+    def clear_trace(self) -> None:
+        """Set the inputs by hand again."""
+        self.trace, self.is_replay = (), False
+        self.is_stale = self.simulation is not None
+        self._notify()
+
+    def toggle_breakpoints(self, *things: ItemRef) -> None:
+        """Mark states and transitions to rest at, or take the marks away."""
+        self.breakpoints = self.breakpoints.toggled(*things)
+        self._show_breakpoints()
+        self._notify()
+
+    def check_project(self) -> None:
+        """Notice changes of designs that this one uses, made elsewhere."""
+        if self._seen_project is not self.context.workspace.project:
+            self._seen_project = self.context.workspace.project
+            self.check_design()
+
+    def check_design(self) -> None:
+        """End a run of a design that is no more; its past can still be looked at."""
+        kept = self.breakpoints.existing_in(self.context.design)
+        if kept != self.breakpoints:
+            self.breakpoints = kept
+            self._show_breakpoints()
+        simulation = self.simulation
+        if simulation is None or simulation.status is RunStatus.ENDED:
+            return
+        if behavior_key(self.context.workspace.project, self.context.design) != self._behavior_key:
+            self.is_playing = False
+            simulation.end()
+            self.is_stale = True
+            self._notify()
+
+    def close(self) -> None:
+        """End the simulation, as the window goes."""
+        self._is_closed = True
+        self.is_playing = False
+        self._discard_simulation()
+
+    def stop(self) -> None:
+        """End the simulation, and show so."""
+        self.is_playing = False
+        self._discard_simulation()
+        self.is_stale = False
+        self._notify()
+
+    @property
+    def _current(self) -> Simulation:
+        assert self.simulation is not None
+        return self.simulation
+
+    def _stop_conditions(self, *, changes: bool = False, also: str = "") -> StopConditions:
+        return self.breakpoints.stop_conditions(changes=changes, errors=self.pauses_on_errors, extra_state=also)
+
+    async def _start(self) -> bool:
+        self.is_starting = True
+        self._notify()
+        try:
+            return await self._create_simulation()
+        finally:
+            self.is_starting = False
+            self._notify()
+
+    async def _create_simulation(self) -> bool:
+        inputs = self.simulation.inputs if self.simulation and not self.simulation.replay else {}
+        self._discard_simulation()
+        self.start_error, self.is_stale = "", False
+        stage = await self._prepare()
+        if stage is not None and not self._is_closed:
+            self._behavior_key = behavior_key(self.context.workspace.project, stage.design)
+            self.breakpoints = self.breakpoints.existing_in(stage.design)
+            self.simulation = simulation = Simulation(
+                prepared=stage,
+                cwd=self.context.workspace.folder,
+                script=input_script(self.trace, stage.inputs) if self.trace and not self.is_replay else (),
+                replay=self.trace if self.is_replay else (),
+                on_change=self._notify,
+            )
+            simulation.restore_inputs(inputs)
+            if not simulation.replay:
+                await simulation.start()
+        return self.simulation is not None and self.simulation.failure is None
+
+    def _discard_simulation(self) -> None:
+        if self.simulation is not None:
+            self.simulation.on_change = lambda: None
+            self.simulation.end()
+        self.simulation = None
+
+    async def _ensure_started(self) -> bool:
+        """Whether there is a simulation to step; one is begun if there was none, or none of the design as it is now."""
+        async with self._starting:
+            simulation = self.simulation
+            if simulation is None or simulation.is_over:
+                return await self._start()
+            return True
+
+    async def _run(self, count: int, stops: StopConditions) -> None:
+        if self.is_playing:
+            self.pause()
+        self.is_running = count > 1
+        try:
+            if await self._ensure_started():
+                await self._current.step(count, stops)
+        finally:
+            self.is_running = False
+        self._notify()
+        self.refresh_panel()
+
+    async def _play(self) -> None:
+        """Step as real time passes, times the speed, until something says rest."""
+        reason = COUNT_REACHED if await self._ensure_started() else ""
+        last, due = time.monotonic(), 1.0
+        while self.is_playing and reason == COUNT_REACHED and self.simulation is not None:
+            now = time.monotonic()
+            due += (now - last) * 1e9 * self.speed / self._current.prepared.setup.tick_ns
+            last = now
+            # What a slow machine cannot do in time is not caught up.
+            due, count = due % 1, min(int(due), _MAX_STEPS_PER_INTERVAL)
+            if count:
+                reason = await self._current.step(count, self._stop_conditions())
+            await asyncio.sleep(_PLAY_INTERVAL_S)
+        self.is_playing = False
+        self._notify()
+
+    async def _prepare(self) -> PreparedRun | None:
+        desk = self.context
+        workspace, design, wish = desk.workspace, desk.design, self.config
+        try:
+            return await run.io_bound(
+                prepare_run, workspace.project, design, wish, workspace.source_paths, workspace.folder
+            )
+        except (NotReadyError, UnsoundDesignError, TraceError) as error:
+            self.start_error = str(error)
+            return None
+
+    def _notify(self) -> None:
+        self.revision += 1
+        self._show_active()
+
+    def _show_active(self) -> None:
+        """Mark on the canvas the active state and the transition that led there."""
+        active: list[str] = []
+        taken: list[str] = []
+        simulation = self.simulation
+        if simulation is not None and simulation.cursor:
+            active = [simulation.recording.states[simulation.cursor - 1]]
+            latest = simulation.recording.latest_transition(simulation.cursor)
+            taken = [latest] if latest and simulation.status is not RunStatus.ENDED else []
+        self._seq += 1
+        self.canvas.highlight_active(active, self._seq, taken)
+
+    def _show_breakpoints(self) -> None:
+        items = [{"of": thing.kind, "id": thing.id} for thing in sorted(self.breakpoints.items, key=_order)]
+        self.canvas.set_breakpoints(cast("list[SceneItem]", items))
+
+
+def _order(thing: ItemRef) -> tuple[str, str]:
+    return (thing.kind, thing.id)

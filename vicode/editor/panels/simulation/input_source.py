@@ -1,0 +1,122 @@
+"""Where the inputs come from: set by hand, the project's own components in their world, or a recorded trace."""
+
+from dataclasses import replace
+
+from nicegui import ui
+from nicegui.events import UploadEventArguments
+
+from vicode.editor.access import MAX_BODY_BYTES
+from vicode.editor.panels.simulation.controller import SimulationController
+from vicode.editor.session.simulation import stubbed_components, used_components
+from vicode.editor.session.simulation.traces import TraceError
+
+# The file travels in a body with some words around it.
+_MAX_BYTES = MAX_BODY_BYTES - 65_536
+_TOO_LARGE = f"That file is too large for a trace, which may have {_MAX_BYTES / 1e6:.1f} MB: record fewer seconds"
+_PICK = "Choose a trace …"
+_MANUAL, _ALL_COMPONENTS, _FROM_TRACE, _REPLAY = (
+    "Inputs by hand",
+    "All components run",
+    "Inputs from a trace",
+    "Look at a trace",
+)
+
+
+class InputSourceForm:
+    """A choice, and below it which components are stood in."""
+
+    def __init__(self, controller: SimulationController) -> None:
+        """Build it."""
+        self.controller = controller
+        self.source = _MANUAL
+        world = controller.context.workspace.project.world
+        labels = {
+            _MANUAL: _MANUAL,
+            _ALL_COMPONENTS: f"All in {world}" if world else _ALL_COMPONENTS,
+            _FROM_TRACE: _FROM_TRACE,
+            _REPLAY: _REPLAY,
+        }
+        self.choice = ui.select(labels, value=_MANUAL, label="Simulate with", on_change=self._choose)
+        self.choice.props("dense outlined options-dense stack-label").classes("field")
+        self.pick = ui.button(_PICK, icon="upload_file", color=None).props("outline dense no-caps no-wrap align=left")
+        self.hint = ui.label("recorded with vicode run DESIGN --trace FILE --values").classes("small trace-hint")
+        self.upload = ui.upload(
+            auto_upload=True,
+            max_file_size=_MAX_BYTES,
+            on_upload=self._handle_upload,
+            on_rejected=lambda: controller.context.show_toast(_TOO_LARGE, "warning"),
+        )
+        self.upload.props('accept=".jsonl,.json,.txt,*"').classes("hidden")
+        # The browser opens its dialog only for a press, which must not travel to the server and back.
+        self.pick.classes("trace-pick").on("click", js_handler=f"() => runMethod({self.upload.id}, 'pickFiles', [])")
+        with ui.expansion("How to run").classes("section ways").props("dense dense-toggle"):
+            self.seed = ui.number("Seed of the world", value=0, precision=0, on_change=self._set_numbers)
+            self.tick = ui.number(
+                "Time between iterations", value=20, min=1, max=3_600_000, on_change=self._set_numbers
+            )
+            self.tick.props("suffix=ms")
+            for box in (self.seed, self.tick):
+                box.props("dense outlined stack-label").classes("field")
+            ui.label("Stood in for, instead of running").classes("field-label")
+            self.rows = ui.column().classes("stub-rows")
+        self._listed: object = None
+        self._stubbed: frozenset[str] = frozenset()
+
+    def refresh(self) -> None:
+        """List the components that the design uses now."""
+        has_trace = bool(self.controller.trace)
+        self.pick.set_visibility(self.source in (_FROM_TRACE, _REPLAY))
+        self.hint.set_visibility(self.source in (_FROM_TRACE, _REPLAY) and not has_trace)
+        if not has_trace:
+            self.pick.set_text(_PICK)
+        desk = self.controller.context
+        used = used_components(desk.workspace.project, desk.design)
+        self._stubbed = stubbed_components(desk.workspace.project, desk.design, self.controller.config)
+        listed = (used, self._stubbed)
+        if listed == self._listed:
+            return
+        self._listed = listed
+        self.rows.clear()
+        with self.rows:
+            if not used:
+                ui.label("It uses no components.").classes("empty")
+            for name in used:
+                self._row(name)
+
+    def _row(self, name: str) -> None:
+        is_design = self.controller.context.workspace.project.design(name) is not None
+        box = ui.checkbox(name + (" (design)" if is_design else ""), value=name in self._stubbed)
+        box.props("dense size=xs").classes("mono")
+        box.on_value_change(lambda event: self._set_stubbed(name, flag=bool(event.value)))
+
+    def _set_stubbed(self, name: str, *, flag: bool) -> None:
+        stood_in = self._stubbed | {name} if flag else self._stubbed - {name}
+        self.controller.set_config(replace(self.controller.config, stubbed=stood_in))
+
+    def _choose(self) -> None:
+        self.source = str(self.choice.value)
+        self.controller.clear_trace()
+        stood_in: frozenset[str] | None = frozenset() if self.source == _ALL_COMPONENTS else None
+        self.controller.set_config(replace(self.controller.config, stubbed=stood_in))
+
+    def _set_numbers(self) -> None:
+        seed, tick = self.seed.value, self.tick.value
+        if not isinstance(seed, int | float) or not isinstance(tick, int | float) or not 1 <= tick <= 3_600_000:
+            return
+        self.controller.set_config(replace(self.controller.config, seed=int(seed), tick_ms=float(tick)))
+
+    async def _handle_upload(self, event: UploadEventArguments) -> None:
+        # What the browser promised of the size binds nobody.
+        if event.file.size() > _MAX_BYTES:
+            self.controller.context.show_toast(_TOO_LARGE, "warning")
+            return
+        try:
+            text = await event.file.text()
+            self.controller.use_trace(text, is_replay=self.source == _REPLAY)
+            self.pick.set_text(event.file.name)
+        except (TraceError, UnicodeDecodeError) as error:
+            self.controller.context.show_toast(f"{event.file.name[:60]}: {error}", "warning")
+            return
+        finally:
+            self.upload.reset()
+        await self.controller.restart()

@@ -1,0 +1,55 @@
+"""What the simulation says in its one line: why it cannot go on, where in the past it is, why it rested."""
+
+from vicode.editor.panels.simulation.controller import SimulationController
+from vicode.editor.session.simulation import RunStatus, Simulation
+from vicode.editor.view.activation import code_error_view
+
+_HINT = "F10 steps, F6 plays and pauses, Shift+F6 runs to the next state, F9 sets a breakpoint on what is selected."
+
+
+def status_message(controller: SimulationController) -> tuple[str, str]:
+    """What is to be said, and its kind: error, warning, past or info."""
+    simulation = controller.simulation
+    if controller.is_starting:
+        return ("info", "Starting: the code is generated and loaded …")
+    if controller.start_error:
+        return ("error", controller.start_error)
+    if controller.is_stale and simulation is not None and simulation.status is RunStatus.ENDED:
+        return ("warning", "The design has changed: what is shown is the past of what it was.")
+    if controller.is_stale:
+        return ("warning", "Start again to simulate it that way.")
+    if simulation is None:
+        return ("info", _HINT)
+    return _running_message(simulation, is_moving=controller.is_playing or controller.is_running)
+
+
+def _running_message(simulation: Simulation, *, is_moving: bool) -> tuple[str, str]:
+    if simulation.failure is not None and not simulation.is_past:
+        record = simulation.failure.error
+        words = code_error_view(simulation.prepared.design, record).text if record else simulation.failure.message
+        return ("error", words)
+    if simulation.is_past and not is_moving:
+        behind = len(simulation.recording) - simulation.cursor
+        return ("past", f"The past, {behind} iteration{'s' * (behind != 1)} before the newest.")
+    moment = simulation.shown_iteration
+    if moment is not None and moment.errors:
+        return ("error", code_error_view(simulation.prepared.design, moment.errors[0]).text)
+    if simulation.warning:
+        return ("warning", simulation.warning)
+    return ("info", (not is_moving and _describe_stop(simulation)) or _HINT)
+
+
+def _describe_stop(simulation: Simulation) -> str:
+    """Why it came to rest, in words; nothing for a run that made all its steps."""
+    state = simulation.shown_iteration.state if simulation.shown_iteration else ""
+    words = {
+        "transition": f"Stopped at a breakpoint: the transition to {state}",
+        "state": f"Stopped on entering {state}",
+        "error": "Stopped at an error",
+        "done": f"Done: {state} is a final state",
+        "finished": "The world has come to its end",
+        "change": f"Entered {state}",
+        "pause": "Paused",
+        "end": "There is nothing after this",
+    }
+    return words.get(simulation.stop_reason, "")

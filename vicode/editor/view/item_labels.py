@@ -1,0 +1,60 @@
+"""What a path inside a design leads to, in words for lists and dialogs."""
+
+from vicode.editor.view.selection import decision_path
+from vicode.findings import DesignPath
+from vicode.model.design import DecisionGroup, Design, Transition
+from vicode.model.traversal import find_decision
+
+_PARTS = {
+    "when": "guard",
+    "after": "time",
+    "doc": "doc",
+    "enter": "enter",
+    "leave": "leave",
+    "actions": "actions",
+    "requires": "requires",
+    "modulates": "modulates",
+    "default": "default",
+    "initial": "initial value",
+}
+_SECTIONS = {"parameters": "parameter", "outputs": "output", "variables": "variable", "uses": "component"}
+
+
+def item_label(design: Design, path: DesignPath) -> str:
+    """The thing that a path leads to: "Kick → Wait", "state Kick", "variable tries"."""
+    match path:
+        case ("states", _, "transitions", int(), *_) | ("common", "transitions", int(), *_):
+            return _words_of_decision(design, decision_path(path))
+        case ("states", str(name), *_):
+            return f"state {name}"
+        case ("common", *_):
+            return "every state"
+        case (str(section), str(name), *_) if section in _SECTIONS:
+            return f"{_SECTIONS[section]} {name}"
+        case ("module", *_):
+            return "module code"
+        case ("members", *_):
+            return "member code"
+        case _:
+            return "design"
+
+
+def part_label(path: DesignPath) -> str:
+    """Which text of the thing a path leads to: "guard", "enter", "code"; empty where the thing says it."""
+    named = [_PARTS[str(part)] for part in path if isinstance(part, str) and part in _PARTS]
+    is_code = "code" in path[1:]
+    return " ".join([*named[-1:], *(["code"] if is_code else [])])
+
+
+def _words_of_decision(design: Design, path: DesignPath) -> str:
+    located = find_decision(design, path)
+    if located is None:
+        return "a transition"
+    source = "every state" if located.source.startswith("@") else located.source
+    match located.decision:
+        case Transition(to=to):
+            return f"{source} → {to}"
+        case DecisionGroup():
+            return f"group in {source}"
+        case _:
+            return f"stay in {source}"

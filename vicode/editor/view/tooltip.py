@@ -1,0 +1,58 @@
+"""What is told of a thing that the pointer rests on, beyond what its drawing says."""
+
+from collections.abc import Iterable, Sequence
+
+from vicode.editor.view.selection import ItemRef, parse_transition_key
+from vicode.model.design import Action, Assign, Call, Code, Design, RunCode
+from vicode.model.traversal import find_decision
+
+Sections = list[dict[str, str]]
+_MAX_LINES = 12
+_MAX_LINE_LENGTH = 90
+
+
+def tooltip_sections(design: Design, thing: ItemRef, languages: Sequence[str]) -> Sections:
+    """The code of a state, a transition or the common part: sections {"name", "text"} no longer than a card."""
+    if thing.kind == "transitions":
+        return _guard(design, thing.id, languages)
+    texts = ((name, "\n".join(_lines(actions, languages))) for name, actions in _phases(design, thing))
+    return [{"name": name, "text": _cut(text)} for name, text in texts if text]
+
+
+def _phases(design: Design, thing: ItemRef) -> tuple[tuple[str, tuple[Action, ...]], ...]:
+    state = design.state(thing.id) if thing.kind == "states" else None
+    if state is not None:
+        return (("enter", state.enter), ("do", state.all_actions), ("leave", state.leave))
+    return (("do", design.common.actions),) if thing.kind == "common" else ()
+
+
+def _guard(design: Design, key: str, languages: Sequence[str]) -> Sections:
+    located = find_decision(design, parse_transition_key(key))
+    code = located.decision.guard.code if located else None
+    return [{"name": "holds when", "text": _cut(_text(code, languages))}] if code else []
+
+
+def _lines(actions: Iterable[Action], languages: Sequence[str]) -> Iterable[str]:
+    for action in actions:
+        match action:
+            case Assign(values=values):
+                yield from (f"{name} = {text}" for name, text in values)
+            case Call(alias=alias, arguments=arguments):
+                yield f"{alias}({', '.join(f'{name}={text}' for name, text in arguments)})"
+            case RunCode(code=code):
+                yield _text(code, languages)
+
+
+def _text(code: Code, languages: Sequence[str]) -> str:
+    """In the first language there is a text for."""
+    written = (code.in_language(language) for language in languages)
+    return next((text for text in written if text), "").strip("\n")
+
+
+def _cut(text: str) -> str:
+    lines = [
+        line if len(line) <= _MAX_LINE_LENGTH else line[: _MAX_LINE_LENGTH - 1] + "…" for line in text.splitlines()
+    ]
+    if len(lines) <= _MAX_LINES:
+        return "\n".join(lines)
+    return "\n".join([*lines[: _MAX_LINES - 1], f"… {len(lines) - _MAX_LINES + 1} more lines"])

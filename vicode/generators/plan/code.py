@@ -1,0 +1,50 @@
+"""Gives every piece of hand-written code a region and a name; both outlive renames where ids are given."""
+
+from vicode.generators.plan.names import NameAllocator, identifier_stem
+from vicode.generators.plan.plan_types import CodePlan
+from vicode.model.design import COMMON, Code, Design, State
+
+
+class CodePlanner:
+    """The code of one design; ids and names are given in the order of asking."""
+
+    def __init__(self, design: Design) -> None:
+        """Begin with none given out."""
+        self._regions = NameAllocator()
+        self._actions, self._predicates = NameAllocator(), NameAllocator()
+        self._states = {state.name: state for state in design.states}
+
+    def plan_section(self, role: str, code: Code) -> CodePlan | None:
+        """The code of the module or of the class, None if there is none."""
+        return CodePlan(region_id=self._regions.allocate(role, "."), stem=role, code=code) if code.texts else None
+
+    def plan_action(self, source: str, phase: str, code: Code, given_id: str) -> CodePlan:
+        """The code of an action in a state, or of the common ones."""
+        region = given_id or f"{self._owner(source)}.{phase}"
+        default = (
+            identifier_stem(_source_name(source))
+            if phase == "actions"
+            else f"{identifier_stem(_source_name(source))}_{phase}"
+        )
+        stem = identifier_stem(given_id) if given_id else default
+        return CodePlan(region_id=self._regions.allocate(region, "."), stem=self._actions.allocate(stem), code=code)
+
+    def plan_guard(self, source: str, outcome: str, code: Code, *, given_id: str, doc: str) -> CodePlan:
+        """The code of a guard; `outcome` is a state's name, "stay" or "group"."""
+        region = given_id or f"{self._owner(source)}.to.{self._owner(outcome)}"
+        stem = (
+            identifier_stem(given_id)
+            if given_id
+            else f"{identifier_stem(_source_name(source))}_to_{identifier_stem(outcome)}"
+        )
+        return CodePlan(
+            region_id=self._regions.allocate(region, "."), stem=self._predicates.allocate(stem), code=code, doc=doc
+        )
+
+    def _owner(self, name: str) -> str:
+        state: State | None = self._states.get(name)
+        return state.id or state.name if state else _source_name(name)
+
+
+def _source_name(name: str) -> str:
+    return "common" if name == COMMON else name

@@ -1,0 +1,224 @@
+"""Spells typed trees as Python, with no bracket too many."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+
+from vicode.generators.plan import (
+    ComponentPlan,
+    Condition,
+    ExpressionCondition,
+    FunctionPlan,
+    TimerCondition,
+    literal_value,
+)
+from vicode.generators.python.expression_doc import (
+    ADDITION,
+    AND,
+    COMPARISON,
+    MULTIPLICATION,
+    NEGATIVE,
+    NOT,
+    OR,
+    ExpressionDoc,
+    atom,
+    call_expression,
+    conditional_expression,
+    operator_chain,
+    unary_expression,
+)
+from vicode.generators.python.pretty_printer import Doc, concat
+from vicode.model.expressions import (
+    BOOL,
+    FLOAT,
+    INT,
+    Binary,
+    Boolean,
+    Comparison,
+    Done,
+    ElapsedTime,
+    EnumElement,
+    Expr,
+    FunctionCall,
+    Logic,
+    Minus,
+    Not,
+    Number,
+    OutputRef,
+    ScopeSymbolKind,
+    StatusFlag,
+    Ternary,
+    Variable,
+    walk,
+)
+
+_BUILTIN_FUNCTIONS = {"abs": "abs", "min": "min", "max": "max", "float": "float"}
+_ARITHMETIC_NAMES = {"int": "to_int", "round": "round_half_even"}
+_SAFE_OPERATORS = {"/": "divide", "//": "floor_divide", "%": "modulo"}
+_XABSL_OPERATORS = {"/": "xabsl_divide", "//": "floor_divide", "%": "xabsl_remainder"}
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PythonExpressionPrinter:
+    """Spells expressions of one component: `names` of constants and enumerations in the module, the unit of times.
+
+    `uses_xabsl_arithmetic`: it divides as XABSL does. `functions` are outputs with arguments by alias and name, `enclosing_calls` those among
+    whose arguments this is.
+    """
+
+    names: Mapping[str, str]
+    nonzero_constants: frozenset[str] = frozenset()
+    time_unit: str = "s"
+    uses_xabsl_arithmetic: bool = False
+    functions: Mapping[tuple[str, str], FunctionPlan] = field(default_factory=dict)
+    enclosing_calls: frozenset[tuple[str, str]] = frozenset()
+
+    def to_doc(self, node: Expr) -> ExpressionDoc:
+        """The Python of a typed tree."""
+        match node:
+            case Number(value=value):
+                return atom(format_number(value))
+            case Boolean(value=value):
+                return atom(str(value))
+            case EnumElement(element=element, type=enumeration):
+                return atom(f"{self.names[enumeration]}.{element}")
+            case Variable(name=name, kind=kind):
+                return atom(self.names[name] if kind == ScopeSymbolKind.CONSTANT else f"self.{name}")
+            case ElapsedTime(kind=of):
+                return self._time_doc(of)
+            case StatusFlag(name=of) | Done(alias=of):
+                return atom(f"self.{of}" if isinstance(node, StatusFlag) else f"self.{of}.is_done")
+            case OutputRef():
+                return self._output_doc(node)
+            case _:
+                return self._operation_doc(node)
+
+    def conditions_to_doc(self, conditions: tuple[Condition, ...]) -> ExpressionDoc:
+        """All conditions of a guard, joined by `and`."""
+        pieces = [self._condition_doc(condition) for condition in conditions]
+        if len(pieces) == 1:
+            return pieces[0]
+        return operator_chain([(None, pieces[0]), *(("and", piece) for piece in pieces[1:])], AND)
+
+    def _condition_doc(self, condition: Condition) -> ExpressionDoc:
+        match condition:
+            case ExpressionCondition(expression=expression):
+                return self.to_doc(expression)
+            case TimerCondition():
+                return self._timer_doc(condition)
+            case _:
+                return atom(f"self._when_{condition.code.stem}()")
+
+    def _timer_doc(self, after: TimerCondition) -> ExpressionDoc:
+        passed = operator_chain([(None, atom("self.root.now_ns")), ("-", atom("self._entered_ns"))], ADDITION)
+        if after.ns is not None:
+            return operator_chain([(None, passed), (">=", atom(f"{after.ns:_}"))], COMPARISON)
+        factor = atom("1e6" if self.time_unit == "ms" else "1e9")
+        product = operator_chain([(None, self.to_doc(after.time)), ("*", factor)], MULTIPLICATION)
+        return operator_chain([(None, passed), (">=", call_expression("round", [product.breakable]))], COMPARISON)
+
+    def _time_doc(self, of: str) -> ExpressionDoc:
+        if self.time_unit != "ms":
+            return atom(f"self.{of}_time")
+        since = atom(f"self._{'entered' if of == 'state' else 'started'}_ns")
+        passed = operator_chain([(None, atom("self.root.now_ns")), ("-", since)], ADDITION)
+        return operator_chain([(None, passed), ("/", atom("1e6"))], MULTIPLICATION)
+
+    def _output_doc(self, reading: OutputRef) -> ExpressionDoc:
+        target, arguments = f"self.{reading.alias}.{reading.output}", reading.arguments
+        if arguments is None:
+            return atom(target)
+        if (reading.alias, reading.output) in self.enclosing_calls or (
+            self.uses_xabsl_arithmetic and _calls_itself(reading)
+        ):
+            return self._nested_call_doc(reading)
+        return call_expression(target, [_keyword(name, self.to_doc(value)) for name, value in arguments])
+
+    def _nested_call_doc(self, reading: OutputRef) -> ExpressionDoc:
+        """XABSL keeps the arguments of a function in one place, which a call of it among them changes."""
+        given, function = dict(reading.arguments or ()), (reading.alias, reading.output)
+        inside = replace(self, enclosing_calls=self.enclosing_calls | {function})
+        declared = self.functions[function].arguments
+        # Decimals are stored first, then bools, then elements.
+        ordered = sorted(declared, key=lambda each: (each.type == BOOL) + 2 * (each.type not in (BOOL, INT, FLOAT)))
+        arguments: list[Doc] = [f"self.{reading.alias}.{reading.output}"]
+        for each in ordered:
+            value = inside.to_doc(given.get(each.name, each.initial)).breakable
+            arguments.append(concat(f"{each.name}=lambda: ", value))
+        return call_expression("self._ask", arguments)
+
+    def _operation_doc(self, node: Expr) -> ExpressionDoc:
+        match node:
+            case Not(operand=operand):
+                return unary_expression("not ", self.to_doc(operand), NOT)
+            case Minus(operand=operand):
+                return unary_expression("-", self.to_doc(operand), NEGATIVE)
+            case Binary():
+                return self._binary_doc(node)
+            case Comparison(operators=operators, operands=operands):
+                pieces = [self.to_doc(operand) for operand in operands]
+                return operator_chain([(None, pieces[0]), *zip(operators, pieces[1:], strict=True)], COMPARISON)
+            case Logic(operator=operator, operands=operands):
+                pieces = [self.to_doc(operand) for operand in operands]
+                level = AND if operator == "and" else OR
+                return operator_chain([(None, pieces[0]), *((operator, piece) for piece in pieces[1:])], level)
+            case Ternary(test=test, then=then, otherwise=otherwise):
+                return conditional_expression(self.to_doc(then), self.to_doc(test), self.to_doc(otherwise))
+            case FunctionCall(function=function, arguments=arguments):
+                name = (
+                    _BUILTIN_FUNCTIONS.get(function)
+                    or f"{self.names['arithmetic']}.{_ARITHMETIC_NAMES.get(function, function)}"
+                )
+                return call_expression(name, [self.to_doc(argument).breakable for argument in arguments])
+            case _:
+                raise AssertionError(f"no spelling for {node}")
+
+    def _binary_doc(self, node: Binary) -> ExpressionDoc:
+        operator, left, right = node.operator, node.left, node.right
+        guarded = _XABSL_OPERATORS if self.uses_xabsl_arithmetic else _SAFE_OPERATORS
+        if operator in guarded and not self._is_nonzero(right, operator):
+            name = f"{self.names['arithmetic']}.{guarded[operator]}"
+            return call_expression(name, [self.to_doc(left).breakable, self.to_doc(right).breakable])
+        right_piece = self.to_doc(_as_float(right)) if operator in ("//", "%") else self.to_doc(right)
+        level = ADDITION if operator in "+-" else MULTIPLICATION
+        return operator_chain([(None, self.to_doc(left)), (operator, right_piece)], level)
+
+    def _is_nonzero(self, node: Expr, operator: str) -> bool:
+        """Whether Python's own operator, which raises for zero alone, gives the same before it."""
+        if self.uses_xabsl_arithmetic and operator == "%":
+            return False
+        if isinstance(node, Variable) and node.kind == ScopeSymbolKind.CONSTANT:
+            return node.name in self.nonzero_constants and (operator == "/" or node.type == FLOAT)
+        return bool(literal_value(node))
+
+
+def functions_by_output(component: ComponentPlan) -> dict[tuple[str, str], FunctionPlan]:
+    """The outputs with arguments that a component may ask, by alias and name."""
+    return {(use.alias, each.result.name): each for use in component.uses for each in use.functions}
+
+
+def format_number(value: float) -> str:
+    """A number as a formatter leaves it."""
+    return repr(value).replace("e+", "e")
+
+
+def _as_float(node: Expr) -> Expr:
+    # `//` and `%` of two ints would be an int, and are defined to be floats.
+    match node:
+        case Number(value=value, span=span):
+            return Number(value=float(value), type=FLOAT, span=span)
+        case Minus(operand=operand, span=span):
+            return Minus(operand=_as_float(operand), type=FLOAT, span=span)
+        case _:
+            return node
+
+
+def _calls_itself(reading: OutputRef) -> bool:
+    """Whether a function is called among its own arguments."""
+    inside = (each for _name, value in reading.arguments or () for each in walk(value))
+    return any(
+        isinstance(each, OutputRef) and (each.alias, each.output) == (reading.alias, reading.output) for each in inside
+    )
+
+
+def _keyword(name: str, value: ExpressionDoc) -> Doc:
+    return concat(f"{name}=", value.breakable)

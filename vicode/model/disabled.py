@@ -1,0 +1,69 @@
+"""What of a design works: all but the disabled states and decisions, and the transitions that lead to such states."""
+
+from collections.abc import Collection, Iterable
+from dataclasses import replace
+
+from vicode.findings import DesignPath
+from vicode.model.design import Decision, DecisionGroup, Design, Transition
+from vicode.model.edits import replace_decision
+from vicode.model.traversal import LocatedDecision, find_decision
+
+
+def disabled_states(design: Design) -> frozenset[str]:
+    """The names of the states that are kept without working."""
+    return frozenset(state.name for state in design.states if state.disabled)
+
+
+def strip_disabled(design: Design) -> Design:
+    """The design as it works: what is disabled, and what leads there, is not in it."""
+    off = disabled_states(design)
+    states = (state for state in design.states if not state.disabled)
+    return replace(
+        design,
+        common=replace(design.common, transitions=_strip_disabled_items(design.common.transitions, off)),
+        states=tuple(replace(state, transitions=_strip_disabled_items(state.transitions, off)) for state in states),
+    )
+
+
+def strip_disabled_decision(decision: Decision, disabled: Collection[str]) -> Decision | None:
+    """A decision as it works, None when it does not; `disabled` are the disabled states.
+
+    A group that is left with nothing decides nothing, so it goes too.
+    """
+    if decision.disabled or (isinstance(decision, Transition) and decision.to in disabled):
+        return None
+    if not isinstance(decision, DecisionGroup):
+        return decision
+    then, otherwise = (
+        _strip_disabled_items(decision.then, disabled),
+        _strip_disabled_items(decision.otherwise, disabled),
+    )
+    if (then, otherwise) == (decision.then, decision.otherwise):
+        return decision
+    return replace(decision, then=then, otherwise=otherwise) if then or otherwise else None
+
+
+def is_enabled(located: LocatedDecision, disabled: Collection[str]) -> bool:
+    """Whether a decision at its place can ever be taken, as far as disabling goes."""
+    is_inside = any(group.disabled for group, _is_then in located.groups)
+    return (
+        not is_inside
+        and located.source not in disabled
+        and strip_disabled_decision(located.decision, disabled) is not None
+    )
+
+
+def set_disabled(design: Design, states: Collection[str], paths: Collection[DesignPath], *, disabled: bool) -> Design:
+    """Disable states and decisions (`disabled`), or enable them again."""
+    kept = tuple(replace(state, disabled=disabled) if state.name in states else state for state in design.states)
+    changed = replace(design, states=kept)
+    for path in paths:
+        located = find_decision(changed, path)
+        if located is not None:
+            changed = replace_decision(changed, path, replace(located.decision, disabled=disabled))
+    return changed
+
+
+def _strip_disabled_items(items: Iterable[Decision], off: Collection[str]) -> tuple[Decision, ...]:
+    enabled = (strip_disabled_decision(item, off) for item in items)
+    return tuple(item for item in enabled if item is not None)

@@ -1,0 +1,217 @@
+"""A part of a design as a design of its own, and such a part put into another design."""
+
+import re
+from collections.abc import Collection, Iterable
+from dataclasses import dataclass, replace
+
+from vicode.findings import DesignPath
+from vicode.model.decisions import drop_targets, retarget_all
+from vicode.model.design import (
+    Action,
+    CommonSection,
+    Decision,
+    DecisionGroup,
+    Design,
+    Point,
+    RunCode,
+    State,
+    Transition,
+    Use,
+)
+from vicode.model.edits import add_state, rename_use, unique_name, update_decisions
+from vicode.model.rename import rename_alias
+from vicode.model.traversal import find_decision, iter_actions, iter_decisions, iter_transitions
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FragmentSelection:
+    """What is to be taken out of a design: names of states, paths of decisions, aliases, the common part."""
+
+    states: Collection[str] = ()
+    decisions: Collection[DesignPath] = ()
+    aliases: Collection[str] = ()
+    common: bool = False
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class InsertResult:
+    """A design with a part put in: the names its states got, and the components that are not to be had here."""
+
+    design: Design
+    states: tuple[str, ...] = ()
+    missing: tuple[str, ...] = ()
+
+
+def extract_fragment(design: Design, selection: FragmentSelection) -> Design:
+    """The wanted states with all they do and all the components they speak of.
+
+    Decisions count where no state is wanted; having left their state, they stand among the common ones.
+    """
+    states = tuple(state for state in design.states if state.name in selection.states)
+    common = design.common if selection.common else CommonSection()
+    if not states and not selection.common:
+        found = (find_decision(design, path) for path in selection.decisions)
+        common = CommonSection(transitions=tuple(each.decision for each in found if each is not None))
+    part = Design(component=design.component, common=common, states=states)
+    uses = tuple(use for use in design.uses if use.alias in selection.aliases or _references_alias(part, use.alias))
+    return replace(part, uses=uses)
+
+
+def insert_fragment(
+    design: Design, fragment: Design, *, available: Collection[str], offset: Point = (0, 0)
+) -> InsertResult:
+    """Put a part into a design: names are made free, what leads to no state is left out.
+
+    Args:
+        design: where it goes.
+        fragment: what `extract_fragment` made, of this design or of another.
+        available: the components that may be used here; what uses others keeps speaking of them.
+        offset: how far the part goes from its own places.
+    """
+    design, fragment, missing = _insert_uses(design, fragment, available, offset)
+    fragment = _with_unique_names(design, fragment)
+    lost = _dangling_targets(design, fragment)
+    taken = _used_ids(design)
+    for state in fragment.states:
+        kept = replace(state, at=_translated(state.at, offset), transitions=drop_targets(state.transitions, lost))
+        design = add_state(design, _with_unique_ids(kept, taken))
+    common = drop_targets(fragment.common.transitions, lost)
+    new = tuple(each for each in _decisions_with_unique_ids(common, taken) if each not in design.common.transitions)
+    design = update_decisions(design, ("common", "transitions"), lambda items: (*items, *new))
+    actions = (*design.common.actions, *(each for each in fragment.common.actions if each not in design.common.actions))
+    design = replace(design, common=replace(design.common, actions=actions, at=design.common.at or fragment.common.at))
+    return InsertResult(design=design, states=tuple(state.name for state in fragment.states), missing=missing)
+
+
+def append_decisions(
+    design: Design, fragment: Design, state_names: Iterable[str], *, available: Collection[str]
+) -> InsertResult:
+    """Give the states of these names the common transitions of a part, as their last ones."""
+    design, fragment, missing = _insert_uses(design, fragment, available, (0, 0))
+    lost = _dangling_targets(design, fragment)
+    taken = _used_ids(design)
+    for name in state_names:
+        items = _decisions_with_unique_ids(drop_targets(fragment.common.transitions, lost), taken)
+        where: DesignPath = ("states", name, "transitions")
+        design = update_decisions(design, where, lambda old, items=items: (*old, *items))  # type: ignore[misc]
+    return InsertResult(design=design, missing=missing)
+
+
+def duplicate_decision(design: Design, path: DesignPath) -> Design:
+    """Put the same decision once more, right behind itself."""
+    located = find_decision(design, path)
+    if located is None:
+        return design
+    index = int(path[-1])
+    (twin,) = _decisions_with_unique_ids((located.decision,), _used_ids(design))
+    return update_decisions(design, path[:-1], lambda items: (*items[: index + 1], twin, *items[index + 1 :]))
+
+
+def _references_alias(part: Design, alias: str) -> bool:
+    """Whether anything would change if the component had another alias."""
+    return rename_alias(part, alias, f"{alias}_") != part
+
+
+def _insert_uses(
+    design: Design, part: Design, known: Collection[str], by: Point
+) -> tuple[Design, Design, tuple[str, ...]]:
+    missing = []
+    for use in part.uses:
+        there = design.use(use.alias)
+        if there is not None and there.component == use.component:
+            continue
+        alias = unique_name(use.alias, {each.alias for each in (*design.uses, *part.uses)} if there else ())
+        part = rename_use(part, use.alias, alias)
+        if use.component in known:
+            new = Use(alias=alias, component=use.component, at=_translated(use.at, by))
+            design = replace(design, uses=(*design.uses, new))
+        else:
+            missing.append(use.component)
+    return design, part, tuple(missing)
+
+
+def _with_unique_names(design: Design, part: Design) -> Design:
+    """The part with new names for those states whose names are taken; a number at the end is counted on."""
+    taken = {state.name for state in design.states} | {state.id for state in design.states}
+    busy = taken | {state.name for state in part.states}
+    names: dict[str, str] = {}
+    for state in part.states:
+        if state.name in taken:
+            stem = re.sub(r"\d+\Z", "", state.name) or state.name
+            names[state.name] = _numbered_name(stem, busy)
+            busy.add(names[state.name])
+    states = (
+        replace(state, name=names.get(state.name, state.name), transitions=retarget_all(state.transitions, names))
+        for state in part.states
+    )
+    common = replace(part.common, transitions=retarget_all(part.common.transitions, names))
+    return replace(part, states=tuple(states), common=common)
+
+
+def _numbered_name(stem: str, taken: Collection[str]) -> str:
+    number = 2
+    while f"{stem}{number}" in taken:
+        number += 1
+    return f"{stem}{number}"
+
+
+def _dangling_targets(design: Design, part: Design) -> set[str]:
+    """The names that transitions of the part lead to and nothing has."""
+    there = {state.name for state in (*design.states, *part.states)}
+    targets = {at.decision.to for at in iter_transitions(part) if isinstance(at.decision, Transition)}
+    return targets - there
+
+
+def _used_ids(design: Design) -> set[str]:
+    """Everything that names code: no two pieces may share it."""
+    decisions = {located.decision.id for located in iter_decisions(design)}
+    actions = {placed.action.id for placed in iter_actions(design) if isinstance(placed.action, RunCode)}
+    states = {name for state in design.states for name in (state.id, state.name)}
+    return (decisions | actions | states) - {""}
+
+
+def _with_unique_ids(state: State, taken: set[str]) -> State:
+    """A state whose ids nobody has; those it has are `taken` afterwards."""
+    own = "" if state.id in taken else state.id
+    taken.update({own, state.name} - {""})
+    return replace(
+        state,
+        id=own,
+        enter=_actions_with_unique_ids(state.enter, taken),
+        actions=_actions_with_unique_ids(state.actions, taken),
+        leave=_actions_with_unique_ids(state.leave, taken),
+        transitions=_decisions_with_unique_ids(state.transitions, taken),
+    )
+
+
+def _actions_with_unique_ids(actions: tuple[Action, ...], taken: set[str]) -> tuple[Action, ...]:
+    def free(action: Action) -> Action:
+        return replace(action, id=_unique_id(action.id, taken)) if isinstance(action, RunCode) else action
+
+    return tuple(free(action) for action in actions)
+
+
+def _decisions_with_unique_ids(items: tuple[Decision, ...], taken: set[str]) -> tuple[Decision, ...]:
+    def free(item: Decision) -> Decision:
+        fresh = replace(item, id=_unique_id(item.id, taken))
+        if isinstance(fresh, DecisionGroup):
+            then, otherwise = (
+                _decisions_with_unique_ids(fresh.then, taken),
+                _decisions_with_unique_ids(fresh.otherwise, taken),
+            )
+            return replace(fresh, then=then, otherwise=otherwise)
+        return fresh
+
+    return tuple(free(item) for item in items)
+
+
+def _unique_id(wanted: str, taken: set[str]) -> str:
+    if not wanted:
+        return ""
+    id_ = unique_name(wanted, taken)
+    taken.add(id_)
+    return id_
+
+
+def _translated(at: Point | None, by: Point) -> Point | None:
+    return None if at is None else (at[0] + by[0], at[1] + by[1])

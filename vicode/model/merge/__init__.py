@@ -1,0 +1,16 @@
+"""Three-way merges of designs: what two sides made of one base comes together, what both touched is told."""
+
+from vicode.model.merge.design_merge import Conflict, MergeResult, merge_designs
+from vicode.model.merge.matching import find_renamed_states, find_renamed_uses, match_items
+from vicode.model.merge.text_merge import merge_characters, merge_lines
+
+__all__ = [
+    "Conflict",
+    "MergeResult",
+    "find_renamed_states",
+    "find_renamed_uses",
+    "match_items",
+    "merge_characters",
+    "merge_designs",
+    "merge_lines",
+]

@@ -1,0 +1,16 @@
+"""Another name for one thing, wherever a project says it; docs, remarks and texts in quotes keep theirs."""
+
+from vicode.model.rename.designs import map_code
+from vicode.model.rename.projects import is_declared, rename_alias, rename_symbol, sibling_names
+from vicode.model.rename.references import ReferenceKind, ReferenceRename, SymbolRef
+
+__all__ = [
+    "ReferenceKind",
+    "ReferenceRename",
+    "SymbolRef",
+    "is_declared",
+    "map_code",
+    "rename_alias",
+    "rename_symbol",
+    "sibling_names",
+]

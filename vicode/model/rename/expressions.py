@@ -1,0 +1,77 @@
+"""Renames in expressions, by their words; what cannot be read as an expression is renamed as far as it goes."""
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from vicode.model.rename.references import ReferenceKind, ReferenceRename
+
+_TOKEN = re.compile(r"(?P<word>[^\W\d]\w*)|\d[\w.]*|[=!<>]=|\S")
+
+
+@dataclass(frozen=True, slots=True)
+class _Identifier:
+    """A name: `before` is the one before its dot, `after` the sign that follows, `inside` the call it stands in."""
+
+    start: int
+    text: str
+    before: str
+    after: str
+    inside: str
+    is_behind_dot: bool
+
+
+def rename_in_expression(text: str, rename: ReferenceRename) -> str:
+    """The expression with the new name."""
+    if rename.old not in text:
+        return text
+    pieces, end = [], 0
+    for word in _iter_identifiers(text):
+        if word.text == rename.old and _is_reference(word, rename):
+            pieces += [text[end : word.start], rename.new]
+            end = word.start + len(word.text)
+    return "".join([*pieces, text[end:]])
+
+
+def _is_reference(word: _Identifier, said: ReferenceRename) -> bool:
+    match said.kind:
+        case ReferenceKind.OWN | ReferenceKind.CONSTANT:
+            return not word.is_behind_dot and word.after not in (".", "(", "=")
+        case ReferenceKind.ALIAS:
+            return not word.is_behind_dot and (word.after == "." or word.inside == "done")
+        case ReferenceKind.ENUMERATION:
+            return not word.is_behind_dot and word.after == "."
+        case ReferenceKind.MEMBER | ReferenceKind.ELEMENT:
+            return word.is_behind_dot and word.before == said.owner
+        case ReferenceKind.ARGUMENT:
+            return word.after == "=" and word.inside == said.owner
+        case ReferenceKind.PARAMETER:
+            return False
+
+
+def _iter_identifiers(text: str) -> Iterator[_Identifier]:
+    tokens = list(_TOKEN.finditer(text))
+    calls: list[str] = []
+    for at, token in enumerate(tokens):
+        sign = token.group()
+        if sign == "(":
+            calls.append(_callee(tokens, at))
+        elif sign == ")" and calls:
+            calls.pop()
+        if token["word"]:
+            is_behind_dot = _text_at(tokens, at - 1) == "."
+            before = _text_at(tokens, at - 2) if is_behind_dot and _text_at(tokens, at - 3) != "." else ""
+            inside = calls[-1] if calls else ""
+            yield _Identifier(token.start(), sign, before, _text_at(tokens, at + 1), inside, is_behind_dot)
+
+
+def _callee(tokens: list[re.Match[str]], at: int) -> str:
+    """What is called by a bracket: `function` or `alias.function`, nothing for a bracket alone."""
+    if at == 0 or not tokens[at - 1]["word"]:
+        return ""
+    name = _text_at(tokens, at - 1)
+    return f"{_text_at(tokens, at - 3)}.{name}" if _text_at(tokens, at - 2) == "." else name
+
+
+def _text_at(tokens: list[re.Match[str]], at: int) -> str:
+    return tokens[at].group() if 0 <= at < len(tokens) else ""

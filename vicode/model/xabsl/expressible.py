@@ -1,0 +1,138 @@
+"""What of an expression XABSL cannot say, or would give another result for."""
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+
+from vicode.model.constant_folding import ConstantValue
+from vicode.model.expressions import (
+    BOOL,
+    Binary,
+    Comparison,
+    Done,
+    Expr,
+    FunctionCall,
+    Logic,
+    Minus,
+    Number,
+    OutputRef,
+    Ternary,
+    Variable,
+    children,
+    walk,
+)
+
+SUPPORTED_FUNCTIONS = frozenset(
+    ("abs", "min", "max", "clamp", "sign", "float", "is_nan", "degrees", "radians"),
+)
+"""The functions that can be written with what XABSL has."""
+
+UNSUPPORTED, DIFFERENT_RESULT = "L701", "L702"
+MAX_SIZE = 1000
+"""Written out, an expression may have so many parts."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class UnsupportedExpression:
+    """A part of an expression, the rule it breaks, and what to do."""
+
+    node: Expr
+    code: str
+    message: str
+    fix: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ExpressibilityChecker:
+    """Judges the expressions of one design. `is_done_expressible` tells whether `done(alias)` can be asked where this stands."""
+
+    has_xabsl_arithmetic: bool
+    constants: Mapping[str, ConstantValue]
+    is_done_expressible: Callable[[str], bool]
+
+    def check(self, tree: Expr) -> Iterator[UnsupportedExpression]:
+        """All that is not sayable in a tree."""
+        for node in walk(tree):
+            yield from self._check_node(node)
+        if expanded_size(tree, has_xabsl_arithmetic=self.has_xabsl_arithmetic) > MAX_SIZE:
+            message = "written out for XABSL this is too long: min, max and others are said with ? : there"
+            yield UnsupportedExpression(
+                node=tree, code=UNSUPPORTED, message=message, fix="take it apart, with a variable"
+            )
+
+    def _check_node(self, node: Expr) -> Iterator[UnsupportedExpression]:
+        match node:
+            case FunctionCall(function=function) if function not in SUPPORTED_FUNCTIONS:
+                mend = "let a hand-written component calculate it"
+                yield UnsupportedExpression(node=node, code=UNSUPPORTED, message=f"XABSL has no {function}", fix=mend)
+            case Binary(operator="//"):
+                mend = "let a hand-written component calculate it"
+                yield UnsupportedExpression(node=node, code=UNSUPPORTED, message="XABSL has no //", fix=mend)
+            case Binary(operator="%") if not self.has_xabsl_arithmetic:
+                message = "in XABSL % takes whole parts and the sign of the dividend"
+                yield UnsupportedExpression(node=node, code=DIFFERENT_RESULT, message=message, fix=_ARITHMETIC_FIX)
+            case Binary(operator="/", right=right) if not self.has_xabsl_arithmetic and not is_never_zero(
+                right, self.constants
+            ):
+                message = "in XABSL a division by 0 divides by 0.0000001, and this may be one"
+                yield UnsupportedExpression(
+                    node=node, code=DIFFERENT_RESULT, message=message, fix=f"divide by a constant, or {_ARITHMETIC_FIX}"
+                )
+            case OutputRef(alias=alias, output=output, arguments=arguments) if (
+                arguments and not self.has_xabsl_arithmetic
+            ):
+                inner = (each for _name, value in arguments for each in walk(value))
+                if any(isinstance(each, OutputRef) and (each.alias, each.output) == (alias, output) for each in inner):
+                    message = f"in XABSL the calls of '{output}' share its arguments: the inner one changes the outer's"
+                    mend = "keep the inner value in a variable"
+                    yield UnsupportedExpression(node=node, code=DIFFERENT_RESULT, message=message, fix=mend)
+            case Done(alias=alias) if not self.is_done_expressible(alias):
+                message = f"XABSL asks only whether something that the state calls is done, not whether '{alias}' is"
+                mend = "ask in decisions of states that call just this, or write action_done"
+                yield UnsupportedExpression(node=node, code=UNSUPPORTED, message=message, fix=mend)
+            case _:
+                pass
+
+
+_ARITHMETIC_FIX = "say arithmetic: xabsl to have XABSL's results in every language"
+
+
+def is_never_zero(node: Expr, constants: Mapping[str, ConstantValue]) -> bool:
+    """Whether a divisor is known not to be 0."""
+    match node:
+        case Number(value=value):
+            return value != 0
+        case Variable(name=name, kind="constant"):
+            return bool(constants.get(name))
+        case Minus(operand=operand) | FunctionCall(function="float", arguments=(operand,)):
+            return is_never_zero(operand, constants)
+        case Ternary(then=then, otherwise=otherwise):
+            return is_never_zero(then, constants) and is_never_zero(otherwise, constants)
+        case _:
+            return False
+
+
+def expanded_size(node: Expr, *, has_xabsl_arithmetic: bool) -> int:
+    """About how many parts an expression has in XABSL, where some must be said twice; never much more than MOST."""
+    sizes = [expanded_size(child, has_xabsl_arithmetic=has_xabsl_arithmetic) for child in children(node)]
+    match node:
+        case Comparison(operands=operands):
+            twice = 2 if operands[0].type == BOOL or any(isinstance(each, Ternary) for each in operands) else 1
+            total = 2 * twice * sum(sizes)
+        case Ternary(type=type_) if type_ == BOOL and not has_xabsl_arithmetic:
+            total = 2 * sizes[0] + sum(sizes)
+        case FunctionCall(function="min" | "max"):
+            total = sizes[0]
+            for size in sizes[1:]:
+                total = min(2 * (total + size), 2 * MAX_SIZE)
+        case FunctionCall(function=function) if function not in ("float", "degrees", "radians"):
+            total = 3 * sum(sizes)
+        case _:
+            total = 1 + sum(sizes)
+    return min(total, 2 * MAX_SIZE)
+
+
+def expanded_depth(node: Expr) -> int:
+    """How deep an expression is nested in XABSL at most: chains are, as deep as they are long."""
+    below = max((expanded_depth(child) for child in children(node)), default=0)
+    chain = len(children(node)) if isinstance(node, Logic | Comparison | FunctionCall) else 1
+    return below + 2 + 2 * chain if children(node) else 1

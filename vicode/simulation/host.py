@@ -1,0 +1,113 @@
+"""One component with its stand-ins or its world, stepped an iteration at a time; every iteration becomes a moment."""
+
+from __future__ import annotations
+
+import importlib
+from dataclasses import asdict
+from typing import Any, cast
+
+from vicode.bica import Component, ErrorRecord, IterationRecord, Observer, Root, SimulatedClock
+from vicode.bica.loader import load_component, make_world, wrap_user_errors
+from vicode.bica.observer import to_json_value
+from vicode.simulation.guards import GuardEvaluator
+from vicode.simulation.limits import CapturedOutput
+from vicode.simulation.messages import Inputs, IterationResult, Setup
+from vicode.simulation.stubs import StubComponent, convert_value, install_stub_module
+
+_MAX_ERRORS = 20
+
+
+class RunHost:
+    """Makes the component that a setup names.
+
+    Raises:
+        UserCodeError: It cannot be loaded or made.
+        CyclicUseError: Components need each other.
+    """
+
+    def __init__(self, setup: Setup, prints: CapturedOutput) -> None:
+        self._setup, self._prints = setup, prints
+        self._errors: list[dict[str, Any]] = []
+        self._record: IterationRecord | None = None
+        self._clock = SimulatedClock()
+        install_stub_module(setup.stubs)
+        component_class = load_component(setup.component)
+        probes = importlib.import_module(setup.probes)
+        self._enumerations = probes.ENUMERATIONS
+        world = make_world(setup.world or None, setup.seed)
+        observer = Observer(self._on_record, values=True)
+        with wrap_user_errors(f"cannot make {setup.component}"):
+            self._root = Root(
+                component_class, clock=self._clock, world=world, on_error=self._on_error, observer=observer
+            )
+        self._stubs = [each for each in self._root.components if isinstance(each, StubComponent)]
+        for each in self._stubs:
+            each.set_initial_values(self._enumerations)
+        self._watch = GuardEvaluator(self._root.main, probes, setup.functions)
+
+    @property
+    def main(self) -> Component:
+        """The root component."""
+        return self._root.main
+
+    def set_inputs(self, inputs: Inputs) -> None:
+        """Take over what somebody set."""
+        for stand_in in self._stubs:
+            stand_in.set_outputs(inputs.get(stand_in.stub.component, {}))
+        types = dict(self._setup.parameter_types)
+        given = {name: value for name, value in inputs.get("", {}).items() if name in types}
+        if given:
+            now = {name: getattr(self.main, name) for name in types}
+            new = {name: convert_value(value, types[name], self._enumerations) for name, value in given.items()}
+            cast("Any", self.main).modulate(**{**now, **new})
+
+    def evaluate_guards(self) -> dict[str, dict[str, Any]]:
+        """The guards as they are now."""
+        return self._watch.evaluate()
+
+    def step(self) -> IterationResult:
+        """Run one iteration and let the clock go on."""
+        self._watch.begin_iteration()
+        for each in self._stubs:
+            # What was asked while somebody looked is no part of the iteration.
+            each.drain_calls()
+        world = self._root.world
+        advance = getattr(world, "advance", None)
+        if advance is not None:
+            advance(self._clock.now_ns())
+        self._root.step()
+        moment = self._make_result()
+        self._clock.advance(self._setup.tick_ns)
+        return moment
+
+    def _on_record(self, record: IterationRecord) -> None:
+        self._record = record
+
+    def _on_error(self, record: ErrorRecord) -> None:
+        if len(self._errors) < _MAX_ERRORS:
+            self._errors.append(asdict(record))
+
+    def _make_result(self) -> IterationResult:
+        record = self._record
+        assert record is not None
+        root = record["tree"][0]
+        errors, self._errors = self._errors, []
+        lines, left_out = self._prints.drain()
+        snapshot = getattr(self._root.world, "snapshot", None)
+        return IterationResult(
+            iteration=record["iteration"],
+            time_ns=record["time_ns"],
+            state=root["state"],
+            changed_from=root["changed_from"],
+            transition=root["transition"],
+            worked=root["worked"],
+            done=root["done"],
+            finished=bool(getattr(self._root.world, "finished", False)),
+            tree=[cast("dict[str, Any]", step) for step in record["tree"]],
+            guards=self._watch.evaluate(),
+            prints=lines,
+            omitted_lines=left_out,
+            errors=errors,
+            calls=[call for each in self._stubs for call in each.drain_calls()],
+            world=to_json_value(snapshot()) if snapshot is not None else None,
+        )

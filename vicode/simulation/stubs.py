@@ -1,0 +1,125 @@
+"""Components whose outputs somebody outside sets, in place of those that would sense and act."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Mapping
+from enum import Enum
+from types import ModuleType
+from typing import Any
+
+from vicode.bica import Component, Root
+from vicode.bica.observer import to_json_value
+from vicode.simulation.messages import Stub, StubOutput
+
+STUB_MODULE = "vicode_stubs"
+DONE = "is_done"
+"""The input that says whether a stand-in for a design is in a final state."""
+
+Enumerations = Mapping[str, type[Enum]]
+
+
+class StubComponent(Component):
+    """A component that does nothing but hold its outputs; parameters are taken and ignored."""
+
+    stub: Stub
+
+    def __init__(self, root: Root) -> None:
+        super().__init__(root)
+        self._is_done = False
+        self._enumerations: Enumerations = {}
+        self._calls: list[dict[str, Any]] = []
+
+    def modulate(self, **_parameters: Any) -> None:
+        """Take any parameters; who watches the run sees them."""
+
+    @property
+    def is_done(self) -> bool:
+        """What it was set to."""
+        return self._is_done
+
+    def set_initial_values(self, enumerations: Enumerations) -> None:
+        """Take the first values; enumerations are known only when the package is loaded."""
+        self._enumerations = enumerations
+        for output in self.stub.outputs:
+            self._set(output, output.value)
+
+    def set_outputs(self, values: Mapping[str, Any]) -> None:
+        """Take new values; names that are no outputs are ignored."""
+        if DONE in values:
+            self._is_done = bool(values[DONE])
+        for output in self.stub.outputs:
+            if output.name in values:
+                self._set(output, values[output.name])
+
+    def drain_calls(self) -> list[dict[str, Any]]:
+        """The calls of functions since this was last asked."""
+        asked, self._calls = self._calls, []
+        return asked
+
+    def _set(self, output: StubOutput, value: Any) -> None:
+        if output.is_function:
+            self.__dict__[output.name] = _StubFunction(self, output, value)
+        else:
+            self.__dict__[output.name] = convert_value(value, output.type, self._enumerations)
+
+    def convert(self, output: StubOutput, value: Any) -> Any:
+        """A value as the output's type."""
+        return convert_value(value, output.type, self._enumerations)
+
+    def record_call(self, output: StubOutput, arguments: Mapping[str, Any], value: Any) -> None:
+        """Remember a call, each once an iteration."""
+        call = {
+            "component": self.stub.component,
+            "output": output.name,
+            "arguments": to_json_value(dict(arguments)),
+            "value": to_json_value(value),
+        }
+        if call not in self._calls:
+            self._calls.append(call)
+
+
+class _StubFunction:
+    """An output with arguments: a value for some arguments, and one for all others."""
+
+    def __init__(self, owner: StubComponent, output: StubOutput, plain: Any) -> None:
+        self._owner, self._output = owner, output
+        self._else = plain.get("value") if isinstance(plain, dict) else plain
+        self._table = plain.get("table", []) if isinstance(plain, dict) else []
+
+    def __call__(self, *positional: Any, **arguments: Any) -> Any:
+        named = {**{str(index): value for index, value in enumerate(positional)}, **arguments}
+        plain = to_json_value(named)
+        found = next((value for given, value in self._table if given == plain), self._else)
+        value = self._owner.convert(self._output, found)
+        self._owner.record_call(self._output, named, value)
+        return value
+
+
+def install_stub_module(stand_ins: tuple[Stub, ...]) -> None:
+    """Make a module that holds a class for each, from which generated code imports them."""
+    module = ModuleType(STUB_MODULE)
+    for stand_in in stand_ins:
+        attributes = {"stub": stand_in, "__module__": STUB_MODULE}
+        setattr(module, stand_in.component, type(stand_in.component, (StubComponent,), attributes))
+    sys.modules[STUB_MODULE] = module
+
+
+def convert_value(value: Any, type_: str, enumerations: Enumerations) -> Any:
+    """A value of JSON as a design's type; what does not fit becomes false, 0 or the first element."""
+    if type_ == "bool":
+        return bool(value)
+    if type_ in ("int", "float"):
+        return _number(value, int if type_ == "int" else float)
+    elements = enumerations.get(type_)
+    if elements is None:
+        return value
+    name = str(value).rpartition(".")[2]
+    return elements.__members__.get(name) or next(iter(elements))
+
+
+def _number(value: Any, make: type[int] | type[float]) -> int | float:
+    try:
+        return make(value)
+    except (TypeError, ValueError, OverflowError):
+        return make(0)

@@ -1,0 +1,344 @@
+"""Makes a text say something else by replacing only what differs."""
+
+import re
+from dataclasses import dataclass, field
+from itertools import pairwise
+from typing import TypeGuard
+
+from vicode.store.matching import longest_increasing_subsequence
+from vicode.store.member_spans import (
+    MemberSpan,
+    blank_lines_start,
+    find_member_spans,
+    line_end,
+    line_start,
+    next_line_start,
+)
+from vicode.store.target_tree import TargetCollection, TargetKeep, TargetMember, TargetNode, TargetScalar
+from vicode.store.yaml_tree import YamlMapping, YamlNode, YamlScalar, YamlSequence
+from vicode.store.yaml_writer import (
+    YamlStyle,
+    format_block_text,
+    format_flow,
+    format_flow_member,
+    format_inline_text,
+    format_member,
+    format_value,
+)
+
+_BEFORE_COMMENT = re.compile(r" +(?=#)")
+_HEADER = re.compile(r"[|>][-+0-9]*")
+
+
+class CannotPatchError(Exception):
+    """The old text has a form that no replacement was thought of for; a larger piece must be written anew."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ValueSlot:
+    """Where a value stands: `after` its colon or dash, in the region of a member that begins in `column`."""
+
+    after: int
+    column: int
+    end: int
+    is_item: bool = False
+    in_flow: bool = False
+
+
+@dataclass(slots=True, kw_only=True)
+class Patcher:
+    """Collects the replacements of one text, which ends with a line break and has line feeds only."""
+
+    text: str
+    style: YamlStyle
+    edits: list[tuple[int, int, str]] = field(default_factory=list)
+
+    def patched_text(self, start: int = 0, end: int | None = None) -> str:
+        """The text between two offsets with all replacements made."""
+        pieces: list[str] = []
+        here = start
+        for first, last, new in sorted(self.edits, key=lambda edit: edit[:2]):
+            if first < here:
+                raise CannotPatchError
+            pieces += [self.text[here:first], new]
+            here = last
+        return "".join([*pieces, self.text[here : len(self.text) if end is None else end]])
+
+    def patch_value(self, node: YamlNode, wish: TargetNode, slot: ValueSlot) -> None:
+        """Make a node say what is wished."""
+        if isinstance(wish, TargetKeep):
+            return
+        if isinstance(wish, TargetScalar) and isinstance(node, YamlScalar) and not node.is_empty:
+            self._patch_scalar(node, wish, slot)
+        elif isinstance(wish, TargetCollection) and _is_same_kind(node, wish):
+            self._patch_collection(node, wish, slot)
+        else:
+            self._replace(node, wish, slot)
+
+    def patch_document(self, node: YamlNode, wish: TargetNode) -> None:
+        """Make the whole document say what is wished."""
+        if not isinstance(wish, TargetCollection) or not _is_same_kind(node, wish):
+            raise CannotPatchError
+        self._patch_collection(node, wish, None)
+
+    def _add_edit(self, start: int, end: int, new: str) -> None:
+        if self.text[start:end] != new:
+            self.edits.append((start, end, new))
+
+    def _patch_scalar(self, node: YamlScalar, wish: TargetScalar, slot: ValueSlot) -> None:
+        is_block = node.style in ("|", ">")
+        if wish.is_plain or not (is_block or "\n" in wish.text):
+            quote = node.style if node.style in ("'", '"') and not wish.is_plain else ""
+            new = wish.text if wish.is_plain else format_inline_text(wish.text, in_flow=slot.in_flow, quote=quote)
+            self._replace(node, wish, slot) if is_block else self._replace_text(node, new, slot)
+        elif slot.in_flow:
+            self._add_edit(node.start, node.end, format_inline_text(wish.text, in_flow=True, quote='"'))
+        elif is_block:
+            self._patch_block_scalar(node, wish, slot)
+        else:
+            self._replace(node, wish, slot)
+
+    def _replace_text(self, node: YamlScalar, new: str, slot: ValueSlot) -> None:
+        """Another text in the same line; a comment beside it keeps its column where it can."""
+        blanks = _BEFORE_COMMENT.match(self.text, node.end)
+        end, old = node.end, self.text[node.start : node.end]
+        if blanks and not slot.in_flow and "\n" not in old and new != old:
+            end = blanks.end()
+            new += " " * max(min(2, end - node.end), end - node.start - len(new))
+        self._add_edit(node.start, end, new)
+
+    def _patch_block_scalar(self, node: YamlScalar, wish: TargetScalar, slot: ValueSlot) -> None:
+        """Another text in the same block, as deep as the old one."""
+        header_end = line_end(self.text, node.start)
+        lines = self.text[next_line_start(self.text, node.start) : node.end].split("\n")
+        first = next((line for line in lines if line.strip()), "")
+        depth = len(first) - len(first.lstrip(" ")) - slot.column
+        digit = re.match(r"[|>][-+]?(\d)", self.text[node.start : header_end])
+        depth = int(digit.group(1)) if digit else depth
+        new = format_block_text(wish.text, depth, folded=node.style == ">") if 0 < depth < 10 else None
+        if new is None or self.text[slot.after : node.start].strip(" "):
+            self._replace(node, wish, slot)
+            return
+        header, *body = new.split("\n")
+        match = _HEADER.match(self.text, node.start, header_end)
+        self._add_edit(node.start, match.end() if match else header_end, header)
+        indented = "\n".join(" " * slot.column + line if line else "" for line in body)
+        body_start = min(next_line_start(self.text, node.start), node.end)
+        if node.end <= header_end:
+            self.edits.append((header_end, header_end, "\n" + indented))
+        else:
+            self._add_edit(body_start, node.end, indented)
+
+    def _replace(self, node: YamlNode, wish: TargetNode, slot: ValueSlot) -> None:
+        """Write a value anew where an old one stands."""
+        if slot.in_flow:
+            self._replace_in_flow(node, wish)
+            return
+        used = slot.after - line_start(self.text, slot.after) + 1
+        new = format_value(wish, slot.column, used, self.style, after_dash=slot.is_item)
+        head, _, tail = new.partition("\n")
+        is_block = (isinstance(node, YamlScalar) and node.style in ("|", ">")) or (
+            not isinstance(node, YamlScalar) and not node.is_flow
+        )
+        if is_block:
+            self._replace_block(node, head, tail, slot)
+            return
+        if "#" in self.text[slot.after : node.start]:
+            raise CannotPatchError
+        self._add_edit(slot.after, node.end, head)
+        if tail:
+            rest = line_end(self.text, node.end)
+            self.edits.append((rest, rest, "\n" + tail))
+
+    def _replace_in_flow(self, node: YamlNode, wish: TargetNode) -> None:
+        new = format_flow(wish)
+        if node.end > node.start:
+            self._add_edit(node.start, node.end, new)
+        else:
+            colon = "" if self.text[: node.start].rstrip()[-1:] in (":", ",", "[") else ":"
+            self.edits.append((node.start, node.start, f"{colon} {new}"))
+
+    def _replace_block(self, node: YamlNode, head: str, tail: str, slot: ValueSlot) -> None:
+        """The old value has lines of its own; a comment beside the key stays there."""
+        header_end = line_end(self.text, slot.after)
+        header = self.text[slot.after : header_end]
+        hash_ = header.find(" #")
+        if slot.is_item and not (isinstance(node, YamlScalar)) and node.start < header_end:
+            hash_ = -1
+        comment = f"  {header[hash_:].strip()}" if hash_ >= 0 else ""
+        new = head + comment + (f"\n{tail}" if tail else "")
+        self._add_edit(slot.after, max(header_end, line_end(self.text, slot.end - 1)), new)
+
+    def _patch_collection(
+        self, node: YamlMapping | YamlSequence, wish: TargetCollection, slot: ValueSlot | None
+    ) -> None:
+        count = len(node.pairs) if isinstance(node, YamlMapping) else len(node.items)
+        order = [member.old_index for member in wish.members]
+        is_restructured = order != list(range(count))
+        if node.is_flow:
+            self._patch_flow(node, wish, is_restructured=is_restructured)
+            return
+        limit = slot.end if slot is not None else len(self.text)
+        regions = find_member_spans(self.text, node, slot.after if slot is not None else None, limit)
+        if is_restructured:
+            self._restructure(node, wish, regions)
+        else:
+            for member in wish.members:
+                self._patch_member(node, member, regions)
+
+    def _patch_member(self, node: YamlMapping | YamlSequence, member: TargetMember, regions: list[MemberSpan]) -> None:
+        """What changes inside a member that stays."""
+        assert member.old_index is not None
+        region = regions[member.old_index]
+        column = regions[0].key_start - line_start(self.text, regions[0].key_start)
+        if isinstance(node, YamlMapping):
+            key, value = node.pairs[member.old_index]
+            self._rename_key(key, member, in_flow=False)
+            after = self._after_colon(key, value)
+        else:
+            value, after = node.items[member.old_index], region.key_start + 1
+        is_item = isinstance(node, YamlSequence)
+        self.patch_value(value, member.value, ValueSlot(after=after, column=column, end=region.end, is_item=is_item))
+
+    def _after_colon(self, key: YamlNode, value: YamlNode) -> int:
+        colon = self.text.find(":", key.end, max(value.start, key.end + 1) + 1)
+        if colon < 0 or self.text[key.end : colon].strip():
+            raise CannotPatchError
+        return colon + 1
+
+    def _rename_key(self, key: YamlNode, member: TargetMember, *, in_flow: bool) -> None:
+        if isinstance(key, YamlScalar) and member.key is not None and member.key != key.text:
+            quote = key.style if key.style in ("'", '"') else ""
+            new = format_inline_text(member.key, in_flow=in_flow, quote=quote)
+            self._add_edit(key.start, key.end, new)
+
+    def _restructure(self, node: YamlMapping | YamlSequence, wish: TargetCollection, regions: list[MemberSpan]) -> None:
+        """Members come, go or move, with their lines."""
+        staying = longest_increasing_subsequence(
+            member.old_index for member in wish.members if member.old_index is not None
+        )
+        wanted = {member.old_index for member in wish.members}
+        column = regions[0].key_start - line_start(self.text, regions[0].key_start)
+        spaced = self._is_spaced(regions)
+        anchor = self._first_anchor(regions, min(staying), wish)
+        for member in wish.members:
+            if member.old_index in staying:
+                self._patch_member(node, member, regions)
+                anchor = max(anchor, regions[member.old_index].end)
+                continue
+            if member.old_index is None:
+                new = format_member(member, column, self.style) + "\n"
+            else:
+                new = self._moved_text(node, member, regions)
+            self.edits.append((anchor, anchor, self._with_blank_line(new, anchor, regions) if spaced else new))
+        for number in set(range(len(regions))) - staying:
+            is_last = not any(later in wanted for later in range(number, len(regions)))
+            self._remove(number, regions, is_last=is_last)
+
+    def _first_anchor(self, regions: list[MemberSpan], first: int, wish: TargetCollection) -> int:
+        """Where a member goes that comes before all that stay."""
+        region = regions[first]
+        if not region.is_inline:
+            return region.start
+        if wish.is_ordered:
+            raise CannotPatchError
+        return region.end
+
+    def _moved_text(self, node: YamlMapping | YamlSequence, member: TargetMember, regions: list[MemberSpan]) -> str:
+        assert member.old_index is not None
+        region = regions[member.old_index]
+        if region.is_inline:
+            raise CannotPatchError
+        inner = Patcher(text=self.text, style=self.style)
+        inner._patch_member(node, member, regions)
+        return inner.patched_text(region.start, region.end)
+
+    def _is_spaced(self, regions: list[MemberSpan]) -> bool:
+        gaps = [(left.end, right.start) for left, right in pairwise(regions)]
+        return bool(gaps) and all(self._has_blank_line(start, end) for start, end in gaps)
+
+    def _has_blank_line(self, start: int, end: int) -> bool:
+        return any(not line.strip() for line in self.text[start:end].splitlines())
+
+    def _with_blank_line(self, new: str, anchor: int, regions: list[MemberSpan]) -> str:
+        return new + "\n" if anchor <= regions[0].start else "\n" + new
+
+    def _remove(self, number: int, regions: list[MemberSpan], *, is_last: bool) -> None:
+        region = regions[number]
+        if region.is_inline:
+            self._remove_inline(region, regions[number + 1])
+            return
+        start = region.start
+        is_blank_below = (
+            region.end >= len(self.text) or not self.text[region.end : line_end(self.text, region.end)].strip()
+        )
+        if number and (is_last or is_blank_below):
+            start = max(blank_lines_start(self.text, start), regions[number - 1].end)
+        self.edits.append((start, region.end, ""))
+
+    def _remove_inline(self, region: MemberSpan, following: MemberSpan) -> None:
+        """The first of a mapping that begins beside a dash: the next one takes its place there."""
+        if self.text[region.end : following.key_start].strip():
+            self.edits.append((region.key_start, line_end(self.text, region.end - 1), ""))
+        else:
+            self.edits.append((region.key_start, following.key_start, ""))
+
+    def _patch_flow(self, node: YamlMapping | YamlSequence, wish: TargetCollection, *, is_restructured: bool) -> None:
+        spans = _flow_spans(node)
+        staying = longest_increasing_subsequence(
+            member.old_index for member in wish.members if member.old_index is not None
+        )
+        first = min(staying)
+        anchor: int | None = None
+        for member in wish.members:
+            if member.old_index in staying:
+                self._patch_flow_member(node, member)
+                anchor = spans[member.old_index][1]
+                continue
+            new = format_flow_member(member) if member.old_index is None else self._moved_flow_text(node, member, spans)
+            if anchor is None:
+                self.edits.append((spans[first][0], spans[first][0], f"{new}, "))
+            else:
+                self.edits.append((anchor, anchor, f", {new}"))
+        if is_restructured:
+            self._remove_in_flow(spans, staying)
+
+    def _patch_flow_member(self, node: YamlMapping | YamlSequence, member: TargetMember) -> None:
+        assert member.old_index is not None
+        value = node.items[member.old_index] if isinstance(node, YamlSequence) else node.pairs[member.old_index][1]
+        if isinstance(node, YamlMapping):
+            self._rename_key(node.pairs[member.old_index][0], member, in_flow=True)
+        self.patch_value(value, member.value, ValueSlot(after=value.start, column=0, end=value.end, in_flow=True))
+
+    def _moved_flow_text(
+        self, node: YamlMapping | YamlSequence, member: TargetMember, spans: list[tuple[int, int]]
+    ) -> str:
+        assert member.old_index is not None
+        inner = Patcher(text=self.text, style=self.style)
+        inner._patch_flow_member(node, member)
+        return inner.patched_text(*spans[member.old_index])
+
+    def _remove_in_flow(self, spans: list[tuple[int, int]], staying: set[int]) -> None:
+        last = max(staying)
+        for number, (start, end) in enumerate(spans):
+            if number in staying or number > last:
+                continue
+            following = spans[number + 1][0]
+            gap = self.text[end:following]
+            self.edits.append((start, end + gap.index("\n") if "#" in gap and "\n" in gap else following, ""))
+        if last + 1 < len(spans):
+            start = spans[last][1]
+            start = spans[last + 1][0] if "#" in self.text[start : spans[last + 1][0]] else start
+            self.edits.append((start, spans[-1][1], ""))
+
+
+def _is_same_kind(node: YamlNode, wish: TargetCollection) -> TypeGuard[YamlMapping | YamlSequence]:
+    if isinstance(node, YamlScalar) or isinstance(node, YamlMapping) != wish.is_mapping:
+        return False
+    return any(member.old_index is not None for member in wish.members)
+
+
+def _flow_spans(node: YamlMapping | YamlSequence) -> list[tuple[int, int]]:
+    if isinstance(node, YamlMapping):
+        return [(key.start, max(key.end, value.end)) for key, value in node.pairs]
+    return [(item.start, item.end) for item in node.items]

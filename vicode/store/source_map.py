@@ -1,0 +1,122 @@
+"""From the path of a thing to its place in the text of its file."""
+
+from dataclasses import dataclass
+
+from vicode.findings import DesignPath, SourceLocation, Span
+from vicode.store.line_index import LineIndex
+from vicode.store.schema_reader import TypedNode, YamlNotation
+from vicode.store.yaml_tree import YamlMapping, YamlNode, YamlScalar
+
+_ESCAPE_LENGTHS = {"x": 4, "u": 6, "U": 10}
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SourceMap:
+    """Where the things of one file stand."""
+
+    file: str
+    line_index: LineIndex
+    root: TypedNode | None
+
+    def locate(self, path: DesignPath = (), span: Span | None = None, *, of_key: bool = False) -> SourceLocation:
+        """The place of the thing a path leads to, or of the nearest thing around it.
+
+        Args:
+            path: The words of the file that lead to it.
+            span: Characters inside the text it is, as the reader of the file sees that text.
+            of_key: Its key is meant.
+        """
+        read, is_exact = self._find(path)
+        if read is None:
+            return self.line_index.locate(0, 1)
+        node = read.node
+        if span is not None and is_exact and not of_key:
+            node = _text_node(read)
+            if isinstance(node, YamlScalar):
+                return self.line_index.locate(*_source_span(self.line_index.text, node, span))
+        is_block = not isinstance(node, YamlScalar) and not node.is_flow
+        if read.key_node is not None and (of_key or is_block or node.end == node.start or not is_exact):
+            node = read.key_node
+        elif is_block and isinstance(node, YamlMapping) and node.pairs:
+            node = node.pairs[0][0]
+        return self.line_index.locate(node.start, node.end)
+
+    def contains(self, path: DesignPath) -> bool:
+        """Whether the path leads to something in the file."""
+        return self._find(path)[1]
+
+    def _find(self, path: DesignPath) -> tuple[TypedNode | None, bool]:
+        read = self.root
+        for step in path:
+            part = read.children.get(step) if read is not None else None
+            if part is None:
+                return read, False
+            read = part
+        return read, read is not None
+
+
+def _text_node(read: TypedNode) -> YamlNode:
+    """The text meant: of code that is written in several languages the first."""
+    while (
+        read.notation in (YamlNotation.FULL, YamlNotation.SHORTHAND)
+        and read.children
+        and not isinstance(read.node, YamlScalar)
+    ):
+        read = next(iter(read.children.values()))
+    return read.node
+
+
+def _source_span(text: str, node: YamlScalar, span: Span) -> tuple[int, int]:
+    """The characters of a file that give these characters of a scalar's text."""
+    if not node.style and "\n" not in text[node.start : node.end]:
+        return node.start + span[0], node.start + max(span[1], span[0] + 1)
+    offsets = _offsets(text, node)
+    first = offsets[min(max(span[0], 0), len(offsets) - 1)]
+    last = offsets[min(max(span[1] - 1, span[0], 0), len(offsets) - 1)]
+    return first, max(first, last) + 1
+
+
+def _offsets(text: str, node: YamlScalar) -> list[int]:
+    """For every character of a scalar's text its offset in the file, then the offset after the last.
+
+    Between two visible characters the file has blanks, line breaks and escapes only, so that walking both side by
+    side finds every visible character exactly.
+    """
+    source = node.start
+    if node.style in ("|", ">"):
+        line_break = text.find("\n", node.start, node.end)
+        source = line_break + 1 if line_break >= 0 else node.end
+    elif node.style:
+        source += 1
+    offsets = []
+    for char in node.text:
+        is_blank = char in " \t\n"
+        while source < node.end and text[source] in " \t\r\n" and not (is_blank and text[source] == char):
+            if is_blank and text[source] in "\r\n":
+                break
+            source += 1
+        source = _after_continuation(text, source, node.style)
+        offsets.append(min(source, max(node.start, node.end - 1)))
+        source += (
+            _source_length(text, source, node.style) if not is_blank or text[source : source + 1] in (char, "\\") else 0
+        )
+    offsets.append(min(source, node.end))
+    return offsets
+
+
+def _after_continuation(text: str, source: int, style: str) -> int:
+    """Past a backslash at the end of a line, which joins two lines of a text in double quotes."""
+    is_continued = style == '"' and text[source : source + 1] == "\\" and text[source + 1 : source + 2] in ("\r", "\n")
+    if not is_continued:
+        return source
+    rest = text[source + 1 :]
+    return source + 1 + len(rest) - len(rest.lstrip())
+
+
+def _source_length(text: str, source: int, style: str) -> int:
+    """How many characters of the file stand for the one at `source`."""
+    if style == "'" and text[source : source + 2] == "''":
+        return 2
+    if style == '"' and text[source : source + 1] == "\\":
+        return _ESCAPE_LENGTHS.get(text[source + 1 : source + 2], 2)
+    return 1

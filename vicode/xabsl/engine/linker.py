@@ -1,0 +1,117 @@
+"""Joins a program to a robot's world: how its Python source names symbols and skills, and what those names are."""
+
+import keyword
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+from .emitter import BehaviorBinding, LinkedNames
+from .expressions import InputAccess
+from .program import Program, TypedSlot
+from .symbols import BasicBehavior, RobotSymbol, SymbolList
+from .validation import LoadError, find_nested_inputs
+
+NEVER = -2
+"""The cycle of what never ran."""
+
+
+def python_name(name: str) -> str:
+    """The Python name of a symbol or parameter: dots become underscores, Python's own words get one."""
+    plain = name.replace(".", "_")
+    return f"{plain}_" if keyword.iskeyword(plain) else plain
+
+
+@dataclass(slots=True)
+class BehaviorRecord:
+    """What a tracing engine keeps of a basic behavior."""
+
+    name: str
+    act: Callable[..., object]
+    slots: tuple[TypedSlot, ...]
+    keywords: dict[str, str]
+    last_cycle: int = NEVER
+    was_active: bool = False
+    active_since: int = 0
+
+
+@dataclass(slots=True)
+class WorldLinker:
+    """Finds what a program uses in a world; `functions` is what the names in its source stand for."""
+
+    program: Program
+    symbols: SymbolList
+    world: object
+    behaviors: Mapping[str, Callable[..., object]]
+    memory: object
+    functions: dict[str, Any] = field(default_factory=dict)
+    _elements: dict[str, str] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        for name, elements in (*self.symbols.enums, *self.symbols.internal_enums, *self.program.enums):
+            self._elements[name] = elements[0].rpartition(".")[2] if elements else ""
+
+    def link(self) -> LinkedNames:
+        """How the source names everything.
+
+        Raises:
+            LoadError: The world has no such thing.
+        """
+        nested = find_nested_inputs(self.program)
+        inputs = [each for each in self.symbols.symbols if each.role == "input"]
+        return LinkedNames(
+            inputs={each.name: self._bind_input(number, each, nested) for number, each in enumerate(inputs)},
+            outputs=self._bind_outputs(),
+            behaviors={
+                each.name: self._bind_behavior(number, each) for number, each in enumerate(self.symbols.behaviors)
+            },
+            elements=self._elements,
+        )
+
+    def default_value(self, slot: TypedSlot) -> object:
+        """What a parameter has that is not given, and an internal symbol at first."""
+        if slot.kind == "e":
+            return self._elements.get(slot.enum, "")
+        return False if slot.kind == "b" else 0.0
+
+    def find_behavior(self, name: str) -> Callable[..., object]:
+        """What a basic behavior does.
+
+        Raises:
+            LoadError: Nobody has it.
+        """
+        act = self.behaviors.get(name) or getattr(self.world, python_name(name), None)
+        if not callable(act):
+            raise LoadError([f"basic behavior {name}: none is given, and the world has no {python_name(name)}"])
+        return act
+
+    def _bind_input(self, number: int, symbol: RobotSymbol, nested: Iterable[str]) -> InputAccess:
+        attribute = python_name(symbol.name)
+        try:
+            given = getattr(self.world, attribute)
+        except AttributeError:
+            raise LoadError([f"input symbol {symbol.name}: the world has no {attribute}"]) from None
+        if not callable(given):
+            return InputAccess(f"w.{attribute}")
+        self.functions[f"i{number}"] = given
+        cells = ""
+        if symbol.name in nested:
+            cells = f"cells{number}"
+            self.functions[cells] = [0.0] * len(symbol.parameters)
+        return InputAccess(f"i{number}", _keywords(symbol.name, symbol.parameters), symbol.parameters, cells)
+
+    def _bind_outputs(self) -> dict[str, str]:
+        found = {each.name: f"w.{python_name(each.name)}" for each in self.symbols.symbols if each.role == "output"}
+        for number, slot in enumerate(self.program.symbols):
+            found[slot.name] = f"m.v{number}"
+            setattr(self.memory, f"v{number}", self.default_value(slot))
+        return found
+
+    def _bind_behavior(self, number: int, behavior: BasicBehavior) -> BehaviorBinding:
+        act, keywords = self.find_behavior(behavior.name), _keywords(behavior.name, behavior.parameters)
+        self.functions[f"a{number}"] = act
+        self.functions[f"b{number}"] = BehaviorRecord(behavior.name, act, behavior.parameters, keywords)
+        return BehaviorBinding(f"a{number}", f"b{number}", behavior.parameters, keywords)
+
+
+def _keywords(owner: str, slots: Iterable[TypedSlot]) -> dict[str, str]:
+    return {slot.name: python_name(slot.name.removeprefix(f"{owner}.")) for slot in slots}

@@ -1,0 +1,247 @@
+"""Runs a program on recorded inputs, and writes what it did as JSON lines.
+
+A line is {"c": cycle, "t": ms, "agent", "tree": [node], "out": {symbol: value}, "err"?: [text], "r"?: robot}. Nodes are
+["o", option, state, option_time, state_time, {parameter: value}, [node]], ["b", behavior, time, {parameter: value}] and
+["s", symbol, value], in the order of execution.
+"""
+
+import csv
+import json
+import math
+import time
+from collections.abc import Callable, Iterable, Iterator
+from typing import Any
+
+from .engine import Engine
+from .linker import python_name
+from .program import Program, TypedSlot
+from .symbols import RobotSymbol, SymbolList
+
+
+class ReplayError(ValueError):
+    """Inputs that do not fit the symbols."""
+
+
+class TableWorld:
+    """A robot whose senses are the columns of a table, and whose skills do nothing.
+
+    An input with parameters is its column plus S, the sum of i × decimal i, 0.5 j × bool j and 0.25 k × number of
+    enum k: decimals get base + S, bools base XOR (floor |S| is odd), enums element (base + floor |S|) modulo their
+    number. An S that is not finite counts as 0 for bools and enums.
+    """
+
+    def __init__(self, symbols: SymbolList, program: Program) -> None:
+        self._elements = {
+            name: tuple(each.rpartition(".")[2] for each in elements)
+            for name, elements in (*symbols.enums, *symbols.internal_enums, *program.enums)
+        }
+        self._bases: dict[str, float] = {}
+        self._inputs = {each.name: each for each in symbols.symbols if each.role == "input"}
+        for symbol in self._inputs.values():
+            self._bases[symbol.name] = 0.0
+            if symbol.parameters:
+                setattr(self, python_name(symbol.name), self._function(symbol))
+            else:
+                self.set_input(symbol.name, 0.0)
+        for symbol in symbols.symbols:
+            if symbol.role == "output":
+                zero: object = 0.0 if symbol.kind == "d" else False
+                setattr(self, python_name(symbol.name), self._element(symbol.enum, 0) if symbol.kind == "e" else zero)
+        for behavior in symbols.behaviors:
+            setattr(self, python_name(behavior.name), _do_nothing)
+
+    def set_input(self, name: str, value: float) -> None:
+        """Give an input symbol a value: bools as 0 or 1, enums by number.
+
+        Raises:
+            ReplayError: There is no such symbol.
+        """
+        symbol = self._inputs.get(name)
+        if symbol is None:
+            raise ReplayError(f"no input symbol {name}")
+        self._bases[name] = value
+        if not symbol.parameters:
+            setattr(self, python_name(name), self._value(symbol, 0.0))
+
+    def _function(self, symbol: RobotSymbol) -> Callable[..., Any]:
+        order = [(python_name(each.name.removeprefix(f"{symbol.name}.")), each) for each in symbol.parameters]
+        weights = [
+            (keyword, slot, weight * (at + 1))
+            for kind, weight in (("d", 1.0), ("b", 0.5), ("e", 0.25))
+            for at, (keyword, slot) in enumerate(pair for pair in order if pair[1].kind == kind)
+        ]
+
+        def read(**given: Any) -> Any:
+            total = 0.0
+            for keyword, slot, weight in weights:
+                total += weight * self._number(slot, given[keyword])
+            return self._value(symbol, total)
+
+        return read
+
+    def _number(self, slot: TypedSlot, value: Any) -> float:
+        return self._elements[slot.enum].index(value) if slot.kind == "e" else float(value)
+
+    def _value(self, symbol: RobotSymbol, total: float) -> Any:
+        base = self._bases[symbol.name]
+        if symbol.kind == "d":
+            return base + total
+        steps = math.floor(abs(total)) if math.isfinite(total) else 0
+        if symbol.kind == "b":
+            return (base != 0) != (steps % 2 == 1)
+        return self._element(symbol.enum, int(base) + steps)
+
+    def _element(self, enum: str, number: int) -> str:
+        elements = self._elements.get(enum, ())
+        return elements[number % len(elements)] if elements else ""
+
+
+def _do_nothing(**_given: object) -> None:
+    """What a basic behavior does here."""
+
+
+def read_rows(lines: Iterable[str]) -> list[dict[str, str]]:
+    """The rows of a table of inputs: `time` in ms, perhaps `agent` and `reset`, and symbols; empty keeps the last.
+
+    Raises:
+        ReplayError: A row has more cells than the first names.
+    """
+    rows = list(csv.DictReader(lines, restkey=""))
+    for number, row in enumerate(rows, 2):
+        if "" in row:
+            raise ReplayError(f"line {number}: more cells than columns")
+    return rows
+
+
+class ReplayRobot:
+    """An engine on a world that is fed row by row."""
+
+    def __init__(self, program: Program, symbols: SymbolList, *, strict: bool = False, traced: bool = True) -> None:
+        self.now = 0
+        self.world = TableWorld(symbols, program)
+        self.engine = Engine(program, self.world, symbols=symbols, clock=lambda: self.now, strict=strict, traced=traced)
+        self._kinds = {each.name: each for each in symbols.symbols if each.role != "input"}
+        self._kinds |= {each.name: RobotSymbol("internal", each.kind, each.name, each.enum) for each in program.symbols}
+        slots = [slot for option in program.options for slot in option.parameters]
+        slots += [slot for behavior in symbols.behaviors for slot in behavior.parameters]
+        self._slots = {slot.name: slot for slot in slots}
+
+    def apply_row(self, row: dict[str, str], prefix: str = "") -> None:
+        """Take in a row of inputs.
+
+        Raises:
+            ReplayError: It has other columns than symbols, or a cell is no number.
+        """
+        for column, cell in row.items():
+            name = column.removeprefix(prefix) if prefix and column.startswith(prefix) else column
+            if not cell or (":" in name and not prefix) or (prefix and column != "time" and name == column):
+                continue
+            if name == "time":
+                self.now = int(_parse_number(name, cell))
+            elif name == "agent":
+                if not self.engine.select(cell):
+                    raise ReplayError(f"no agent {cell}")
+            elif name == "reset":
+                if cell != "0":
+                    self.engine.reset()
+            else:
+                self.world.set_input(name, _parse_number(name, cell))
+
+    def trace_line(self, cycle: int, number: int | None = None) -> str:
+        """What the last cycle did, as a line of JSON."""
+        engine = self.engine
+        said: dict[str, Any] = {"c": cycle, "t": self.now, "agent": engine.agent}
+        if number is not None:
+            said["r"] = number
+        said["tree"] = [self._node(node) for node in engine.trace.nodes]
+        said["out"] = {name: self._json_value(self._kinds[name], value) for name, value in engine.trace.values.items()}
+        if engine.errors:
+            said["err"] = engine.errors
+        return json.dumps(said, separators=(",", ":"))
+
+    def _node(self, node: list[Any]) -> list[Any]:
+        match node[0]:
+            case "s":
+                return ["s", node[1], self._json_value(self._kinds[node[1]], node[2])]
+            case "b":
+                return ["b", node[1], node[2], self._parameters(node[3])]
+        return [*node[:5], self._parameters(node[5]), [self._node(each) for each in node[6]]]
+
+    def _parameters(self, values: dict[str, Any]) -> dict[str, Any]:
+        order = sorted(values, key=lambda name: "dbe".index(self._slots[name].kind))
+        return {name: self._json_value(self._slots[name], values[name]) for name in order}
+
+    def _json_value(self, of: TypedSlot | RobotSymbol, value: Any) -> Any:
+        if of.kind == "e":
+            return f"{of.enum}.{value}"
+        if of.kind == "b":
+            return bool(value)
+        number = float(value)
+        return int(number) if math.isfinite(number) and number == int(number) else number
+
+
+def _parse_number(name: str, cell: str) -> float:
+    try:
+        return float(cell)
+    except ValueError:
+        raise ReplayError(f"{name}: {cell[:40]} is no number") from None
+
+
+def replay(program: Program, symbols: SymbolList, rows: list[dict[str, str]], *, strict: bool = False) -> Iterator[str]:
+    """Run a program on inputs; a line of JSON a cycle.
+
+    Raises:
+        LoadError: The program does not fit the symbols.
+        ReplayError: The inputs do not.
+    """
+    robot = ReplayRobot(program, symbols, strict=strict)
+    for cycle, row in enumerate(rows):
+        robot.apply_row(row)
+        robot.engine.execute()
+        yield robot.trace_line(cycle)
+
+
+def replay_team(
+    program: Program, symbols: SymbolList, rows: list[dict[str, str]], robots: int, ticks: int, *, strict: bool = False
+) -> Iterator[str]:
+    """Run a program on several robots; columns begin with "0:", "1:", … but for `time`. Higher numbers go first.
+
+    Raises:
+        LoadError: The program does not fit the symbols.
+        ReplayError: The inputs do not.
+    """
+    team = [ReplayRobot(program, symbols, strict=strict) for _ in range(robots)]
+    for number, robot in enumerate(team):
+        robot.engine.team.priority, robot.engine.team.ticks = number, ticks
+    told = [robot.engine.generate_outgoing_message() for robot in team]
+    for cycle, row in enumerate(rows):
+        heard, told = told, []
+        for number, robot in enumerate(team):
+            robot.apply_row(row, f"{number}:")
+            robot.engine.prepare_incoming_messages()
+            for other, message in enumerate(heard):
+                if other != number:
+                    robot.engine.process_incoming_message(message)
+            robot.engine.execute()
+            told.append(robot.engine.generate_outgoing_message())
+            yield robot.trace_line(cycle, number)
+
+
+def measure_cycles_per_second(
+    program: Program, symbols: SymbolList, rows: list[dict[str, str]], times: int, *, strict: bool = False
+) -> float:
+    """How many cycles a second of CPU an engine runs that traces nothing; reading the rows does not count.
+
+    Raises:
+        LoadError: The program does not fit the symbols.
+        ReplayError: The inputs do not.
+    """
+    robot, spent_s = ReplayRobot(program, symbols, strict=strict, traced=False), 0.0
+    execute, clock = robot.engine.execute, time.process_time
+    for _ in range(times):
+        for row in rows:
+            robot.apply_row(row)
+            begun_s = clock()
+            execute()
+            spent_s += clock() - begun_s
+    return times * len(rows) / max(spent_s, 1e-9)

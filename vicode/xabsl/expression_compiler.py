@@ -1,0 +1,279 @@
+"""Binds names to declarations, looks at types, and turns expressions into the terms of a program.
+
+An element of an enumeration means something only where that enumeration is wanted, so binding goes from what is
+wanted to what is written. After a mistake it goes on with a value that nobody will see.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from vicode.findings import did_you_mean
+from vicode.xabsl import tree
+from vicode.xabsl.engine.program import Term
+from vicode.xabsl.lexer import Tokens
+from vicode.xabsl.ranges import check_range
+from vicode.xabsl.symbol_collector import CompileReport
+from vicode.xabsl.symbol_table import BOOLEAN, DECIMAL, ENUM, KIND_NAMES, Definition, SymbolTable
+
+_NOTHING: Mapping[str, Definition] = {}
+_RELATIONAL = {"<": "<", "<=": "l", ">": ">", ">=": "g"}
+_ARITHMETIC = {"+": "+", "-": "-", "*": "*", "/": "d", "%": "%"}
+_LOGICAL = {"&&": "&", "||": "|"}
+_KEYWORD_TERMS: dict[str, tuple[str, Term]] = {
+    "true": (BOOLEAN, ("v", True)),
+    "false": (BOOLEAN, ("v", False)),
+    "action_done": (BOOLEAN, ("t",)),
+    "conflict": (BOOLEAN, ("x",)),
+    "state_time": (DECIMAL, ("s",)),
+    "option_time": (DECIMAL, ("t",)),
+}
+_ERROR_TERMS: dict[str, Term] = {DECIMAL: ("v", 0.0), BOOLEAN: ("v", False), ENUM: ("v", "")}
+# What may stand in a place for reading: in intermediate code inputs are "i", and all others that are set "o".
+_READ_LETTERS = {"input": "i", "output": "o", "internal": "o", "parameter": "p"}
+
+
+@dataclass(slots=True)
+class ExpressionCompiler:
+    """Binds what stands in one file; `parameters` are those of the option that is read."""
+
+    table: SymbolTable
+    report: CompileReport
+    tokens: Tokens
+    parameters: Mapping[str, Definition] = field(default_factory=dict)
+    reads_conflict: bool = False
+
+    def compile(self, expression: tree.ExpressionNode, kind: str, enum: str = "") -> Term:
+        """The term of an expression where a value of this kind is wanted."""
+        match expression:
+            case tree.ReferenceNode():
+                return self._ref(expression, kind, enum)
+            case tree.ParenthesizedNode():
+                return self.compile(expression.inner, kind, enum)
+            case tree.NumberNode():
+                term: Term = ("v", float(expression.text))
+                return term if kind == DECIMAL else self._type_mismatch(expression, kind, DECIMAL, enum)
+            case tree.KeywordNode():
+                own, term = _KEYWORD_TERMS[expression.text]
+                return term if own == kind else self._type_mismatch(expression, kind, own, enum)
+            case tree.FunctionCallNode():
+                return self._function(expression, kind, enum)
+            case tree.UnaryNode():
+                return self._unary(expression, kind, enum)
+            case tree.BinaryNode():
+                return self._binary(expression, kind, enum)
+            case tree.ConditionalNode():
+                return self._conditional(expression, kind, enum)
+
+    def compile_arguments(self, owner: Definition, arguments: tree.ArgumentListNode) -> tuple[Term, ...]:
+        """What a call gives to the parameters of what is called, in the order of the call."""
+        given: list[Term] = []
+        seen: set[str] = set()
+        for argument in arguments.items:
+            name = argument.name.text
+            parameter = owner.parameters.get(name.removeprefix("@"))
+            if parameter is None:
+                mend = did_you_mean(name, owner.parameters, _list_parameters(owner))
+                self.add_finding(
+                    argument.name.first_token, "X621", f"{owner.description} {owner.name} has no parameter {name}", mend
+                )
+                continue
+            self.report.references.append((self.tokens, argument.name.first_token, parameter))
+            if name != parameter.name:
+                message = f"in a call parameters are written without @: {name}"
+                self.add_finding(argument.name.first_token, "X621", message, f"write {parameter.name}")
+            check_range(self.report, self.tokens, argument.value, parameter)
+            if parameter.name in seen:
+                self.add_finding(
+                    argument.name.first_token, "X627", f"parameter {name} is given twice", "remove one of them"
+                )
+            seen.add(parameter.name)
+            value = self.compile(argument.value, parameter.kind, parameter.enum)
+            kind = (ENUM, parameter.enum) if parameter.kind == ENUM else (parameter.kind,)
+            given.append((*kind, parameter.qualified_name, value))
+        missing = [name for name in owner.parameters if name not in seen]
+        if missing:
+            message = f"{owner.name} is not given {', '.join(missing)}: 0, false or the first element"
+            self.add_finding(arguments.first_token, "X642", message, "give a value, also if it is 0")
+        return tuple(given)
+
+    def add_finding(self, at: int, code: str, message: str, fix: str = "") -> None:
+        """Tell what is wrong with a token of this file."""
+        self.report.add_finding(self.tokens, at, code, message, fix)
+
+    def _ref(self, ref: tree.ReferenceNode, kind: str, enum: str) -> Term:
+        found = self._lookup(ref.name, kind, enum)
+        if not found:
+            self._add_unknown_name(ref.name, ref.first_token, kind, enum)
+            return _ERROR_TERMS[kind]
+        if len(found) > 1:
+            whats = " and ".join(each.description for each in found)
+            self.add_finding(ref.first_token, "X622", f"{ref.name} may mean {whats}", "rename one of them")
+        declared = found[0]
+        self.report.references.append((self.tokens, ref.first_token, declared))
+        if declared.kind != kind:
+            return self._type_mismatch(ref, kind, declared.kind, enum)
+        if declared.kind == ENUM and declared.enum != enum:
+            message = f"{ref.name} is of enum {declared.enum}, not {enum}"
+            self.add_finding(ref.first_token, "X626", message)
+        return self._load_term(declared, ref.first_token)
+
+    def _lookup(self, name: str, kind: str, enum: str) -> list[Definition]:
+        """What a name may mean here: the element of the wanted enumeration before symbols of another kind."""
+        if name[0] == "@":
+            parameter = self.parameters.get(name[1:])
+            return [parameter] if parameter else []
+        found = self.table.readable.get(name, [])
+        if kind == ENUM and enum in self.table.enums:
+            known = self.table.enums[enum]
+            element = known.elements.get(name.removeprefix(f"{enum}."))
+            if element is not None:
+                return [element, *(each for each in found if each.kind == ENUM and each.enum == enum)]
+        return found
+
+    def _load_term(self, declared: Definition, at: int) -> Term:
+        if declared.role == "const":
+            assert isinstance(declared.node, tree.ConstantNode)
+            return ("c", declared.node.number)
+        if declared.role == "element":
+            return ("v", declared.qualified_name)
+        if declared.role == "input":
+            if declared.parameters:
+                self.add_finding(
+                    at, "X642", f"{declared.name} is not given its parameters", "give values in parentheses"
+                )
+            return ("i", declared.qualified_name, ())
+        return (_READ_LETTERS[declared.role], declared.qualified_name)
+
+    def _function(self, function: tree.FunctionCallNode, kind: str, enum: str) -> Term:
+        name = function.name.text
+        found = [each for each in self.table.readable.get(name, []) if each.role == "input"]
+        if not found:
+            others = self.table.readable.get(name)
+            if others:
+                message = f"{others[0].description} {name} takes no parentheses"
+                self.add_finding(function.name.first_token, "X624", message, "remove them")
+            else:
+                known = [each.name for each in self.table.symbols("input")]
+                mend = did_you_mean(name, known, "declare it as an input symbol")
+                self.add_finding(function.name.first_token, "X621", f"no input symbol {name}", mend)
+            return _ERROR_TERMS[kind]
+        declared = found[0]
+        self.report.references.append((self.tokens, function.name.first_token, declared))
+        given = self.compile_arguments(declared, function.arguments)
+        if declared.kind != kind:
+            return self._type_mismatch(function, kind, declared.kind, enum)
+        if kind == ENUM and declared.enum != enum:
+            self.add_finding(function.name.first_token, "X626", f"{name} is of enum {declared.enum}, not {enum}")
+        return ("i", declared.qualified_name, given)
+
+    def _unary(self, unary: tree.UnaryNode, kind: str, enum: str) -> Term:
+        own = DECIMAL if unary.operator == "-" else BOOLEAN
+        operand = self.compile(unary.operand, own)
+        if own != kind:
+            return self._type_mismatch(unary, kind, own, enum)
+        if own == BOOLEAN:
+            return ("!", operand)
+        return ("v", -operand[1]) if operand[0] == "v" else ("-", ("v", 0.0), operand)
+
+    def _binary(self, binary: tree.BinaryNode, kind: str, enum: str) -> Term:
+        operator = binary.operator
+        if operator in _ARITHMETIC:
+            term: Term = (
+                _ARITHMETIC[operator],
+                self.compile(binary.left, DECIMAL),
+                self.compile(binary.right, DECIMAL),
+            )
+            return term if kind == DECIMAL else self._type_mismatch(binary, kind, DECIMAL, enum, binary.operator_token)
+        if operator in _LOGICAL:
+            letter = _LOGICAL[operator]
+            operands: list[Term] = []
+            for each in (binary.left, binary.right):
+                operand = self.compile(each, BOOLEAN)
+                operands += operand[1:] if operand[0] == letter else (operand,)
+            term = (letter, *operands)
+        elif operator in _RELATIONAL:
+            term = (_RELATIONAL[operator], self.compile(binary.left, DECIMAL), self.compile(binary.right, DECIMAL))
+        else:
+            term = self._equality(binary)
+        return term if kind == BOOLEAN else self._type_mismatch(binary, kind, BOOLEAN, enum, binary.operator_token)
+
+    def _equality(self, binary: tree.BinaryNode) -> Term:
+        kind, enum = self.infer_kind(binary.left)
+        if kind == BOOLEAN:
+            mend = "write a && b || !a && !b for a == b" if binary.operator == "==" else "write a && !b || !a && b"
+            self.add_finding(
+                binary.operator_token, "X625", f"{binary.operator} compares decimals and enums, no bools", mend
+            )
+            return _ERROR_TERMS[BOOLEAN]
+        if kind == ENUM:
+            equal: Term = ("c", self.compile(binary.left, ENUM, enum), self.compile(binary.right, ENUM, enum))
+            return equal if binary.operator == "==" else ("!", equal)
+        if self.infer_kind(binary.right)[0] == ENUM and isinstance(binary.left, tree.ReferenceNode):
+            known = self._lookup(binary.left.name, DECIMAL, "")
+            if not known:
+                self._add_unknown_name(binary.left.name, binary.left.first_token, DECIMAL, "")
+                return _ERROR_TERMS[BOOLEAN]
+        letter = "=" if binary.operator == "==" else "n"
+        return (letter, self.compile(binary.left, DECIMAL), self.compile(binary.right, DECIMAL))
+
+    def _conditional(self, expression: tree.ConditionalNode, kind: str, enum: str) -> Term:
+        condition = self.compile(expression.condition, BOOLEAN)
+        yes, no = self.compile(expression.yes, kind, enum), self.compile(expression.no, kind, enum)
+        if kind == BOOLEAN:
+            at = expression.condition.last_token + 1
+            self.add_finding(at, "X652", "no original engine reads ? : between bools", "write c && a || !c && b")
+        return ("q", condition, yes, no)
+
+    def infer_kind(self, expression: tree.ExpressionNode) -> tuple[str, str]:
+        """Kind and enumeration that an expression has of itself; decimal where it has none."""
+        match expression:
+            case tree.ReferenceNode():
+                found = self._lookup(expression.name, "", "")
+            case tree.FunctionCallNode():
+                found = self.table.readable.get(expression.name.text, [])
+            case tree.ParenthesizedNode():
+                return self.infer_kind(expression.inner)
+            case tree.KeywordNode():
+                return _KEYWORD_TERMS[expression.text][0], ""
+            case tree.UnaryNode(operator="!"):
+                return BOOLEAN, ""
+            case tree.BinaryNode(operator=operator) if operator not in _ARITHMETIC:
+                return BOOLEAN, ""
+            case tree.ConditionalNode():
+                kind = self.infer_kind(expression.yes)
+                return kind if kind != (DECIMAL, "") else self.infer_kind(expression.no)
+            case _:
+                return DECIMAL, ""
+        return (found[0].kind, found[0].enum) if found else (DECIMAL, "")
+
+    def _type_mismatch(self, expression: tree.ExpressionNode, kind: str, own: str, enum: str, at: int = -1) -> Term:
+        wanted = f"{'an' if kind == ENUM else 'a'} {KIND_NAMES[kind]}{f' {enum}' if enum else ''}"
+        message = f"{'an' if own == ENUM else 'a'} {KIND_NAMES[own]} where {wanted} is wanted"
+        mend = "compare it: > 0 or != 0" if (kind, own) == (BOOLEAN, DECIMAL) else ""
+        self.add_finding(expression.first_token if at < 0 else at, "X625", message, mend)
+        return _ERROR_TERMS[kind]
+
+    def _add_unknown_name(self, name: str, at: int, kind: str, enum: str) -> None:
+        if name[0] == "@":
+            mend = did_you_mean(name, [f"@{each}" for each in self.parameters], "declare it at the option's beginning")
+            self.add_finding(at, "X621", f"the option has no parameter {name}", mend)
+            return
+        known = [*self.table.readable, *(f"@{each}" for each in self.parameters)]
+        if kind == ENUM and enum in self.table.enums:
+            elements = self.table.enums[enum].elements
+            mend = did_you_mean(name, [*elements, *known], f"one of {', '.join([*elements][:8])}")
+            self.add_finding(at, "X621", f"enum {enum} has no element {name}, and no symbol is named so", mend)
+            return
+        owner = next((each for each in self.table.enums.values() if name in each.elements), None)
+        otherwise = "declare it in a namespace of symbols"
+        if owner is not None:
+            otherwise = f"write the element of {owner.name} to the right of a symbol of that enumeration"
+            self.add_finding(at, "X621", f"no symbol {name}", otherwise)
+            return
+        if name in self.parameters:
+            otherwise = f"write @{name}"
+        self.add_finding(at, "X621", f"no symbol {name}", did_you_mean(name, known, otherwise))
+
+
+def _list_parameters(owner: Definition) -> str:
+    return f"it has {', '.join(owner.parameters)}" if owner.parameters else "it has none"

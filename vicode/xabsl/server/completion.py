@@ -1,0 +1,182 @@
+"""What can be written at a place: it depends on the block that the place is in, and on what is wanted there."""
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+
+from vicode.xabsl.lexer import Tokens
+from vicode.xabsl.server.hover import doc_comment, signature
+from vicode.xabsl.server.open_behavior import OpenBehavior
+from vicode.xabsl.symbol_table import ENUM, Definition, SymbolTable
+from vicode.xabsl.tokens import NAME
+
+_BLOCKS = frozenset(("option", "state", "decision", "action", "namespace", "behavior", "enum"))
+_VALUES = ("true", "false", "state_time", "option_time", "action_done", "conflict")
+_BLOCK_KEYWORDS = {
+    "": ("include", "option", "namespace", "agent"),
+    "option": ("initial", "target", "state", "common", "float", "bool", "enum"),
+    "state": ("decision", "action"),
+    "decision": ("if", "else", "goto", "stay"),
+    "namespace": ("float", "bool", "enum", "behavior", "const", "input", "output", "internal"),
+    "behavior": ("float", "bool", "enum"),
+}
+SNIPPETS = {
+    "option": "option ${1:name} {\n  initial state ${2:begin} {\n    decision {\n      ${3:stay;}\n    }\n"
+    "    action {\n      $0\n    }\n  }\n}",
+    "namespace": 'namespace ${1:name}("${2:Title}") {\n  $0\n}',
+    "agent": 'agent ${1:name}("${2:Title}", ${3:option});',
+    "state": "state ${1:name} {\n  decision {\n    ${2:stay;}\n  }\n  action {\n    $0\n  }\n}",
+    "decision": "decision {\n  $0\n}",
+    "action": "action {\n  $0\n}",
+    "if": "if ($1)\n  $2\nelse\n  ${0:stay;}",
+}
+
+
+@dataclass(frozen=True, slots=True)
+class CompletionProposal:
+    """Something to write: `kind` is the role of a declaration or "word"; `snippet` has places to fill in."""
+
+    name: str
+    kind: str
+    detail: str = ""
+    doc: str = ""
+    snippet: str = ""
+
+
+@dataclass(slots=True)
+class _CompletionContext:
+    """Where something is to be written: the blocks around it, the option, and the last tokens before it."""
+
+    blocks: list[str]
+    option: str
+    texts: list[str]
+    kinds: list[str]
+    call: str = ""
+    """What is called in the parentheses around it."""
+
+
+def complete_at(behavior: OpenBehavior, tokens: Tokens, offset: int) -> list[CompletionProposal]:
+    """What can be written at a character; a word that ends there is being written."""
+    place, table = _context_at(tokens, offset), behavior.compiled.table
+    last = place.kinds[-1] if place.kinds else ""
+    block = place.blocks[-1] if place.blocks else ""
+    if last == "goto":
+        option = table.options.get(place.option)
+        return [_definition_proposal(each) for each in option.states.values()] if option else []
+    if last == "enum":
+        return [_definition_proposal(each) for each in table.enums.values()]
+    if place.call:
+        return list(_argument_proposals(table, place))
+    if block == "action" and last in ("{", ";"):
+        return list(_action_proposals(table))
+    if block in ("decision", "action") and last not in ("{", ";", "else", ")"):
+        return list(_value_proposals(table, place))
+    return [_keyword_proposal(each) for each in _BLOCK_KEYWORDS.get(block, ())]
+
+
+def _argument_proposals(table: SymbolTable, place: _CompletionContext) -> Iterator[CompletionProposal]:
+    """In parentheses: parameters of what is called, or values for one; the conditions of `if` are values, too."""
+    owner = _find_callee(table, place.call)
+    if place.kinds[-1] in ("(", ",") and owner is not None:
+        for each in owner.parameters.values():
+            choice = _definition_proposal(each)
+            yield CompletionProposal(choice.name, choice.kind, choice.detail, choice.doc, f"{each.name} = ${{1}}")
+    elif place.call == "agent":
+        yield from (_definition_proposal(each) for each in table.options.values())
+    else:
+        yield from _value_proposals(table, place)
+
+
+def _find_callee(table: SymbolTable, name: str) -> Definition | None:
+    found = [*table.callable.get(name, ()), *(each for each in table.readable.get(name, ()) if each.role == "input")]
+    return found[0] if found else None
+
+
+def _action_proposals(table: SymbolTable) -> Iterator[CompletionProposal]:
+    """What an action begins with."""
+    for found in table.assignable.values():
+        for each in found:
+            choice = _definition_proposal(each)
+            yield CompletionProposal(choice.name, choice.kind, choice.detail, choice.doc, f"{each.name} = ${{1}};")
+    for each in (*table.options.values(), *table.behaviors.values()):
+        given = ", ".join(f"{name} = ${{{at}}}" for at, name in enumerate(each.parameters, 1))
+        choice = _definition_proposal(each)
+        yield CompletionProposal(choice.name, choice.kind, choice.detail, choice.doc, f"{each.name}({given});")
+
+
+def _value_proposals(table: SymbolTable, place: _CompletionContext) -> Iterator[CompletionProposal]:
+    """What can be read: first the elements of the enumeration that is wanted."""
+    yield from (_definition_proposal(each) for each in _expected_elements(table, place))
+    option = table.options.get(place.option)
+    for each in option.parameters.values() if option else ():
+        yield CompletionProposal(f"@{each.name}", "parameter", signature(each), doc_comment(each))
+    for each in table.symbols("input", "output", "internal", "const"):
+        choice = _definition_proposal(each)
+        given = ", ".join(f"{name} = ${{{at}}}" for at, name in enumerate(each.parameters, 1))
+        yield CompletionProposal(
+            each.name, choice.kind, choice.detail, choice.doc, f"{each.name}({given})" if given else ""
+        )
+    yield from (_keyword_proposal(each) for each in _VALUES)
+
+
+def _expected_elements(table: SymbolTable, place: _CompletionContext) -> Iterable[Definition]:
+    """The elements of the enumeration to the left of `=`, `==` or `!=`."""
+    if len(place.texts) < 2 or place.kinds[-1] not in ("=", "==", "!="):
+        return ()
+    name = place.texts[-2]
+    owner, option = _find_callee(table, place.call), table.options.get(place.option)
+    known = [*table.readable.get(name, ())]
+    if place.kinds[-1] == "=" and owner is not None:
+        known = [owner.parameters[name]] if name in owner.parameters else []
+    if name.startswith("@") and option is not None:
+        known = [option.parameters[name[1:]]] if name[1:] in option.parameters else []
+    enums = [table.enums[each.enum] for each in known if each.kind == ENUM and each.enum in table.enums]
+    return enums[0].elements.values() if enums else ()
+
+
+def _context_at(tokens: Tokens, offset: int) -> _CompletionContext:
+    place = _CompletionContext([], "", [], [])
+    stack: list[str] = []
+    calls: list[str] = []
+    opening = ""
+    for number, kind in enumerate(tokens.kinds):
+        start, text = tokens.starts[number], tokens.texts[number]
+        # The word that ends here is what is to be completed.
+        if start >= offset or (start + len(text) >= offset and (kind == NAME or text.isalpha())):
+            break
+        if kind in _BLOCKS:
+            opening = kind
+            if kind == "option" and not stack:
+                place.option = tokens.texts[number + 1] if number + 1 < len(tokens.texts) else ""
+        elif kind == "{":
+            stack.append(opening or (stack[-1] if stack else ""))
+            opening = ""
+        elif kind == "}" and stack:
+            stack.pop()
+        elif kind == "(":
+            calls.append(_callee_name(tokens, number))
+        elif kind == ")" and calls:
+            calls.pop()
+        elif kind == ";":
+            calls.clear()
+        place.texts.append(text)
+        place.kinds.append(kind)
+    place.blocks, place.call = stack, calls[-1] if calls else ""
+    return place
+
+
+def _callee_name(tokens: Tokens, number: int) -> str:
+    """What stands before an opening parenthesis: the name of what is called, `agent`, or `if`."""
+    if number >= 2 and tokens.kinds[number - 2] == "agent":
+        return "agent"
+    before = number - 1
+    if before >= 1 and tokens.kinds[before] in ("option", "behavior"):
+        before -= 1
+    return tokens.texts[before] if before >= 0 and tokens.kinds[before] in (NAME, "if") else "if"
+
+
+def _definition_proposal(declared: Definition) -> CompletionProposal:
+    return CompletionProposal(declared.name, declared.role, signature(declared), doc_comment(declared))
+
+
+def _keyword_proposal(word: str) -> CompletionProposal:
+    return CompletionProposal(word, "word", snippet=SNIPPETS.get(word, ""))
