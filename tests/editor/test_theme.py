@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).parents[2] / "vicode" / "editor"
-PAGES = (ROOT / "pages" / "look.css").read_text(encoding="utf-8")
+PAGES = (ROOT / "pages" / "theme.css").read_text(encoding="utf-8")
 CANVAS = (ROOT / "canvas" / "js" / "canvas.css").read_text(encoding="utf-8")
 TEXT, SIGN = 4.5, 3.0
 

@@ -36,7 +36,7 @@ class PresenceSync:
         self.person = self.context.document.shared.users.get_or_create_user(self.person.id, name)
         for presence in self.context.presence.presences:
             if presence.user.id == self.person.id:
-                self.context.presence.update(presence.window, person=self.person)
+                self.context.presence.update(presence.window, user=self.person)
 
     def _join(self) -> None:
         self.context.presence.join(self.context.window, self.person)

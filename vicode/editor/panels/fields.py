@@ -84,7 +84,7 @@ class Field:
     def focus(self, *, has_focus: bool) -> None:
         """Note whether somebody is typing here, and let the others know."""
         self.has_focus = has_focus
-        self.context.presence.update(self.context.window, typing_in=self.path if has_focus else ())
+        self.context.presence.update(self.context.window, editing_path=self.path if has_focus else ())
         if not has_focus:
             self.refresh()
 
