@@ -84,7 +84,7 @@ def test_pages_and_canvas_share_their_colours(theme: str) -> None:
 
 
 def test_the_first_paint_has_the_colour_of_the_page() -> None:
-    look = (ROOT / "pages" / "look.py").read_text(encoding="utf-8")
+    look = (ROOT / "pages" / "theme.py").read_text(encoding="utf-8")
     for theme in themes(PAGES, ":root", "body.body--dark").values():
         assert f"background: {theme['paper']};" in look
 
