@@ -19,7 +19,7 @@ from vicode.editor.session import Workspace
 def fail(*_arguments):
     raise ZeroDivisionError("a fault")
 
-Workspace.prepare = fail
+Workspace.prepare_output = fail
 main(sys.argv[1:])
 """
 

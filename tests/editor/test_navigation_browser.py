@@ -64,7 +64,7 @@ def test_what_is_chosen_in_a_list_is_meant_though_a_newer_list_comes(
     editor: str, page: Page, line: SlowConnection
 ) -> None:
     open_player(page, editor)
-    open_palette(page, "inspect")
+    open_palette(page, "look")
     options = palette(page).get_by_role("option")
     expect(options).to_have_count(15)
     line.hold()

@@ -81,7 +81,7 @@ def test_a_moment_too_large_to_tell_leaves_its_values_out() -> None:
         b'{"kind":"nothing"}',
         b'{"kind":"iteration"}',
         b'{"kind":"iteration","iteration":"1","time_ns":0,"state":"Dark"}',
-        b'{"kind":"rested","reason":4}',
+        b'{"kind":"stopped","reason":4}',
         b'{"kind":"ready","more":1}',
         b"[" * 100_000,
     ],
@@ -97,7 +97,7 @@ _JSON = st.recursive(
     lambda inner: st.lists(inner, max_size=3) | st.dictionaries(st.text(max_size=8), inner, max_size=4),
     max_leaves=8,
 )
-_NAMES = st.sampled_from(["kind", "iteration", "time_ns", "state", "tree", "guards", "stops", "kind", "stubs", "path"])
+_NAMES = st.sampled_from(["kind", "iteration", "time_ns", "state", "tree", "guards", "stops", "stubs", "path"])
 
 
 @given(st.dictionaries(_NAMES, _JSON | st.sampled_from(["ready", "iteration", "failed"])))

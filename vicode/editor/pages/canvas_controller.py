@@ -129,7 +129,7 @@ class CanvasController:
             case "tooltip":
                 self._show_tooltip(str(payload["of"]), str(payload["id"]))
             case "preview":
-                self.on_preview(wanted=payload["accepted"] is True)
+                self.on_preview(accepted=payload["accepted"] is True)
             case _:
                 self._edit(payload)
 

@@ -49,7 +49,7 @@ class InputSourceForm:
         self.upload.props('accept=".jsonl,.json,.txt,*"').classes("hidden")
         # The browser opens its dialog only for a press, which must not travel to the server and back.
         self.pick.classes("trace-pick").on("click", js_handler=f"() => runMethod({self.upload.id}, 'pickFiles', [])")
-        with ui.expansion("How to run").classes("section ways").props("dense dense-toggle"):
+        with ui.expansion("How to run").classes("section run-options").props("dense dense-toggle"):
             self.seed = ui.number("Seed of the world", value=0, precision=0, on_change=self._set_numbers)
             self.tick = ui.number(
                 "Time between iterations", value=20, min=1, max=3_600_000, on_change=self._set_numbers
