@@ -167,3 +167,18 @@ class PeopleAtWork(RuleBasedStateMachine):
 # Bounded where examples are; the nightly run takes many more of them.
 PeopleAtWork.TestCase.settings = settings(stateful_step_count=30)
 TestPeopleAtWork = PeopleAtWork.TestCase
+
+
+def test_redo_ignores_a_transition_that_others_left_dangling(tmp_path: Path) -> None:
+    (tmp_path / "player.yaml").write_text(save_design(START))
+    document = Workspace(tmp_path, key="x").open_document("Player")
+    assert document is not None
+    ana, ben = (DocumentSession(document.shared, name) for name in ("ana", "ben"))
+    ben.edit("write", lambda design: with_doc(design, "ben", "text"))
+    assert ben.undo() == ""
+    ana.edit("remove Y", lambda design: remove_states(design, ["Y"]))
+    ana.edit("connect Z with Y", lambda design: add_transition(design, "Z", "Y"))
+    assert ben.redo() == ""
+    state = ben.design.state("ben")
+    assert state is not None
+    assert state.doc == "text"

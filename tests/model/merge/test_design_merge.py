@@ -127,6 +127,14 @@ def test_what_is_gone_here_and_needed_there_is_a_conflict() -> None:
     assert merge_designs(BASE, leading, smaller).design.state("C") is not None
 
 
+def test_a_reference_that_dangles_within_one_side_is_no_conflict() -> None:
+    dangling = add_transition(remove_states(BASE, ["C"]), "B", "C")
+    theirs = with_doc(BASE, "A", "new")
+    assert merged(dangling, theirs) == with_doc(dangling, "A", "new")
+    assert merged(theirs, dangling).state("C") is None
+    assert paths(dangling, add_transition(BASE, "A", "C")) == [("states", "C")]
+
+
 @pytest.mark.parametrize("name", ["D", "E"])
 def test_things_of_one_name_added_twice(name: str) -> None:
     ours, theirs = (add_state(BASE, State(name=each, doc=each)) for each in ("D", name))

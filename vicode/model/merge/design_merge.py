@@ -1,5 +1,6 @@
 """Merges designs field by field and thing by thing; renames first, so that they meet the other side's edits."""
 
+from collections import Counter
 from collections.abc import Callable, Collection
 from dataclasses import dataclass, fields, is_dataclass, replace
 from typing import Any
@@ -55,12 +56,12 @@ def merge_designs(base: Design, ours: Design, theirs: Design, *, theirs_at: Coll
     if ours == base:
         return MergeResult(design=theirs)
     renaming = _Merger(frozenset(theirs_at))
-    sides = _unify_names(renaming, base, ours, theirs)
+    base, ours, theirs = _unify_names(renaming, base, ours, theirs)
     contested: frozenset[DesignPath] = frozenset()
     while True:
         merger = _Merger(frozenset(theirs_at), contested)
-        design = merger.merge_record((), *sides)
-        torn = frozenset(_dangling_references(design, sides[0])) - contested
+        design = merger.merge_record((), base, ours, theirs)
+        torn = _torn_references(design, base, (ours, theirs)) - contested
         if not torn:
             return MergeResult(design=design, conflicts=(*renaming.conflicts, *merger.conflicts))
         contested |= torn
@@ -81,13 +82,33 @@ def _unify_names(merger: "_Merger", base: Design, ours: Design, theirs: Design) 
     return base, ours, theirs
 
 
-def _dangling_references(design: Design, base: Design) -> list[DesignPath]:
-    """What one side removed although the merged design still leads to it."""
-    targets = {at.decision.to for at in iter_transitions(design) if isinstance(at.decision, Transition)}
-    aliases = {each.action.alias for each in iter_actions(design) if isinstance(each.action, Call)}
-    aliases |= {alias for state in design.states for alias in state.requires}
-    states = [("states", name) for name in sorted(targets) if base.state(name) and not design.state(name)]
-    return [*states, *(("uses", alias) for alias in sorted(aliases) if base.use(alias) and not design.use(alias))]
+def _torn_references(design: Design, base: Design, sides: tuple[Design, Design]) -> set[DesignPath]:
+    """States and uses that one side removed although the other side refers to them.
+
+    A reference that dangles within one side's own design is a finding there, not a conflict between the two.
+    """
+    counts = _count_references(design)
+    side_counts = [(side, _count_references(side)) for side in sides]
+    return {
+        path
+        for path, count in counts.items()
+        if _defines(base, path)
+        and not _defines(design, path)
+        and all(count > there[path] for side, there in side_counts if not _defines(side, path))
+    }
+
+
+def _count_references(design: Design) -> Counter[DesignPath]:
+    """How often each state is a target and each use is called or required, by its path."""
+    targets = (at.decision.to for at in iter_transitions(design) if isinstance(at.decision, Transition))
+    called = (each.action.alias for each in iter_actions(design) if isinstance(each.action, Call))
+    required = (alias for state in design.states for alias in state.requires)
+    return Counter((*(("states", name) for name in targets), *(("uses", alias) for alias in (*called, *required))))
+
+
+def _defines(design: Design, path: DesignPath) -> bool:
+    section, name = path
+    return (design.state if section == "states" else design.use)(str(name)) is not None
 
 
 class _Merger:
