@@ -10,9 +10,10 @@ from vicode.model.project import Project
 from vicode.store.decode import decode_design, decode_project
 from vicode.store.format import DESIGN, PROJECT
 from vicode.store.line_index import LineIndex, ReadReport
-from vicode.store.schema_reader import SchemaReader, TypedNode
+from vicode.store.schema_reader import SchemaReader
 from vicode.store.schema_types import RecordSchema
 from vicode.store.source_map import SourceMap
+from vicode.store.typed_node import TypedNode
 from vicode.store.yaml_tree import MAX_BYTES, YamlTree, parse_yaml
 
 PROJECT_FILES = ("project.yaml", "project.yml")

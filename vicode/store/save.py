@@ -10,9 +10,9 @@ from vicode.store.encode import encode_design, encode_project
 from vicode.store.format import DESIGN, PROJECT
 from vicode.store.patcher import CannotPatchError, Patcher
 from vicode.store.sanitize import sanitize_design
-from vicode.store.schema_reader import TypedNode
 from vicode.store.schema_types import FormatValue, RecordSchema
 from vicode.store.tree_diff import TargetBuilder
+from vicode.store.typed_node import TypedNode
 from vicode.store.yaml_writer import YamlStyle, detect_style, format_document
 
 # Everything that differs is replaced by itself; if that fails, whole states and declarations, then whole sections.

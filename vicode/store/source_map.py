@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 from vicode.findings import DesignPath, SourceLocation, Span
 from vicode.store.line_index import LineIndex
-from vicode.store.schema_reader import TypedNode, YamlNotation
+from vicode.store.typed_node import TypedNode, YamlNotation
 from vicode.store.yaml_tree import YamlMapping, YamlNode, YamlScalar
 
 _ESCAPE_LENGTHS = {"x": 4, "u": 6, "U": 10}

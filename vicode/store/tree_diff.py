@@ -5,7 +5,6 @@ from typing import cast
 
 from vicode.store.format import FLOW_WIDTH
 from vicode.store.matching import match_items, match_names
-from vicode.store.schema_reader import TypedNode, YamlNotation
 from vicode.store.schema_types import (
     FormatValue,
     KeySchema,
@@ -18,6 +17,7 @@ from vicode.store.schema_types import (
     ValueSchema,
 )
 from vicode.store.target_tree import TargetCollection, TargetKeep, TargetMember, TargetNode, TargetScalar
+from vicode.store.typed_node import TypedNode, YamlNotation
 from vicode.store.yaml_tree import YamlMapping, YamlNode, YamlScalar
 
 
