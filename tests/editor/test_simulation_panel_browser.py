@@ -51,7 +51,7 @@ def test_an_input_is_set_and_the_state_follows(editor: str, page: Page) -> None:
     expect(guard).to_contain_text("true")
     expect(guard).to_contain_text("perception.ball_seen = true")
     for _step in range(5):
-        page.get_by_role("button", name="One step (F10)").click()
+        page.get_by_role("button", name="Step (F10)").click()
     expect(active(page)).to_have_attribute("data-id", "FollowBall")
     expect(page.locator('g.edge.taken[data-id="LookForBall/0"]')).to_have_count(1)
     where(page, "0.10 s · iteration 6 · FollowBall")
@@ -60,7 +60,7 @@ def test_an_input_is_set_and_the_state_follows(editor: str, page: Page) -> None:
     # Back to the past, with its inputs, and on again.
     page.keyboard.press("Control+Shift+F10")
     expect(active(page)).to_have_attribute("data-id", "LookForBall")
-    expect(page.get_by_text("The past, 1 iteration before the newest.")).to_be_visible()
+    expect(page.get_by_text("Viewing the past: 1 iteration before the latest.")).to_be_visible()
     page.keyboard.press("F10")
     expect(active(page)).to_have_attribute("data-id", "FollowBall")
 
@@ -109,7 +109,7 @@ def test_an_edit_ends_the_run_and_offers_to_start_again(editor: str, page: Page)
     where(page, "iteration 2")
     page.get_by_role("checkbox", name="Initial").click()
     expect(page.get_by_text("The design has changed")).to_be_visible()
-    page.get_by_role("button", name="Start again", exact=True).click()
+    page.get_by_role("button", name="Restart", exact=True).click()
     where(page, "before the first step")
     page.keyboard.press("F10")
     expect(active(page)).to_have_attribute("data-id", "FollowBall")
@@ -120,12 +120,12 @@ def test_the_player_plays_in_its_own_world(editor: str, page: Page) -> None:
     choose(page, "Simulate with", "All in field.world:World")
     page.get_by_role("button", name="Run until the state changes (Shift+F6)").click()
     expect(page.get_by_text("Entered FollowBall")).to_be_visible()
-    expect(page.get_by_text("Nothing to set: every component runs itself.")).to_be_visible()
+    expect(page.get_by_text("No inputs: all components run.")).to_be_visible()
     time = page.get_by_role("spinbutton", name="Go to this time")
     time.fill("1.00")
     time.press("Enter")
     where(page, "1.00 s · iteration 51")
-    expect(page.get_by_text("The past,")).to_be_visible()
+    expect(page.get_by_text("Viewing the past:")).to_be_visible()
 
 
 def test_code_that_never_ends_is_told_with_its_line(editor: str, page: Page, project: Path) -> None:
@@ -144,7 +144,7 @@ def test_code_that_never_ends_is_told_with_its_line(editor: str, page: Page, pro
     expect(state(page, "WatchBall")).to_have_attribute("aria-label", re.compile("initial"))
     page.keyboard.press("F10")
     expect(page.locator(".simulation-message")).to_contain_text(
-        "Player, state WatchBall, WatchBall.enter, line 1: did not come to an end within 2 s"
+        "Player, state WatchBall, WatchBall.enter, line 1: did not end within 2 s"
     )
 
 
@@ -157,7 +157,7 @@ def test_a_recorded_trace_is_looked_at(editor: str, page: Page, tmp_path: Path) 
     )
     trace.write_text("\n".join(json.dumps(line) for line in lines))
     open_simulation(page, editor)
-    choose(page, "Simulate with", "Look at a trace")
+    choose(page, "Simulate with", "View a trace")
     with page.expect_file_chooser() as chooser:
         page.get_by_role("button", name="Choose a trace …").click()
     chooser.value.set_files(trace)
@@ -195,14 +195,14 @@ def test_a_long_run_can_be_paused_and_time_gone_through(editor: str, page: Page)
     where(page, "iteration 1")
     page.get_by_role("button", name="Play or pause (F6)").click()
     expect(page.get_by_text("Paused")).to_be_visible()
-    slider = page.get_by_role("slider", name="Moment that is shown")
+    slider = page.get_by_role("slider", name="Shown iteration")
     slider.focus()
     slider.press("Home")
     expect(page.get_by_text("before the first step")).to_be_visible()
     slider.press("ArrowRight")
     where(page, "0.00 s · iteration 1 ·")
-    page.get_by_role("button", name="Go on from here").click()
-    expect(page.get_by_text("The past,")).to_have_count(0)
+    page.get_by_role("button", name="Continue from here").click()
+    expect(page.get_by_text("Viewing the past:")).to_have_count(0)
     page.keyboard.press("F10")
     where(page, "0.02 s · iteration 2 ·")
 
@@ -248,13 +248,13 @@ def test_axe_finds_nothing_while_it_runs(editor: str, page: Page, colours: str) 
     found = complaints(page)
     page.keyboard.press("F10")
     where(page, "iteration 1")
-    page.get_by_text("How to run").click()
+    page.get_by_text("Run options").click()
     expect(page.get_by_label("Seed of the world")).to_be_visible()
     for tab in ("Plot", "Active components", "Output"):
         page.get_by_role("tab", name=tab).click()
         expect(page.get_by_role("tab", name=tab)).to_have_attribute("aria-selected", "true")
         found += complaints(page)
     page.keyboard.press("Control+Shift+F10")
-    expect(page.get_by_text("The past,")).to_be_visible()
+    expect(page.get_by_text("Viewing the past:")).to_be_visible()
     found += complaints(page)
     assert not found, "\n".join(found)

@@ -1,4 +1,4 @@
-"""Steps one component in a process of its own, as somebody outside asks for: inputs, steps, records of what happened.
+"""Runs one component in a separate process: takes inputs, steps, and reports a record of each iteration.
 
 The process is started as `python -m vicode.simulation`; user code runs nowhere else.
 """

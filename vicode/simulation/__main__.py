@@ -12,5 +12,5 @@ if __name__ == "__main__":
     except Exception:
         traceback.print_exc(file=sys.__stderr__)
         code = 2
-    # Threads that user code started must not keep the process.
+    # Threads started by user code must not keep the process alive.
     os._exit(code)

@@ -1,4 +1,4 @@
-"""Tells between iterations which guards hold, without running anything that could change the component."""
+"""Evaluates guards between iterations without running code that could change the component."""
 
 from __future__ import annotations
 
@@ -17,14 +17,14 @@ class NotCalledError(Exception):
 
 
 class CachedFunction:
-    """Remembers what a function returned in this iteration, so that a guard can be tested without calling it again."""
+    """Caches what a function returned in this iteration, so that guards are evaluated without calling it again."""
 
     def __init__(self, function: Callable[..., Any], watch: GuardEvaluator) -> None:
         self._function, self._watch = function, watch
         self._given: dict[str, Any] = {}
 
     def __call__(self, *positional: Any, **named: Any) -> Any:
-        """Call the function, or while the guards are looked at answer as it did."""
+        """Call the function, or return the cached value while guards are evaluated."""
         key = repr((positional, sorted(named.items())))
         if not self._watch.is_evaluating:
             self._given[key] = self._function(*positional, **named)
@@ -34,19 +34,18 @@ class CachedFunction:
 
     @property
     def latest(self) -> Any:
-        """What it returned last in this iteration, None if it was not called."""
+        """The last value returned in this iteration, or None."""
         return next(reversed(self._given.values()), None) if self._given else None
 
     def clear(self) -> None:
-        """Begin a new iteration."""
         self._given.clear()
 
 
 class GuardEvaluator:
-    """Tests the guards of one component by its probes.
+    """Evaluates the guards of one component with its generated probes.
 
     Args:
-        component: whose guards they are.
+        component: the component.
         probes: the module generated for it.
         functions: outputs with arguments of hand-written components, by alias.
     """
@@ -67,12 +66,12 @@ class GuardEvaluator:
         }
 
     def begin_iteration(self) -> None:
-        """Forget the answers of the iteration before."""
+        """Clear the values cached in the previous iteration."""
         for answers in (*self._functions, *self._predicates.values()):
             answers.clear()
 
     def evaluate(self) -> dict[str, dict[str, Any]]:
-        """Test the common guards and those of the active state, by decision."""
+        """Evaluate the common guards and those of the active state; returns the results by decision."""
         self.is_evaluating = True
         try:
             sources = (self._guards.get(name, {}) for name in (_COMMON, self._component.state))

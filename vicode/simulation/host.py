@@ -1,4 +1,4 @@
-"""One component with its stand-ins or its world, stepped an iteration at a time; every iteration becomes a moment."""
+"""Steps one component with its stubs or its world; each iteration yields a result."""
 
 from __future__ import annotations
 
@@ -18,11 +18,11 @@ _MAX_ERRORS = 20
 
 
 class RunHost:
-    """Makes the component that a setup names.
+    """Creates the component that a setup names.
 
     Raises:
-        UserCodeError: It cannot be loaded or made.
-        CyclicUseError: Components need each other.
+        UserCodeError: It cannot be loaded or created.
+        CyclicUseError: Components use each other in a cycle.
     """
 
     def __init__(self, setup: Setup, prints: CapturedOutput) -> None:
@@ -36,7 +36,7 @@ class RunHost:
         self._enumerations = probes.ENUMERATIONS
         world = make_world(setup.world or None, setup.seed)
         observer = Observer(self._on_record, values=True)
-        with wrap_user_errors(f"cannot make {setup.component}"):
+        with wrap_user_errors(f"cannot create {setup.component}"):
             self._root = Root(
                 component_class, clock=self._clock, world=world, on_error=self._on_error, observer=observer
             )
@@ -47,11 +47,10 @@ class RunHost:
 
     @property
     def main(self) -> Component:
-        """The root component."""
         return self._root.main
 
     def set_inputs(self, inputs: Inputs) -> None:
-        """Take over what somebody set."""
+        """Set the outputs of stubs and the parameters of the root component."""
         for stand_in in self._stubs:
             stand_in.set_outputs(inputs.get(stand_in.stub.component, {}))
         types = dict(self._setup.parameter_types)
@@ -62,23 +61,23 @@ class RunHost:
             cast("Any", self.main).modulate(**{**now, **new})
 
     def evaluate_guards(self) -> dict[str, dict[str, Any]]:
-        """The guards as they are now."""
+        """The current truth of the guards."""
         return self._watch.evaluate()
 
     def step(self) -> IterationResult:
-        """Run one iteration and let the clock go on."""
+        """Run one iteration and advance the clock."""
         self._watch.begin_iteration()
         for each in self._stubs:
-            # What was asked while somebody looked is no part of the iteration.
+            # Calls made while guards were inspected do not belong to the iteration.
             each.drain_calls()
         world = self._root.world
         advance = getattr(world, "advance", None)
         if advance is not None:
             advance(self._clock.now_ns())
         self._root.step()
-        moment = self._make_result()
+        iteration = self._make_result()
         self._clock.advance(self._setup.tick_ns)
-        return moment
+        return iteration
 
     def _on_record(self, record: IterationRecord) -> None:
         self._record = record

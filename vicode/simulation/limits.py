@@ -1,4 +1,4 @@
-"""What keeps user code within bounds: time, memory, and the length of what it prints."""
+"""Limits on user code: time, memory, and the amount of output."""
 
 from __future__ import annotations
 
@@ -15,18 +15,18 @@ MAX_LINE_LENGTH = 2_000
 
 
 class TimeLimitError(BaseException):
-    """A step takes too long. Not an Exception, so that code that catches those does not catch it."""
+    """A step takes too long. Not an `Exception`, so that user code that catches all exceptions does not catch it."""
 
 
 @contextmanager
 def time_limit(seconds: float) -> Iterator[None]:
-    """Interrupt what runs inside when it takes longer; what is deaf to that is killed from outside.
+    """Interrupt the body when it takes longer. Code that ignores the interrupt is killed by the editor.
 
     Raises:
-        TimeLimitError: It took longer.
+        TimeLimitError: The body took longer.
     """
     signal.signal(signal.SIGALRM, _interrupt)
-    # It comes again, should the first one be swallowed.
+    # Repeats, in case user code swallows the first interrupt.
     signal.setitimer(signal.ITIMER_REAL, seconds, 0.1)
     try:
         yield
@@ -35,7 +35,7 @@ def time_limit(seconds: float) -> Iterator[None]:
 
 
 def limit_memory(bytes_: int) -> None:
-    """Make allocations beyond this fail with MemoryError, and leave no core files behind."""
+    """Make allocations above this limit fail with `MemoryError`, and disable core dumps."""
     _soft, hard = resource.getrlimit(resource.RLIMIT_DATA)
     most = bytes_ if hard == resource.RLIM_INFINITY else min(bytes_, hard)
     resource.setrlimit(resource.RLIMIT_DATA, (most, hard))
@@ -47,7 +47,7 @@ def _interrupt(_number: int, _frame: FrameType | None) -> NoReturn:
 
 
 class CapturedOutput(io.TextIOBase):
-    """Stands for standard output: keeps the first lines since it was last emptied, and counts the rest."""
+    """Replaces standard output: keeps the first lines since the last `drain` and counts the rest."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -56,11 +56,10 @@ class CapturedOutput(io.TextIOBase):
         self._left_out = 0
 
     def writable(self) -> bool:
-        """It is."""
         return True
 
     def write(self, text: str) -> int:
-        """Take text, whole lines or parts of them."""
+        """Append text, which need not end at a line boundary."""
         if len(self._lines) >= MAX_LINES:
             self._left_out += text.count("\n")
             return len(text)
@@ -72,7 +71,7 @@ class CapturedOutput(io.TextIOBase):
         return len(text)
 
     def drain(self) -> tuple[list[str], int]:
-        """The lines since the last time, and how many more there were."""
+        """Return the lines since the last call and the number of omitted ones."""
         lines = [*self._lines, self._begun] if self._begun else self._lines
         left_out = self._left_out
         self._lines, self._begun, self._left_out = [], "", 0

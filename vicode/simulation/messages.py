@@ -1,6 +1,6 @@
-"""The protocol between an editor and the process that runs a component: one JSON object a line, each way.
+"""The protocol between the editor and the process that runs a component: one JSON object per line in each direction.
 
-A setup comes first, then requests; every request is answered by any number of moments and an end of its own.
+The editor sends a setup, then requests. Each request is answered by any number of iterations and a final response.
 """
 
 from __future__ import annotations
@@ -17,12 +17,12 @@ MAX_MESSAGE_BYTES = 4_000_000
 
 
 class ProtocolError(ValueError):
-    """A line that is not part of the protocol."""
+    """A line that does not follow the protocol."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class StubOutput:
-    """An output of a stand-in; `type` is bool, int, float or an enumeration's name, `value` what it begins with."""
+    """An output of a stub. `type` is bool, int, float or the name of an enumeration; `value` is the initial value."""
 
     name: str
     type: str
@@ -32,7 +32,7 @@ class StubOutput:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Stub:
-    """A component whose outputs somebody sets by hand."""
+    """A component whose outputs are set by the user."""
 
     component: str
     outputs: tuple[StubOutput, ...] = ()
@@ -40,9 +40,9 @@ class Stub:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Setup:
-    """What to run. Classes are named module:Class; `functions` are outputs with arguments, by alias.
+    """What to run. Classes are named `module:Class`; `functions` are outputs with arguments, by alias.
 
-    `folder` holds nothing but what was generated for this run; it is removed when the other side has gone.
+    `folder` holds only files generated for this run; it is deleted when the editor disconnects.
     """
 
     component: str
@@ -61,7 +61,7 @@ class Setup:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class StopConditions:
-    """Where to rest before all steps are made: on entering states, on transitions, on any change, on errors."""
+    """When to stop early: on entering states, on transitions, on any state change, on errors."""
 
     states: tuple[str, ...] = ()
     transitions: tuple[str, ...] = ()
@@ -71,9 +71,9 @@ class StopConditions:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Request:
-    """`run` makes up to `count` iterations, `look` only tests the guards; both take over inputs first.
+    """`run` makes up to `count` iterations, `inspect` only evaluates the guards; both set the inputs first.
 
-    A `suppress_events` run tells its last moment alone.
+    With `suppress_events`, a run reports only its last iteration.
     """
 
     kind: Literal["run", "inspect"]
@@ -85,17 +85,18 @@ class Request:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Ready:
-    """The component is made and waits."""
+    """The component is created."""
 
     kind: Literal["ready"] = "ready"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class IterationResult:
-    """What happened in one iteration.
+    """The record of one iteration.
 
-    `finished` says the world. `guards` are those of the active state by decision: `holds` is true, false or unknown
-    (None), `parts` the same of each condition, `reads` the values of names. `calls` are calls of stand-ins' functions.
+    `finished` is reported by the world. `guards` are those of the active state by decision: `holds` is true, false or
+    unknown (None), `parts` the same for each condition, `reads` the values of names. `calls` are calls of functions of
+    stubs.
     """
 
     iteration: int
@@ -118,7 +119,7 @@ class IterationResult:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Inspected:
-    """The guards as they are now, without a step."""
+    """The current truth of the guards, without a step."""
 
     guards: dict[str, dict[str, Any]]
     kind: Literal["inspected"] = "inspected"
@@ -126,7 +127,7 @@ class Inspected:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Stopped:
-    """A run came to rest: all steps made, or one of state, transition, change, error, done, finished came before."""
+    """A run ended after all steps or early: state, transition, change, error, done or finished."""
 
     reason: str
     kind: Literal["stopped"] = "stopped"
@@ -134,7 +135,7 @@ class Stopped:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Failed:
-    """It cannot go on; `message` says why in words, `error` is the record of the place in the design, if any."""
+    """The run cannot continue. `error` is the record with the location in the design, if known."""
 
     message: str
     error: dict[str, Any] | None = None
@@ -172,15 +173,15 @@ _FIELD_TYPES: dict[str, type | tuple[type, ...]] = {
 
 
 def encode_setup(setup: Setup) -> bytes:
-    """The line that begins a conversation."""
+    """Encode the first line."""
     return _line(asdict(setup))
 
 
 def decode_setup(line: bytes) -> Setup:
-    """Read the first line.
+    """Decode the first line.
 
     Raises:
-        ProtocolError: It is none.
+        ProtocolError: It is not a setup.
     """
     plain = _parse(line)
     try:
@@ -193,19 +194,18 @@ def decode_setup(line: bytes) -> Setup:
         path = tuple(plain.pop("path"))
         return Setup(stubs=stand_ins, functions=functions, parameter_types=types, path=path, **plain)
     except (KeyError, TypeError, ValueError) as error:
-        raise ProtocolError(f"no setup: {error}") from error
+        raise ProtocolError(f"not a setup: {error}") from error
 
 
 def encode_request(request: Request) -> bytes:
-    """The line of a request."""
     return _line(asdict(request))
 
 
 def decode_request(line: bytes) -> Request:
-    """Read a request.
+    """Decode a request.
 
     Raises:
-        ProtocolError: It is none.
+        ProtocolError: It is not a request.
     """
     plain = _parse(line)
     try:
@@ -213,11 +213,11 @@ def decode_request(line: bytes) -> Request:
         places: dict[str, Any] = {name: tuple(stops.pop(name)) for name in ("states", "transitions")}
         return Request(stops=StopConditions(**places, **stops), **plain)
     except (KeyError, TypeError, AttributeError) as error:
-        raise ProtocolError(f"no request: {error}") from error
+        raise ProtocolError(f"not a request: {error}") from error
 
 
 def encode_response(answer: Response) -> bytes:
-    """The line of an answer; a moment with too much to tell leaves the values out."""
+    """Encode a response; values that exceed the size limit are omitted."""
     line = _line(asdict(answer))
     if len(line) <= MAX_MESSAGE_BYTES or not isinstance(answer, IterationResult):
         return line[:MAX_MESSAGE_BYTES]
@@ -227,21 +227,21 @@ def encode_response(answer: Response) -> bytes:
         state=answer.state,
         changed_from=answer.changed_from,
         transition=answer.transition,
-        prints=["(the values of this iteration are too large to be shown)"],
+        prints=["(the values of this iteration are too large to show)"],
     )
     return _line(asdict(few))
 
 
 def decode_response(line: bytes) -> Response:
-    """Read an answer; what user code may have slipped in between is refused.
+    """Decode a response.
 
     Raises:
-        ProtocolError: It is none.
+        ProtocolError: It is not a response; user code may have written to the pipe.
     """
     plain = _parse(line)
     make = _RESPONSES.get(str(plain.get("kind")))
     if make is None:
-        raise ProtocolError(f"no answer: {line[:80]!r}")
+        raise ProtocolError(f"not a response: {line[:80]!r}")
     wrong = [
         name for name, value in plain.items() if name in _FIELD_TYPES and not isinstance(value, _FIELD_TYPES[name])
     ]

@@ -1,4 +1,4 @@
-"""Decides after each iteration whether a run rests, for a run under way and for a past that is looked at again."""
+"""Decides after each iteration whether a run stops; used for live runs and for recorded ones."""
 
 from vicode.simulation.messages import IterationResult, StopConditions
 
@@ -6,15 +6,15 @@ COUNT_REACHED = "count"
 """The reason of a run that made all its steps."""
 
 
-def stop_reason(moment: IterationResult, stops: StopConditions, *, was_done: bool) -> str:
-    """Why to rest after a moment, "" to go on; `was_done` whether the moment before was in a final state."""
-    entered = moment.changed_from is not None or moment.iteration == 1
+def stop_reason(iteration: IterationResult, stops: StopConditions, *, was_done: bool) -> str:
+    """Why a run stops after this iteration, "" to continue. `was_done`: the previous iteration was in a final state."""
+    entered = iteration.changed_from is not None or iteration.iteration == 1
     reasons = {
-        "transition": moment.transition is not None and moment.transition in stops.transitions,
-        "state": entered and moment.state in stops.states,
-        "error": stops.errors and bool(moment.errors),
-        "done": moment.done and not was_done,
-        "finished": moment.finished,
-        "change": stops.changes and moment.changed_from is not None,
+        "transition": iteration.transition is not None and iteration.transition in stops.transitions,
+        "state": entered and iteration.state in stops.states,
+        "error": stops.errors and bool(iteration.errors),
+        "done": iteration.done and not was_done,
+        "finished": iteration.finished,
+        "change": stops.changes and iteration.changed_from is not None,
     }
     return next((reason for reason, holds in reasons.items() if holds), "")

@@ -1,4 +1,4 @@
-"""Components whose outputs somebody outside sets, in place of those that would sense and act."""
+"""Components whose outputs the user sets; they replace hand-written components."""
 
 from __future__ import annotations
 
@@ -14,13 +14,13 @@ from vicode.simulation.messages import Stub, StubOutput
 
 STUB_MODULE = "vicode_stubs"
 DONE = "is_done"
-"""The input that says whether a stand-in for a design is in a final state."""
+"""The input that says whether a stubbed design is in a final state."""
 
 Enumerations = Mapping[str, type[Enum]]
 
 
 class StubComponent(Component):
-    """A component that does nothing but hold its outputs; parameters are taken and ignored."""
+    """Holds its outputs and ignores its parameters."""
 
     stub: Stub
 
@@ -31,21 +31,20 @@ class StubComponent(Component):
         self._calls: list[dict[str, Any]] = []
 
     def modulate(self, **_parameters: Any) -> None:
-        """Take any parameters; who watches the run sees them."""
+        """Accept any parameters; they appear in the trace."""
 
     @property
     def is_done(self) -> bool:
-        """What it was set to."""
         return self._is_done
 
     def set_initial_values(self, enumerations: Enumerations) -> None:
-        """Take the first values; enumerations are known only when the package is loaded."""
+        """Set the initial values; enumerations are known only after the package is loaded."""
         self._enumerations = enumerations
         for output in self.stub.outputs:
             self._set(output, output.value)
 
     def set_outputs(self, values: Mapping[str, Any]) -> None:
-        """Take new values; names that are no outputs are ignored."""
+        """Set outputs by name; unknown names are ignored."""
         if DONE in values:
             self._is_done = bool(values[DONE])
         for output in self.stub.outputs:
@@ -53,7 +52,7 @@ class StubComponent(Component):
                 self._set(output, values[output.name])
 
     def drain_calls(self) -> list[dict[str, Any]]:
-        """The calls of functions since this was last asked."""
+        """Return the calls of functions since the last call."""
         asked, self._calls = self._calls, []
         return asked
 
@@ -64,11 +63,10 @@ class StubComponent(Component):
             self.__dict__[output.name] = convert_value(value, output.type, self._enumerations)
 
     def convert(self, output: StubOutput, value: Any) -> Any:
-        """A value as the output's type."""
         return convert_value(value, output.type, self._enumerations)
 
     def record_call(self, output: StubOutput, arguments: Mapping[str, Any], value: Any) -> None:
-        """Remember a call, each once an iteration."""
+        """Record a call, once per iteration."""
         call = {
             "component": self.stub.component,
             "output": output.name,
@@ -80,7 +78,7 @@ class StubComponent(Component):
 
 
 class _StubFunction:
-    """An output with arguments: a value for some arguments, and one for all others."""
+    """An output with arguments: one value for some arguments and one for all others."""
 
     def __init__(self, owner: StubComponent, output: StubOutput, plain: Any) -> None:
         self._owner, self._output = owner, output
@@ -97,7 +95,7 @@ class _StubFunction:
 
 
 def install_stub_module(stand_ins: tuple[Stub, ...]) -> None:
-    """Make a module that holds a class for each, from which generated code imports them."""
+    """Create a module with a class for each stub, from which generated code imports them."""
     module = ModuleType(STUB_MODULE)
     for stand_in in stand_ins:
         attributes = {"stub": stand_in, "__module__": STUB_MODULE}
@@ -106,7 +104,7 @@ def install_stub_module(stand_ins: tuple[Stub, ...]) -> None:
 
 
 def convert_value(value: Any, type_: str, enumerations: Enumerations) -> Any:
-    """A value of JSON as a design's type; what does not fit becomes false, 0 or the first element."""
+    """Convert a JSON value to a design type; an unsuitable value becomes false, 0 or the first element."""
     if type_ == "bool":
         return bool(value)
     if type_ in ("int", "float"):

@@ -1,4 +1,4 @@
-"""The process: reads a setup and requests from standard input, answers on what was its standard output."""
+"""The process: reads a setup and requests from standard input, writes responses to its original standard output."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ START_LIMIT_S = 60.0
 
 
 def main() -> int:
-    """Serve until the other side hangs up; returns 1 after a failure."""
+    """Serve until the editor disconnects; returns 1 after a failure."""
     requests, answers = _claim_pipes()
     first = requests.readline()
     if not first:
@@ -48,14 +48,14 @@ def main() -> int:
     try:
         return _Worker(setup, answers).serve(_start_reader(requests, setup.folder))
     except BrokenPipeError:
-        # The other side has gone, which the listening thread may not have heard yet.
+        # The editor has disconnected, which the reader thread may not have noticed yet.
         return 0
     finally:
         _remove_folder(setup.folder)
 
 
 def _claim_pipes() -> tuple[BinaryIO, BinaryIO]:
-    """Keep the pipes for ourselves: user code reads nothing, and what it writes past Python goes to standard error."""
+    """Keep the pipes private: user code reads nothing, and what it writes past Python goes to standard error."""
     requests = os.fdopen(os.dup(0), "rb")
     answers = os.fdopen(os.dup(1), "wb")
     nothing = os.open(os.devnull, os.O_RDONLY)
@@ -66,11 +66,11 @@ def _claim_pipes() -> tuple[BinaryIO, BinaryIO]:
 
 
 def _start_reader(requests: BinaryIO, folder: str) -> queue.SimpleQueue[bytes]:
-    """Read in a thread of its own, which ends the process when the other side has gone, whatever user code does."""
+    """Read in a separate thread, which ends the process when the editor disconnects, whatever user code does."""
     lines: queue.SimpleQueue[bytes] = queue.SimpleQueue()
 
     def read() -> None:
-        # Who asks where the code is wants to hear of the thread that runs it.
+        # The stack shown for a timeout must be that of the thread that runs user code.
         signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGABRT})
         for line in requests:
             lines.put(line)
@@ -119,22 +119,22 @@ class _Worker:
 
     def _run(self, request: Request) -> Failed | None:
         reason = COUNT_REACHED
-        moment: IterationResult | None = None
+        iteration: IterationResult | None = None
         for _step in range(request.count):
             failed = self._run_limited(self._setup.limit_s, self._step)
             if failed is not None:
                 return failed
-            moment = self._result
-            stop = stop_reason(moment, request.stops, was_done=self._was_done)
-            self._was_done = moment.done
+            iteration = self._result
+            stop = stop_reason(iteration, request.stops, was_done=self._was_done)
+            self._was_done = iteration.done
             if request.suppress_events:
                 continue
-            self._send(moment)
+            self._send(iteration)
             if stop:
                 reason = stop
                 break
-        if request.suppress_events and moment is not None:
-            self._send(moment)
+        if request.suppress_events and iteration is not None:
+            self._send(iteration)
         self._send(Stopped(reason=reason))
         return None
 
@@ -152,30 +152,28 @@ class _Worker:
             self._send(Inspected(guards=self._running.evaluate_guards()))
 
     def _run_limited(self, limit_s: float, do: Callable[[], None]) -> Failed | None:
-        """Run what may call user code; returns what went wrong with it."""
+        """Run code that may call user code; returns the failure, if any."""
         try:
             with time_limit(limit_s), wrap_user_errors("the world failed", only_user_code=True):
                 do()
         except TimeLimitError as error:
-            words = f"did not come to an end within {limit_s:g} s; it may run in a circle"
+            words = f"did not end within {limit_s:g} s; it may be an endless loop"
             return self._failed(error, words)
         except (UserCodeError, CyclicUseError) as error:
             return Failed(message=str(error), prints=self._prints.drain()[0])
         except SystemExit as error:
-            return self._failed(error, f"left the program by {describe_exception(error)}")
+            return self._failed(error, f"ended the program with {describe_exception(error)}")
         except (KeyboardInterrupt, MemoryError, RecursionError) as error:
             return self._failed(error, describe_exception(error))
         return None
 
     def _failed(self, error: BaseException, words: str) -> Failed:
-        """Say it with the place in the design, if a component was at work."""
+        """A failure with the location in the design, if a component was running."""
         lines, _left_out = self._prints.drain()
         component = _find_component(error)
         if component is None:
-            return Failed(
-                message=f"the code outside of all components {words}{_user_code_location(error)}", prints=lines
-            )
-        # Only the type says Exception; a record is made of its traceback.
+            return Failed(message=f"code outside of all components {words}{_user_code_location(error)}", prints=lines)
+        # The type is Exception, but only the traceback is recorded.
         record = make_error_record(component, error)  # type: ignore[arg-type]
         return Failed(message=words, error={**asdict(record), "message": words}, prints=lines)
 
@@ -185,7 +183,7 @@ class _Worker:
 
 
 def _find_component(error: BaseException) -> Component | None:
-    """The component whose own code was at work deepest."""
+    """The innermost component whose own code was running."""
     found = None
     traceback = error.__traceback__
     while traceback is not None:
@@ -197,7 +195,7 @@ def _find_component(error: BaseException) -> Component | None:
 
 
 def _user_code_location(error: BaseException) -> str:
-    """File and line of the deepest code that is not ours, in brackets."""
+    """File and line of the innermost user code, in brackets."""
     place = ""
     traceback = error.__traceback__
     while traceback is not None:

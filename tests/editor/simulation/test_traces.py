@@ -83,12 +83,15 @@ def test_a_trace_is_looked_at_without_a_process(lamps: Path) -> None:
 @pytest.mark.parametrize(
     ("text", "words"),
     [
-        ("", "there is no iteration in it"),
-        ("{", "line 1 is no JSON"),
-        ("[]", "line 1 is no record"),
-        ('{"tree": []}', "line 1 is no record"),
+        ("", "the trace has no iterations"),
+        ("{", "line 1 is not JSON"),
+        ("[]", "line 1 is not an iteration record"),
+        ('{"tree": []}', "line 1 is not an iteration record"),
         ('{"iteration": 1, "time_ns": 0, "tree": [{"component": "Timer", "state": "Over"}]}', "a trace of Timer"),
-        ('{"iteration": 1, "time_ns": 0, "tree": [{"component": "Lamp", "state": 4}]}', "line 1 is no record"),
+        (
+            '{"iteration": 1, "time_ns": 0, "tree": [{"component": "Lamp", "state": 4}]}',
+            "line 1 is not an iteration record",
+        ),
     ],
 )
 def test_what_is_no_trace_is_refused_in_words(lamps: Path, text: str, words: str) -> None:

@@ -50,7 +50,7 @@ def test_an_endless_loop_is_told_with_its_line(tmp_path: Path) -> None:
         assert simulation.status is RunStatus.FAILED
         assert simulation.cursor == 1
         words = failure_words(simulation)
-        assert words.startswith("Lamp, state Lit, Lit.actions, line 2: did not come to an end within 1.5 s")
+        assert words.startswith("Lamp, state Lit, Lit.actions, line 2: did not end within 1.5 s")
         # The past is still there, and a step from it meets the same end.
         simulation.step_back()
         assert await simulation.step(5) == ""
@@ -67,7 +67,7 @@ def test_a_loop_that_catches_everything_is_killed(tmp_path: Path, monkeypatch: p
     async def act(simulation: Simulation) -> None:
         assert await simulation.step(5) == ""
         assert "lamp, Lit.actions, line" in failure_words(simulation)
-        assert "did not come to an end within" in failure_words(simulation)
+        assert "did not end within" in failure_words(simulation)
 
     simulate(prepare_lamp(folder, limit_s=1.5), folder, act)
 
@@ -75,8 +75,8 @@ def test_a_loop_that_catches_everything_is_killed(tmp_path: Path, monkeypatch: p
 @pytest.mark.parametrize(
     ("code", "words"),
     [
-        ("os._exit(3)", "left the program with exit code 3"),
-        ("sys.exit(4)", "Lamp, state Lit, Lit.actions, line 2: left the program by SystemExit: 4"),
+        ("os._exit(3)", "exited with code 3"),
+        ("sys.exit(4)", "Lamp, state Lit, Lit.actions, line 2: ended the program with SystemExit: 4"),
         ("os.kill(os.getpid(), 11)", "lamp, Lit.actions, line 2: was ended by SIGSEGV"),
     ],
 )
@@ -153,7 +153,7 @@ def test_what_cannot_be_loaded_is_told(tmp_path: Path) -> None:
 def test_a_design_with_mistakes_is_not_started(tmp_path: Path) -> None:
     states = "{Dark: {transitions: [{to: Dark, when: nobody}]}}"
     folder = write_lamps(tmp_path / "lamps", f"vicode: 1\ncomponent: Lamp\ninitial: Dark\nstates: {states}\n")
-    with pytest.raises(NotReadyError, match=r"Lamp: .*nobody.* Mend it, then start again"):
+    with pytest.raises(NotReadyError, match=r"Lamp: .*nobody.* Fix it, then restart"):
         prepare_lamp(folder)
 
 
@@ -165,7 +165,7 @@ def test_code_that_reads_the_real_time_is_noticed(tmp_path: Path) -> None:
         simulation.step_back()
         simulation.truncate()
         await simulation.step()
-        assert simulation.warning.startswith("Repeating the past gave something else")
+        assert simulation.warning.startswith("The replay gave a different result")
 
     simulate(prepare_lamp(folder), folder, act)
 

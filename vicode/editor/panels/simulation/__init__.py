@@ -1,1 +1,1 @@
-"""The panel that simulates the open design, and what stands behind it in one window."""
+"""The simulation panel of the open design and its controller."""

@@ -1,4 +1,4 @@
-"""Who was active in an iteration, and what user code printed or did wrong."""
+"""The activation tree of an iteration, and the output and errors of user code."""
 
 from collections.abc import Callable
 
@@ -13,30 +13,26 @@ _MAX_ITERATIONS = 400
 
 
 class ActivationTree:
-    """The steps of the shown iteration, and the design's own values."""
+    """The components stepped in the shown iteration, and the values of the design."""
 
     def __init__(self, controller: SimulationController) -> None:
-        """Build the empty tree."""
         self.controller = controller
         self._shown: object = None
-        self.body = (
-            ui.column().classes("activation").props('tabindex=0 role=group aria-label="Steps of this iteration"')
-        )
+        self.body = ui.column().classes("activation").props('tabindex=0 role=group aria-label="Activation tree"')
 
     def refresh(self) -> None:
-        """Show the iteration."""
         simulation = self.controller.simulation
-        moment = simulation.shown_iteration if simulation else None
-        rows = activation_rows(moment.tree) if moment else ()
+        iteration = simulation.shown_iteration if simulation else None
+        rows = activation_rows(iteration.tree) if iteration else ()
         component = self.controller.context.design.component
-        values = value_rows(moment.tree, component) if moment else ()
+        values = value_rows(iteration.tree, component) if iteration else ()
         if (rows, values) == self._shown:
             return
         self._shown = (rows, values)
         self.body.clear()
         with self.body:
             if not rows:
-                ui.label("Who steps whom is shown here while it runs.").classes("empty")
+                ui.label("The activation tree appears here while the simulation runs.").classes("empty")
             for row in rows:
                 _tree_row(row)
             if values:
@@ -46,16 +42,14 @@ class ActivationTree:
 
 
 class ConsoleOutput:
-    """What user code printed up to the shown moment, and its errors; an error leads to its thing."""
+    """Output of user code up to the shown iteration, and its errors; an error links to its element."""
 
     def __init__(self, controller: SimulationController) -> None:
-        """Build the empty list."""
         self.controller = controller
         self._shown: object = None
-        self.body = ui.column().classes("output").props('tabindex=0 role=group aria-label="What was printed"')
+        self.body = ui.column().classes("output").props('tabindex=0 role=group aria-label="Output"')
 
     def refresh(self) -> None:
-        """Show the newest lines."""
         lines = self._lines()
         if lines == self._shown:
             return
@@ -63,7 +57,7 @@ class ConsoleOutput:
         self.body.clear()
         with self.body:
             if not lines:
-                ui.label("What the code prints stands here, and its errors.").classes("empty")
+                ui.label("Output and errors of your code appear here.").classes("empty")
             for kind, text, thing in lines[-_MAX_LINES:]:
                 if kind == "error":
                     with ui.element("button").classes("output-line error").props('type="button"') as row:
@@ -80,13 +74,13 @@ class ConsoleOutput:
         design = simulation.prepared.design
         lines: list[tuple[str, str, ItemRef | None]] = []
         for number in simulation.recording.iterations_with_output(simulation.cursor, _MAX_ITERATIONS):
-            moment = simulation.recording.iteration(number)
-            assert moment is not None
-            time = f"{moment.time_ns / 1e9:.2f} s  "
-            lines += [("print", time + line, None) for line in moment.prints]
-            if moment.omitted_lines:
-                lines.append(("print", f"{time}… and {moment.omitted_lines} more lines", None))
-            mistakes = (code_error_view(design, record) for record in moment.errors)
+            iteration = simulation.recording.iteration(number)
+            assert iteration is not None
+            time = f"{iteration.time_ns / 1e9:.2f} s  "
+            lines += [("print", time + line, None) for line in iteration.prints]
+            if iteration.omitted_lines:
+                lines.append(("print", f"{time}… and {iteration.omitted_lines} more lines", None))
+            mistakes = (code_error_view(design, record) for record in iteration.errors)
             lines += [("error", time + mistake.text, mistake.item) for mistake in mistakes]
         failure = simulation.failure
         if failure is not None and not simulation.is_past:

@@ -1,4 +1,4 @@
-"""What a person can ask of the simulation."""
+"""The commands of the simulation."""
 
 from collections.abc import Callable
 from typing import TYPE_CHECKING
@@ -15,7 +15,7 @@ _BREAKPOINT_KINDS = ("states", "transitions")
 def simulation_commands(
     get_controller: "Callable[[], SimulationController]", show_panel: Callable[[], None]
 ) -> tuple[Command, ...]:
-    """All of them; `get_controller` gives the window's simulator, made when it is first wanted, `show_panel` opens the panel."""
+    """The commands. `get_controller` returns the controller of the window, created on first use; `show_panel` opens the panel."""
 
     def toggle() -> None:
         _toggle_breakpoint(get_controller())
@@ -28,12 +28,12 @@ def simulation_commands(
         return do
 
     rows: tuple[tuple[str, str, Callable[[], object], str, str], ...] = (
-        ("simulate-start", "Simulate: start, or start again", shown(lambda it: it.restart()), "restart_alt", ""),
+        ("simulate-start", "Simulate: start or restart", shown(lambda it: it.restart()), "restart_alt", ""),
         ("simulate-play", "Simulate: play or pause", shown(lambda it: it.toggle_play()), "play_arrow", "F6"),
-        ("simulate-step", "Simulate: one step", shown(lambda it: it.step()), "skip_next", "F10"),
+        ("simulate-step", "Simulate: step", shown(lambda it: it.step()), "skip_next", "F10"),
         (
             "simulate-back",
-            "Simulate: one step back",
+            "Simulate: step back",
             shown(lambda it: it.step_back()),
             "skip_previous",
             "Ctrl+Shift+F10",
@@ -46,8 +46,8 @@ def simulation_commands(
             "Shift+F6",
         ),
         ("simulate-here", "Simulate: run to the selected state", shown(_run_to), "adjust", "Ctrl+F10"),
-        ("simulate-stop", "Simulate: end", shown(lambda it: it.stop()), "stop", ""),
-        ("breakpoint", "Breakpoint on or off at what is selected", toggle, "stop_circle", "F9"),
+        ("simulate-stop", "Simulate: stop", shown(lambda it: it.stop()), "stop", ""),
+        ("breakpoint", "Toggle breakpoint on the selection", toggle, "stop_circle", "F9"),
     )
     return tuple(
         Command(name, label, act, MenuGroup.SIMULATE, icon=icon, keys=(keys,) if keys else (), while_typing=True)
@@ -58,7 +58,7 @@ def simulation_commands(
 async def _run_to(simulator: "SimulationController") -> None:
     only = simulator.context.single_selection
     if only is None or only.kind != "states":
-        simulator.context.show_toast("Select the state to run to first", "info")
+        simulator.context.show_toast("Select a state to run to", "info")
         return
     await simulator.run_to(only.id)
 
@@ -68,6 +68,6 @@ def _toggle_breakpoint(simulator: "SimulationController") -> None:
         ItemRef(kind=thing.kind, id=thing.id) for thing in simulator.context.selected if thing.kind in _BREAKPOINT_KINDS
     ]
     if not things:
-        simulator.context.show_toast("Select states or transitions to put breakpoints on first", "info")
+        simulator.context.show_toast("Select states or transitions for breakpoints", "info")
         return
     simulator.toggle_breakpoints(*things)

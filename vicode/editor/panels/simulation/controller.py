@@ -1,4 +1,4 @@
-"""The simulation of one window: begins and ends it, plays it, and shows on the canvas where it is."""
+"""The simulation of one window: starts and stops it, plays it, and shows its state on the canvas."""
 
 import asyncio
 import time
@@ -33,10 +33,9 @@ _UNLIMITED = 1_000_000
 
 
 class SimulationController:
-    """What the commands and the panel of one window work on."""
+    """The object that the commands and the panel of one window use."""
 
     def __init__(self, context: WindowContext, canvas: Canvas) -> None:
-        """Begin with no simulation."""
         self.context, self.canvas = context, canvas
         self.simulation: Simulation | None = None
         self.breakpoints = Breakpoints()
@@ -47,15 +46,15 @@ class SimulationController:
         self.pauses_on_errors = True
         self.is_playing = False
         self.is_running = False
-        """Whether it makes more than a step without being played."""
+        """Whether a run of several steps is under way without playing."""
         self.is_starting = False
         self.is_stale = False
         self.start_error = ""
         """Why it could not be started."""
         self.revision = 0
-        """Counts what the panel has to show anew."""
+        """Incremented when the panel must be refreshed."""
         self.refresh_panel: Callable[[], None] = lambda: None
-        """Bring the panel up to date at once, if it is there."""
+        """Refreshes the panel immediately, if it exists."""
         self._behavior_key: object = None
         self._seen_project: object = None
         self._starting = asyncio.Lock()
@@ -65,25 +64,23 @@ class SimulationController:
         canvas.client.on_delete(self.close)
 
     async def restart(self) -> None:
-        """Begin anew with the design as it is now."""
+        """Start with the current design."""
         self.pause()
         async with self._starting:
             await self._start()
 
     async def step(self) -> None:
-        """One iteration."""
         await self._run(1, StopConditions())
 
     async def step_to_change(self) -> None:
-        """Go on until another state is entered, a breakpoint is hit, or the room for it is used up."""
+        """Run until the state changes, a breakpoint is hit, or the recording is full."""
         await self._run(_UNLIMITED, self._stop_conditions(changes=True))
 
     async def run_to(self, state: str) -> None:
-        """Go on until a state is entered."""
         await self._run(_UNLIMITED, self._stop_conditions(also=state))
 
     async def run_to_time(self, seconds: float) -> None:
-        """Show the moment at a time: a recorded one, or go on until then."""
+        """Show a recorded iteration at this time, or run until then."""
         if not await self._ensure_started():
             return
         simulation = self._current
@@ -94,14 +91,12 @@ class SimulationController:
             await self._run(number - simulation.cursor, self._stop_conditions())
 
     def step_back(self) -> None:
-        """Show the iteration before."""
         self.pause()
         if self.simulation is not None:
             self.simulation.step_back()
         self.refresh_panel()
 
     def toggle_play(self) -> None:
-        """Play, or pause."""
         if self.is_playing or self.is_running:
             self.pause()
             return
@@ -110,48 +105,47 @@ class SimulationController:
         self._notify()
 
     def pause(self) -> None:
-        """Come to rest."""
         self.is_playing = False
         if self.simulation is not None:
             self.simulation.pause()
         self._notify()
 
     def set_config(self, wish: RunConfig) -> None:
-        """Simulate in another way from the next start on."""
+        """Change the configuration of the next run."""
         self.config = wish
         self.is_stale = self.simulation is not None
         self._notify()
 
     def use_trace(self, text: str, *, is_replay: bool) -> None:
-        """Use a recorded trace: to look at, or to set the inputs.
+        """Use a recorded trace, to view it or as inputs.
 
         Raises:
-            TraceError: It is no trace of this design.
+            TraceError: It is not a trace of this design.
         """
         self.trace, self.is_replay = read_trace(text, self.context.design), is_replay
         self.is_stale = self.simulation is not None
         self._notify()
 
     def clear_trace(self) -> None:
-        """Set the inputs by hand again."""
+        """Return to manual inputs."""
         self.trace, self.is_replay = (), False
         self.is_stale = self.simulation is not None
         self._notify()
 
     def toggle_breakpoints(self, *things: ItemRef) -> None:
-        """Mark states and transitions to rest at, or take the marks away."""
+        """Toggle breakpoints on states and transitions."""
         self.breakpoints = self.breakpoints.toggled(*things)
         self._show_breakpoints()
         self._notify()
 
     def check_project(self) -> None:
-        """Notice changes of designs that this one uses, made elsewhere."""
+        """Detect changes of designs that this one uses."""
         if self._seen_project is not self.context.workspace.project:
             self._seen_project = self.context.workspace.project
             self.check_design()
 
     def check_design(self) -> None:
-        """End a run of a design that is no more; its past can still be looked at."""
+        """Stop the run if the design changed; the recorded past remains."""
         kept = self.breakpoints.existing_in(self.context.design)
         if kept != self.breakpoints:
             self.breakpoints = kept
@@ -166,13 +160,13 @@ class SimulationController:
             self._notify()
 
     def close(self) -> None:
-        """End the simulation, as the window goes."""
+        """Stop the simulation when the window closes."""
         self._is_closed = True
         self.is_playing = False
         self._discard_simulation()
 
     def stop(self) -> None:
-        """End the simulation, and show so."""
+        """Stop the simulation and update the panel."""
         self.is_playing = False
         self._discard_simulation()
         self.is_stale = False
@@ -199,14 +193,14 @@ class SimulationController:
         inputs = self.simulation.inputs if self.simulation and not self.simulation.replay else {}
         self._discard_simulation()
         self.start_error, self.is_stale = "", False
-        stage = await self._prepare()
-        if stage is not None and not self._is_closed:
-            self._behavior_key = behavior_key(self.context.workspace.project, stage.design)
-            self.breakpoints = self.breakpoints.existing_in(stage.design)
+        prepared = await self._prepare()
+        if prepared is not None and not self._is_closed:
+            self._behavior_key = behavior_key(self.context.workspace.project, prepared.design)
+            self.breakpoints = self.breakpoints.existing_in(prepared.design)
             self.simulation = simulation = Simulation(
-                prepared=stage,
+                prepared=prepared,
                 cwd=self.context.workspace.folder,
-                script=input_script(self.trace, stage.inputs) if self.trace and not self.is_replay else (),
+                script=input_script(self.trace, prepared.inputs) if self.trace and not self.is_replay else (),
                 replay=self.trace if self.is_replay else (),
                 on_change=self._notify,
             )
@@ -222,7 +216,7 @@ class SimulationController:
         self.simulation = None
 
     async def _ensure_started(self) -> bool:
-        """Whether there is a simulation to step; one is begun if there was none, or none of the design as it is now."""
+        """Start a simulation of the current design unless one exists; returns whether it can be stepped."""
         async with self._starting:
             simulation = self.simulation
             if simulation is None or simulation.is_over:
@@ -242,14 +236,14 @@ class SimulationController:
         self.refresh_panel()
 
     async def _play(self) -> None:
-        """Step as real time passes, times the speed, until something says rest."""
+        """Step in real time, times the speed, until a reason to stop."""
         reason = COUNT_REACHED if await self._ensure_started() else ""
         last, due = time.monotonic(), 1.0
         while self.is_playing and reason == COUNT_REACHED and self.simulation is not None:
             now = time.monotonic()
             due += (now - last) * 1e9 * self.speed / self._current.prepared.setup.tick_ns
             last = now
-            # What a slow machine cannot do in time is not caught up.
+            # A slow machine does not catch up on missed steps.
             due, count = due % 1, min(int(due), _MAX_STEPS_PER_INTERVAL)
             if count:
                 reason = await self._current.step(count, self._stop_conditions())
@@ -273,7 +267,7 @@ class SimulationController:
         self._show_active()
 
     def _show_active(self) -> None:
-        """Mark on the canvas the active state and the transition that led there."""
+        """Highlight the active state and the transition that led there."""
         active: list[str] = []
         taken: list[str] = []
         simulation = self.simulation

@@ -1,4 +1,4 @@
-"""The bar with which a simulation is driven, and the line that says where it is."""
+"""The toolbar of a simulation and its position."""
 
 from nicegui import ui
 
@@ -11,24 +11,21 @@ from vicode.editor.view import ItemRef
 
 
 class SimulationControls:
-    """Builds the bar; `refresh` keeps it true."""
-
     def __init__(self, controller: SimulationController) -> None:
-        """Build it."""
         self.controller = controller
         with ui.element("div").classes("simulation-bar").props('role="toolbar" aria-label="Simulation"'):
-            self.restart = icon_button("restart_alt", "Start, or start again", controller.restart)
-            self.back = icon_button("skip_previous", "One step back (Ctrl+Shift+F10)", controller.step_back)
+            self.restart = icon_button("restart_alt", "Start or restart", controller.restart)
+            self.back = icon_button("skip_previous", "Step back (Ctrl+Shift+F10)", controller.step_back)
             self.play = icon_button("play_arrow", "Play or pause (F6)", controller.toggle_play)
-            self.step = icon_button("skip_next", "One step (F10)", controller.step)
+            self.step = icon_button("skip_next", "Step (F10)", controller.step)
             self.change = icon_button(
                 "fast_forward", "Run until the state changes (Shift+F6)", controller.step_to_change
             )
-            self.stop = icon_button("stop", "End the simulation", controller.stop)
+            self.stop = icon_button("stop", "Stop the simulation", controller.stop)
             self.where = ui.button("", on_click=self._reveal, color=None).props("flat dense no-caps no-wrap")
             self.where.classes("simulation-where mono")
             with self.where:
-                ui.tooltip("Bring the active state into view")
+                ui.tooltip("Show the active state")
             ui.element("div").classes("spacer")
             ui.label("Go to").classes("small").props('aria-hidden="true"')
             self.time = ui.number(min=0, step=0.1, format="%.2f").props('dense outlined suffix="s" debounce=0')
@@ -43,15 +40,12 @@ class SimulationControls:
         with ui.element("div").classes("simulation-message").props('role="status"') as self.message:
             self.icon = ui.icon("info").props('aria-hidden="true"')
             self.words = ui.label()
-            self.restart_button = ui.button("Start again", on_click=controller.restart).props(
-                "flat dense no-caps size=sm"
-            )
-            self.continue_button = ui.button("Go on from here", on_click=self._continue_from_here).props(
+            self.restart_button = ui.button("Restart", on_click=controller.restart).props("flat dense no-caps size=sm")
+            self.continue_button = ui.button("Continue from here", on_click=self._continue_from_here).props(
                 "flat dense no-caps size=sm"
             )
 
     def refresh(self) -> None:
-        """Show where the simulation is, and what can be done."""
         simulator, simulation = self.controller, self.controller.simulation
         icon = "pause" if simulator.is_playing or simulator.is_running else "play_arrow"
         if self.play.props["icon"] != icon:
@@ -101,7 +95,7 @@ class SimulationControls:
 def _where(simulation: Simulation | None) -> str:
     if simulation is None:
         return "not started"
-    moment = simulation.shown_iteration
-    if moment is None:
+    iteration = simulation.shown_iteration
+    if iteration is None:
         return "before the first step"
-    return f"{moment.time_ns / 1e9:.2f} s · iteration {moment.iteration} · {moment.state}"
+    return f"{iteration.time_ns / 1e9:.2f} s · iteration {iteration.iteration} · {iteration.state}"

@@ -1,4 +1,4 @@
-"""The guards of the active state, in the order in which they are tested, with their truth."""
+"""The guards of the active state in priority order, with their truth."""
 
 from collections.abc import Callable
 from typing import Any
@@ -13,10 +13,9 @@ _ICONS = {"true": "check_circle", "false": "cancel", "unknown": "help"}
 
 
 class GuardsList:
-    """Built anew when another state is active; else only what changed is shown."""
+    """Rebuilt when the active state changes; otherwise only changed values are updated."""
 
     def __init__(self, controller: SimulationController) -> None:
-        """Build the empty list."""
         self.controller = controller
         self._structure_key: object = None
         self._shown: list[tuple[GuardRow, Any, Any, Any]] = []
@@ -26,18 +25,18 @@ class GuardsList:
         self.body = ui.column().classes("guards")
 
     def refresh(self) -> None:
-        """Show the guards as they are in the moment that is shown."""
+        """Show the guards at the shown iteration."""
         simulation = self.controller.simulation
         if simulation is None:
             self._rebuild((), "Guards", "", None)
             return
-        moment, design = simulation.shown_iteration, simulation.prepared.design
-        state = moment.state if moment else design.initial
+        iteration, design = simulation.shown_iteration, simulation.prepared.design
+        state = iteration.state if iteration else design.initial
         rows = list_guard_rows(design, state, simulation.guards)
-        seconds = moment.tree[0].get("state_time_ns", 0) / 1e9 if moment and moment.tree else 0.0
+        seconds = iteration.tree[0].get("state_time_ns", 0) / 1e9 if iteration and iteration.tree else 0.0
         stops = frozenset(self.controller.breakpoints.items)
         shape = (state, tuple((row.key, row.text, row.outcome) for row in rows), stops)
-        waits = "" if moment is None or moment.worked else " · not tested now"
+        waits = "" if iteration is None or iteration.worked else " · not tested now"
         self._rebuild(rows, f"Guards of {state}", f"{seconds:.2f} s in it{waits}", shape)
         for row, (_old, icon, word, reads) in zip(rows, self._shown, strict=True):
             _show(row, icon, word, reads)
@@ -53,7 +52,7 @@ class GuardsList:
         self.body.clear()
         with self.body:
             if not rows:
-                words = "It has no transitions: it stays here." if shape else "They are shown while it runs."
+                words = "No transitions." if shape else "Guards appear here while the simulation runs."
                 ui.label(words).classes("empty")
             self._shown = [self._row(row) for row in rows]
 
@@ -71,7 +70,7 @@ class GuardsList:
         return row, icon, word, reads
 
     def _gutter(self, row: GuardRow, thing: ItemRef, *, is_stop: bool) -> None:
-        """A button that puts a breakpoint on the transition."""
+        """A button that toggles a breakpoint on the transition."""
         if not row.can_have_breakpoint:
             ui.element("span").classes("gutter")
             return

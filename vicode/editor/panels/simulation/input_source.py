@@ -1,4 +1,4 @@
-"""Where the inputs come from: set by hand, the project's own components in their world, or a recorded trace."""
+"""The source of the inputs: manual, the project's components in their world, or a recorded trace."""
 
 from dataclasses import replace
 
@@ -10,23 +10,22 @@ from vicode.editor.panels.simulation.controller import SimulationController
 from vicode.editor.session.simulation import stubbed_components, used_components
 from vicode.editor.session.simulation.traces import TraceError
 
-# The file travels in a body with some words around it.
+# The file is sent in a multipart body.
 _MAX_BYTES = MAX_BODY_BYTES - 65_536
-_TOO_LARGE = f"That file is too large for a trace, which may have {_MAX_BYTES / 1e6:.1f} MB: record fewer seconds"
+_TOO_LARGE = f"The file is too large for a trace (at most {_MAX_BYTES / 1e6:.1f} MB): record a shorter run"
 _PICK = "Choose a trace …"
 _MANUAL, _ALL_COMPONENTS, _FROM_TRACE, _REPLAY = (
-    "Inputs by hand",
+    "Manual inputs",
     "All components run",
     "Inputs from a trace",
-    "Look at a trace",
+    "View a trace",
 )
 
 
 class InputSourceForm:
-    """A choice, and below it which components are stood in."""
+    """A choice of source, and which components are replaced by stubs."""
 
     def __init__(self, controller: SimulationController) -> None:
-        """Build it."""
         self.controller = controller
         self.source = _MANUAL
         world = controller.context.workspace.project.world
@@ -47,23 +46,21 @@ class InputSourceForm:
             on_rejected=lambda: controller.context.show_toast(_TOO_LARGE, "warning"),
         )
         self.upload.props('accept=".jsonl,.json,.txt,*"').classes("hidden")
-        # The browser opens its dialog only for a press, which must not travel to the server and back.
+        # The browser opens its file dialog only within the click event, without a round trip to the server.
         self.pick.classes("trace-pick").on("click", js_handler=f"() => runMethod({self.upload.id}, 'pickFiles', [])")
-        with ui.expansion("How to run").classes("section run-options").props("dense dense-toggle"):
+        with ui.expansion("Run options").classes("section run-options").props("dense dense-toggle"):
             self.seed = ui.number("Seed of the world", value=0, precision=0, on_change=self._set_numbers)
-            self.tick = ui.number(
-                "Time between iterations", value=20, min=1, max=3_600_000, on_change=self._set_numbers
-            )
+            self.tick = ui.number("Period", value=20, min=1, max=3_600_000, on_change=self._set_numbers)
             self.tick.props("suffix=ms")
             for box in (self.seed, self.tick):
                 box.props("dense outlined stack-label").classes("field")
-            ui.label("Stood in for, instead of running").classes("field-label")
+            ui.label("Simulated by you").classes("field-label")
             self.rows = ui.column().classes("stub-rows")
         self._listed: object = None
         self._stubbed: frozenset[str] = frozenset()
 
     def refresh(self) -> None:
-        """List the components that the design uses now."""
+        """List the components that the design uses."""
         has_trace = bool(self.controller.trace)
         self.pick.set_visibility(self.source in (_FROM_TRACE, _REPLAY))
         self.hint.set_visibility(self.source in (_FROM_TRACE, _REPLAY) and not has_trace)
@@ -79,7 +76,7 @@ class InputSourceForm:
         self.rows.clear()
         with self.rows:
             if not used:
-                ui.label("It uses no components.").classes("empty")
+                ui.label("No components used.").classes("empty")
             for name in used:
                 self._row(name)
 
@@ -106,7 +103,7 @@ class InputSourceForm:
         self.controller.set_config(replace(self.controller.config, seed=int(seed), tick_ms=float(tick)))
 
     async def _handle_upload(self, event: UploadEventArguments) -> None:
-        # What the browser promised of the size binds nobody.
+        # The browser may send more than it announced.
         if event.file.size() > _MAX_BYTES:
             self.controller.context.show_toast(_TOO_LARGE, "warning")
             return

@@ -1,4 +1,4 @@
-"""The inputs of a simulation: a slider for a range, a switch for yes or no, a choice for an enumeration, a number."""
+"""The inputs of a simulation: a slider for a range, a switch for a bool, a list for an enumeration, a number field."""
 
 import math
 from collections.abc import Callable
@@ -16,17 +16,15 @@ _MAX_CALLS = 8
 
 
 class InputsForm:
-    """Built anew for each simulation; shows the inputs as they were in the moment that is shown."""
+    """Rebuilt for each simulation; shows the inputs at the shown iteration."""
 
     def __init__(self, controller: SimulationController) -> None:
-        """Build the empty form."""
         self.controller = controller
         self._simulation: Simulation | None = None
         self._rows: list[_InputRow] = []
         self.body = ui.column().classes("inputs")
 
     def refresh(self) -> None:
-        """Show the values."""
         simulation = self.controller.simulation
         if simulation is not self._simulation or not self._rows:
             self._simulation = simulation
@@ -44,14 +42,14 @@ class InputsForm:
 
     def _build(self, simulation: Simulation | None) -> list["_InputRow"]:
         if simulation is None:
-            ui.label("Press F10, or the play button, to start. Inputs stand here then.").classes("empty")
+            ui.label("Press F10 or the play button to start. Inputs appear here.").classes("empty")
             return []
         inputs = simulation.prepared.inputs
         if simulation.replay:
-            ui.label("A recorded trace is shown; nothing runs.").classes("empty")
+            ui.label("Viewing a recorded trace; nothing runs.").classes("empty")
             return []
         if not inputs:
-            ui.label("Nothing to set: every component runs itself.").classes("empty")
+            ui.label("No inputs: all components run.").classes("empty")
         rows = []
         for component, group in groupby(inputs, key=lambda each: each.component):
             title = component or f"Parameters of {simulation.prepared.design.component}"
@@ -67,10 +65,10 @@ class InputsForm:
         return _FunctionRow(each, set_value, simulation) if each.arguments is not None else _InputRow(each, set_value)
 
     def _names_read(self, simulation: Simulation) -> set[tuple[str, str]]:
-        """What the guards of the active state read, by component and output."""
-        moment = simulation.shown_iteration
+        """The outputs that the guards of the active state read, by component."""
+        iteration = simulation.shown_iteration
         design = simulation.prepared.design
-        rows = list_guard_rows(design, moment.state if moment else design.initial, simulation.guards)
+        rows = list_guard_rows(design, iteration.state if iteration else design.initial, simulation.guards)
         components = {use.alias: use.component for use in design.uses}
         found = set()
         for name in find_read_outputs(rows, simulation.guards):
@@ -80,8 +78,6 @@ class InputsForm:
 
 
 class _InputRow:
-    """One input: its name, a control of its type, its unit."""
-
     def __init__(self, each: SimulationInput, set_value: Callable[[Any], None]) -> None:
         self.input = each
         self._set = set_value
@@ -95,7 +91,7 @@ class _InputRow:
             self.controls = _controls(each, f"{each.component or 'Parameter'} {label}", self._changed)
 
     def show(self, value: Any) -> None:
-        """Show a value, without reporting it; with few digits, if nobody typed it."""
+        """Show a value without an event, rounded unless the user typed it."""
         if value is None or _short(value) in (self._shown, _short(self._shown)):
             return
         value = _short(value)
@@ -104,7 +100,7 @@ class _InputRow:
             control.set_value(value)
 
     def mark(self, *, is_read: bool, can_set: bool) -> None:
-        """Mark what the guards of the active state read; grey out what cannot be set now."""
+        """Highlight an input that the guards of the active state read; disable one that cannot be set."""
         self.element.classes(add="is-read" if is_read else None, remove=None if is_read else "is-read")
         for control in self.controls:
             if control.enabled != can_set:
@@ -122,7 +118,7 @@ class _InputRow:
 
 
 class _FunctionRow(_InputRow):
-    """An output with arguments: a value for all of them, and others for those it was asked with."""
+    """An output with arguments: a value for all arguments, and one for each combination it was called with."""
 
     def __init__(self, each: SimulationInput, set_value: Callable[[Any], None], simulation: Simulation) -> None:
         super().__init__(each, set_value)
@@ -137,8 +133,8 @@ class _FunctionRow(_InputRow):
         if isinstance(value, dict):
             self._table = [list(row) for row in value.get("table", ())]
             super().show(value.get("value"))
-        moment = self._simulation.shown_iteration
-        calls = moment.calls if moment else []
+        iteration = self._simulation.shown_iteration
+        calls = iteration.calls if iteration else []
         key = (self.input.component, self.input.name)
         asked = [call["arguments"] for call in calls if (call.get("component"), call.get("output")) == key]
         new = [arguments for arguments in asked if arguments not in self._called_arguments][:_MAX_CALLS]
@@ -195,13 +191,13 @@ def _short(value: Any) -> Any:
 
 
 def _with_aria_label(control: Any, name: str) -> Any:
-    """Name it for screen readers; not in the text of properties, which quotes in a name would end."""
+    """Set the accessible name as an attribute: quotes in a name would end the text of `props`."""
     control.props["aria-label"] = name
     return control
 
 
 def _step(each: SimulationInput) -> float:
-    """A hundredth of the range, in round numbers."""
+    """A hundredth of the range, rounded."""
     if each.type == "int":
         return 1
     if each.range is None:

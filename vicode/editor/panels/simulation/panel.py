@@ -1,4 +1,4 @@
-"""The panel below the canvas: controls, inputs to the left, guards of the active state, and what happened."""
+"""The panel below the canvas: controls, inputs, guards of the active state, and results."""
 
 from nicegui import ui
 
@@ -17,10 +17,9 @@ _RESULT_TABS = ("Plot", "Active components", "Output")
 
 
 class SimulationPanel:
-    """Built when first shown; follows the simulator some times a second, however fast that runs."""
+    """Built when first shown; polls the controller several times per second, independent of the simulation's speed."""
 
     def __init__(self, controller: SimulationController) -> None:
-        """Build it."""
         self.controller = controller
         self._shown = -1
         with ui.element("div").classes("simulation"):
@@ -31,21 +30,16 @@ class SimulationPanel:
                     self.inputs = InputsForm(controller)
                 with ui.element("section").classes("simulation-part").props('aria-label="Guards of the active state"'):
                     self.guards = GuardsList(controller)
-                with (
-                    ui.element("section")
-                    .classes("simulation-part simulation-results")
-                    .props('aria-label="What happened"')
-                ):
-                    self.tabs = Tabs(_RESULT_TABS, "simulation-results", "What happened")
+                with ui.element("section").classes("simulation-part simulation-results").props('aria-label="Results"'):
+                    self.tabs = Tabs(_RESULT_TABS, "simulation-results", "Results")
         builders = lambda: Timeline(controller), lambda: ActivationTree(controller), lambda: ConsoleOutput(controller)
         self.tabs.build(dict(zip(_RESULT_TABS, builders, strict=True)))
         controller.refresh_panel = self._poll
         ui.timer(_POLL_INTERVAL_S, self._poll)
-        # The panel takes room from the drawing, and what is active there is to be seen.
+        # The panel takes space from the canvas; the active state must stay visible.
         ui.timer(_FIT_DELAY_S, controller.canvas.fit, once=True)
 
     def refresh(self) -> None:
-        """The design or the selection changed."""
         self.controller.check_design()
         self._shown = -1
         self._poll()

@@ -1,4 +1,4 @@
-"""A slider that keys and screen readers can work with: the browser's own."""
+"""A slider for keyboard and screen readers: the browser's own."""
 
 from collections.abc import Callable
 
@@ -9,15 +9,15 @@ _THROTTLE_S = 0.05
 
 
 class RangeInput(ui.element, component="range_input.js"):
-    """Shows a number in a range, and reports where a person moves it.
+    """Shows a number in a range, and reports changes by the user.
 
     Args:
-        label: its name for screen readers.
-        low: the least value.
-        high: the greatest.
-        step: between two values.
-        value: what it shows first.
-        on_move: called with every value it is moved to, some times a second.
+        label: accessible name.
+        low: lowest value.
+        high: highest value.
+        step: distance between two values.
+        value: initial value.
+        on_move: called with each new value, several times per second.
     """
 
     def __init__(
@@ -30,20 +30,18 @@ class RangeInput(ui.element, component="range_input.js"):
         self.on("moved", self._handle_moved, throttle=_THROTTLE_S)
 
     def set_value(self, value: float) -> None:
-        """Show a value, without reporting it."""
+        """Show a value without an event."""
         if value != self.value:
             self.value = value
             self.props["value"] = value
             self.update()
 
     def set_high(self, high: float) -> None:
-        """Take another greatest value."""
         if self.props["max"] != high:
             self.props["max"] = high
             self.update()
 
     def set_enabled(self, value: bool) -> None:
-        """Let it be moved, or not."""
         self.enabled = value
         self.props["disable"] = not value
         self.update()

@@ -1,23 +1,23 @@
-"""What the simulation says in its one line: why it cannot go on, where in the past it is, why it rested."""
+"""The status line of a simulation: errors, the position in the past, the reason why it stopped."""
 
 from vicode.editor.panels.simulation.controller import SimulationController
 from vicode.editor.session.simulation import RunStatus, Simulation
 from vicode.editor.view.activation import code_error_view
 
-_HINT = "F10 steps, F6 plays and pauses, Shift+F6 runs to the next state, F9 sets a breakpoint on what is selected."
+_HINT = "F10 steps, F6 plays and pauses, Shift+F6 runs to the next state, F9 sets a breakpoint on the selection."
 
 
 def status_message(controller: SimulationController) -> tuple[str, str]:
-    """What is to be said, and its kind: error, warning, past or info."""
+    """The status text and its kind: error, warning, past or info."""
     simulation = controller.simulation
     if controller.is_starting:
-        return ("info", "Starting: the code is generated and loaded …")
+        return ("info", "Starting: generating and loading the code …")
     if controller.start_error:
         return ("error", controller.start_error)
     if controller.is_stale and simulation is not None and simulation.status is RunStatus.ENDED:
-        return ("warning", "The design has changed: what is shown is the past of what it was.")
+        return ("warning", "The design has changed. The recorded run of the previous version is shown.")
     if controller.is_stale:
-        return ("warning", "Start again to simulate it that way.")
+        return ("warning", "Restart to apply the new options.")
     if simulation is None:
         return ("info", _HINT)
     return _running_message(simulation, is_moving=controller.is_playing or controller.is_running)
@@ -30,26 +30,26 @@ def _running_message(simulation: Simulation, *, is_moving: bool) -> tuple[str, s
         return ("error", words)
     if simulation.is_past and not is_moving:
         behind = len(simulation.recording) - simulation.cursor
-        return ("past", f"The past, {behind} iteration{'s' * (behind != 1)} before the newest.")
-    moment = simulation.shown_iteration
-    if moment is not None and moment.errors:
-        return ("error", code_error_view(simulation.prepared.design, moment.errors[0]).text)
+        return ("past", f"Viewing the past: {behind} iteration{'s' * (behind != 1)} before the latest.")
+    iteration = simulation.shown_iteration
+    if iteration is not None and iteration.errors:
+        return ("error", code_error_view(simulation.prepared.design, iteration.errors[0]).text)
     if simulation.warning:
         return ("warning", simulation.warning)
     return ("info", (not is_moving and _describe_stop(simulation)) or _HINT)
 
 
 def _describe_stop(simulation: Simulation) -> str:
-    """Why it came to rest, in words; nothing for a run that made all its steps."""
+    """Why it stopped; "" for a run that made all its steps."""
     state = simulation.shown_iteration.state if simulation.shown_iteration else ""
     words = {
         "transition": f"Stopped at a breakpoint: the transition to {state}",
         "state": f"Stopped on entering {state}",
         "error": "Stopped at an error",
         "done": f"Done: {state} is a final state",
-        "finished": "The world has come to its end",
+        "finished": "The world has finished",
         "change": f"Entered {state}",
         "pause": "Paused",
-        "end": "There is nothing after this",
+        "end": "End of the recording",
     }
     return words.get(simulation.stop_reason, "")

@@ -1,4 +1,4 @@
-"""Values over time with the states below; the slider and a click in it lead to a recorded moment."""
+"""Plots of values over time with the states below; the slider and a click show a recorded iteration."""
 
 from html import escape
 from typing import Any
@@ -20,17 +20,16 @@ _EMIT_CLICK_FRACTION = """(event) => {
 
 
 class Timeline:
-    """Drawn anew when a moment was added or another is shown."""
+    """Redrawn when an iteration is added or another one is shown."""
 
     def __init__(self, controller: SimulationController) -> None:
-        """Build it."""
         self.controller = controller
         self._shown: object = None
         self._names: tuple[str, ...] = ()
         self._drawn_length = 0
         self.choice = ui.select([], value=[], multiple=True, label="Values to plot", on_change=self._draw)
         self.choice.props("dense outlined options-dense stack-label").classes("field plot-choice")
-        self.slider = RangeInput("Moment that is shown", low=0, high=1, step=1, value=0, on_move=self._go_to)
+        self.slider = RangeInput("Shown iteration", low=0, high=1, step=1, value=0, on_move=self._go_to)
         self.slider.classes("plot-slider")
         with ui.element("div").classes("plot-frame") as frame:
             self.names = ui.html("", sanitize=False).classes("plot-names")
@@ -39,12 +38,11 @@ class Timeline:
         frame.on("click", self._clicked, js_handler=_EMIT_CLICK_FRACTION)
 
     def refresh(self) -> None:
-        """Show the recording of the simulation."""
         simulation = self.controller.simulation
         self._update_choices(simulation)
         length, cursor = (len(simulation.recording), simulation.cursor) if simulation else (0, 0)
         shown = (id(simulation), length, cursor)
-        # A long recording takes long to draw, and grows by little.
+        # A long recording takes long to draw and changes little.
         is_little = self.controller.is_playing and 0 < length - self._drawn_length < length // 50
         if shown == self._shown or is_little:
             return
@@ -55,7 +53,7 @@ class Timeline:
         self._draw()
 
     def _update_choices(self, simulation: Simulation | None) -> None:
-        """Offer the values that there are; at first those that are read or set."""
+        """Offer the existing values; select those that are read or set."""
         names = simulation.recording.names if simulation else ()
         if names == self._names:
             return
@@ -68,7 +66,7 @@ class Timeline:
     def _draw(self) -> None:
         simulation = self.controller.simulation
         if simulation is None or not len(simulation.recording):
-            self.drawing.set_content('<p class="empty">Values over time are drawn here while it runs.</p>')
+            self.drawing.set_content('<p class="empty">Plots appear here while the simulation runs.</p>')
             self.names.set_content("")
             self.band.set_content("")
             return

@@ -1,4 +1,4 @@
-"""Where a run shall rest: states and transitions that somebody marked."""
+"""Breakpoints on states and transitions."""
 
 from dataclasses import dataclass, field
 
@@ -12,23 +12,23 @@ _KINDS = ("states", "transitions")
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Breakpoints:
-    """The marked things, of one window."""
+    """The breakpoints of one window."""
 
     items: frozenset[ItemRef] = field(default_factory=frozenset)
 
     def toggled(self, *things: ItemRef) -> "Breakpoints":
-        """With these marked; if all of them are, without."""
+        """Add breakpoints on these items; if all of them have one, remove them."""
         able = {ItemRef(kind=each.kind, id=each.id) for each in things if each.kind in _KINDS}
         return Breakpoints(items=self.items - able if able <= self.items else self.items | able)
 
     def existing_in(self, design: Design) -> "Breakpoints":
-        """Those whose things are still in the design."""
+        """Those whose items still exist in the design."""
         known = {ItemRef(kind="states", id=state.name) for state in design.states}
         known |= {ItemRef(kind="transitions", id=transition_key(located.path)) for located in iter_transitions(design)}
         return Breakpoints(items=self.items & known)
 
     def stop_conditions(self, *, changes: bool = False, errors: bool = False, extra_state: str = "") -> StopConditions:
-        """As the running process wants to know them; `extra_state` is one more state."""
+        """The stop conditions of a run; `extra_state` is one more state to stop at."""
         named = {kind: sorted(each.id for each in self.items if each.kind == kind) for kind in _KINDS}
         states = (*named["states"], *((extra_state,) if extra_state else ()))
         return StopConditions(states=states, transitions=tuple(named["transitions"]), changes=changes, errors=errors)

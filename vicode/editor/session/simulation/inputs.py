@@ -1,4 +1,4 @@
-"""What a person can set while a design runs: outputs of stand-ins and the design's own parameters, by their types."""
+"""What a user can set during a simulation: outputs of stubs and the parameters of the design, with their types."""
 
 import math
 from collections.abc import Mapping
@@ -22,16 +22,16 @@ from vicode.model.project import Project
 from vicode.simulation import Stub, StubOutput
 
 PARAMETERS = ""
-"""Stands where a component's name would, for the parameters of the simulated design itself."""
+"""The component name under which the parameters of the simulated design are listed."""
 DONE = "is_done"
 _MAX_MAGNITUDE = 1e12
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SimulationInput:
-    """One value to set. `type` is bool, int, float or "" for an enumeration, whose literals are `options`.
+    """One input. `type` is bool, int, float, or "" for an enumeration, whose literals are `options`.
 
-    `arguments` are the names a function takes: then there is a value for all arguments, and others for some.
+    A function has `arguments`: one value for all arguments, and others for particular ones.
     """
 
     component: str
@@ -46,11 +46,10 @@ class SimulationInput:
 
     @property
     def key(self) -> tuple[str, str]:
-        """What tells it from all others."""
         return (self.component, self.name)
 
     def accept(self, value: Any) -> Any | None:
-        """A value from a browser as this input's own type; None if it is no such value."""
+        """Convert a value from the browser to this input's type; None if it is invalid."""
         match self.type:
             case "bool":
                 return value if isinstance(value, bool) else None
@@ -64,12 +63,12 @@ class SimulationInput:
             return None
         if abs(value) > _MAX_MAGNITUDE:
             return None
-        # A slider adds steps up to 0.30000000000000004, which nobody meant.
+        # Steps of a slider add up to 0.30000000000000004.
         return round(value) if self.type == INT else float(f"{value:.12g}")
 
 
 def collect_inputs(project: Project, design: Design, stubbed: tuple[str, ...]) -> tuple[SimulationInput, ...]:
-    """The design's parameters, then the outputs of the components that are stood in, in their order."""
+    """The parameters of the design, then the outputs of the stubbed components, in order."""
     inputs = [_input(project, PARAMETERS, each) for each in design.parameters]
     for component in stubbed:
         interface = project.interface(component)
@@ -84,7 +83,6 @@ def collect_inputs(project: Project, design: Design, stubbed: tuple[str, ...]) -
 
 
 def make_stub(component: str, inputs: tuple[SimulationInput, ...], types: Mapping[tuple[str, str], str]) -> Stub:
-    """The stand-in of a component, as the process that runs it wants to know it."""
     outputs = tuple(
         StubOutput(
             name=each.name,
@@ -99,7 +97,7 @@ def make_stub(component: str, inputs: tuple[SimulationInput, ...], types: Mappin
 
 
 def input_types(project: Project, inputs: tuple[SimulationInput, ...]) -> dict[tuple[str, str], str]:
-    """The type of each input by its key: an enumeration by its name."""
+    """The type of each input by its key; an enumeration by its name."""
     return {each.key: each.type or _enumeration(project, each) for each in inputs}
 
 
@@ -125,7 +123,7 @@ def _input(project: Project, component: str, declaration: Declaration) -> Simula
 
 
 def _initial(project: Project, declaration: Declaration, type_: str, options: tuple[str, ...]) -> Any:
-    """The declared first value where it is a literal, else one within the range, the nearest to 0."""
+    """The declared initial value if it is a literal, else the value in the range that is nearest to 0."""
     parsed = parse_expression(declaration.initial, build_scope(project, None)) if declaration.initial else None
     value = _literal(parsed.tree) if parsed and parsed.tree and not parsed.diagnostics else None
     if options:

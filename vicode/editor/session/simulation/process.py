@@ -1,4 +1,4 @@
-"""The process that runs user code, seen from the editor: started, asked, given a time limit, killed."""
+"""The process that runs user code, as seen from the editor: start, requests, time limit, kill."""
 
 import asyncio
 import contextlib
@@ -43,7 +43,7 @@ OnIteration = Callable[[IterationResult], None]
 
 
 class RunFailedError(Exception):
-    """The run cannot go on; `error` is the record of the place in the design, if there is one."""
+    """The run cannot continue; `error` is the record with the location in the design, if known."""
 
     def __init__(self, message: str, error: dict[str, Any] | None = None, prints: tuple[str, ...] = ()) -> None:
         super().__init__(message)
@@ -51,7 +51,7 @@ class RunFailedError(Exception):
 
 
 class RunProcess:
-    """A process that holds one component, made by `start_process`."""
+    """A process that holds one component, created by `start_process`."""
 
     def __init__(self, process: asyncio.subprocess.Process, folder: Path, limit_s: float) -> None:
         self._process, self._folder, self._limit_s = process, folder, limit_s
@@ -61,14 +61,13 @@ class RunProcess:
 
     @property
     def pid(self) -> int:
-        """The process' number."""
         return self._process.pid
 
     async def run(self, request: Request, on_iteration: OnIteration) -> Stopped:
-        """Make iterations; every one is handed to `on_iteration`.
+        """Run iterations and call `on_iteration` for each.
 
         Raises:
-            RunFailedError: It cannot go on.
+            RunFailedError: The run cannot continue.
         """
         limit_s = _QUIET_LIMIT_S if request.suppress_events else self._limit_s + _GRACE_S
         await self._send(encode_request(request))
@@ -80,29 +79,29 @@ class RunProcess:
                 on_iteration(answer)
 
     async def evaluate_guards(self, inputs: Inputs) -> Inspected:
-        """Take inputs over and test the guards, without a step.
+        """Set inputs and evaluate the guards, without a step.
 
         Raises:
-            RunFailedError: It cannot go on.
+            RunFailedError: The run cannot continue.
         """
         await self._send(encode_request(Request(kind="inspect", inputs=inputs)))
         answer = await self._receive(self._limit_s + _GRACE_S)
         if not isinstance(answer, Inspected):
-            raise RunFailedError("The simulation answered what was not asked.")
+            raise RunFailedError("Protocol error: unexpected response.")
         return answer
 
     async def wait_until_ready(self) -> None:
-        """Let it load the code.
+        """Wait until the code is loaded.
 
         Raises:
-            RunFailedError: It cannot.
+            RunFailedError: It cannot be loaded.
         """
         answer = await self._receive(_START_LIMIT_S)
         if not isinstance(answer, Ready):
-            raise RunFailedError("The simulation did not begin as it should.")
+            raise RunFailedError("Protocol error: unexpected first response.")
 
     def kill(self) -> None:
-        """End it with all that it started, and remove its files."""
+        """Kill the process group and remove its files."""
         if self._is_killed:
             return
         self._is_killed = True
@@ -113,7 +112,7 @@ class RunProcess:
         shutil.rmtree(self._folder, ignore_errors=True)
 
     async def wait_closed(self) -> None:
-        """Wait until a killed process has left nothing behind."""
+        """Wait until a killed process is cleaned up."""
         with contextlib.suppress(TimeoutError):
             await asyncio.wait_for(asyncio.gather(self._process.wait(), self._listening, self._drain()), 10)
 
@@ -139,7 +138,7 @@ class RunProcess:
             raise await self._timeout_error(limit_s) from None
         except (ValueError, ProtocolError) as error:
             self.kill()
-            raise RunFailedError(f"The simulation said what nobody understands: {error}") from error
+            raise RunFailedError(f"Protocol error: {error}") from error
         if answer is None:
             raise await self._exit_error()
         if isinstance(answer, Failed):
@@ -147,13 +146,13 @@ class RunProcess:
         return answer
 
     async def _timeout_error(self, limit_s: float) -> RunFailedError:
-        """Kill it, but first let it say where it is."""
+        """Kill the process, after it has reported its stack."""
         with contextlib.suppress(ProcessLookupError):
             os.kill(self._process.pid, signal.SIGABRT)
         with contextlib.suppress(TimeoutError):
             await asyncio.wait_for(self._process.wait(), 1.0)
         await asyncio.sleep(0.05)
-        error = RunFailedError(f"{self._code_location()}did not come to an end within {limit_s:g} s and was killed")
+        error = RunFailedError(f"{self._code_location()}did not end within {limit_s:g} s and was killed")
         self.kill()
         return error
 
@@ -162,14 +161,14 @@ class RunProcess:
         with contextlib.suppress(TimeoutError):
             code = await asyncio.wait_for(self._process.wait(), 2.0)
         await asyncio.sleep(0.05)
-        words = f"was ended by {signal.Signals(-code).name}" if code < 0 else f"left the program with exit code {code}"
+        words = f"was ended by {signal.Signals(-code).name}" if code < 0 else f"exited with code {code}"
         tail = self._stderr_tail.decode(errors="replace").strip().splitlines()
         error = RunFailedError(f"{self._code_location()}{words}", prints=tuple(tail[-20:]))
         self.kill()
         return error
 
     def _code_location(self) -> str:
-        """Design, region and line of the deepest code that is not the runtime's, from the last words."""
+        """Design, region and line of the innermost user code, from the reported stack."""
         for found in _FRAME.finditer(self._stderr_tail.decode(errors="replace")):
             file, line = found["file"], int(found["line"])
             if "/vicode/" in file or file.startswith("<"):
@@ -180,22 +179,22 @@ class RunProcess:
         return "The code "
 
     async def _read_stderr(self) -> None:
-        """Keep the end of what is written to standard error, past Python's own streams."""
+        """Keep the end of what is written to standard error."""
         assert self._process.stderr is not None
         while chunk := await self._process.stderr.read(4096):
             self._stderr_tail = (self._stderr_tail + chunk)[-_MAX_STDERR:]
 
 
 async def start_process(prepared: PreparedRun, cwd: Path) -> RunProcess:
-    """Write the files of a stage into a private folder and start a process on them.
+    """Write the files of a prepared run into a private folder and start a process.
 
     Raises:
         RunFailedError: The code cannot be loaded.
-        OSError: No file can be written, or no process started.
+        OSError: A file cannot be written, or the process cannot be started.
     """
     folder = Path(tempfile.mkdtemp(prefix="vicode-simulation-"))
     await asyncio.to_thread(lambda: apply_diffs(compare_files(prepared.files, folder), folder))
-    # -P: what lies in the folder we happen to be in must not hide a module. The seed of hashes orders sets.
+    # -P: modules in the current folder must not shadow others. The hash seed determines the order of sets.
     process = await asyncio.create_subprocess_exec(
         *(sys.executable, "-P", "-m", "vicode.simulation"),
         stdin=asyncio.subprocess.PIPE,

@@ -1,4 +1,4 @@
-"""The recorded past of a run: every moment, the inputs that led to it, and the values as columns to be plotted."""
+"""The recorded past of a run: every iteration, the inputs before it, and the values as columns for plots."""
 
 import math
 import zlib
@@ -15,7 +15,7 @@ _MAX_COLUMNS = 400
 
 
 class Recording:
-    """Moments 1, 2, 3 …; number 0 is the time before the first."""
+    """Iterations 1, 2, 3 …; 0 is the time before the first."""
 
     def __init__(self) -> None:
         self._packed: list[bytes] = []
@@ -27,53 +27,51 @@ class Recording:
         self.times_ns: list[int] = []
 
     def __len__(self) -> int:
-        """How many moments there are."""
         return len(self._packed)
 
     @property
     def is_full(self) -> bool:
-        """Whether there is no room for another."""
         return len(self) >= MAX_ITERATIONS
 
     @property
     def names(self) -> tuple[str, ...]:
-        """The values that can be plotted, as Component.name."""
+        """The names of plottable values, as `Component.name`."""
         return tuple(self._columns)
 
-    def add(self, moment: IterationResult, changes: Inputs) -> None:
-        """Take the next moment, and the inputs that were set before it."""
+    def add(self, iteration: IterationResult, changes: Inputs) -> None:
+        """Add an iteration and the inputs that were set before it."""
         if any(changes.values()):
             self._changes[len(self) + 1] = changes
-        # An iteration tells much the same as the one before, so packing leaves a fifth.
-        self._packed.append(zlib.compress(encode_response(moment), 1))
-        self.states.append(moment.state)
-        self.transitions.append(moment.transition or "")
-        self.times_ns.append(moment.time_ns)
-        if moment.prints or moment.omitted_lines or moment.errors:
+        # Consecutive iterations are similar: compression leaves a fifth.
+        self._packed.append(zlib.compress(encode_response(iteration), 1))
+        self.states.append(iteration.state)
+        self.transitions.append(iteration.transition or "")
+        self.times_ns.append(iteration.time_ns)
+        if iteration.prints or iteration.omitted_lines or iteration.errors:
             self._with_output.append(len(self))
-        self._add_values(moment)
+        self._add_values(iteration)
 
     def iteration(self, number: int) -> IterationResult | None:
-        """A moment by its number, None for 0."""
+        """An iteration by its number; None for 0."""
         if not 0 < number <= len(self):
             return None
-        moment = decode_response(zlib.decompress(self._packed[number - 1]))
-        assert isinstance(moment, IterationResult)
-        return moment
+        iteration = decode_response(zlib.decompress(self._packed[number - 1]))
+        assert isinstance(iteration, IterationResult)
+        return iteration
 
     def changes_before(self, number: int) -> Inputs:
-        """The inputs that were set right before a moment."""
+        """The inputs that were set just before an iteration."""
         return self._changes.get(number, {})
 
     def input_segments(self, end: int) -> Iterator[tuple[Inputs, int]]:
-        """The way up to a moment: inputs to set, and how many iterations to make with them."""
+        """The inputs up to an iteration, each with the number of iterations that used them."""
         starts = sorted({1, *(number for number in self._changes if number <= end)})
         for start, after in zip(starts, [*starts[1:], end + 1], strict=True):
             if after > start:
                 yield self._changes.get(start, {}), after - start
 
     def inputs_at(self, number: int) -> dict[str, dict[str, Any]]:
-        """All inputs as they were in a moment."""
+        """All inputs at an iteration."""
         known: dict[str, dict[str, Any]] = {}
         for start in sorted(self._changes):
             if start > number:
@@ -82,7 +80,7 @@ class Recording:
         return known
 
     def truncate(self, length: int) -> None:
-        """Forget what came after a moment."""
+        """Remove the iterations after one."""
         del self._packed[length:]
         del self.states[length:]
         del self.transitions[length:]
@@ -93,23 +91,23 @@ class Recording:
         self._changes = {number: each for number, each in self._changes.items() if number <= length}
 
     def column(self, name: str) -> "array[float]":
-        """A value over all moments, nan where it was not there; empty for an unknown name."""
+        """The values of one name over all iterations, nan where missing; empty for an unknown name."""
         column = self._columns.get(name, array("d"))
         missing = len(self) - len(column) if column else 0
         return column + array("d", [math.nan]) * missing
 
     def iterations_with_output(self, number: int, limit: int) -> list[int]:
-        """The latest moments up to one in which something was printed or went wrong."""
+        """The iterations up to one, from the latest back to the last with output or an error."""
         end = bisect_right(self._with_output, number)
         return self._with_output[max(0, end - limit) : end]
 
     def latest_transition(self, number: int) -> str:
-        """The transition that was taken last up to a moment, "" if there was none."""
+        """The last transition taken up to an iteration, or ""."""
         return next((each for each in reversed(self.transitions[:number]) if each), "")
 
-    def _add_values(self, moment: IterationResult) -> None:
+    def _add_values(self, iteration: IterationResult) -> None:
         index = len(self) - 1
-        for step in moment.tree:
+        for step in iteration.tree:
             for name, value in (step.get("values") or {}).items():
                 number = _number(value)
                 if number is not None:
@@ -120,7 +118,7 @@ class Recording:
             return
         column = self._columns.setdefault(name, array("d"))
         if len(column) > index:
-            # Stepped twice in this iteration: the later value is the one that stays.
+            # If a component is stepped twice in an iteration, the later value counts.
             column[index] = number
             return
         column.extend([math.nan] * (index - len(column)))
@@ -128,7 +126,6 @@ class Recording:
 
 
 def merge_inputs(known: dict[str, dict[str, Any]], changes: Mapping[str, Mapping[str, Any]]) -> None:
-    """Put changes over what is known."""
     for component, values in changes.items():
         known.setdefault(component, {}).update(values)
 

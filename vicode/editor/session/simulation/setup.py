@@ -1,4 +1,4 @@
-"""From a design as it is now to files and a setup that a process of its own can run."""
+"""From the current design to the files and the setup of a simulation process."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
@@ -18,12 +18,12 @@ from vicode.simulation.stubs import STUB_MODULE
 
 
 class NotReadyError(Exception):
-    """A design that cannot be simulated as it is; the message says why in words."""
+    """The design cannot be simulated; the message says why."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RunConfig:
-    """How to simulate: which components are stood in (None: the hand-written), the world's seed, the time of a step."""
+    """How to simulate: the stubbed components (None: all hand-written ones), the seed of the world, the period."""
 
     stubbed: frozenset[str] | None = None
     seed: int = 0
@@ -34,7 +34,7 @@ class RunConfig:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PreparedRun:
-    """All that is needed to run: files to write into an empty folder, the setup, and what a person can set."""
+    """The files to write into an empty folder, the setup, and the inputs."""
 
     design: Design
     files: tuple[OutputFile, ...]
@@ -43,7 +43,7 @@ class PreparedRun:
 
 
 def used_components(project: Project, design: Design) -> tuple[str, ...]:
-    """The components that a design uses, directly or not, each before what it uses itself."""
+    """The components that a design uses, directly or not; users come before what they use."""
     found: list[str] = []
     waiting = [use.component for use in design.uses]
     while waiting:
@@ -57,51 +57,51 @@ def used_components(project: Project, design: Design) -> tuple[str, ...]:
 
 
 def hand_written_components(project: Project, design: Design) -> frozenset[str]:
-    """Those of the used components that no design makes; memories that vicode keeps are none."""
+    """The used components without a design, except shared memories, which vicode stores."""
     kept = {each.component for each in project.components if each.implementation == INTERNAL}
     return frozenset(name for name in used_components(project, design) if project.design(name) is None) - kept
 
 
 def stubbed_components(project: Project, design: Design, config: RunConfig) -> frozenset[str]:
-    """The components that are stood in by a wish."""
+    """The components that a configuration replaces by stubs."""
     return hand_written_components(project, design) if config.stubbed is None else config.stubbed
 
 
 def prepare_run(
     project: Project, design: Design, config: RunConfig, sources: Mapping[str, str], folder: Path
 ) -> PreparedRun:
-    """Generate what runs a design; nothing is written.
+    """Generate everything a run needs, without writing files.
 
     Args:
-        project: What surrounds the design.
-        design: As it is now.
-        wish: How to simulate.
-        sources: The files of the designs by component.
-        folder: The project's, where hand-written code is imported from.
+        project: the project of the design.
+        design: the current design.
+        config: how to simulate.
+        sources: the design files by component.
+        folder: the project folder, from which hand-written code is imported.
 
     Raises:
-        NotReadyError: The design, or one that it uses, has mistakes.
+        NotReadyError: The design, or one that it uses, has errors.
         UnsoundDesignError: It cannot be generated.
     """
     designs = tuple(design if each.component == design.component else each for each in project.designs)
     whole = replace(project, designs=designs)
     chosen = stubbed_components(whole, design, config)
-    stood_in = tuple(name for name in used_components(whole, design) if name in chosen)
-    inputs = collect_inputs(whole, design, stood_in)
-    staged = _with_stubs(whole, stood_in)
-    _check_errors(whole, collect_components(staged, (design.component,)))
-    ready = replace(staged, designs=tuple(with_decision_ids(each) for each in staged.designs))
+    stub_names = tuple(name for name in used_components(whole, design) if name in chosen)
+    inputs = collect_inputs(whole, design, stub_names)
+    stubbed = _with_stubs(whole, stub_names)
+    _check_errors(whole, collect_components(stubbed, (design.component,)))
+    ready = replace(stubbed, designs=tuple(with_decision_ids(each) for each in stubbed.designs))
     files = generate(ready, components=(design.component,), languages=("python",), sources=sources)
     probes = python_probes(ready, design.component)
     types = input_types(whole, inputs)
     class_path = python_class_path(ready, design.component)
-    runs_by_hand = hand_written_components(staged, design) - set(stood_in)
+    runs_by_hand = hand_written_components(stubbed, design) - set(stub_names)
     setup = Setup(
         component=class_path,
         probes=f"{class_path.partition('.')[0]}._probes",
         path=(str(folder.resolve()),),
-        stubs=tuple(make_stub(component, inputs, types) for component in stood_in),
-        functions=_function_outputs(staged, design, stood_in),
+        stubs=tuple(make_stub(component, inputs, types) for component in stub_names),
+        functions=_function_outputs(stubbed, design, stub_names),
         parameter_types=tuple((each.name, types[each.key]) for each in inputs if not each.component),
         world=project.world if runs_by_hand else "",
         seed=config.seed,
@@ -113,14 +113,14 @@ def prepare_run(
 
 
 def with_decision_ids(design: Design) -> Design:
-    """The design with every decision's canvas key as its id, so that the run can say which it was."""
+    """The design with the canvas key of each decision as its id, so that records refer to it."""
     common = _assign_ids(design.common.transitions, ("common", "transitions"))
     states = tuple(_state_with_ids(state) for state in design.states)
     return replace(design, common=replace(design.common, transitions=common), states=states)
 
 
 def behavior_key(project: Project, design: Design) -> object:
-    """A value that changes exactly when a simulation of the design may go another way: places do not count."""
+    """A value that changes exactly when the behavior of a simulation may change; positions do not count."""
     names = {design.component, *used_components(project, design)}
     current = (design if each.component == design.component else each for each in project.designs)
     designs = tuple(_without_positions(each) for each in current if each.component in names)
@@ -134,28 +134,28 @@ def _check_errors(project: Project, components: frozenset[str]) -> None:
         first = errors[0]
         where = f"{first.subject.component}: " if first.subject and first.subject.component else ""
         more = f" (and {len(errors) - 1} more)" if len(errors) > 1 else ""
-        raise NotReadyError(f"{where}{first.message}{more}. Mend it, then start again.")
+        raise NotReadyError(f"{where}{first.message}{more}. Fix it, then restart.")
 
 
-def _with_stubs(project: Project, stood_in: tuple[str, ...]) -> Project:
-    """The project with stand-ins where the components were."""
+def _with_stubs(project: Project, stub_names: tuple[str, ...]) -> Project:
+    """The project with stubs in place of components."""
     replaced = []
-    for component in stood_in:
+    for component in stub_names:
         interface = project.interface(component) or Interface(component=component)
         replaced.append(replace(interface, implementation=f"{STUB_MODULE}:{component}"))
-    kept = tuple(each for each in project.components if each.component not in stood_in)
-    designs = tuple(each for each in project.designs if each.component not in stood_in)
+    kept = tuple(each for each in project.components if each.component not in stub_names)
+    designs = tuple(each for each in project.designs if each.component not in stub_names)
     return replace(project, components=(*kept, *replaced), designs=designs)
 
 
 def _function_outputs(
-    project: Project, design: Design, stood_in: tuple[str, ...]
+    project: Project, design: Design, stub_names: tuple[str, ...]
 ) -> tuple[tuple[str, tuple[str, ...]], ...]:
-    """Outputs with arguments of the components that run themselves: they are not called between iterations."""
+    """Outputs with arguments of components that are not stubbed; they are not called between iterations."""
     found = []
     for use in design.uses:
         interface = project.interface(use.component)
-        outputs = interface.readable if interface and use.component not in stood_in else ()
+        outputs = interface.readable if interface and use.component not in stub_names else ()
         names = tuple(output.name for output in outputs if output.arguments is not None)
         found += [(use.alias, names)] if names else []
     return tuple(found)
@@ -185,8 +185,6 @@ def _without_positions(design: Design) -> Design:
 
 
 def _without_label_positions(items: tuple[Decision, ...]) -> tuple[Decision, ...]:
-    """Decisions without the places of their labels."""
-
     def unplaced(item: Decision) -> Decision:
         if isinstance(item, DecisionGroup):
             return replace(

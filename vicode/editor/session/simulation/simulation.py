@@ -1,4 +1,4 @@
-"""One simulation of an open design: a run that goes on, and its past that can be looked at and continued from."""
+"""One simulation of an open design: a run and its recorded past, which can be viewed and continued from."""
 
 import asyncio
 from collections.abc import Callable, Mapping, Sequence
@@ -20,7 +20,7 @@ _NOTHING = StopConditions()
 
 
 class RunStatus(StrEnum):
-    """What a simulation is doing."""
+    """The status of a simulation."""
 
     PAUSED = "paused"
     RUNNING = "running"
@@ -30,7 +30,7 @@ class RunStatus(StrEnum):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Failure:
-    """Why it cannot go on."""
+    """Why a run cannot continue."""
 
     message: str
     error: Mapping[str, Any] | None = None
@@ -39,17 +39,17 @@ class Failure:
 
 @dataclass(eq=False, kw_only=True)
 class Simulation:
-    """Runs a stage; `cursor` is the number of the moment that is shown, 0 before the first.
+    """Runs a prepared design. `cursor` is the number of the shown iteration, 0 before the first.
 
-    Moments behind the cursor are the recorded past. Setting an input there forgets what came after: the next step
-    begins a new process and repeats the way up to the cursor with the same inputs, which gives the same moments as
-    the clock is simulated.
+    Iterations up to the newest are recorded. Setting an input in the past discards the later iterations: the next step
+    starts a new process and replays the inputs up to the cursor, which gives the same iterations because the clock is
+    simulated.
 
     Args:
-        stage: what to run.
-        cwd: where the process begins, the project's folder.
-        script: inputs to set before each iteration, if a trace gives them.
-        replay: moments to look at instead of running anything.
+        prepared: what to run.
+        cwd: the working directory of the process, the project folder.
+        script: inputs to set before each iteration, if a trace provides them.
+        replay: recorded iterations to view instead of running anything.
     """
 
     prepared: PreparedRun
@@ -64,7 +64,7 @@ class Simulation:
     warning: str = field(init=False, default="")
     guards: Mapping[str, Any] = field(init=False, default_factory=dict)
     stop_reason: str = field(init=False, default="")
-    """Why it last came to rest."""
+    """Why the last run stopped."""
     _process: RunProcess | None = field(init=False, default=None)
     _closing: list[RunProcess] = field(init=False, default_factory=list)
     _process_iterations: int = field(init=False, default=0)
@@ -75,63 +75,62 @@ class Simulation:
     _pause_requested: bool = field(init=False, default=False)
 
     def __post_init__(self) -> None:
-        """Take the moments of a replay; else the first values of all inputs are the first change."""
-        for moment in self.replay:
-            self.recording.add(moment, {})
+        """Load the iterations of a replay; otherwise the initial inputs are the first change."""
+        for iteration in self.replay:
+            self.recording.add(iteration, {})
         self._pending = {} if self.replay else _initial_inputs(self.prepared.inputs)
 
     @property
     def shown_iteration(self) -> IterationResult | None:
-        """What is shown, None before the first iteration."""
+        """The shown iteration; None before the first."""
         return self.recording.iteration(self.cursor)
 
     @property
     def is_past(self) -> bool:
-        """Whether what is shown is behind the newest moment."""
+        """Whether the shown iteration is older than the newest."""
         return self.cursor < len(self.recording)
 
     @property
     def can_step(self) -> bool:
-        """Whether a step forward is possible."""
         if self.is_past:
             return True
         return not self.replay and self.status is not RunStatus.ENDED and not self.recording.is_full
 
     @property
     def is_over(self) -> bool:
-        """Whether there is nothing more to come from it: it was ended, or failed before the first moment."""
+        """Whether no iterations can follow: the simulation was ended, or failed before the first iteration."""
         failed = self.status is RunStatus.FAILED and not len(self.recording)
         return failed or (self.status is RunStatus.ENDED and not self.is_past)
 
     @property
     def time_s(self) -> float:
-        """The simulated time of what is shown."""
+        """The simulated time of the shown iteration."""
         return self.recording.times_ns[self.cursor - 1] / 1e9 if self.cursor else 0.0
 
     @property
     def inputs(self) -> dict[str, dict[str, Any]]:
-        """All inputs as they are at the cursor, with those that the next iteration will see."""
+        """The inputs at the cursor, including those set for the next iteration."""
         known = self.recording.inputs_at(self.cursor)
         if not self.is_past:
             merge_inputs(known, self._pending)
         return known
 
     def restore_inputs(self, inputs: Inputs) -> None:
-        """Begin with inputs of an earlier simulation, as far as they are still what they were."""
+        """Use the inputs of an earlier simulation where they still exist with the same type."""
         for each in self.prepared.inputs:
             value = _accept(each, inputs.get(each.component, {}).get(each.name))
             if value is not None:
                 merge_inputs(self._pending, {each.component: {each.name: value}})
 
     async def start(self) -> None:
-        """Start the process, so that mistakes are told before the first step."""
+        """Start the process, so that errors are reported before the first step."""
         async with self._lock:
             await self._catch_failure(self._evaluate_guards)
             self._initial_guards = self.guards
         self._notify()
 
     async def step(self, count: int = 1, stops: StopConditions = _NOTHING) -> str:
-        """Go forward, through the recorded past and on; returns why it rested, "" if it could not go on."""
+        """Step forward, through the recorded past and beyond; returns why it stopped, or "" on failure."""
         async with self._lock:
             self._pause_requested = False
             reason = await self._catch_failure(lambda: self._forward(count, stops))
@@ -140,33 +139,33 @@ class Simulation:
         return self.stop_reason
 
     def pause(self) -> None:
-        """Let a run come to rest as soon as it can."""
+        """Stop a run as soon as possible."""
         self._pause_requested = True
 
     def step_back(self, count: int = 1) -> None:
-        """Show an earlier moment."""
+        """Show an earlier iteration."""
         self.go_to(self.cursor - count)
 
     def go_to(self, number: int) -> None:
-        """Show a recorded moment."""
+        """Show a recorded iteration."""
         self.cursor = min(max(0, number), len(self.recording))
-        self.guards = moment.guards if (moment := self.shown_iteration) else self._initial_guards
+        self.guards = iteration.guards if (iteration := self.shown_iteration) else self._initial_guards
         self.stop_reason = ""
         self._notify()
 
     def truncate(self) -> None:
-        """Forget what comes after the moment that is shown, to go on from there."""
+        """Discard the iterations after the shown one and continue from there."""
         if not self.is_past or self.replay:
             return
         after = self.recording.changes_before(self.cursor + 1)
         self.recording.truncate(self.cursor)
-        # What was set before the next iteration stands in the form already.
+        # The form already shows the inputs of the next iteration.
         self._pending = {component: dict(values) for component, values in after.items()}
         self._kill_process()
         self._clear_failure()
 
     async def set_input(self, key: tuple[str, str], value: Any) -> bool:
-        """Set an input for the next iteration; false if there is no such input or the value is none of its type."""
+        """Set an input for the next iteration; false if it does not exist or the value has the wrong type."""
         known = next((each for each in self.prepared.inputs if each.key == key), None)
         if known is None or self.status is RunStatus.ENDED or self.replay:
             return False
@@ -183,18 +182,18 @@ class Simulation:
         return True
 
     def end(self) -> None:
-        """Kill the process; the past can still be looked at."""
+        """Kill the process; the recorded past remains."""
         self._pause_requested = True
         self._kill_process()
         self.status = RunStatus.ENDED
 
     async def wait_closed(self) -> None:
-        """Wait until the processes that were killed have left nothing behind."""
+        """Wait until killed processes are cleaned up."""
         while self._closing:
             await self._closing.pop().wait_closed()
 
     def _clear_failure(self) -> None:
-        """Forget a failure: with another input, or without what led to it, it may go well."""
+        """Clear a failure: with other inputs, the run may succeed."""
         if self.status is RunStatus.FAILED:
             self.status, self.failure = RunStatus.PAUSED, None
 
@@ -220,13 +219,13 @@ class Simulation:
         return "pause" if self._pause_requested and left else reason
 
     def is_done_at(self, number: int) -> bool:
-        """Whether the component was in a final state in a moment."""
-        moment = self.recording.iteration(number)
-        return moment is not None and moment.done
+        """Whether the component was in a final state after an iteration."""
+        iteration = self.recording.iteration(number)
+        return iteration is not None and iteration.done
 
     def _end_reason(self) -> str:
         if self.recording.is_full:
-            self.warning = f"The recording is full ({MAX_ITERATIONS} iterations); start again to go on."
+            self.warning = f"The recording is full ({MAX_ITERATIONS} iterations); restart to continue."
         return "end"
 
     async def _run_chunk(self, count: int, stops: StopConditions) -> str:
@@ -241,28 +240,28 @@ class Simulation:
         waiting = [changes]
         request = Request(kind="run", inputs=changes, count=count, stops=stops)
         try:
-            rested = await self._process.run(request, lambda moment: self._add_iteration(moment, waiting))
+            rested = await self._process.run(request, lambda iteration: self._add_iteration(iteration, waiting))
         except RunFailedError:
-            # Inputs that no moment has seen are still to come.
+            # Inputs that no iteration has used yet are pending.
             self._pending = waiting.pop() if waiting else {}
             raise
         self.status = RunStatus.PAUSED
         return rested.reason
 
-    def _add_iteration(self, moment: IterationResult, waiting: list[dict[str, dict[str, Any]]]) -> None:
-        self.recording.add(moment, waiting.pop() if waiting else {})
+    def _add_iteration(self, iteration: IterationResult, waiting: list[dict[str, dict[str, Any]]]) -> None:
+        self.recording.add(iteration, waiting.pop() if waiting else {})
         self._process_iterations = self.cursor = len(self.recording)
-        self.guards = moment.guards
+        self.guards = iteration.guards
 
     async def _synchronize_process(self) -> None:
-        """Have a process that has made all recorded iterations: if there is none, a new one repeats them."""
+        """Ensure a process that has made all recorded iterations, starting and replaying if needed."""
         if self._process is not None and self._process_iterations == len(self.recording):
             return
         self._kill_process()
         await self.wait_closed()
         runner = await start_process(self.prepared, self.cwd)
         if self.status is RunStatus.ENDED:
-            # It was ended while it began.
+            # The simulation was ended while the process started.
             runner.kill()
             raise RunFailedError("The simulation was ended.")
         self._process = runner
@@ -278,11 +277,10 @@ class Simulation:
         self._process_iterations = len(self.recording)
         if latest and latest[-1] != self.recording.iteration(self._process_iterations):
             self.warning = (
-                "Repeating the past gave something else: the code reads the real time, or noise without a seed."
+                "The replay gave a different result: the code depends on real time or on unseeded random numbers."
             )
 
     async def _evaluate_guards(self) -> None:
-        """Test the guards with the inputs as they are now."""
         await self._synchronize_process()
         assert self._process is not None
         self.guards = (await self._process.evaluate_guards(self._pending)).guards

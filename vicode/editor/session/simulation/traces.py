@@ -1,4 +1,4 @@
-"""Reads a recorded trace, the JSON lines of `vicode run --trace`: as moments to look at, or as inputs to run with."""
+"""Reads a recorded trace (JSON lines of `vicode run --trace`) to view it or to use its values as inputs."""
 
 import json
 from collections import defaultdict
@@ -16,35 +16,35 @@ MAX_BYTES = 50_000_000
 
 
 class TraceError(ValueError):
-    """A text that is no trace of this design; the message says why in words."""
+    """The text is not a trace of this design; the message says why."""
 
 
 def read_trace(text: str, design: Design) -> tuple[IterationResult, ...]:
-    """The moments of a trace.
+    """The iterations of a trace.
 
     Raises:
-        TraceError: It is none, or one of another component.
+        TraceError: It is not a trace, or one of another component.
     """
     if len(text) > MAX_BYTES:
         raise TraceError(f"the trace is longer than {MAX_BYTES // 1_000_000} MB")
     found = _transitions_by_ends(design)
-    moments: list[IterationResult] = []
+    iterations: list[IterationResult] = []
     for number, line in enumerate(text.splitlines(), start=1):
         record = _parse(line, number)
         if record is None or "tree" not in record:
             continue
-        moments.append(_parse_iteration(record, number, design, found))
-        if len(moments) >= MAX_ITERATIONS:
+        iterations.append(_parse_iteration(record, number, design, found))
+        if len(iterations) >= MAX_ITERATIONS:
             break
-    if not moments:
-        raise TraceError("there is no iteration in it: write one with vicode run --trace FILE")
-    return tuple(moments)
+    if not iterations:
+        raise TraceError("the trace has no iterations: record one with vicode run --trace FILE")
+    return tuple(iterations)
 
 
-def input_script(moments: Iterable[IterationResult], inputs: Iterable[SimulationInput]) -> tuple[Inputs, ...]:
-    """The inputs to set before each iteration, so that stand-ins say what the components said in a trace.
+def input_script(iterations: Iterable[IterationResult], inputs: Iterable[SimulationInput]) -> tuple[Inputs, ...]:
+    """The inputs to set before each iteration, so that stubs return the values recorded in a trace.
 
-    Only what changes is in it. A trace holds values when it was written with --values.
+    Only changes are listed. A trace contains values if it was recorded with `--values`.
     """
     names = defaultdict(dict)  # type: defaultdict[str, dict[str, SimulationInput]]
     for each in inputs:
@@ -52,9 +52,9 @@ def input_script(moments: Iterable[IterationResult], inputs: Iterable[Simulation
             names[each.component][each.name] = each
     known: dict[tuple[str, str], Any] = {}
     script: list[Inputs] = []
-    for moment in moments:
+    for iteration in iterations:
         changes: dict[str, dict[str, Any]] = {}
-        for step in moment.tree:
+        for step in iteration.tree:
             component = str(step.get("component"))
             values = step.get("values") or {}
             for name, each in names.get(component, {}).items():
@@ -72,9 +72,9 @@ def _parse(line: str, number: int) -> dict[str, Any] | None:
     try:
         record = json.loads(line)
     except (ValueError, RecursionError) as error:
-        raise TraceError(f"line {number} is no JSON") from error
+        raise TraceError(f"line {number} is not JSON") from error
     if not isinstance(record, dict):
-        raise TraceError(f"line {number} is no record of an iteration")
+        raise TraceError(f"line {number} is not an iteration record")
     return record
 
 
@@ -88,9 +88,9 @@ def _parse_iteration(
     state, came_from = root.get("state"), root.get("changed_from")
     is_sound = all(isinstance(each, int) for each in numbers) and isinstance(state, str)
     if not is_sound or not isinstance(came_from, str | None):
-        raise TraceError(f"line {number} is no record of an iteration")
+        raise TraceError(f"line {number} is not an iteration record")
     if root.get("component") != design.component:
-        raise TraceError(f"it is a trace of {str(root.get('component'))[:60]}, not of {design.component}")
+        raise TraceError(f"this is a trace of {str(root.get('component'))[:60]}, not of {design.component}")
     return IterationResult(
         iteration=numbers[0] or 0,
         time_ns=numbers[1] or 0,
@@ -105,7 +105,7 @@ def _parse_iteration(
 
 
 def _transition(root: Mapping[str, Any], design: Design, found: Mapping[tuple[str, str], list[str]]) -> str | None:
-    """The key of the transition taken: by the id it was given, else by its ends where only one has them."""
+    """The key of the transition taken: by its id, else by its source and target if only one matches."""
     given, came_from, state = root.get("transition"), root.get("changed_from"), root.get("state")
     if came_from is None:
         return None
