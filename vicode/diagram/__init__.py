@@ -1,4 +1,4 @@
-"""Pictures of designs: where things stand when the design does not say it."""
+"""Diagrams of designs: layout, rendering and export."""
 
 from vicode.diagram.layered_layout import NodeLayout, complete_layout
 

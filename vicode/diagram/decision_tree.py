@@ -1,6 +1,7 @@
-"""Decisions as a drawing: tested downwards, what follows when one holds to the right; conditions and targets are links.
+"""Renders decisions as a tree: alternatives downwards, the branch of a guard that holds to the right. Conditions and
+targets are links.
 
-Rows and columns follow from the order of the tests, so that nothing has to be searched for, and no tree is too hard.
+Rows and columns follow from the order of the tests, so the layout needs no search and handles any tree.
 """
 
 import sys
@@ -17,18 +18,19 @@ from vicode.model.design import DecisionGroup as Branch
 
 _ROW_HEIGHT, _BOX_HEIGHT, _COLUMN_GAP, _MARGIN = 62.0, 32.0, 56.0, 16.0
 _MAX_LABEL_WIDTH, _PADDING, _SLANT = 230.0, 14.0, 10.0
-# A way back runs below the word beside the way down.
+# An edge back runs below the label next to the downward edge.
 _TURN_OFFSET, _GUTTER_WIDTH, _ARROWHEAD_LENGTH = 17.0, 22.0, 8.0
 _MAX_LABEL_DOC = 34
 MAX_NODES = 200
-"""Of a larger tree the upper levels are drawn: more is no drawing that anybody reads."""
+"""Larger trees show only their upper levels; more boxes are not readable."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TreeLinks:
-    """Where clicks lead: on a condition by its path, on a target by its name; `fallthrough_label` is what stands at the end.
+    """Link targets: of a condition by its path, of a target by its name. `fallthrough_label` is shown if no guard
+    holds.
 
-    `key` names a decision by its path, so that a page can find the boxes that belong to it. `time_unit` is that of times.
+    `key` identifies a decision by its path, so that a page can find its boxes. `time_unit` is the unit of timers.
     """
 
     condition_href: Callable[[ThingPath], str]
@@ -58,7 +60,7 @@ class _TreeNode:
 
 @dataclass(frozen=True, slots=True)
 class _OpenEdge:
-    """A way out of a node: with `is_yes` to the right, else downwards."""
+    """An edge without a target yet: to the right if `is_yes`, else downwards."""
 
     node: _TreeNode
     is_yes: bool
@@ -66,7 +68,7 @@ class _OpenEdge:
 
 @dataclass(slots=True)
 class _TreeGrid:
-    """What stands where, and who follows whom; what is beyond the column `max_column` or after `max_nodes` boxes is folded."""
+    """Boxes in rows and columns, and their edges. Boxes beyond `max_column` or after `max_nodes` are collapsed."""
 
     links: TreeLinks
     max_column: int = sys.maxsize
@@ -87,7 +89,9 @@ class _TreeGrid:
         entries: list[_OpenEdge],
         off: bool = False,
     ) -> tuple[list[_OpenEdge], int]:
-        """Put decisions into a column from a row on; the ways out when none holds, and the next free row."""
+        """Place decisions in a column from a row on. Returns the open edges for the case that no guard holds, and the
+        next free row.
+        """
         column, row = at
         for index, item in enumerate(items):
             here = (*path, index)
@@ -123,7 +127,7 @@ class _TreeGrid:
         entries: list[_OpenEdge],
         off: bool = False,
     ) -> tuple[list[_OpenEdge], int]:
-        """One box for decisions, the first of which has this path; it leads to where all of them are said."""
+        """One box for decisions that are not drawn, linked to the description of the first one."""
         start, column, row = _OpenEdge(_TreeNode(kind="", column=0, row=-1, label="", title=""), False), *at
         hidden = _TreeGrid(self.links)
         through, _row = hidden.add_decisions(items, path[:-1], (0, 0), [start], off)
@@ -167,7 +171,7 @@ def render_decision_tree(
     palette: ColorPalette,
     max_nodes: int = MAX_NODES,
 ) -> VectorImage | None:
-    """The drawing of decisions, the upper levels where there are more than so many boxes; None for no decisions."""
+    """Render decisions, limited to the upper levels above `max_nodes` boxes; None without decisions."""
     if not items:
         return None
     grid = _fill_grid(_TreeGrid(links), items, path)
@@ -192,12 +196,12 @@ def _fill_grid(grid: _TreeGrid, items: Sequence[Decision], path: ThingPath) -> _
 
 
 def _is_nested(items: Sequence[Decision]) -> bool:
-    """Whether there is more to it than one outcome."""
+    """Whether the decisions have more than one outcome."""
     return len(items) > 1 or any(isinstance(item, Branch) or not item.guard.is_empty for item in items)
 
 
 class _TreeRenderer:
-    """Knows the places and the colours."""
+    """Draws a tree with its positions and colors."""
 
     def __init__(self, grid: _TreeGrid, palette: ColorPalette) -> None:
         self.grid, self.palette = grid, palette
@@ -207,7 +211,7 @@ class _TreeRenderer:
         self.width = self.column_lefts[-1] + widths[-1]
 
     def render(self, title: str) -> VectorImage:
-        """Lines first, boxes above them."""
+        """Edges first, boxes on top."""
         groups = [*(self._edge(way, node) for way, node in self.grid.edges), *map(self._node, self.grid.nodes)]
         bottom = max(node.row for node in self.grid.nodes) * _ROW_HEIGHT + _BOX_HEIGHT / 2
         return VectorImage(
@@ -263,9 +267,9 @@ class _TreeRenderer:
         if way.node.kind and way.node.kind != "folded":
             x, y = points[0]
             word = "yes" if way.is_yes else "else"
-            place = (x + 8, y - 8) if way.is_yes else (x + 6, y + 8)
-            shapes.append(TextShape(x=place[0], y=place[1], text=word, fill=pal.muted, font=SMALL_FONT))
-        # Its boxes say it all to who cannot see the line.
+            position = (x + 8, y - 8) if way.is_yes else (x + 6, y + 8)
+            shapes.append(TextShape(x=position[0], y=position[1], text=word, fill=pal.muted, font=SMALL_FONT))
+        # Screen readers get the same information from the boxes.
         said = f"{'when' if way.is_yes else 'when not'} {way.node.title}" if way.node.kind else ""
         if way.node.kind == "folded":
             said = f"after {way.node.label}"
@@ -286,7 +290,7 @@ class _TreeRenderer:
         down, spine = from_y + _BOX_HEIGHT / 2, self._spine_x(way.node)
         yield (spine, down)
         if node.column != way.node.column:
-            # Back to an earlier column beside the boxes, and in just above the next test.
+            # Back to an earlier column next to the boxes, entering just above the next test.
             above = top - (_ROW_HEIGHT - _BOX_HEIGHT - _TURN_OFFSET)
             gutter = self.column_lefts[way.node.column] - _GUTTER_WIDTH
             yield from ((spine, down + _TURN_OFFSET), (gutter, down + _TURN_OFFSET), (gutter, above))
@@ -294,7 +298,7 @@ class _TreeRenderer:
         yield (self._spine_x(node), top)
 
     def _spine_x(self, node: _TreeNode) -> float:
-        """Boxes of a column begin at one line; ways down leave near their beginning, so that they run straight."""
+        """Boxes of a column are left-aligned; downward edges leave near their left side, so that they are straight."""
         return self.column_lefts[node.column] + 28.0
 
 

@@ -1,4 +1,4 @@
-"""Who uses whom in a project: components in columns by how deep they are used, as a figure to draw."""
+"""The dependency graph of a project: components in columns by depth, as a diagram."""
 
 from collections import defaultdict
 from collections.abc import Callable, Collection, Iterator, Mapping
@@ -21,28 +21,30 @@ UsesByComponent = Mapping[str, Mapping[str, frozenset[str]]]
 def dependency_diagram(
     project: Project, href_for: Callable[[str], str] = lambda _component: "", *, sparse: bool = False
 ) -> Diagram:
-    """The figure of all components that use others or are used.
+    """All components that use others or are used.
 
     Args:
-        project: Whose components.
-        address_of: Where a click on a design leads.
-        sparse: Where there are too many arrows to be followed, leave out what is only asked (`has_omitted_uses`).
+        project: the project.
+        href_for: the link of a component.
+        sparse: omit components that are only read from, if the graph has too many edges (see `has_omitted_uses`).
     """
     uses = _project_uses(project)
     if sparse and has_omitted_uses(project):
         uses = _without_read_only(uses, {design.component for design in project.designs})
     shown = [name for name in project.interfaces() if name in uses or any(name in used for used in uses.values())]
     shown += [design.component for design in project.designs if design.component not in shown]
-    places = _positions(shown, uses)
+    positions = _positions(shown, uses)
     roots = {agent.root for agent in project.agents}
     return Diagram(
-        nodes=tuple(_diagram_node(project, name, places[name], href_for, is_root=name in roots) for name in shown),
+        nodes=tuple(_diagram_node(project, name, positions[name], href_for, is_root=name in roots) for name in shown),
         edges=tuple(dependency_edges(uses, set(shown))),
     )
 
 
 def has_omitted_uses(project: Project) -> bool:
-    """Whether a sparse figure has less than the whole: there are many arrows, some to what is only asked."""
+    """Whether the sparse diagram of a project omits uses: there are many edges, some to components that are only read
+    from.
+    """
     uses = _project_uses(project)
     count = sum(max(1, len(kinds)) for used in uses.values() for kinds in used.values())
     designs = {design.component for design in project.designs}
@@ -50,7 +52,7 @@ def has_omitted_uses(project: Project) -> bool:
 
 
 def _without_read_only(uses: UsesByComponent, designs: Collection[str]) -> UsesByComponent:
-    """The uses without those of hand-written components that are neither required nor modulated."""
+    """The uses without hand-written components that are neither required nor modulated."""
     return {
         user: {name: kinds for name, kinds in used.items() if kinds or name in designs} for user, used in uses.items()
     }
@@ -61,7 +63,7 @@ def _project_uses(project: Project) -> UsesByComponent:
 
 
 def component_uses(design: Design) -> Mapping[str, frozenset[str]]:
-    """What a design uses, and how."""
+    """The components that a design uses, with the kind of use."""
     components = {use.alias: use.component for use in design.uses}
     kinds: dict[str, set[str]] = {component: set() for component in components.values()}
     actions = [*design.common.actions, *(action for state in design.states for action in state.all_actions)]
@@ -96,13 +98,13 @@ def _diagram_node(
 
 
 def dependency_edges(uses: UsesByComponent, shown: Collection[str]) -> Iterator[DiagramEdge]:
-    """The arrows between the components that are shown."""
+    """The edges between the shown components."""
     for user, found in uses.items():
         for used, kinds in found.items():
             if used not in shown:
                 continue
             for kind in sorted(kinds) or ["uses"]:
-                # As in a design: what is required comes to its user, what is modulated is steered by it.
+                # As in a design: required components point to their user, modulated ones are controlled by it.
                 source, target = (used, user) if kind == "requires" else (user, used)
                 of = "transition" if kind == "uses" else kind
                 yield DiagramEdge(
@@ -115,7 +117,7 @@ def dependency_edges(uses: UsesByComponent, shown: Collection[str]) -> Iterator[
 
 
 def _positions(names: list[str], uses: UsesByComponent) -> dict[str, Point]:
-    """Columns by depth, rows so that users and used stand near each other."""
+    """Columns by depth; rows such that users and used components are close to each other."""
     depths = _depths(names, uses)
     columns: dict[int, list[str]] = defaultdict(list)
     for name in names:
@@ -125,18 +127,18 @@ def _positions(names: list[str], uses: UsesByComponent) -> dict[str, Point]:
         for depth in sorted(columns):
             rows = {name: row - len(column) / 2 for column in columns.values() for row, name in enumerate(column)}
             columns[depth].sort(key=lambda name: _barycenter(rows, name, neighbours[name]))
-    places: dict[str, Point] = {}
+    positions: dict[str, Point] = {}
     left = 0.0
     for depth in sorted(columns):
         width = max(use_size(name, "hand-written").width for name in columns[depth])
         for row, name in enumerate(columns[depth]):
-            places[name] = (left + width / 2, (row - (len(columns[depth]) - 1) / 2) * _ROW_HEIGHT)
+            positions[name] = (left + width / 2, (row - (len(columns[depth]) - 1) / 2) * _ROW_HEIGHT)
         left += width + _COLUMN_GAP
-    return places
+    return positions
 
 
 def _depths(names: list[str], uses: UsesByComponent) -> dict[str, int]:
-    """The longest way from a component that nobody uses; a circle is cut at the arrow that closes it."""
+    """The longest path from a component without users; a cycle is cut at the edge that closes it."""
     used_by_others = {used for user, found in uses.items() for used in found if used != user}
     onwards: dict[str, list[str]] = defaultdict(list)
     seen, is_open, order = set[str](), set[str](), list[str]()

@@ -1,4 +1,4 @@
-"""What a drawing of a design shows, with finished texts and sizes: nodes, and arrows between them."""
+"""A diagram before routing: nodes and edges with final texts and sizes."""
 
 from collections import Counter
 from collections.abc import Collection, Iterator
@@ -17,9 +17,9 @@ _MAX_NAME_WIDTH, _MAX_SUBTITLE_WIDTH = 230.0, 200.0
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class DiagramNode:
-    """A box: `of` is state, component or common; `badges` are words and counts for the row below the name.
+    """A box: a state, a component or the common transitions. `badges` are texts for the row below the name.
 
-    `href` is where a click leads, nothing for nowhere.
+    `href` is the link target, "" for none.
     """
 
     key: str
@@ -38,9 +38,9 @@ class DiagramNode:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class DiagramEdge:
-    """A transition or a link: `of` is transition, requires or modulates; `order` is 0 for one that is alone.
+    """A transition or a link; `order` is the priority, 0 if there is only one.
 
-    `href` is where a click leads, nothing for nowhere.
+    `href` is the link target, "" for none.
     """
 
     key: str
@@ -58,27 +58,25 @@ class DiagramEdge:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Diagram:
-    """Everything that is drawn; arrows only between nodes that are there."""
+    """Nodes and edges; both ends of an edge are among the nodes."""
 
     nodes: tuple[DiagramNode, ...]
     edges: tuple[DiagramEdge, ...]
 
 
 def build_diagram(design: Design, *, only: Collection[str] | None = None, links: bool = True) -> Diagram:
-    """The figure of a design, or of these states and what they use."""
+    """The diagram of a design, or of some states and the components they use."""
     arrows = (*_transition_edges(design), *(_use_edges(design) if links else ()))
     nodes = tuple(_diagram_nodes(design, complete_layout(design)))
     if only is not None:
         wanted = {_state_key(name) for name in only}
-        used = {arrow.source for arrow in arrows if arrow.edge_type == "requires" and arrow.target in wanted}
-        used |= {arrow.target for arrow in arrows if arrow.edge_type == "modulates" and arrow.source in wanted}
+        used = {edge.source for edge in arrows if edge.edge_type == "requires" and edge.target in wanted}
+        used |= {edge.target for edge in arrows if edge.edge_type == "modulates" and edge.source in wanted}
         nodes = tuple(node for node in nodes if node.key in wanted | used)
     elif not links:
         nodes = tuple(node for node in nodes if node.node_type != "component")
     known = {node.key for node in nodes}
-    return Diagram(
-        nodes=nodes, edges=tuple(arrow for arrow in arrows if arrow.source in known and arrow.target in known)
-    )
+    return Diagram(nodes=nodes, edges=tuple(edge for edge in arrows if edge.source in known and edge.target in known))
 
 
 def _state_key(name: str) -> str:

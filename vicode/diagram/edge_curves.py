@@ -1,4 +1,4 @@
-"""The curves of the arrows between one pair of nodes: lanes beside each other, around boxes, loops on free sides."""
+"""Curves of the edges between one pair of nodes: parallel lanes, detours around boxes, self-loops on free sides."""
 
 import math
 from collections.abc import Iterable, Iterator, Sequence
@@ -14,29 +14,29 @@ from vicode.model.design import Point
 HEX_SLANT = 16.0
 CLEARANCE, _LABEL_GAP = 8.0, 6.0
 _MIN_LANE, _MAX_LANE = 24.0, 100.0
-# A line starts at least so far from the corners of its boxes.
+# Minimum distance of an end from the corners of its box.
 _CORNER_INSET = (14.0, 12.0)
-# Tried in this order: straight first, then ever wider bows to either side around boxes in the way.
+# Tried in this order: straight, then increasing curvature to either side of boxes in the way.
 _BEND_OFFSETS = (0.0, 45.0, -45.0, 85.0, -85.0, 135.0, -135.0, 200.0, -200.0, 280.0, -280.0, 370.0, -370.0)
 _MIN_FLAT_BEND = 85.0
 _SIDES = ((0.0, -1.0), (1.0, 0.0), (0.0, 1.0), (-1.0, 0.0))
-# What is nearly flat lies across; beyond this share of the width it counts as standing.
+# Steeper pairs count as vertical.
 _MAX_HORIZONTAL_SLOPE = 0.4
 _EPSILON = 1e-9
 
 
 def parallel_curves(
-    arrows: Sequence[DiagramEdge],
+    edges: Sequence[DiagramEdge],
     labels: Sequence[EdgeLabel | None],
     ends: tuple[DiagramNode, DiagramNode],
     obstacles: ObstacleIndex,
 ) -> list[CubicBezier]:
-    """Curves for arrows between two nodes, in lane order; the lanes make room for their labels."""
+    """Curves of parallel edges in lane order; lanes leave room for their labels."""
     first, second = reading_order(*ends)
     normal = _normal(first, second)
     pair = (first, second, normal)
     most = min(_width_across(node, normal) for node in (first, second))
-    # Of each lane how far beside the centres it begins, and how much of it is left to bending.
+    # For each lane, its offset from the centers, and the rest that must come from bending.
     inner = [(max(-most, min(most, lane)), lane) for lane in _lane_offsets(labels, normal)]
     lanes = [(begins, lane - begins) for begins, lane in inner]
     own = {first.key, second.key}
@@ -44,8 +44,8 @@ def parallel_curves(
     for bow in _BEND_OFFSETS:
         for is_flat in (False, True) if abs(bow) >= _MIN_FLAT_BEND else (False,):
             curves = [
-                _bent_curve(arrow, pair, lane=lane, bow=bow, is_flat=is_flat)
-                for arrow, lane in zip(arrows, lanes, strict=True)
+                _bent_curve(edge, pair, lane=lane, bow=bow, is_flat=is_flat)
+                for edge, lane in zip(edges, lanes, strict=True)
             ]
             blocked = _count_crossed_boxes(curves, own, obstacles, best[0])
             if blocked < best[0]:
@@ -58,26 +58,26 @@ def parallel_curves(
 def self_loop_curves(
     node: DiagramNode, labels: Sequence[EdgeLabel | None], others: Sequence[DiagramNode], boxes: RectIndex
 ) -> list[CubicBezier]:
-    """Self loops take the freest sides, away from the nodes it is connected with; further ones grow around those."""
-    room = max([40.0, *(chip.size.width for chip in labels if chip)])
+    """Self-loops use the sides with the fewest other edges; further ones grow around them."""
+    room = max([40.0, *(label.size.width for label in labels if label)])
     sides = sorted(_SIDES, key=lambda side: _side_load(node, side, others) + _side_occupancy(node, side, room, boxes))
     return [_self_loop(node, sides[index % 4], index // 4) for index in range(len(labels))]
 
 
 def point_on_curve(curve: CubicBezier, t: float) -> Point:
-    """The point of a curve at a share of its way."""
+    """The point at a fraction of a curve."""
     x0, y0, x1, y1, x2, y2, x3, y3 = curve
     a, b, c, d = _weights(t)
     return (a * x0 + b * x1 + c * x2 + d * x3, a * y0 + b * y1 + c * y2 + d * y3)
 
 
 def sample_curve(curve: CubicBezier, count: int) -> Iterator[Point]:
-    """The points of a curve in so many equal steps, both ends included."""
+    """Points of a curve in equal steps, both ends included."""
     return _curve_points(curve, _sample_weights(count))
 
 
 def curve_length(curve: CubicBezier) -> float:
-    """About how long a curve is."""
+    """The approximate length of a curve."""
     x0, y0, x1, y1, x2, y2, x3, y3 = curve
     points = [
         (a * x0 + b * x1 + c * x2 + d * x3, a * y0 + b * y1 + c * y2 + d * y3) for a, b, c, d in _sample_weights(16)
@@ -86,14 +86,14 @@ def curve_length(curve: CubicBezier) -> float:
 
 
 def reading_order(a: DiagramNode, b: DiagramNode) -> tuple[DiagramNode, DiagramNode]:
-    """Of two nodes the one that is read first: the left one, or the upper one of two that stand above each other."""
+    """The node that is read first: the left one, or the upper one if they are stacked."""
     dx, dy = b.center[0] - a.center[0], b.center[1] - a.center[1]
     is_first = dx > 0 if abs(dx) > _MAX_HORIZONTAL_SLOPE * abs(dy) else dy > 0 or (dy == 0 and a.key < b.key)
     return (a, b) if is_first else (b, a)
 
 
 def _normal(first: DiagramNode, second: DiagramNode) -> Point:
-    """Across the way from one node to another: downwards, or to the right when they stand above each other."""
+    """The direction across the edge: downwards, or to the right for stacked nodes."""
     dx, dy = second.center[0] - first.center[0], second.center[1] - first.center[1]
     length = math.hypot(dx, dy) or 1
     sign = 1 if abs(dx) > _MAX_HORIZONTAL_SLOPE * abs(dy) else -1
@@ -101,30 +101,30 @@ def _normal(first: DiagramNode, second: DiagramNode) -> Point:
 
 
 def _lane_offsets(chips: Sequence[EdgeLabel | None], normal: Point) -> list[float]:
-    """How far each lane lies beside the middle, so that labels at the same height do not touch."""
-    sizes = [chip.size if chip else Size(width=0, height=0) for chip in chips]
-    places = [0.0]
+    """The offset of each lane from the center line, so that labels at the same height do not overlap."""
+    sizes = [label.size if label else Size(width=0, height=0) for label in chips]
+    positions = [0.0]
     for one, other in pairwise(sizes):
         wide = (one.width + other.width) / 2 + _LABEL_GAP
         high = max(one.height, other.height) + _LABEL_GAP
         gap = min(wide / (abs(normal[0]) or _EPSILON), high / (abs(normal[1]) or _EPSILON))
-        places.append(places[-1] + min(_MAX_LANE, max(_MIN_LANE, gap)))
-    return [place - places[-1] / 2 for place in places]
+        positions.append(positions[-1] + min(_MAX_LANE, max(_MIN_LANE, gap)))
+    return [position - positions[-1] / 2 for position in positions]
 
 
 def _bent_curve(
-    arrow: DiagramEdge,
+    edge: DiagramEdge,
     pair: tuple[DiagramNode, DiagramNode, Point],
     *,
     lane: tuple[float, float],
     bow: float,
     is_flat: bool,
 ) -> CubicBezier:
-    """A curve in a lane: as far beside the centres as the boxes allow, the rest of the way, and `bow`, by bending."""
+    """A curve in a lane: offset as far as the boxes allow, then bent; `bow` adds curvature."""
     first, second, normal = pair
     inner, rest = lane
     apex = rest + bow
-    source, target = (first, second) if arrow.source == first.key else (second, first)
+    source, target = (first, second) if edge.source == first.key else (second, first)
     start, end = _translated(source.center, normal, inner), _translated(target.center, normal, inner)
 
     def along(part: float, out: float) -> Point:
@@ -153,7 +153,7 @@ def _width_across(node: DiagramNode, normal: Point) -> float:
 
 
 def _border_point(node: DiagramNode, start: Point, towards: Point) -> Point:
-    """Where the ray from a point within a node towards another point leaves the node's shape."""
+    """The intersection of the node's border with the ray from a point inside it to another point."""
     dx, dy = towards[0] - start[0], towards[1] - start[1]
     x, y = start[0] - node.center[0], start[1] - node.center[1]
     half_width, half_height = node.size.width / 2, node.size.height / 2
@@ -168,12 +168,12 @@ def _border_point(node: DiagramNode, start: Point, towards: Point) -> Point:
 
 
 def _steps_to_border(value: float, by: float, half: float) -> float:
-    """How many steps `by` lead from a value within ±half to the border."""
+    """The number of steps `by` from a value within ±half to the border."""
     return (math.copysign(half, by) - value) / by if by else math.inf
 
 
 def _count_crossed_boxes(curves: Sequence[CubicBezier], own: set[str], boxes: ObstacleIndex, enough: float) -> float:
-    """How many boxes curves run over, looked up in steps smaller than a box; from `enough` on nobody counts."""
+    """How many boxes the curves cross, sampled in steps smaller than a box; stops counting at `enough`."""
     blocked = 0
     for curve in curves:
         steps = min(120, max(8, math.ceil(curve_length(curve) / 24)))
@@ -195,13 +195,13 @@ def _weights(t: float) -> BezierWeights:
 
 @cache
 def _sample_weights(count: int) -> tuple[BezierWeights, ...]:
-    """For so many equal steps along a curve; there are few different counts."""
+    """Cached, because few different step counts occur."""
     return tuple(_weights(step / count) for step in range(count + 1))
 
 
 def _side_load(node: DiagramNode, side: Point, others: Sequence[DiagramNode]) -> float:
-    """How much leaves or comes at a side already."""
-    # The initial mark sits at the upper left, so that the top is a little worse than it looks.
+    """How many edges start or end at a side."""
+    # The initial mark is at the upper left, which makes the top slightly worse.
     burden = 1.5 if side[1] == -1 and node.initial else 0.0
     burden += 0.2 if side[0] else 0.0
     for other in others:

@@ -1,4 +1,4 @@
-"""The label on an arrow: what it says and how large it is."""
+"""Labels of edges: text, icon and size."""
 
 import math
 from collections.abc import Iterator
@@ -17,7 +17,7 @@ _SHORTER_WIDTHS = (90.0, 50.0)
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class EdgeLabel:
-    """`order` is the number in front with what separates it, `icon` the sign of its kind or nothing."""
+    """`order` is the priority with its separator; `icon` is the guard kind or None."""
 
     order: str
     icon: GuardKind | None
@@ -28,33 +28,33 @@ class EdgeLabel:
 
 
 def make_edge_label(
-    arrow: DiagramEdge, ends: tuple[DiagramNode, DiagramNode], *, parallel_count: int = 1
+    edge: DiagramEdge, ends: tuple[DiagramNode, DiagramNode], *, parallel_count: int = 1
 ) -> EdgeLabel | None:
-    """The label of an arrow between two nodes, None when there is nothing to say; `parallel_count`: so many share the way."""
-    if arrow.edge_type != "transition":
+    """The label of an edge between two nodes, None if it is empty. `parallel_count`: edges that share the space."""
+    if edge.edge_type != "transition":
         return None
-    used = (_ORDER if arrow.order else 0) + (_ICON if _guard_icon(arrow) else 0)
-    return _make_label(arrow, max(_MIN_WIDTH, _available_width(*ends, beside=parallel_count) - used))
+    used = (_ORDER if edge.order else 0) + (_ICON if _guard_icon(edge) else 0)
+    return _make_label(edge, max(_MIN_WIDTH, _available_width(*ends, beside=parallel_count) - used))
 
 
-def shorter_labels(arrow: DiagramEdge, chip: EdgeLabel) -> Iterator[EdgeLabel]:
-    """The label with ever less of its text."""
+def shorter_labels(edge: DiagramEdge, chip: EdgeLabel) -> Iterator[EdgeLabel]:
+    """The label with less and less text."""
     for room in _SHORTER_WIDTHS:
-        shorter = _make_label(arrow, room) if text_width(chip.text, LABEL_FONT) > room + 10 else None
+        shorter = _make_label(edge, room) if text_width(chip.text, LABEL_FONT) > room + 10 else None
         if shorter:
             yield shorter
 
 
-def textless_labels(arrow: DiagramEdge) -> Iterator[EdgeLabel]:
-    """The label without its text, if something is left then."""
-    bare = _make_label(replace(arrow, label=""), 0)
+def textless_labels(edge: DiagramEdge) -> Iterator[EdgeLabel]:
+    """The label without its text, unless it becomes empty."""
+    bare = _make_label(replace(edge, label=""), 0)
     if bare:
         yield bare
 
 
-def _make_label(arrow: DiagramEdge, room: float) -> EdgeLabel | None:
-    order, icon = str(arrow.order) if arrow.order else "", _guard_icon(arrow)
-    text = shorten(arrow.label, LABEL_FONT, room)
+def _make_label(edge: DiagramEdge, room: float) -> EdgeLabel | None:
+    order, icon = str(edge.order) if edge.order else "", _guard_icon(edge)
+    text = shorten(edge.label, LABEL_FONT, room)
     if not order and not text and not icon:
         return None
     if order and (text or icon):
@@ -66,12 +66,14 @@ def _make_label(arrow: DiagramEdge, room: float) -> EdgeLabel | None:
     return EdgeLabel(order=order, icon=icon, text=text, order_width=order_width, icon_width=icon_width, size=size)
 
 
-def _guard_icon(arrow: DiagramEdge) -> GuardKind | None:
-    return arrow.guard_kind if arrow.guard_kind in (GuardKind.TIMER, GuardKind.CODE, GuardKind.TREE) else None
+def _guard_icon(edge: DiagramEdge) -> GuardKind | None:
+    return edge.guard_kind if edge.guard_kind in (GuardKind.TIMER, GuardKind.CODE, GuardKind.TREE) else None
 
 
 def _available_width(source: DiagramNode, target: DiagramNode, *, beside: int) -> float:
-    """Side by side no wider than the gap, else it would be pushed off its arrow; less where many share a steep way."""
+    """At most the gap between nodes side by side, since a wider label would leave its edge; less if parallel edges
+    share a steep gap.
+    """
     if source is target:
         return _MAX_WIDTH
     gap = abs(target.center[0] - source.center[0]) - (source.size.width + target.size.width) / 2

@@ -1,4 +1,4 @@
-"""The way of every arrow and the place of its label, found as the canvas finds them."""
+"""Routes of all edges and positions of their labels, by the algorithm of the canvas."""
 
 import math
 from collections import defaultdict
@@ -20,22 +20,22 @@ from vicode.diagram.spatial_index import CubicBezier, ObstacleIndex, PointIndex,
 from vicode.diagram.transition_labels import GuardKind
 from vicode.model.design import Point
 
-# What a label would hide, dearer first. A place farther along its line costs less than hiding a line.
+# Costs of overlaps, highest first. A position farther along its edge is cheaper than covering a line.
 _BOX_COST, _LABEL_COST, _EDGE_COST, _USE_EDGE_COST = 12.0, 8.0, 1.4, 0.7
-# In a figure of more arrows labels do not look for lines: there are too many to be spared.
+# With more edges, labels ignore lines: there are too many to avoid.
 _MAX_AVOIDED_EDGES = 600
 _SAMPLE_DISTANCE = 8.0
-# Parts of the way, and how far beside it: 1 is just beside the line, 2 a little farther; the best first.
+# Fractions of the edge and offsets from it (1: next to the line, 2: a little farther), best first.
 _LABEL_POSITIONS = sorted(
     (
         (abs(part - 0.5) * 2.4 + abs(side) * 1.2, part, side)
         for part in (0.5, 0.42, 0.58, 0.34, 0.66, 0.27, 0.73, 0.2, 0.8, 0.14, 0.86)
         for side in (0, 1, -1, 2, -2)
     ),
-    key=lambda place: place[0],
+    key=lambda position: position[0],
 )
 _LOOP_OFFSETS = ((0.0, 0), (0.4, 0), (0.8, 1), (1.2, -1))
-# Where nothing of all that is free: ever farther from the line, so that every label can be read.
+# Fallback: positions at growing distance from the line, so that every label is readable.
 _DISTANT_POSITIONS = [
     (side, part) for side in (3, -3, 4, -4, 5, -5, 6, -6) for part in (0.5, 0.42, 0.58, 0.34, 0.66, 0.2, 0.8)
 ]
@@ -46,7 +46,7 @@ _DISTANT_STEP = 14.0
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class EdgeRoute:
-    """The curve of an arrow, and its label with the place for its middle."""
+    """The curve of an edge, and its label with the center position."""
 
     edge: DiagramEdge
     curve: CubicBezier
@@ -55,10 +55,10 @@ class EdgeRoute:
 
 
 def route_edges(diagram: Diagram) -> tuple[EdgeRoute, ...]:
-    """A route for every arrow, in the figure's order."""
+    """A route for every edge, in the order of the diagram."""
     router = _EdgeRouter(diagram)
     ways = [way for pair in router.edge_pairs() for way in router.route_pair(pair)]
-    # Those with the least choice first.
+    # Pairs with the fewest choices first.
     ways.sort(key=lambda way: curve_length(way[1]))
     routes = {arrow.key: router.place_label(arrow, curve, chip) for arrow, curve, chip in ways}
     for key in router.overlapping:
@@ -67,7 +67,7 @@ def route_edges(diagram: Diagram) -> tuple[EdgeRoute, ...]:
 
 
 class _EdgeRouter:
-    """Knows what is drawn already."""
+    """Routes pair by pair, avoiding what is already placed."""
 
     def __init__(self, figure: Diagram) -> None:
         self.nodes = {node.key: node for node in figure.nodes}
@@ -91,13 +91,13 @@ class _EdgeRouter:
                 self._edges_at[end].append(arrow)
 
     def edge_pairs(self) -> Iterator[list[DiagramEdge]]:
-        """The arrows between each two nodes as they are read: onwards first, each way by its order in the design."""
+        """The edges of each pair of nodes in reading order: forward edges first, each direction in priority order."""
         for arrows in self._pairs.values():
             first, _second = reading_order(*self._ends(arrows[0]))
             yield sorted(arrows, key=lambda arrow: (arrow.source != first.key, arrow.order))
 
     def route_pair(self, arrows: Sequence[DiagramEdge]) -> Iterator[tuple[DiagramEdge, CubicBezier, EdgeLabel | None]]:
-        """The curves of one pair, with the labels as they are wanted."""
+        """The curves of one pair, with their preferred labels."""
         source, target = self._ends(arrows[0])
         chips = [make_edge_label(arrow, (source, target), parallel_count=len(arrows)) for arrow in arrows]
         if source is target:
@@ -112,7 +112,7 @@ class _EdgeRouter:
             yield arrow, curve, chip
 
     def place_label(self, arrow: DiagramEdge, curve: CubicBezier, wanted: EdgeLabel | None) -> EdgeRoute:
-        """The route with the best place for the label; where any would hide something, a shorter one may not."""
+        """The route with the best label position; if every position overlaps something, a shorter label may fit."""
         if wanted is None:
             return EdgeRoute(edge=arrow, curve=curve, label=None, label_position=point_on_curve(curve, 0.5))
         if arrow.label_at is not None:
@@ -126,7 +126,7 @@ class _EdgeRouter:
         return EdgeRoute(edge=arrow, curve=curve, label=chip, label_position=at)
 
     def resolve_overlap(self, key: str, routes: dict[str, EdgeRoute]) -> None:
-        """Let the labels that a crowded one stands on go elsewhere, where they can."""
+        """Move the labels that a label overlaps, where they have room."""
         for other in sorted(self._overlapping_labels(routes[key]) - {key}):
             route = routes[other]
             if route.edge.label_at is not None or route.label is None:
@@ -161,7 +161,7 @@ class _EdgeRouter:
     def _find_distant_position(
         self, arrow: DiagramEdge, curve: CubicBezier, shortest: EdgeLabel
     ) -> tuple[EdgeLabel, Point] | None:
-        """A place that hides no text, farther away; if need be for the order alone, whose link tells the rest."""
+        """A position at a greater distance that hides no text; if necessary for the priority alone."""
         for chip in (shortest, *textless_labels(arrow)):
             near = [at for _price, at in _label_positions(arrow, curve, chip)] if chip is not shortest else []
             for at in (*near, *_distant_positions(arrow, curve, chip)):
@@ -170,12 +170,12 @@ class _EdgeRouter:
         return None
 
     def _is_free(self, rect: Rect) -> bool:
-        """Whether a label there would hide no box and no other label."""
+        """Whether a label there overlaps no box and no other label."""
         wide = rect.expanded(2)
         return not self.boxes.overlapping(wide) and not self.labels.overlapping(wide)
 
     def _overlap_cost(self, rect: Rect, own: str, enough: float) -> float:
-        """What lies under a rectangle, or would be under a label there; from `enough` on nobody looks further."""
+        """The cost of what a label there covers; stops adding at `enough`."""
         wide = rect.expanded(2)
         crowd = _BOX_COST * len(self.boxes.overlapping(wide)) + _LABEL_COST * len(self.labels.overlapping(wide))
         if crowd >= enough:
@@ -186,7 +186,7 @@ class _EdgeRouter:
 
 
 def _label_positions(arrow: DiagramEdge, curve: CubicBezier, chip: EdgeLabel) -> Iterator[tuple[float, Point]]:
-    """Places for a label with what each costs, the best first."""
+    """Candidate positions with their costs, best first."""
     if arrow.source == arrow.target:
         yield from ((price, _loop_label_position(curve, chip, slip, is_out=price > 0)) for price, slip in _LOOP_OFFSETS)
         return
@@ -202,7 +202,7 @@ def _distant_positions(arrow: DiagramEdge, curve: CubicBezier, chip: EdgeLabel) 
 
 
 def _loop_label_position(curve: CubicBezier, chip: EdgeLabel, slip: int, *, is_out: bool) -> Point:
-    """The label of a loop hangs on its outermost point, so that the loop itself stays visible."""
+    """The label of a self-loop is at its outermost point, so that the loop remains visible."""
     apex = point_on_curve(curve, 0.5)
     out = (apex[0] - (curve[0] + curve[6]) / 2, apex[1] - (curve[1] + curve[7]) / 2)
     if abs(out[0]) < abs(out[1]):
@@ -211,7 +211,7 @@ def _loop_label_position(curve: CubicBezier, chip: EdgeLabel, slip: int, *, is_o
 
 
 def _position_beside_curve(curve: CubicBezier, chip: EdgeLabel, part: float, side: int) -> Point:
-    """So far beside the line that it stays visible."""
+    """A position next to the line that keeps the line visible."""
     dx, dy = _direction(curve, part)
     reach = (abs(dy) * chip.size.width + abs(dx) * chip.size.height) / 2
     beyond = 3 if abs(side) == 1 else 9 + _DISTANT_STEP * (abs(side) - 2)
@@ -221,7 +221,7 @@ def _position_beside_curve(curve: CubicBezier, chip: EdgeLabel, part: float, sid
 
 
 def _offset_point(curve: CubicBezier, part: float, shift: float) -> Point:
-    """To the right of who walks along the curve."""
+    """To the right of the direction of the curve."""
     x, y = point_on_curve(curve, part)
     dx, dy = _direction(curve, part)
     return (x - dy * shift, y + dx * shift)

@@ -1,4 +1,4 @@
-"""Takes a drawing of a design out: as a picture, or as text that other tools draw."""
+"""Exports the diagram of a design as a picture or as text for other tools."""
 
 from collections.abc import Callable, Collection
 
@@ -17,7 +17,7 @@ from vicode.model.disabled import strip_disabled
 
 
 def export_design(design: Design, export_format: ExportFormat, options: ExportOptions | None = None) -> bytes:
-    """The bytes of the file; the same design gives the same, a PNG by the same fonts."""
+    """The content of the file. The same design gives the same bytes; PNG also depends on the installed fonts."""
     chosen = options or ExportOptions()
     writers: dict[ExportFormat, Callable[[Design, Collection[str] | None], str]] = {
         ExportFormat.MERMAID: lambda design, only: write_mermaid(design, only=only),
@@ -25,7 +25,7 @@ def export_design(design: Design, export_format: ExportFormat, options: ExportOp
         ExportFormat.DOT: lambda design, only: write_graphviz(design, only=only, links=chosen.links),
     }
     if export_format in writers:
-        # A text is read as what the machine does; a picture shows what is kept without working as well.
+        # Text formats describe the behavior; pictures also show disabled elements.
         return writers[export_format](strip_disabled(design), chosen.only).encode()
     drawing = render_design(design, only=chosen.only, links=chosen.links, palette=DARK if chosen.dark else LIGHT)
     painters: dict[ExportFormat, Callable[[VectorImage], bytes]] = {

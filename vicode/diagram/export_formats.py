@@ -1,11 +1,11 @@
-"""What a drawing can be taken out as."""
+"""Formats and options of exported diagrams."""
 
 from dataclasses import dataclass, field
 from enum import StrEnum
 
 
 class ExportFormat(StrEnum):
-    """What a drawing can be written as."""
+    """A format that a diagram can be exported as."""
 
     SVG = "svg"
     PDF = "pdf"
@@ -16,24 +16,24 @@ class ExportFormat(StrEnum):
 
     @property
     def label(self) -> str:
-        """What people call it."""
+        """The name shown to users."""
         return {ExportFormat.MERMAID: "Mermaid", ExportFormat.PLANTUML: "PlantUML"}.get(self, self.upper())
 
     @property
     def suffix(self) -> str:
-        """How the names of its files end."""
+        """The file name suffix."""
         return {ExportFormat.MERMAID: ".mmd", ExportFormat.PLANTUML: ".puml"}.get(self, f".{self}")
 
     @property
     def media_type(self) -> str:
-        """How a browser is told what it is."""
+        """The media type for browsers."""
         types = {ExportFormat.SVG: "image/svg+xml", ExportFormat.PDF: "application/pdf", ExportFormat.PNG: "image/png"}
         return types.get(self, "text/plain; charset=utf-8")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ExportOptions:
-    """What of a design is drawn, and how; `only` names states, None for all, with what they use if `links`."""
+    """What to export: `only` names states (None for all); with `links`, the components they use are included."""
 
     only: frozenset[str] | None = None
     links: bool = True

@@ -1,4 +1,4 @@
-"""A design as DOT with labels and looks, for Graphviz; `neato -n` keeps the places."""
+"""A design as DOT with labels and styles for Graphviz; `neato -n` keeps the positions."""
 
 from collections.abc import Collection
 
@@ -18,7 +18,7 @@ _USE_EDGES = {"requires": {"style": "dashed", "arrowhead": "empty"}, "modulates"
 
 
 def write_graphviz(design: Design, *, only: Collection[str] | None = None, links: bool = True) -> str:
-    """The text of the whole design, or of some states and what they use."""
+    """The text of the whole design, or of some states and the components they use."""
     figure = build_diagram(design, only=only, links=links)
     ids = {node.key: f"n{index}" for index, node in enumerate(figure.nodes)}
     graph = graphviz.Digraph(
@@ -47,12 +47,12 @@ def _attributes(node: DiagramNode) -> dict[str, str]:
 
 
 def _unshortened_label(node: DiagramNode) -> str:
-    """The name itself: a drawing may have shortened it."""
+    """The full name; the diagram may have shortened it."""
     return node.key.partition(":")[2] or node.label
 
 
 def _quoted(text: str) -> str:
     line = "".join(letter if letter.isprintable() else "\ufffd" for letter in " ".join(text.split()))
-    # It stays of the type that `escape` gave it: a plain text in <> would be written as markup.
+    # `escape` marks its result; a plain string in <> would be written as markup.
     escaped: str = graphviz.escape(line)
     return escaped

@@ -1,4 +1,4 @@
-"""Places for what a design gives no place to: a simple layering, so that every design can be drawn at once."""
+"""Positions for elements without one: a simple layered layout, so that every design can be drawn immediately."""
 
 import math
 from collections.abc import Iterable, Iterator, Sequence
@@ -14,13 +14,13 @@ ORIGIN = (120.0, 100.0)
 _COLUMN_GAP = 100.0
 _SCREEN_RATIO = 1.6
 _MIN_ROWS = 8
-# A place farther out than this is a slip of the pen; steps of a row would be lost in rounding there.
+# A position farther out is a typo; floating point would lose the steps within a row.
 _MAX_COORDINATE = 1e7
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class NodeLayout:
-    """A centre in pixels for every state, every used component (by alias) and the badge of common transitions."""
+    """Center positions in pixels of states, used components (by alias) and the badge of common transitions."""
 
     states: dict[str, Point]
     uses: dict[str, Point]
@@ -28,42 +28,42 @@ class NodeLayout:
 
 
 def complete_layout(design: Design) -> NodeLayout:
-    """The places a design gives, and free ones for the rest: states in columns by their distance from the start."""
-    ground = OccupancyGrid()
+    """The positions of a design, completed for the rest: states in columns by their distance from the initial state."""
+    occupied = OccupancyGrid()
     states = {state.name: state.at for state in design.states if state.at}
     for name, at in states.items():
-        ground.occupy(at, state_size(name))
+        occupied.occupy(at, state_size(name))
     for use in design.uses:
         if use.at:
-            ground.occupy(use.at, use_size(use.alias, use.component))
+            occupied.occupy(use.at, use_size(use.alias, use.component))
     if design.common.at:
-        ground.occupy(design.common.at, COMMON_SIZE)
-    states |= _layout_states(design, ground, states)
+        occupied.occupy(design.common.at, COMMON_SIZE)
+    states |= _layout_states(design, occupied, states)
     placed = (*states.values(), *(use.at for use in design.uses if use.at))
     below = max((y for _x, y in placed if abs(y) < _MAX_COORDINATE), default=ORIGIN[1]) + 1.5 * ROW
-    uses = _layout_uses(design, ground, below)
+    uses = _layout_uses(design, occupied, below)
     common = design.common.at
     if common is None:
         left = min((x for x, _y in states.values() if abs(x) < _MAX_COORDINATE), default=ORIGIN[0])
         top = min((y for _x, y in states.values() if abs(y) < _MAX_COORDINATE), default=ORIGIN[1])
-        common = ground.occupy_first_free(_upwards((left, min(ORIGIN[1], top) - ROW)), COMMON_SIZE)
+        common = occupied.occupy_first_free(_upwards((left, min(ORIGIN[1], top) - ROW)), COMMON_SIZE)
     return NodeLayout(states=states, uses=uses, common=common)
 
 
-def _layout_states(design: Design, ground: OccupancyGrid, given: Iterable[str]) -> dict[str, Point]:
-    """Each layer is a column, or several when it is higher than a screen would be; a long row of them is folded."""
+def _layout_states(design: Design, occupied: OccupancyGrid, given: Iterable[str]) -> dict[str, Point]:
+    """Each layer is a column, or several if it is higher than a screen; a long row of layers is folded."""
     known = set(given)
     rows = max(_MIN_ROWS, math.ceil(math.sqrt(len(design.states) * COLUMN / ROW / _SCREEN_RATIO)))
     columns = [names[start : start + rows] for names in _layers(design) for start in range(0, len(names), rows)]
     states: dict[str, Point] = {}
     for column, (middle, top) in zip(columns, _fold_columns(columns), strict=True):
         free = {name: state_size(name) for name in column if name not in known}
-        states |= {name: ground.occupy_first_free(_downwards((middle, top)), size) for name, size in free.items()}
+        states |= {name: occupied.occupy_first_free(_downwards((middle, top)), size) for name, size in free.items()}
     return states
 
 
 def _fold_columns(columns: Sequence[Sequence[str]]) -> Iterator[Point]:
-    """The middle and the top of every column: in bands to and fro, so that what follows each other stays together."""
+    """The center and the top of every column, in bands of alternating direction, so that neighbors stay close."""
     widths = [max(state_size(name).width for name in column) + _COLUMN_GAP for column in columns]
     highest = max((len(column) for column in columns), default=1) * ROW
     bands = max(1, round(math.sqrt(sum(widths) / (_SCREEN_RATIO * highest))))
@@ -77,17 +77,17 @@ def _fold_columns(columns: Sequence[Sequence[str]]) -> Iterator[Point]:
         left, height = left + width, max(height, len(column) * ROW)
 
 
-def _layout_uses(design: Design, ground: OccupancyGrid, below: float) -> dict[str, Point]:
+def _layout_uses(design: Design, occupied: OccupancyGrid, below: float) -> dict[str, Point]:
     """In rows below the states."""
     uses: dict[str, Point] = {}
-    places = _row_positions((ORIGIN[0], below))
+    positions = _row_positions((ORIGIN[0], below))
     for use in design.uses:
-        uses[use.alias] = use.at or ground.occupy_first_free(places, use_size(use.alias, use.component))
+        uses[use.alias] = use.at or occupied.occupy_first_free(positions, use_size(use.alias, use.component))
     return uses
 
 
 def _layers(design: Design) -> Iterator[list[str]]:
-    """States by the number of transitions from the initial one; those nobody reaches stand last."""
+    """States by their distance from the initial one; unreachable states come last."""
     leads: dict[str, list[str]] = {}
     for located in iter_decisions(design):
         if isinstance(located.decision, Transition):

@@ -1,4 +1,4 @@
-"""Laying a design out with Graphviz, which runs in a process of its own and may fail there."""
+"""Automatic layout with Graphviz in a worker process, which may fail."""
 
 import contextlib
 import json
@@ -21,18 +21,18 @@ from vicode.model.design import Design, Point
 
 WorkerCommand = tuple[str, ...]
 WORKER_COMMAND: WorkerCommand = (sys.executable, "-P", "-m", "vicode.diagram.worker")
-"""-P: a file in the folder of a project is never taken for a module of ours."""
+"""-P: files in a project folder must not shadow modules."""
 
-# The worker ends itself so much later than we give up, should nobody be left to kill it.
+# The worker ends itself this long after the timeout, in case the editor was killed.
 _GRACE_S = 1.0
 
-# Graphviz orders better than layers do, and is worth some room: it is given up only for a picture that must be
-# shrunk below four tenths on a screen, and so many times further than layers.
+# Graphviz orders nodes better than layers and may use more space. Its result is rejected only if the diagram
+# would be shown below 40 % scale on a screen, and is this many times larger than the layered layout.
 _MAX_SCREENS, _MAX_GROWTH = 2.5, 1.8
 
 
 class LayoutMethod(StrEnum):
-    """Who found the places."""
+    """The method that computed the positions."""
 
     GRAPHVIZ = "graphviz"
     LAYERS = "layers"
@@ -40,7 +40,7 @@ class LayoutMethod(StrEnum):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LayoutResult:
-    """Where everything stands, also what was not moved; `note` is for the user, empty when all went as wished."""
+    """Positions of all elements, including those not moved; `note` is shown to the user, "" on success."""
 
     layout: NodeLayout
     method: str
@@ -48,7 +48,7 @@ class LayoutResult:
 
 
 class LayoutService:
-    """Keeps one worker process for one request at a time; what takes too long is killed. Close it in the end."""
+    """Runs one worker process for one request at a time and kills it on timeout. Close it at the end."""
 
     def __init__(self, command: WorkerCommand = WORKER_COMMAND) -> None:
         self._command = command
@@ -56,10 +56,10 @@ class LayoutService:
         self._lock = threading.Lock()
 
     def compute(self, design: Design, *, only: Collection[str] | None = None, timeout_s: float = 5.0) -> LayoutResult:
-        """As the function `compute_layout`; a request waits for its turn, which counts as its time."""
-        sketch = build_layout_graph(design, only)
+        """Like the function `compute_layout`; waiting for the worker counts towards the timeout."""
+        graph = build_layout_graph(design, only)
         try:
-            centres = self._request_positions(sketch, timeout_s) if sketch.nodes else {}
+            centres = self._request_positions(graph, timeout_s) if graph.nodes else {}
         except _GraphvizFailedError as reason:
             note = f"{reason}; placed in layers instead"
             return LayoutResult(
@@ -73,10 +73,10 @@ class LayoutService:
         return LayoutResult(layout=fit_layout(design, centres, only), method=LayoutMethod.GRAPHVIZ)
 
     def close(self) -> None:
-        """End the worker; a request under way falls back to layers at once. A later request starts a new one."""
+        """Stop the worker; a running request falls back to layers. A later request starts a new one."""
         process = self._process
         if process is not None:
-            # Whoever waits for its answer gets none now, and gives the turn back.
+            # A request in progress gets no answer now and releases the lock.
             _kill(process)
         with self._lock:
             self._discard_process()
@@ -87,14 +87,14 @@ class LayoutService:
     def __exit__(self, *_exception: object) -> None:
         self.close()
 
-    def _request_positions(self, sketch: LayoutGraph, timeout_s: float) -> dict[str, Point]:
-        """Centres by id."""
+    def _request_positions(self, graph: LayoutGraph, timeout_s: float) -> dict[str, Point]:
+        """Center positions by node id."""
         deadline = time.monotonic() + timeout_s
         late = f"Graphviz took longer than {timeout_s:g} s"
         if not self._lock.acquire(timeout=max(0.0, timeout_s)):
             raise _GraphvizFailedError(late)
         try:
-            line = _send_request(self._running_process(), _request(sketch, timeout_s), deadline - time.monotonic())
+            line = _send_request(self._running_process(), _request(graph, timeout_s), deadline - time.monotonic())
             if not line:
                 self._discard_process()
         except TimeoutError:
@@ -105,7 +105,7 @@ class LayoutService:
             raise _GraphvizFailedError(f"Graphviz could not be run ({error.strerror or error})") from error
         finally:
             self._lock.release()
-        return _read_answer(line, sketch)
+        return _read_answer(line, graph)
 
     def _running_process(self) -> subprocess.Popen[str]:
         if self._process is None or self._process.poll() is not None:
@@ -119,32 +119,32 @@ class LayoutService:
             return
         _kill(process)
         for pipe in (process.stdin, process.stdout):
-            # A request that nobody read is still in the pipe's buffer.
+            # An unread request is still in the pipe's buffer.
             with contextlib.suppress(OSError):
                 assert pipe is not None
                 pipe.close()
 
 
 def compute_layout(design: Design, *, only: Collection[str] | None = None, timeout_s: float = 5.0) -> LayoutResult:
-    """Place a design anew with Graphviz, or in layers when that fails or takes longer than `timeout_s`.
+    """Compute a layout with Graphviz, or in layers if that fails or exceeds `timeout_s`.
 
-    It blocks that long: never call it in the server's own thread, but by `run.io_bound` or in a thread.
+    This blocks: call it with `run.io_bound` or in a thread, never in the event loop.
 
     Args:
-        design: what is placed; it may have mistakes.
-        only: names of states; these are moved, to about where they were, and all else stays. None: all is moved.
-        timeout_s: seconds for all of it, the start of the process included.
+        design: the design; it may have errors.
+        only: names of states to move, near their old positions; all else stays. None: move everything.
+        timeout_s: total seconds, including the start of the process.
     """
     with LayoutService() as service:
         return service.compute(design, only=only, timeout_s=timeout_s)
 
 
 class _GraphvizFailedError(Exception):
-    """Graphviz gave no places; the text says why."""
+    """Graphviz gave no positions; the message says why."""
 
 
 def _start_worker(command: WorkerCommand) -> subprocess.Popen[str]:
-    # The folder that holds vicode, for a checkout that is not installed; after what the user set.
+    # The folder that contains vicode, for a checkout that is not installed; after the user's own path.
     folders = (os.environ.get("PYTHONPATH", ""), str(Path(__file__).parents[2]))
     return subprocess.Popen(
         command,
@@ -153,7 +153,7 @@ def _start_worker(command: WorkerCommand) -> subprocess.Popen[str]:
         stderr=subprocess.DEVNULL,
         env={**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, folders))},
         encoding="utf-8",
-        # Its own group, so that a `dot` it started ends with it, and Ctrl-C is left to us.
+        # A separate process group, so that a `dot` it started ends with it, and Ctrl-C reaches only the editor.
         start_new_session=True,
     )
 
@@ -167,12 +167,12 @@ def _kill(process: subprocess.Popen[str]) -> None:
     process.wait()
 
 
-def _request(sketch: LayoutGraph, timeout_s: float) -> str:
-    return json.dumps({**asdict(sketch), "timeout_s": timeout_s + _GRACE_S}) + "\n"
+def _request(graph: LayoutGraph, timeout_s: float) -> str:
+    return json.dumps({**asdict(graph), "timeout_s": timeout_s + _GRACE_S}) + "\n"
 
 
 def _send_request(process: subprocess.Popen[str], request: str, timeout_s: float) -> str:
-    """Hand over a line and wait for one; empty when the worker died. Kills it when it is too late."""
+    """Send a line and wait for one; "" if the worker died. Kills it on timeout."""
 
     def ask() -> str:
         assert process.stdin is not None
@@ -186,18 +186,18 @@ def _send_request(process: subprocess.Popen[str], request: str, timeout_s: float
         try:
             return answer.result(timeout=max(0.0, timeout_s))
         except TimeoutError:
-            # Leaving the pool waits for its thread, which reads until the worker's end.
+            # Leaving the pool waits for its thread, which reads until the worker ends.
             _kill(process)
             raise
 
 
-def _read_answer(line: str, sketch: LayoutGraph) -> dict[str, Point]:
+def _read_answer(line: str, graph: LayoutGraph) -> dict[str, Point]:
     if not line:
         raise _GraphvizFailedError("Graphviz stopped unexpectedly")
     answer = json.loads(line)
     if "error" in answer:
         raise _GraphvizFailedError(f"Graphviz could not be run ({answer['error']})")
     centres = {id_: (float(x), float(y)) for id_, (x, y) in answer["positions"].items()}
-    if centres.keys() != {node.id for node in sketch.nodes}:
+    if centres.keys() != {node.id for node in graph.nodes}:
         raise _GraphvizFailedError("Graphviz left something out")
     return centres

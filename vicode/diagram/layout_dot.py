@@ -1,4 +1,4 @@
-"""A sketch as DOT text, written by the `graphviz` package; the same sketch gives the same text."""
+"""A layout graph as DOT text, written with the `graphviz` package; deterministic."""
 
 from enum import StrEnum
 
@@ -11,14 +11,14 @@ _MAX_LABEL_LENGTH = 24
 
 
 class RankDirection(StrEnum):
-    """Which way the arrows go; the values are Graphviz's."""
+    """The direction of the edges, as Graphviz names it."""
 
     RIGHT = "LR"
     DOWN = "TB"
 
 
 class LayoutEffort(StrEnum):
-    """How much work goes into a picture."""
+    """How much work Graphviz spends on a layout."""
 
     FULL = "full"
     BOUNDED = "bounded"
@@ -30,16 +30,16 @@ _LIMITS = {
     LayoutEffort.BOUNDED: {"nslimit": "1", "nslimit1": "1"},
     LayoutEffort.QUICK: {"nslimit": "0.1", "nslimit1": "0.1", "mclimit": "0.1"},
 }
-# Free pixels between neighbours of a rank and between ranks: the canvas routes the arrows there. An arrow that passes a
-# rank takes that much as well, so that wide gaps between neighbours cost more than they show.
+# Pixels between neighbors of a rank and between ranks; the canvas routes edges there. An edge that passes a
+# rank takes as much space, so wide gaps between neighbors cost more than they show.
 _NODE_GAP = 30.0
 _RANK_GAP = 70.0
-# Beside a shown label stay 30 pixels of its arrow; the canvas shortens labels to the room there is.
+# Next to a label, 30 pixels of its edge remain; the canvas shortens labels to the available space.
 _LABEL_MARGIN, _MAX_RANK_GAP = 30.0, 110.0
 
 
 def write_layout_dot(layout_graph: LayoutGraph, direction: RankDirection, effort: LayoutEffort) -> str:
-    """The DOT text: boxes of fixed size, one arrow a pair, no routes (the canvas routes)."""
+    """The DOT text: boxes of fixed size, one edge per pair, no routes (the canvas routes)."""
     graph = graphviz.Digraph(
         graph_attr={
             "rankdir": str(direction),
@@ -59,7 +59,7 @@ def write_layout_dot(layout_graph: LayoutGraph, direction: RankDirection, effort
 
 
 def _rank_gap(sketch: LayoutGraph, direction: RankDirection) -> float:
-    # Labels as Graphviz knows them cost minutes at 150 states and pull ranks apart; a wider gap holds them as well.
+    # Graphviz labels cost minutes at 150 states and stretch ranks; a wider rank separation holds them as well.
     if direction is RankDirection.DOWN:
         return _RANK_GAP
     return min(_MAX_RANK_GAP, max((_RANK_GAP, *(edge.label_width + _LABEL_MARGIN for edge in sketch.edges))))
@@ -74,8 +74,8 @@ def _inches(pixels: float) -> str:
 
 
 def _escape(text: str) -> str:
-    """One line of printable letters, with nothing in it that Graphviz takes for markup."""
+    """One line of printable characters without Graphviz markup."""
     line = "".join(letter if letter.isprintable() else "\ufffd" for letter in " ".join(text.split()))
-    # It stays of the type that `escape` gave it: a plain text in <> would be written as markup.
+    # `escape` marks its result; a plain string in <> would be written as markup.
     escaped: str = graphviz.escape(line if len(line) <= _MAX_LABEL_LENGTH else line[: _MAX_LABEL_LENGTH - 1] + "…")
     return escaped

@@ -1,4 +1,4 @@
-"""From a picture somewhere in the plane to places on the canvas: on the grid, and clear of what stays."""
+"""Fits a computed layout to the canvas: on the grid, and clear of elements that stay."""
 
 from collections.abc import Collection, Iterator, Mapping
 from dataclasses import replace
@@ -16,7 +16,7 @@ _SCREEN, _BOX = Size(width=1280, height=800), Size(width=MIN_WIDTH, height=60)
 
 
 def fit_layout(design: Design, centres: Mapping[str, Point], only: Collection[str] | None) -> NodeLayout:
-    """Places for all of a design, given new centres by id: of everything, or of the states in `only`."""
+    """Positions of the whole design, given new centers by id of all nodes or of the states in `only`."""
     states = {name: centres[id_] for name, id_ in state_ids(design).items() if id_ in centres}
     if only is not None:
         return _fit_part(design, states)
@@ -36,7 +36,7 @@ def fit_layout(design: Design, centres: Mapping[str, Point], only: Collection[st
 
 
 def layered_positions(design: Design, only: Collection[str] | None) -> dict[str, Point]:
-    """Centres by id as `place` finds them for what is to be moved, as if none had a place."""
+    """Centers by id from the layered layout, ignoring existing positions of the nodes to move."""
     states = tuple(replace(state, at=None) for state in design.states if only is None or state.name in only)
     if only is not None:
         part = replace(design, states=states, uses=(), common=CommonSection())
@@ -51,13 +51,13 @@ def layered_positions(design: Design, only: Collection[str] | None) -> dict[str,
 
 
 def screens_needed(centres: Collection[Point]) -> float:
-    """How many screens of 1280 by 800 pixels are needed to the wider side for boxes with these centres."""
+    """How many screens of 1280 by 800 pixels boxes with these centers need in their larger dimension."""
     xs, ys = [x for x, _y in centres] or [0.0], [y for _x, y in centres] or [0.0]
     return max((max(xs) - min(xs) + _BOX.width) / _SCREEN.width, (max(ys) - min(ys) + _BOX.height) / _SCREEN.height)
 
 
 def _fit_part(design: Design, states: Mapping[str, Point]) -> NodeLayout:
-    """The part stands as a whole where it was, or as near as there is room for it."""
+    """Keep a moved part as a whole where it was, or at the nearest free position."""
     before = complete_layout(design)
     if not states:
         return before
@@ -74,15 +74,15 @@ def _fit_part(design: Design, states: Mapping[str, Point]) -> NodeLayout:
 
 
 def _occupied_by_others(design: Design, placement: NodeLayout, moved: Collection[str]) -> OccupancyGrid:
-    ground = OccupancyGrid()
+    occupied = OccupancyGrid()
     for name, at in placement.states.items():
         if name not in moved:
-            ground.occupy(at, state_size(name))
+            occupied.occupy(at, state_size(name))
     for use in design.uses:
-        ground.occupy(placement.uses[use.alias], use_size(use.alias, use.component))
+        occupied.occupy(placement.uses[use.alias], use_size(use.alias, use.component))
     if design.common.transitions or design.common.actions:
-        ground.occupy(placement.common, COMMON_SIZE)
-    return ground
+        occupied.occupy(placement.common, COMMON_SIZE)
+    return occupied
 
 
 def _center(points: Collection[Point]) -> Point:
@@ -91,7 +91,7 @@ def _center(points: Collection[Point]) -> Point:
 
 
 def _search_extent(placement: NodeLayout, states: Mapping[str, Point]) -> Size:
-    """How far all and the part extend: so far a part is moved at most before it is clear of the rest."""
+    """The extent of everything and of the part: a larger shift is always clear of the rest."""
     xs = [x for x, _y in (*placement.states.values(), *placement.uses.values())]
     ys = [y for _x, y in (*placement.states.values(), *placement.uses.values())]
     wide = max(x for x, _y in states.values()) - min(x for x, _y in states.values())
@@ -100,7 +100,7 @@ def _search_extent(placement: NodeLayout, states: Mapping[str, Point]) -> Size:
 
 
 def _candidate_shifts(start: Point, reach: Size) -> Iterator[Point]:
-    """Shifts ever farther from the start, to the four sides in turn; more of them would not be seen on a screen."""
+    """Shifts of growing distance in four directions, limited to what a screen would show."""
     yield start
     for step in count(1):
         right, down = max(GRID, reach.width / _STEPS) * step, max(GRID, reach.height / _STEPS) * step

@@ -1,4 +1,4 @@
-"""A design as Graphviz needs it: boxes with sizes and arrows with weights, under ids that are safe everywhere."""
+"""A design as a layout graph: boxes with sizes, edges with weights, safe ids."""
 
 from collections.abc import Collection, Iterator
 from dataclasses import dataclass, replace
@@ -10,15 +10,15 @@ from vicode.model.traversal import iter_transitions
 COMMON_ID = "common"
 _TRANSITION_WEIGHT, _LINK_WEIGHT = 8, 1
 _MAX_LABEL_WIDTH = 150.0
-# Beyond so many boxes arrows within a layer are left out: they cost more time than they improve.
+# Above this many boxes, edges within a layer are omitted: they cost more time than they improve the layout.
 _MAX_NODES_WITH_LAYER_EDGES = 150
-# Labels are in smaller and lighter letters than names.
+# Labels use a smaller and lighter font than names.
 _LABEL_SCALE = 0.75
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LayoutNode:
-    """A box; `label` is what a person calls it, any text."""
+    """A box; `label` is its display name."""
 
     id: str
     label: str
@@ -28,9 +28,10 @@ class LayoutNode:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LayoutEdge:
-    """One arrow for all from a box to another; heavy ones are kept short. `label_width` is of the first of them.
+    """One edge for all transitions between two boxes; higher weights are kept shorter. `label_width` belongs to the
+    first one.
 
-    `may_share_rank`: the two may be in one rank, which spares used components ranks of their own.
+    `may_share_rank`: both ends may be in one rank, which avoids separate ranks for used components.
     """
 
     source: str
@@ -42,14 +43,14 @@ class LayoutEdge:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LayoutGraph:
-    """What is laid out; the first node stands first."""
+    """The graph to lay out; the first node is the initial state."""
 
     nodes: tuple[LayoutNode, ...]
     edges: tuple[LayoutEdge, ...]
 
 
 def build_layout_graph(design: Design, only: Collection[str] | None = None) -> LayoutGraph:
-    """All of a design, or only these states and what goes on among them."""
+    """The graph of a design, or of some states and the edges between them."""
     nodes = tuple(_layout_nodes(design, only))
     known = {node.id for node in nodes}
     arrows = (*_transition_edges(design), *_use_edges(design))
@@ -58,18 +59,18 @@ def build_layout_graph(design: Design, only: Collection[str] | None = None) -> L
 
 
 def state_ids(design: Design) -> dict[str, str]:
-    """The id of every state by its name; the first counts, should two have the same."""
+    """The id of every state by name; of duplicate names the first counts."""
     return {name: f"s{index}" for index, name in enumerate(dict.fromkeys(state.name for state in design.states))}
 
 
 def use_ids(design: Design) -> dict[str, str]:
-    """The id of every used component by its alias."""
+    """The id of every used component by alias."""
     return {alias: f"u{index}" for index, alias in enumerate(dict.fromkeys(use.alias for use in design.uses))}
 
 
 def _layout_nodes(design: Design, only: Collection[str] | None) -> Iterator[LayoutNode]:
     ids = state_ids(design)
-    # Graphviz breaks circles where it meets them first: beginning with the initial state puts that one in front.
+    # Graphviz breaks cycles where it finds them first: starting with the initial state puts it in front.
     for name in sorted(ids, key=lambda name: name != design.initial):
         if only is None or name in only:
             yield _layout_node(ids[name], name, state_size(name))
@@ -83,14 +84,14 @@ def _layout_nodes(design: Design, only: Collection[str] | None) -> Iterator[Layo
 
 
 def _orient_edges(nodes: tuple[LayoutNode, ...], edges: list[LayoutEdge]) -> tuple[LayoutEdge, ...]:
-    """One edge a pair, turned to point away from the first node.
+    """One edge per pair, oriented away from the first node.
 
-    Left to itself Graphviz makes ranks of the longest way through the circles: 72 for 100 states, which takes
-    minutes and fits no screen. Distances from the start are few, and are what a reader expects.
+    Otherwise Graphviz ranks nodes by the longest path through cycles: 72 ranks for 100 states, which takes minutes and
+    fits no screen. Distances from the initial state are small, and are what a reader expects.
     """
     transitions = [edge for edge in edges if edge.weight == _TRANSITION_WEIGHT]
     layers = _layers(nodes, transitions)
-    # The badge of common transitions comes before all states, used components come after them.
+    # The badge of common transitions comes before all states, used components after them.
     order = {COMMON_ID: -1} | {id_: index for index, id_ in enumerate(layers) if id_ != COMMON_ID}
     if len(nodes) > _MAX_NODES_WITH_LAYER_EDGES:
         edges = [edge for edge in edges if edge.weight != _TRANSITION_WEIGHT or _crosses_layers(edge, layers)]
@@ -106,7 +107,7 @@ def _crosses_layers(edge: LayoutEdge, layers: dict[str, int]) -> bool:
 
 
 def _layers(nodes: tuple[LayoutNode, ...], edges: list[LayoutEdge]) -> dict[str, int]:
-    """The number of arrows from the first node, in the order in which nodes are met; then from the next one left."""
+    """Distances from the first node in breadth-first order; then from the next unvisited node."""
     leads: dict[str, list[str]] = {}
     for edge in edges:
         leads.setdefault(edge.source, []).append(edge.target)

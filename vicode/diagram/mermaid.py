@@ -7,18 +7,18 @@ from vicode.diagram.node_ids import assign_ids
 from vicode.diagram.text_transitions import EVERY_STATE, describe_dangling_transitions, list_transitions
 from vicode.model.design import COMMON, Design
 
-# Words of the grammar, and names that JavaScript's objects already have.
+# Keywords of the grammar, and property names of JavaScript objects.
 _RESERVED = frozenset({
     "accdescr", "acctitle", "as", "class", "classdef", "click", "constructor", "default", "direction", "end",
     "hasownproperty", "hide", "href", "note", "prototype", "root", "scale", "state", "statediagram", "style",
     "tostring", "valueof",
 })  # fmt: skip
-# All else is written as a character's number, which Mermaid decodes before it reads the line.
+# Other characters are written as character references, which Mermaid decodes before parsing.
 _UNSAFE = re.compile(r"[^\w .,()=+\-*/'!?|]")
 
 
 def write_mermaid(design: Design, *, only: Collection[str] | None = None) -> str:
-    """The text of the whole design, or of some states and what goes on among them."""
+    """The text of the whole design, or of some states and the transitions between them."""
     names = [state.name for state in design.states if only is None or state.name in only]
     lines = list(list_transitions(design, only))
     ids = assign_ids((*names, *([COMMON] if any(line.source == COMMON for line in lines) else ())), _RESERVED)
@@ -38,6 +38,6 @@ def write_mermaid(design: Design, *, only: Collection[str] | None = None) -> str
 
 
 def escape(text: str) -> str:
-    """One line that Mermaid shows as it is."""
+    """One line that Mermaid displays literally."""
     line = "".join(letter if letter.isprintable() else "\ufffd" for letter in " ".join(text.split()))
     return _UNSAFE.sub(lambda match: f"#{ord(match.group())};", line)

@@ -1,4 +1,4 @@
-"""One component, with those that use it to its left and those that it uses to its right, as a figure to draw."""
+"""One component with its users on the left and the components it uses on the right, as a diagram."""
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 
@@ -10,7 +10,7 @@ from vicode.model.design import Point
 from vicode.model.project import Project
 
 MORE_USERS, MORE_USED = "more:users", "more:used"
-"""The keys of the boxes that stand for all that is left out on one side."""
+"""Keys of the boxes that stand for omitted components on each side."""
 
 _COLUMN_GAP, _ROW_HEIGHT, _HEIGHT = 150.0, 52.0, 40.0
 _MAX_ROWS = 12
@@ -18,17 +18,17 @@ _MAX_NAME_WIDTH = 230.0
 
 
 def neighborhood_diagram(project: Project, name: str, has_design: Callable[[str], bool]) -> Diagram:
-    """The figure of a design and its neighbors; hand-written ones that are only asked are left out."""
+    """The diagram of a design and its neighbors, without hand-written components that are only read from."""
     uses = _uses_with(project, name, has_design)
     users = _shown_labels(sorted(uses.keys() - {name}, key=str.casefold), MORE_USERS)
     used = _shown_labels(sorted(uses.get(name, {}).keys() - uses.keys(), key=str.casefold), MORE_USED)
     labels = {name: name} | users | used
-    places = {name: (0.0, 0.0), **dict(_column_positions(name, users, -1)), **dict(_column_positions(name, used, 1))}
+    positions = {name: (0.0, 0.0), **dict(_column_positions(name, users, -1)), **dict(_column_positions(name, used, 1))}
     nodes = tuple(
         DiagramNode(
             key=key,
             node_type="state" if key == name or key in (MORE_USERS, MORE_USED) or has_design(key) else "component",
-            center=places[key],
+            center=positions[key],
             size=_size(label),
             label=shorten(label, NAME_FONT, _MAX_NAME_WIDTH),
             title=_title(project, label),
@@ -54,7 +54,7 @@ def _uses_with(project: Project, name: str, has_design: Callable[[str], bool]) -
 
 
 def _shown_labels(names: Sequence[str], rest: str) -> dict[str, str]:
-    """Labels by key: all names, or the first of them and how many more there are."""
+    """Labels by key: all names, or the first ones and the number of the rest."""
     if len(names) <= _MAX_ROWS:
         return {name: name for name in names}
     kept = names[: _MAX_ROWS - 1]
@@ -72,7 +72,7 @@ def _more_edges(name: str, labels: Mapping[str, str]) -> Iterator[DiagramEdge]:
 
 
 def _column_positions(name: str, others: Mapping[str, str], side: int) -> Iterator[tuple[str, Point]]:
-    """Boxes above each other that begin, seen from the middle, at one line."""
+    """Boxes in a column, aligned on the side that faces the center."""
     edge = _size(name).width / 2 + _COLUMN_GAP
     for row, (key, label) in enumerate(others.items()):
         yield key, (side * (edge + _size(label).width / 2), (row - (len(others) - 1) / 2) * _ROW_HEIGHT)

@@ -1,6 +1,6 @@
-"""How much room things take on the canvas, and which ground is taken already.
+"""Sizes of nodes on the canvas, and the occupied area.
 
-The canvas measures texts in the browser; here widths are estimated, rather too wide than too narrow.
+The canvas measures text in the browser; here widths are estimated, rather too wide than too narrow.
 """
 
 import math
@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from vicode.model.design import Point
 
 GAP = 30.0
-"""Free pixels between two boxes that were placed by us."""
+"""Minimum distance in pixels between automatically placed boxes."""
 
 _HEIGHT = 60.0
 MIN_WIDTH, _MAX_WIDTH = 140.0, 280.0
@@ -30,39 +30,39 @@ COMMON_SIZE = Size(width=140.0, height=40.0)
 
 
 def state_size(name: str) -> Size:
-    """The box of a state: wider for a long name, which the canvas shortens in the end."""
+    """The box of a state: wider for a long name, up to a limit at which the canvas shortens it."""
     return Size(width=_box_width(name, 44), height=_HEIGHT)
 
 
 def use_size(alias: str, component: str) -> Size:
-    """The hexagon of a used component, with its name in small letters below the alias."""
+    """The hexagon of a used component, with its name in a small font below the alias."""
     return Size(width=max(_box_width(alias, 64), _box_width(component, 44)), height=_HEIGHT)
 
 
 def estimate_text_width(text: str) -> float:
-    """About how wide a text is in bold letters of 14 pixels."""
+    """The approximate width of text in a bold font of 14 pixels."""
     return sum(map(_character_width, " ".join(text[:120].split())))
 
 
 class OccupancyGrid:
-    """The boxes that stand already, in a coarse grid, so that asking does not grow with their number."""
+    """The placed boxes in a coarse grid, so that a query does not depend on their number."""
 
     def __init__(self) -> None:
         self._cells: dict[tuple[int, int], list[tuple[Point, Size]]] = {}
 
     def occupy(self, at: Point, size: Size) -> None:
-        """Put a box with this centre on the ground."""
+        """Mark a box with this center as occupied."""
         for cell in _cells(at, size):
             self._cells.setdefault(cell, []).append((at, size))
 
     def is_free(self, at: Point, size: Size, gap: float = GAP) -> bool:
-        """Whether a box with this centre keeps its distance from all that was taken."""
+        """Whether a box with this center keeps its distance from all others."""
         wide = Size(width=size.width + 2 * gap, height=size.height + 2 * gap)
         return not any(_overlap(at, wide, *other) for cell in _cells(at, wide) for other in self._cells.get(cell, ()))
 
     def occupy_first_free(self, candidates: Iterable[Point], size: Size) -> Point:
-        """The first place where such a box is free; it is taken then."""
-        at = next(place for place in candidates if self.is_free(place, size))
+        """Occupy and return the first free position."""
+        at = next(position for position in candidates if self.is_free(position, size))
         self.occupy(at, size)
         return at
 

@@ -1,4 +1,4 @@
-"""Ids for states in the text forms of drawings: the name itself where the form allows it."""
+"""Ids for states in text formats: the name itself where the format allows it."""
 
 from collections.abc import Collection, Iterable
 
@@ -6,11 +6,11 @@ from vicode.model.names import is_valid_state_name
 
 
 def assign_ids(names: Iterable[str], reserved: Collection[str]) -> dict[str, str]:
-    """An id for every name; names that mean something to the form, or begin with a digit, get a prefix.
+    """An id for every name; reserved words and names that start with a digit get a prefix.
 
     Args:
-        names: What things are called; the first of two equal ones counts.
-        reserved: Words that are no ids, in small letters.
+        names: display names; of duplicates the first counts.
+        reserved: words that are not valid ids, in lower case.
     """
     wanted = tuple(dict.fromkeys(names))
     plain = {name for name in wanted if _is_valid_id(name, reserved)}

@@ -1,11 +1,11 @@
-"""The colours of drawings, light and dark: those of the canvas, which a test compares."""
+"""Colors of diagrams, light and dark: those of the canvas (a test compares them)."""
 
 from dataclasses import dataclass
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ColorPalette:
-    """A colour for every part; the names are those of the canvas's style sheet, with underscores."""
+    """One color per part, named as in the canvas style sheet, with underscores."""
 
     paper: str
     text: str
@@ -27,7 +27,7 @@ class ColorPalette:
 
 
 def css_variable_palette() -> ColorPalette:
-    """Colours left to the style sheet of the page that a drawing becomes part of."""
+    """Colors defined by the style sheet of the page that contains the diagram."""
     return ColorPalette(
         **{name: f"var(--drawn-{name.replace('_', '-')})" for name in ColorPalette.__dataclass_fields__}
     )

@@ -1,4 +1,4 @@
-"""A drawing as PDF: one page of its size, lines as lines and texts as texts."""
+"""Writes a vector image as a PDF page of its size, with lines as lines and text as text."""
 
 from collections.abc import Iterator
 from functools import lru_cache
@@ -10,18 +10,18 @@ from typing import Any
 from vicode.diagram.primitives import PathShape, TextShape, VectorImage
 
 _POINTS_PER_PIXEL = 0.75
-# PDF knows no larger pages.
+# The largest page size of PDF.
 _MAX_SIDE = 14_400.0
 _BASELINE_SHIFT = 0.36
 _STANDARD, _STANDARD_BOLD, _FALLBACK, _CHINESE = "Helvetica", "Helvetica-Bold", "VicodeMore", "STSong-Light"
 _FIRST_CHINESE_CODE_POINT = 0x2E80
-# Fonts with many letters, where systems keep them; Helvetica has those of Western Europe.
+# Fonts with many glyphs and their usual paths; Helvetica covers Western Europe.
 _FONT_FOLDERS = ("/usr/share/fonts", "/usr/local/share/fonts", "/Library/Fonts", "C:/Windows/Fonts")
 _FONT_FILES = ("DejaVuSans.ttf", "NotoSans-Regular.ttf", "FreeSans.ttf", "Arial Unicode.ttf", "arial.ttf")
 
 
 def write_pdf(image: VectorImage) -> bytes:
-    """The bytes of the file; the same drawing gives the same."""
+    """The content of the file; deterministic."""
     from reportlab.pdfgen.canvas import Canvas  # noqa: PLC0415 - it loads slowly
 
     longest = max(image.width, image.height)
@@ -32,7 +32,7 @@ def write_pdf(image: VectorImage) -> bytes:
     page.setSubject(image.doc)
     page.setCreator("vicode")
     page.scale(scale, scale)
-    # From here on in pixels of the drawing, y downwards as far as numbers go: every y is turned by `flip`.
+    # From here on in pixels of the image with y downwards, except that coordinates are flipped by `flip`.
     pen = _PdfPainter(page, left=image.left, bottom=image.top + image.height)
     pen.fill_page(image)
     for group in image.groups:
@@ -43,7 +43,7 @@ def write_pdf(image: VectorImage) -> bytes:
 
 
 class _PdfPainter:
-    """Draws on a page whose y goes upwards."""
+    """Draws on a page whose y axis points up."""
 
     def __init__(self, page: Any, *, left: float, bottom: float) -> None:
         self.page, self.left, self.bottom = page, left, bottom
@@ -105,7 +105,7 @@ def _font_runs(text: TextShape) -> Iterator[tuple[str, str]]:
 
     for font, letters in groupby(printable, font_of):
         run = "".join(letters)
-        # What no font has is shown as that, instead of not at all.
+        # A character without a glyph is shown as a placeholder instead of being omitted.
         yield font, run if font in (_FALLBACK, _CHINESE) else run.encode("cp1252", "replace").decode("cp1252")
 
 
@@ -119,7 +119,7 @@ def _is_western(letter: str) -> bool:
 
 @lru_cache(maxsize=1)
 def _fallback_glyphs() -> frozenset[int]:
-    """Makes the further fonts known; answers which letters the first of them has."""
+    """Register the fallback fonts; returns the characters covered by the first one."""
     import reportlab  # noqa: PLC0415
     from reportlab.pdfbase import pdfmetrics  # noqa: PLC0415
     from reportlab.pdfbase.cidfonts import UnicodeCIDFont  # noqa: PLC0415

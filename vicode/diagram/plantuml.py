@@ -1,4 +1,4 @@
-"""A design as PlantUML, for documents that draw it themselves."""
+"""A design as PlantUML."""
 
 import re
 from collections.abc import Collection
@@ -12,12 +12,12 @@ _RESERVED = frozenset({
     "json", "left", "legend", "note", "remove", "right", "scale", "show", "skinparam", "start", "state", "title",
     "up",
 })  # fmt: skip
-# Signs of its markup and its preprocessor; the doubled ones only make text bold, slanted or struck.
+# Characters of its markup and preprocessor; doubled ones only change the style.
 _MARKUP = re.compile(r"[^\w .,()=+\-*/'!?|:]|([*/_\-'.])\1+|^[!']")
 
 
 def write_plantuml(design: Design, *, only: Collection[str] | None = None) -> str:
-    """The text of the whole design, or of some states and what goes on among them."""
+    """The text of the whole design, or of some states and the transitions between them."""
     names = [state.name for state in design.states if only is None or state.name in only]
     lines = list(list_transitions(design, only))
     commons = [COMMON] if any(line.source == COMMON for line in lines) else []
@@ -28,15 +28,15 @@ def write_plantuml(design: Design, *, only: Collection[str] | None = None) -> st
     if design.initial in names:
         text.append(f"[*] --> {ids[design.initial]}")
     for line in lines:
-        arrow = "-[dashed]->" if line.source == COMMON else "-->"
+        edge = "-[dashed]->" if line.source == COMMON else "-->"
         label = f" : {escape(line.label)}" if line.label else ""
-        text.append(f"{ids[line.source]} {arrow} {ids[line.target]}{label}")
+        text.append(f"{ids[line.source]} {edge} {ids[line.target]}{label}")
     text += [f"' {words}" for words in describe_dangling_transitions(design, only)]
     text += [f"{ids[state.name]} --> [*]" for state in design.states if state.final and state.name in ids]
     return "\n".join((*text, "@enduml")) + "\n"
 
 
 def escape(text: str) -> str:
-    """One line that PlantUML shows as it is."""
+    """One line that PlantUML displays literally."""
     line = "".join(letter if letter.isprintable() else "\ufffd" for letter in " ".join(text.split()))
     return _MARKUP.sub(lambda match: "".join(f"<U+{ord(letter):04X}>" for letter in match.group()), line)

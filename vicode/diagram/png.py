@@ -1,16 +1,16 @@
-"""A drawing as PNG, painted from its SVG by resvg with the fonts of this machine."""
+"""Rasterizes an SVG to PNG with resvg and the fonts of this machine."""
 
 from pathlib import Path
 
 from vicode.diagram.primitives import VectorImage
 from vicode.diagram.svg import write_svg
 
-# So many pixels take about 200 MB while they are painted; a larger drawing is painted smaller.
+# This many pixels take about 200 MB while rendering; larger images are scaled down.
 _MAX_PIXELS = 50_000_000.0
 
 
 def write_png(image: VectorImage, *, scale: float = 2.0) -> bytes:
-    """The bytes of the file, `scale` pixels to a pixel of the drawing as far as memory allows."""
+    """The content of the file, with up to `scale` pixels per pixel of the image, limited by memory."""
     import reportlab  # noqa: PLC0415 - it and resvg load slowly, and are wanted for files alone
     import resvg_py  # noqa: PLC0415
 
@@ -22,7 +22,7 @@ def write_png(image: VectorImage, *, scale: float = 2.0) -> bytes:
             svg_string=write_svg(image),
             width=max(1, round(image.width * zoom)),
             height=max(1, round(image.height * zoom)),
-            # A server may have no fonts at all.
+            # A server may have no fonts.
             font_files=[str(fonts / "Vera.ttf"), str(fonts / "VeraBd.ttf")],
             sans_serif_family="Bitstream Vera Sans",
         )

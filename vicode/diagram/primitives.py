@@ -1,4 +1,4 @@
-"""The few things a drawing is made of, whatever it is written as: paths, texts, and named groups of them."""
+"""The primitives of a vector image: paths, texts, and groups."""
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
@@ -7,7 +7,7 @@ from vicode.diagram.text_metrics import LABEL_FONT, Font
 from vicode.model.design import Point
 
 PathCommand = tuple[str, tuple[float, ...]]
-"""M and L with a point, C with three, Z with none; all absolute."""
+"""M and L with one point, C with three, Z with none; absolute coordinates."""
 
 # A quarter of a circle as a cubic curve.
 _CIRCLE_KAPPA = 0.5523
@@ -15,7 +15,7 @@ _CIRCLE_KAPPA = 0.5523
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PathShape:
-    """Lines and curves; an empty colour paints nothing."""
+    """Lines and curves; an empty color paints nothing."""
 
     commands: tuple[PathCommand, ...]
     fill: str = ""
@@ -26,7 +26,7 @@ class PathShape:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TextShape:
-    """One line; `x` is its beginning or its middle, `y` the middle of its height."""
+    """One line of text; `x` is its start or its center, `y` its vertical center."""
 
     x: float
     y: float
@@ -39,10 +39,11 @@ class TextShape:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ShapeGroup:
-    """Shapes that are one thing; `title` is its tip and its name for screen readers, `href` where a click leads.
+    """Shapes that form one element; `title` is its tooltip and accessible name, `href` its link target.
 
-    `key` names a node, `end_keys` are the keys of the nodes an arrow joins. An echo says again what another group says:
-    keys and screen readers pass it over.
+    `key` identifies a node, `end_keys` the two nodes of an edge. An echo repeats another group and is skipped by
+    keyboard
+    navigation and screen readers.
     """
 
     title: str
@@ -56,7 +57,7 @@ class ShapeGroup:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class VectorImage:
-    """All of it, drawn in this order, and the room it needs."""
+    """Shapes in drawing order, and the size of the image."""
 
     title: str
     doc: str
@@ -69,23 +70,21 @@ class VectorImage:
 
 
 def polyline_path(points: Sequence[Point], *, closed: bool = False) -> tuple[PathCommand, ...]:
-    """Straight from point to point."""
     steps: list[PathCommand] = [("M", points[0]), *(("L", point) for point in points[1:])]
     return (*steps, ("Z", ())) if closed else tuple(steps)
 
 
 def polylines_path(*runs: Sequence[Point], at: Point = (0, 0)) -> tuple[PathCommand, ...]:
-    """Several lines in one path, shifted to a place."""
+    """Several lines in one path, translated."""
     return tuple(step for run in runs for step in polyline_path([(x + at[0], y + at[1]) for x, y in run]))
 
 
 def curve_path(numbers: Sequence[float]) -> tuple[PathCommand, ...]:
-    """A cubic curve from eight numbers: start, two controls, end."""
+    """A cubic curve from eight numbers: start, two control points, end."""
     return (("M", tuple(numbers[:2])), ("C", tuple(numbers[2:])))
 
 
 def rounded_rect_path(at: Point, width: float, height: float, radius: float) -> tuple[PathCommand, ...]:
-    """A rectangle with round corners around a centre."""
     x, y = at
     right, bottom = width / 2, height / 2
     r = min(radius, right, bottom)
@@ -104,5 +103,4 @@ def rounded_rect_path(at: Point, width: float, height: float, radius: float) -> 
 
 
 def circle_path(at: Point, radius: float) -> tuple[PathCommand, ...]:
-    """A circle around a centre."""
     return rounded_rect_path(at, 2 * radius, 2 * radius, radius)

@@ -1,4 +1,4 @@
-"""Draws a figure as the canvas does: the same shapes, signs and colours, made of paths and texts."""
+"""Renders a diagram with the shapes, icons and colors of the canvas."""
 
 import math
 from collections.abc import Collection, Iterable
@@ -26,7 +26,7 @@ from vicode.model.design import Design, Point
 
 _MARGIN = 24.0
 _ARROWHEAD_LENGTH = 10.0
-# So many points of a curve tell how far it bows, within a pixel or two.
+# Sample points of a curve, enough to find its bounds within two pixels.
 _SAMPLES = 8
 _BADGE_ROW, _NAME_OFFSET, _BADGE_GAP = 16.0, -8.0, 9.0
 _HEXAGON = (((2.5, -4.0), (7.5, -4.0), (10.0, 0.0), (7.5, 4.0), (2.5, 4.0), (0.0, 0.0), (2.5, -4.0)),)
@@ -47,20 +47,20 @@ _ICONS: dict[GuardKind, tuple[tuple[Point, ...], ...]] = {
 def render_design(
     design: Design, *, only: Collection[str] | None = None, links: bool = True, palette: ColorPalette = LIGHT
 ) -> VectorImage:
-    """The drawing of a design, or of some states and what they use.
+    """Render a design, or some of its states with the components they use.
 
     Args:
-        design: What to draw; what has no place gets one.
-        only: The names of the states to draw, None for all.
-        links: Whether used components are shown, with who requires and modulates them.
-        palette: The colours.
+        design: the design; elements without a position get one.
+        only: names of states, None for all.
+        links: whether to show used components with their requires and modulates links.
+        palette: the colors.
     """
     figure = build_diagram(design, only=only, links=links)
     return render_diagram(figure, title=design.component, doc=design.doc, palette=palette)
 
 
 def render_diagram(diagram: Diagram, *, title: str, doc: str = "", palette: ColorPalette = LIGHT) -> VectorImage:
-    """The drawing of a figure: links below transitions, labels above all."""
+    """Render a diagram: links below transitions, labels on top."""
     routes = route_edges(diagram)
     artist = _DiagramRenderer(palette)
     groups = (
@@ -83,7 +83,7 @@ def render_diagram(diagram: Diagram, *, title: str, doc: str = "", palette: Colo
 
 
 class _DiagramRenderer:
-    """Knows the colours."""
+    """Draws nodes, edges and labels in the colors of a palette."""
 
     def __init__(self, palette: ColorPalette) -> None:
         self.palette = palette
@@ -95,7 +95,7 @@ class _DiagramRenderer:
         return ShapeGroup(title=node.title, css_class=node.node_type, shapes=shapes, href=node.href, key=node.key)
 
     def edge(self, route: EdgeRoute) -> ShapeGroup:
-        """A curve with its head."""
+        """A curve with its arrowhead."""
         pal, arrow, ends = self.palette, route.edge, (route.edge.source, route.edge.target)
         tip, base = _arrowhead(route.curve)
         shaft = curve_path((*route.curve[:6], *base))
@@ -121,7 +121,6 @@ class _DiagramRenderer:
         )
 
     def label(self, chip: EdgeLabel | None, route: EdgeRoute) -> ShapeGroup:
-        """The label of an arrow."""
         assert chip is not None
         pal, (x, y) = self.palette, route.label_position
         plate = PathShape(
@@ -247,12 +246,12 @@ def _icon(kind: GuardKind, at: Point) -> Iterable[tuple[tuple[str, tuple[float, 
 
 
 def _quadratic_to_cubic(end: Point, control: Point) -> Point:
-    """The control of a cubic curve for that of a quadratic one."""
+    """The control points of a cubic curve for that of a quadratic one."""
     return (end[0] + 2 / 3 * (control[0] - end[0]), end[1] + 2 / 3 * (control[1] - end[1]))
 
 
 def _arrowhead(of: CubicBezier) -> tuple[tuple[tuple[str, tuple[float, ...]], ...], Point]:
-    """The arrow head, and the point where the line meets it."""
+    """The arrowhead, and the point where the line meets it."""
     dx, dy = of[6] - of[4], of[7] - of[5]
     length = math.hypot(dx, dy) or 1
     ux, uy = dx / length, dy / length
@@ -264,7 +263,7 @@ def _arrowhead(of: CubicBezier) -> tuple[tuple[tuple[str, tuple[float, ...]], ..
 
 
 def _bounds(figure: Diagram, routes: Iterable[EdgeRoute]) -> tuple[float, float, float, float]:
-    """The edges of the whole, labels and bows included."""
+    """The bounds of everything, including labels and curves."""
     xs: list[float] = []
     ys: list[float] = []
     for node in figure.nodes:

@@ -1,4 +1,4 @@
-"""Rectangles under names in a coarse grid, so that asking what lies somewhere does not grow with their number."""
+"""Rectangles in a coarse grid, so that a spatial query does not depend on their number."""
 
 import math
 from collections import defaultdict
@@ -9,20 +9,20 @@ from vicode.diagram.node_geometry import Size
 from vicode.model.design import Point
 
 CubicBezier = tuple[float, float, float, float, float, float, float, float]
-"""A cubic one: start, two controls, end."""
+"""A cubic curve: start, two control points, end."""
 
 BezierWeights = tuple[float, float, float, float]
-"""How much of each of its four points is in a point of a curve."""
+"""The weights of the four points of a curve at one of its points."""
 
 _CELL_SIZE = 200.0
 _FINE_CELL_SIZE = 40.0
-# One that is larger than so many cells would be a slip of the pen somewhere far out.
+# A rectangle with more cells is a typo far outside the diagram.
 _MAX_CELLS = 400
 
 
 @dataclass(frozen=True, slots=True)
 class Rect:
-    """By its edges."""
+    """A rectangle by its edges."""
 
     left: float
     top: float
@@ -31,11 +31,10 @@ class Rect:
 
     @classmethod
     def from_center(cls, at: Point, size: Size) -> "Rect":
-        """Of a size, around a centre."""
         return cls(at[0] - size.width / 2, at[1] - size.height / 2, at[0] + size.width / 2, at[1] + size.height / 2)
 
     def expanded(self, by: float) -> "Rect":
-        """Larger by this on every side."""
+        """Larger by this amount on every side."""
         return Rect(self.left - by, self.top - by, self.right + by, self.bottom + by)
 
     def overlaps(self, other: "Rect") -> bool:
@@ -46,35 +45,32 @@ class Rect:
 
 
 class RectIndex:
-    """Rectangles to be found by place."""
+    """A spatial index of rectangles."""
 
     def __init__(self) -> None:
         self._cells: dict[tuple[int, int], list[tuple[str, Rect]]] = defaultdict(list)
 
     def add(self, key: str, rect: Rect) -> None:
-        """Put a rectangle there."""
         for cell in _cells(rect):
             self._cells[cell].append((key, rect))
 
     def remove(self, key: str, rect: Rect) -> None:
-        """Take away what was put there."""
         for cell in _cells(rect):
             self._cells[cell].remove((key, rect))
 
     def overlapping(self, rect: Rect) -> set[str]:
-        """The keys of all that overlap a rectangle."""
+        """The keys of all rectangles that overlap this one."""
         return {key for cell in _cells(rect) for key, other in self._cells.get(cell, ()) if rect.overlaps(other)}
 
 
 class ObstacleIndex:
-    """What lines should not run over: rectangles grown by a clearance, in a grid so fine that most cells are empty."""
+    """Obstacles for lines: rectangles with a clearance, in a grid so fine that most cells are empty."""
 
     def __init__(self, clearance: float) -> None:
         self._clearance = clearance
         self._cells: dict[tuple[float, float], list[tuple[str, float, float, float, float]]] = {}
 
     def add(self, key: str, rect: Rect) -> None:
-        """Put a rectangle there."""
         wide = rect.expanded(self._clearance)
         entry = (key, wide.left, wide.top, wide.right, wide.bottom)
         for column, row in _cells(wide, _FINE_CELL_SIZE):
@@ -83,10 +79,10 @@ class ObstacleIndex:
     def count_hit(
         self, curve: CubicBezier, weights: Iterable[BezierWeights], ignored: Collection[str], limit: float
     ) -> int:
-        """How many lie under the points of a curve, `ignored` those at its ends; from `limit` on nobody counts."""
+        """How many rectangles contain a point of the curve, except `ignored`; stops counting at `limit`."""
         find, hit = self._cells.get, set[str]()
         x0, y0, x1, y1, x2, y2, x3, y3 = curve
-        # Maps of large projects ask this a million times: the points are not made elsewhere, nor their cells rounded.
+        # Dependency diagrams of large projects call this a million times, hence the inlined arithmetic.
         for a, b, c, d in weights:
             x, y = a * x0 + b * x1 + c * x2 + d * x3, a * y0 + b * y1 + c * y2 + d * y3
             for key, left, top, right, bottom in find((x // _FINE_CELL_SIZE, y // _FINE_CELL_SIZE), ()):
@@ -98,13 +94,12 @@ class ObstacleIndex:
 
 
 class PointIndex:
-    """Points of lines, to be found by place."""
+    """A spatial index of points of lines."""
 
     def __init__(self) -> None:
         self._cells: dict[tuple[int, int], list[tuple[str, float, float]]] = defaultdict(list)
 
     def add(self, key: str, points: Iterable[Point]) -> None:
-        """Put the points of a line there."""
         for x, y in points:
             self._cells[int(x // _FINE_CELL_SIZE), int(y // _FINE_CELL_SIZE)].append((key, x, y))
 

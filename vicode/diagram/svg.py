@@ -1,4 +1,4 @@
-"""A drawing as SVG: one file, no scripts, nothing from outside, texts that can be selected."""
+"""Writes a vector image as SVG: one file without scripts or external resources, with selectable text."""
 
 import re
 from xml.sax.saxutils import escape, quoteattr
@@ -6,23 +6,23 @@ from xml.sax.saxutils import escape, quoteattr
 from vicode.diagram.primitives import PathShape, ShapeGroup, TextShape, VectorImage
 from vicode.diagram.text_metrics import FONT_FAMILIES
 
-# What XML 1.0 has no way to say.
+# Characters that XML 1.0 cannot represent.
 _INVALID_XML = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
-# From the middle of small letters to their foot, as a share of their size.
+# From the middle of small letters to their baseline, as a fraction of the font size.
 _BASELINE_SHIFT = 0.36
 
 
 def write_svg(image: VectorImage, *, is_embedded: bool = False) -> str:
-    """The text of the file; as a part of a page it also says which groups belong together."""
+    """The text of the file; as part of a page it also contains the keys of groups."""
     left, top, width, height = map(_number, (image.left, image.top, image.width, image.height))
     families = ", ".join(f"'{name}'" if " " in name else name for name in FONT_FAMILIES)
-    place = f'width="{width}" height="{height}" viewBox="{left} {top} {width} {height}"'
-    # A picture of one piece hides from screen readers the links that are in it.
+    position = f'width="{width}" height="{height}" viewBox="{left} {top} {width} {height}"'
+    # `role=img` would hide the links inside from screen readers.
     role = "group" if any(group.href for group in image.groups) else "img"
-    # As a title the name of a page's part would stand beside the pointer everywhere in it.
+    # A `<title>` of the whole image would be a tooltip everywhere in it.
     name = f" aria-label={quoteattr(_INVALID_XML.sub('', image.title))}" if is_embedded else ""
     lines = [
-        f'<svg xmlns="http://www.w3.org/2000/svg" {place} font-family="{families}" role="{role}"{name}>',
+        f'<svg xmlns="http://www.w3.org/2000/svg" {position} font-family="{families}" role="{role}"{name}>',
         *([] if is_embedded else [f"<title>{_text(image.title)}</title>"]),
         *([f"<desc>{_text(image.doc)}</desc>"] if image.doc else ()),
         f'<rect x="{left}" y="{top}" width="{width}" height="{height}" fill="{image.background}"/>',
@@ -61,14 +61,14 @@ def _path_element(path: PathShape) -> str:
 
 def _text_element(text: TextShape) -> str:
     letters = text.font
-    # dominant-baseline is not understood everywhere; a shift down is.
+    # `dominant-baseline` is not supported everywhere; shifting the text is.
     foot = text.y + letters.size * _BASELINE_SHIFT
     weight = ' font-weight="600"' if letters.bold else ""
     anchor = ' text-anchor="middle"' if text.is_centered else ""
     strike = ' text-decoration="line-through"' if text.is_struck_through else ""
     look = f'font-size="{_number(letters.size)}"{weight}{anchor}{strike} fill={quoteattr(text.fill)}'
-    place = f'x="{_number(text.x)}" y="{_number(foot)}"'
-    return f'<text {place} {look} xml:space="preserve">{_text(text.text)}</text>'
+    position = f'x="{_number(text.x)}" y="{_number(foot)}"'
+    return f'<text {position} {look} xml:space="preserve">{_text(text.text)}</text>'
 
 
 def _text(text: str) -> str:

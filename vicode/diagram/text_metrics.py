@@ -1,4 +1,4 @@
-"""About how wide texts are in the letters of a drawing, without any font at hand.
+"""Approximate text widths without a font.
 
 The widths are those of Helvetica, which Arial, Liberation Sans and, nearly, Roboto share.
 """
@@ -6,7 +6,7 @@ The widths are those of Helvetica, which Arial, Liberation Sans and, nearly, Rob
 from dataclasses import dataclass
 from functools import lru_cache
 
-# In thousandths of the letters' size, from the blank (32) to the tilde (126): Adobe's metrics of Helvetica.
+# In thousandths of the font size, from space (32) to tilde (126): Adobe's metrics of Helvetica.
 _WIDTHS = (
     278, 278, 355, 556, 556, 889, 667, 191, 333, 333, 389, 584, 278, 333, 278, 278, 556, 556, 556, 556, 556, 556, 556,
     556, 556, 556, 278, 278, 584, 584, 584, 556, 1015, 667, 667, 722, 722, 667, 611, 778, 722, 278, 500, 667, 556, 833,
@@ -19,7 +19,7 @@ _GLYPH_WIDTHS = {**{chr(32 + index): width for index, width in enumerate(_WIDTHS
 _DEFAULT_WIDTH, _WIDE_GLYPH_WIDTH = 600, 1000
 _FIRST_WIDE_CODE_POINT = 0x2E80
 _BOLD_FACTOR = 1.07
-# Nothing longer can fit into any room there is.
+# Longer texts never fit.
 _MAX_LENGTH = 120
 
 FONT_FAMILIES = ("Roboto", "Segoe UI", "Helvetica Neue", "Arial", "Liberation Sans", "DejaVu Sans", "sans-serif")
@@ -44,7 +44,7 @@ def text_width(text: str, font: Font) -> float:
 
 
 def shorten(text: str, font: Font, max_width: float) -> str:
-    """The text in one line when it fits, else its beginning and an ellipsis."""
+    """The text on one line if it fits, else its start and an ellipsis."""
     line = " ".join(text.split())
     start = line[:_MAX_LENGTH]
     if start == line and text_width(line, font) <= max_width:

@@ -1,4 +1,4 @@
-"""A design as the text forms of drawings list it: its arrows with whole labels, in the order of the tests."""
+"""The transitions of a design for text formats, with full labels in priority order."""
 
 from collections import Counter
 from collections.abc import Collection, Iterator
@@ -13,7 +13,7 @@ EVERY_STATE = "every state"
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TextTransition:
-    """One transition; `source` is a state's name or COMMON, `label` one line of any text."""
+    """One transition; `source` is the name of a state or COMMON, `label` one line of text."""
 
     source: str
     target: str
@@ -21,7 +21,7 @@ class TextTransition:
 
 
 def list_transitions(design: Design, only: Collection[str] | None = None) -> Iterator[TextTransition]:
-    """Every transition whose ends are there; numbered where a state has more than one."""
+    """Every transition whose source and target exist; numbered if a state has several."""
     names = {state.name for state in design.states if only is None or state.name in only}
     located = [each for each in iter_transitions(design) if each.source == COMMON or each.source in names]
     counts = Counter(each.source for each in located)
@@ -37,7 +37,7 @@ def list_transitions(design: Design, only: Collection[str] | None = None) -> Ite
 
 
 def describe_dangling_transitions(design: Design, only: Collection[str] | None = None) -> Iterator[str]:
-    """What is to be said of every transition that leads to no state: nothing can be drawn of it."""
+    """A comment for every transition to a missing state, which cannot be drawn."""
     names = {state.name for state in design.states}
     for each in iter_transitions(design):
         assert isinstance(each.decision, Transition)

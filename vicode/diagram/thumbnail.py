@@ -1,4 +1,4 @@
-"""A drawing small enough to stand on a card: as it is where that can be made out, else boxes and lines alone."""
+"""A diagram for a card: complete if it is readable at that size, else only boxes and lines."""
 
 from vicode.diagram.diagram_model import Diagram, DiagramNode, build_diagram
 from vicode.diagram.palettes import DARK, LIGHT, ColorPalette
@@ -7,14 +7,14 @@ from vicode.diagram.render import render_diagram
 from vicode.diagram.svg import write_svg
 from vicode.model.design import Design
 
-# On a card of 280 pixels a line of this part of the whole's width is still seen.
+# At a width of 280 pixels, a line of this fraction of the width is still visible.
 _MIN_LINE_WIDTH = 1 / 220
 _MAX_DETAILED_NODES = 8
 _MAX_EDGES = 600
 
 
 def render_thumbnail(design: Design, *, dark: bool = False) -> str:
-    """The SVG of a design's states and transitions, in the proportions of the whole."""
+    """The SVG of the states and transitions of a design, with its aspect ratio."""
     figure = build_diagram(design, links=False)
     palette = DARK if dark else LIGHT
     if len(figure.nodes) <= _MAX_DETAILED_NODES:
@@ -23,16 +23,16 @@ def render_thumbnail(design: Design, *, dark: bool = False) -> str:
 
 
 def _outline(figure: Diagram, title: str, palette: ColorPalette) -> VectorImage:
-    """Boxes and straight lines, thick enough for their small scale."""
+    """Boxes and straight lines, thick enough for the small scale."""
     lefts = [node.center[0] - node.size.width / 2 for node in figure.nodes]
     rights = [node.center[0] + node.size.width / 2 for node in figure.nodes]
     ys = [node.center[1] for node in figure.nodes]
     left, width, top, height = min(lefts) - 30, max(rights) - min(lefts) + 60, min(ys) - 60, max(ys) - min(ys) + 120
     pen = max(1.5, max(width, height) * _MIN_LINE_WIDTH)
-    places = {node.key: node.center for node in figure.nodes}
-    # Beyond so many nothing is made out but where boxes are.
+    positions = {node.key: node.center for node in figure.nodes}
+    # With more states, only boxes are recognizable.
     shown = figure.edges if len(figure.edges) <= _MAX_EDGES else ()
-    ways = sorted({tuple(sorted((places[arrow.source], places[arrow.target]))) for arrow in shown})
+    ways = sorted({tuple(sorted((positions[arrow.source], positions[arrow.target]))) for arrow in shown})
     lines = tuple(step for way in ways for step in polyline_path(way))
     shapes: list[PathShape] = [PathShape(commands=lines, stroke=palette.edge, width=pen)] if lines else []
     for node in figure.nodes:

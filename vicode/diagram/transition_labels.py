@@ -1,4 +1,4 @@
-"""What stands on an arrow: a transition's guard in one line, and which kind of guard it is."""
+"""Labels of transitions: the guard in one line, and its kind."""
 
 from enum import StrEnum
 
@@ -7,7 +7,7 @@ from vicode.model.traversal import LocatedDecision
 
 
 class GuardKind(StrEnum):
-    """What decides about a transition, told by a small sign on its label."""
+    """The kind of a guard, shown as an icon on the label."""
 
     ALWAYS = "always"
     GUARD = "guard"
@@ -20,16 +20,16 @@ _MAX_SHORT_LABEL = 16
 
 
 def short_transition_label(located: LocatedDecision, unit: str = "") -> str:
-    """The guard where it fits on an arrow; a long one gives way to a short doc."""
+    """The guard if it is short enough for a label, else a short documentation text."""
     label, doc = transition_label(located, unit), located.decision.doc
     return doc if len(label) > _MAX_SHORT_LABEL and 0 < len(doc) <= _MAX_SHORT_LABEL + 14 else label
 
 
 def transition_label(located: LocatedDecision, unit: str = "", *, spell_out: bool = False) -> str:
-    """The guard as it stands on the arrow, with the guards of the groups around it in front.
+    """The guard, preceded by the guards of the enclosing groups.
 
-    `unit` is the unit of the design's times, "" for seconds. `spell_out` is for where no sign of a clock stands beside
-    it: "after 5 s".
+    `unit` is the unit of times, "" for seconds. `spell_out` writes timers as "after 5 s", for places without a clock
+    icon.
     """
     parts = [
         guard_label(group.guard, unit, spell_out=spell_out) if is_then else "else" for group, is_then in located.groups
@@ -39,7 +39,7 @@ def transition_label(located: LocatedDecision, unit: str = "", *, spell_out: boo
 
 
 def guard_label(guard: Guard, unit: str = "", *, spell_out: bool = False) -> str:
-    """A guard in a line: the expression, the timer as "5 s", code as a sign for it."""
+    """The guard in one line: the expression, the timer as "5 s", a placeholder for code."""
     parts = [" ".join(guard.when.split())] if guard.when else []
     if guard.after:
         parts.append(f"{'after ' if spell_out else ''}{guard.after} {unit or 's'}")
@@ -49,7 +49,7 @@ def guard_label(guard: Guard, unit: str = "", *, spell_out: bool = False) -> str
 
 
 def guard_kind(located: LocatedDecision) -> GuardKind:
-    """The kind of the guard; below a group it is a branch of a decision tree."""
+    """The kind of the guard; inside a group it is a branch of a decision tree."""
     if located.groups:
         return GuardKind.TREE
     guard = located.decision.guard

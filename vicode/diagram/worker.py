@@ -1,6 +1,6 @@
 """The process that runs Graphviz: `python -m vicode.diagram.worker` answers each line of JSON with one line of JSON.
 
-A crash or an endless computation of Graphviz ends here, and not in the editor.
+A crash or endless computation of Graphviz ends here, and not in the editor.
 """
 
 import contextlib
@@ -21,19 +21,19 @@ from vicode.diagram.layout_graph import LayoutEdge, LayoutGraph, LayoutNode
 try:
     import pygraphviz
 except ImportError:
-    # No wheel for this machine: an installed `dot` will do.
+    # No wheel for this machine: use an installed `dot`.
     pygraphviz = None
 
 PositionsById = dict[str, tuple[float, float]]
 
 _SCREEN_RATIO = 1.6
 _MAX_FULL_EFFORT, _MAX_BOUNDED_EFFORT = 150, 500
-# Graphviz recurses once a box: 3000 states overflow the usual 8 MB. Memory that is not touched costs nothing.
+# Graphviz recurses once per box: 3000 states overflow the usual 8 MB. Untouched memory costs nothing.
 _STACK_BYTES = 512 * 1024 * 1024
 
 
 def main() -> None:
-    """Answer requests until there are no more."""
+    """Answer requests until standard input closes."""
     with _private_stdout() as answers:
         threading.stack_size(_STACK_BYTES)
         thread = threading.Thread(target=_serve, args=(sys.stdin, answers))
@@ -42,7 +42,9 @@ def main() -> None:
 
 
 def compute_positions(sketch: LayoutGraph, run: Callable[[str], str]) -> PositionsById:
-    """Centres in pixels by id, x to the right and y downwards; of both directions the one that fits a screen better."""
+    """Centers in pixels by id, x to the right and y downwards; of both rank directions the one that fits a screen
+    better.
+    """
     size = len(sketch.nodes)
     effort = (
         LayoutEffort.FULL
@@ -89,7 +91,7 @@ def _run_program(text: str) -> str:
 
 
 def _read_plain(text: str) -> tuple[tuple[float, float], PositionsById]:
-    """The size and the centres in Graphviz's plain format: inches, y upwards."""
+    """The size and the centers from Graphviz's plain format: inches, y upwards."""
     width = height = 0.0
     positions: PositionsById = {}
     for line in text.splitlines():
@@ -102,19 +104,21 @@ def _read_plain(text: str) -> tuple[tuple[float, float], PositionsById]:
 
 
 def _screen_extent(size: tuple[float, float]) -> float:
-    """How many times wider, or higher, than a screen of height 1 a picture is."""
+    """The extent of an image in screens of height 1, in its larger dimension."""
     return max(size[0] / _SCREEN_RATIO, size[1])
 
 
 def _limit_run_time(seconds: float) -> None:
-    """Let the system end this process then, even inside Graphviz and when nobody is left to kill it; 0: never."""
+    """Let the operating system end this process after a time, even inside Graphviz or if the editor was killed; 0:
+    never.
+    """
     if hasattr(signal, "setitimer"):
         signal.setitimer(signal.ITIMER_REAL, seconds)
 
 
 @contextlib.contextmanager
 def _private_stdout() -> Iterator[TextIO]:
-    """The real standard output; what C code prints to it goes to standard error instead."""
+    """The real standard output; C code that prints goes to standard error instead."""
     with os.fdopen(os.dup(1), "w", encoding="utf-8") as answers:
         os.dup2(2, 1)
         yield answers
