@@ -1,4 +1,4 @@
-"""From a project of designs to files of code: a pure function, the same for every caller."""
+"""Code generation: a pure function from a project to output files."""
 
 from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass, replace
@@ -45,10 +45,14 @@ __all__ = [
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Generator:
-    """A language: what it writes for a plan, and all paths it may write for a project.
+    """The functions that implement one language.
 
-    `component_writer` writes the file of one component after the other; `find_origins` tells which lines of a
-    component's text come from which thing of its design.
+    Attributes:
+        write: Returns the files of a project.
+        list_paths: Returns every path that `write` may return.
+        reserved_modules: Names that no generated module may have.
+        component_writer: Returns a function that writes the file of one component.
+        find_origins: Maps lines of a component's text to elements of its design.
     """
 
     write: Callable[..., tuple[OutputFile, ...]]
@@ -85,23 +89,23 @@ def generate(
     standalone: bool = False,
     sources: Mapping[str, str] | None = None,
 ) -> tuple[OutputFile, ...]:
-    """The files of a project, by path; nothing is read or written, and the same project gives the same bytes.
+    """Generate the files of a project, sorted by path, without any file access; equal projects give equal bytes.
 
     Args:
-        project: Without error findings in what is generated.
-        components: Only these and every design they use; None for all.
-        leave_out: But not these, since they have mistakes.
-        languages: None for those of the project.
+        project: A project without error findings in the generated components.
+        components: Generate only these and every design they use; None for all.
+        exclude: Components to leave out, for example because they have errors.
+        languages: None for the languages of the project.
         standalone: Copy the runtime into the package, so that it runs without vicode.
-        sources: The design files by component, relative to the project's folder: how files and errors name them.
+        sources: Design files by component, relative to the project folder; used in header comments and errors.
 
     Raises:
-        UnsoundDesignError: A design has mistakes; `vicode.check` tells which.
+        UnsoundDesignError: A design has errors; `vicode.check` reports them.
     """
     files: list[OutputFile] = []
     for generator in _select_generators(project, languages):
-        wanted = collect_components(project, components) - set(exclude)
-        plan = plan_project(project, wanted, sources or {}, generator.reserved_modules)
+        selected = collect_components(project, components) - set(exclude)
+        plan = plan_project(project, selected, sources or {}, generator.reserved_modules)
         files += generator.write(plan, standalone=standalone)
     return tuple(sorted(files, key=lambda file: file.path))
 
@@ -109,31 +113,31 @@ def generate(
 def component_generator(
     project: Project, language: str, sources: Mapping[str, str]
 ) -> Callable[[Design], ComponentCode | None]:
-    """What writes the file of one design after the other as `generate` does; None for one that cannot be said."""
+    """Return a function that writes the file of one design, or returns None if the language cannot express it."""
     generator = GENERATORS[language]
 
     @cache
-    def begun() -> tuple[ProjectPlan, Callable[[ComponentPlan], ComponentCode]]:
+    def start() -> tuple[ProjectPlan, Callable[[ComponentPlan], ComponentCode]]:
         plan = plan_project(project, (), sources, generator.reserved_modules)
         return plan, generator.component_writer(plan)
 
     def write(design: Design) -> ComponentCode | None:
         try:
-            plan, write_component = begun()
+            plan, write_component = start()
             source = sources.get(design.component, "")
-            written = write_component(plan_component(project, design, plan.package.modules, source))
+            code = write_component(plan_component(project, design, plan.package.modules, source))
         except UnsoundDesignError:
             return None
-        return replace(written, origins=map_to_full_design(design, written.origins))
+        return replace(code, origins=map_to_full_design(design, code.origins))
 
     return write
 
 
 def list_origins(project: Project, component: str, language: str, text: str) -> tuple[Origin, ...]:
-    """Which lines of a text that `generate` wrote for a component come from which thing of its design.
+    """Map the lines of a component's generated text to elements of its design.
 
     Raises:
-        UnsoundDesignError: The design has mistakes.
+        UnsoundDesignError: The design has errors.
     """
     design, generator = project.design(component), GENERATORS[language]
     if design is None:
@@ -145,7 +149,7 @@ def list_origins(project: Project, component: str, language: str, text: str) -> 
 def list_outputs(
     project: Project, *, languages: Collection[str] | None = None, standalone: bool = False
 ) -> tuple[str, ...]:
-    """Every path that `generate` may write for a project, sound or not: what else carries our header there is stale."""
+    """List every path that `generate` may return; any other file with a vicode header in these folders is stale."""
     paths: list[str] = []
     for generator in _select_generators(project, languages):
         paths += generator.list_paths(plan_package(project, generator.reserved_modules), standalone=standalone)
@@ -153,29 +157,29 @@ def list_outputs(
 
 
 def python_class_path(project: Project, component: str) -> str:
-    """Where the class of a component is found in Python: "package.module:Class".
+    """Return the import path of a component's Python class, "package.module:Class".
 
     Raises:
-        UnsoundDesignError: Nothing declares it.
+        UnsoundDesignError: The component is not declared.
     """
     interface = project.interface(component)
     if interface is None:
-        raise UnsoundDesignError(f"nothing declares the component '{component}'")
+        raise UnsoundDesignError(f"the component '{component}' is not declared")
     if project.design(component) is None and not interface.is_generated:
         return interface.implementation
     return class_path(plan_package(project, RESERVED_MODULES), component)
 
 
 def python_probes(project: Project, component: str) -> OutputFile:
-    """A module that tests the guards of a design between iterations; it stands in the package beside the others.
+    """Generate the module of a package that evaluates the guards of a design between iterations.
 
     Raises:
-        UnsoundDesignError: The design has mistakes.
+        UnsoundDesignError: The design has errors.
     """
     plan = plan_project(project, {component}, {}, RESERVED_MODULES)
     return generate_probes(plan, plan.components[0])
 
 
 def _select_generators(project: Project, languages: Collection[str] | None) -> list[Generator]:
-    wanted = project.languages if languages is None else languages
-    return [generator for language, generator in GENERATORS.items() if language in wanted]
+    selected = project.languages if languages is None else languages
+    return [generator for language, generator in GENERATORS.items() if language in selected]

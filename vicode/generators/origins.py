@@ -1,4 +1,4 @@
-"""Which lines of generated code come from which thing of a design: the same words for every language."""
+"""Map lines of generated code to the design elements they were generated from."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
@@ -12,7 +12,7 @@ from vicode.output import OutputFile
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Origin:
-    """Lines, both ends included and counted from 1, with the path of what they come from."""
+    """A range of lines (1-based, inclusive) and the path of its design element."""
 
     first: int
     last: int
@@ -21,23 +21,23 @@ class Origin:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ComponentCode:
-    """The file of one component, and which of its lines come from what."""
+    """The file of one component and the origins of its lines."""
 
     file: OutputFile
     origins: tuple[Origin, ...]
 
 
 def map_to_full_design(design: Design, origins: Iterable[Origin]) -> tuple[Origin, ...]:
-    """The origins with the paths of the whole design, in place of those of what is enabled in it."""
+    """Convert origins from paths in the design without disabled elements to paths in the full design."""
     off = disabled_states(design)
-    whole = (located.path for located in iter_decisions(design) if is_enabled(located, off))
+    full = (located.path for located in iter_decisions(design) if is_enabled(located, off))
     enabled = (located.path for located in iter_decisions(strip_disabled(design)))
-    paths = dict(zip(enabled, whole, strict=True))
+    paths = dict(zip(enabled, full, strict=True))
     return tuple(replace(origin, path=_full_path(paths, origin.path)) for origin in origins)
 
 
 def _full_path(paths: dict[DesignPath, DesignPath], path: DesignPath) -> DesignPath:
-    """A decision's path, with what follows it, by the longest part that is a decision."""
+    """Replace the longest prefix of a path that is a decision."""
     for length in range(len(path), 0, -1):
         if path[:length] in paths:
             return (*paths[path[:length]], *path[length:])

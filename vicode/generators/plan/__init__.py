@@ -1,4 +1,4 @@
-"""The language-neutral plan: names, the order of things and typed trees, decided once for every language."""
+"""The language-neutral plan of a project: names, order and typed expression trees."""
 
 from vicode.generators.plan.component import INTERFACES_MODULE, plan_component
 from vicode.generators.plan.expressions import UnsoundDesignError, literal_value

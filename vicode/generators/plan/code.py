@@ -1,4 +1,4 @@
-"""Gives every piece of hand-written code a region and a name; both outlive renames where ids are given."""
+"""Assign region ids and function names to hand-written code; elements with an id keep both when they are renamed."""
 
 from vicode.generators.plan.names import NameAllocator, identifier_stem
 from vicode.generators.plan.plan_types import CodePlan
@@ -6,20 +6,19 @@ from vicode.model.design import COMMON, Code, Design, State
 
 
 class CodePlanner:
-    """The code of one design; ids and names are given in the order of asking."""
+    """Plans the code of one design; names are unique and depend on the order of the calls."""
 
     def __init__(self, design: Design) -> None:
-        """Begin with none given out."""
         self._regions = NameAllocator()
         self._actions, self._predicates = NameAllocator(), NameAllocator()
         self._states = {state.name: state for state in design.states}
 
     def plan_section(self, role: str, code: Code) -> CodePlan | None:
-        """The code of the module or of the class, None if there is none."""
+        """Plan the code of the module or the class body; None if it is empty."""
         return CodePlan(region_id=self._regions.allocate(role, "."), stem=role, code=code) if code.texts else None
 
     def plan_action(self, source: str, phase: str, code: Code, given_id: str) -> CodePlan:
-        """The code of an action in a state, or of the common ones."""
+        """Plan the code of an action in a state or in the common section."""
         region = given_id or f"{self._owner(source)}.{phase}"
         default = (
             identifier_stem(_source_name(source))
@@ -30,7 +29,7 @@ class CodePlanner:
         return CodePlan(region_id=self._regions.allocate(region, "."), stem=self._actions.allocate(stem), code=code)
 
     def plan_guard(self, source: str, outcome: str, code: Code, *, given_id: str, doc: str) -> CodePlan:
-        """The code of a guard; `outcome` is a state's name, "stay" or "group"."""
+        """Plan the code of a guard; `outcome` is a state name, "stay" or "group"."""
         region = given_id or f"{self._owner(source)}.to.{self._owner(outcome)}"
         stem = (
             identifier_stem(given_id)

@@ -1,4 +1,4 @@
-"""From a design to the plan of its component."""
+"""Plan the component of a design."""
 
 from collections.abc import Mapping
 from dataclasses import replace
@@ -52,16 +52,16 @@ from vicode.model.traversal import is_exhaustive, iter_expressions
 
 
 def plan_component(project: Project, design: Design, modules: Mapping[str, str], source: str) -> ComponentPlan:
-    """Decide all about a component that does not depend on the language.
+    """Plan everything about a component that does not depend on the language.
 
     Args:
-        project: What the design stands in.
-        design: A design without mistakes.
-        modules: The stem of every design's module, by component.
-        source: The design's file, as it is named to people.
+        project: The project of the design.
+        design: A design without errors.
+        modules: The module name of every design, by component.
+        source: The design file as shown in generated headers; may be empty.
 
     Raises:
-        UnsoundDesignError: The design has mistakes.
+        UnsoundDesignError: The design has errors.
     """
     design = strip_disabled(design)
     initial = design.state(design.initial)
@@ -95,7 +95,7 @@ def plan_component(project: Project, design: Design, modules: Mapping[str, str],
 
 
 def plan_values(declarations: tuple[Declaration, ...], scope: Scope) -> tuple[ValuePlan, ...]:
-    """Declarations with their types and first values; those that take arguments are functions, written by hand."""
+    """Plan the declarations that take no arguments."""
     return tuple(
         ValuePlan(
             name=declaration.name,
@@ -112,21 +112,21 @@ def plan_values(declarations: tuple[Declaration, ...], scope: Scope) -> tuple[Va
 
 
 def plan_functions(declarations: tuple[Declaration, ...], scope: Scope) -> tuple[FunctionPlan, ...]:
-    """Those declarations that take arguments."""
+    """Plan the declarations that take arguments."""
     return tuple(
         FunctionPlan(
-            result=plan_values((replace(each, arguments=None),), scope)[0],
-            arguments=plan_values(each.arguments, scope),
+            result=plan_values((replace(declaration, arguments=None),), scope)[0],
+            arguments=plan_values(declaration.arguments, scope),
         )
-        for each in declarations
-        if each.arguments is not None
+        for declaration in declarations
+        if declaration.arguments is not None
     )
 
 
 def _plan_use(project: Project, modules: Mapping[str, str], alias: str, component: str) -> UsedComponent:
     interface = project.interface(component)
     if interface is None:
-        raise UnsoundDesignError(f"nothing declares the component '{component}'")
+        raise UnsoundDesignError(f"the component '{component}' is not declared")
     functions = plan_functions(interface.readable, build_scope(project, None))
     if component in modules:
         return UsedComponent(alias=alias, component=component, module=modules[component])
@@ -141,11 +141,11 @@ def _plan_use(project: Project, modules: Mapping[str, str], alias: str, componen
 
 
 INTERFACES_MODULE = "interfaces"
-"""The module of the components that vicode writes without a design."""
+"""The module of the generated components that have no design."""
 
 
 class _ComponentPlanner:
-    """Plans the parts of one design, which share a scope and names."""
+    """Plans one design; its parts share a scope and a set of names."""
 
     def __init__(self, project: Project, design: Design) -> None:
         self.project, self.design = project, design
@@ -173,12 +173,12 @@ class _ComponentPlanner:
         is_cooperative = state.capacity is not None or state.synchronized is not None
         if not is_cooperative or any(is_exhaustive(item) for item in state.transitions):
             return planned
-        # Who stays asks the others as well, also where no transition says so.
+        # A robot that stays in a cooperative state must report it, even if the state has no transition.
         return (*planned, DecisionPlan(conditions=(), outcome=NoChange()))
 
     def uses_action_done(self) -> bool:
-        """Whether an expression of the design says `action_done`."""
-        return any("action_done" in each.text for each in iter_expressions(self.design))
+        """Whether an expression of the design contains `action_done`."""
+        return any("action_done" in expression.text for expression in iter_expressions(self.design))
 
     def _called_designs(self, state: State) -> tuple[str, ...]:
         actions = (*self.design.common.actions, *state.all_actions)
@@ -215,13 +215,13 @@ class _ComponentPlanner:
         return typed_tree(text, self.scope, self.scope.type_of(parameter))
 
     def _defaults(self, alias: str, given: Mapping[str, Expr]) -> tuple[tuple[str, Expr], ...]:
-        """What a call leaves out of a hand-written component; a design's own `modulate` has its defaults."""
+        """Defaults of the omitted parameters of a hand-written component; `modulate` of a design supplies its own."""
         interface = self.scope.uses.get(alias)
         if interface is None or not interface.implementation:
             return ()
         scope = build_scope(self.project, None)
-        left_out = (each for each in interface.parameters if each.name not in given)
-        return tuple((each.name, initial_value(each, scope)) for each in left_out)
+        omitted = (parameter for parameter in interface.parameters if parameter.name not in given)
+        return tuple((parameter.name, initial_value(parameter, scope)) for parameter in omitted)
 
     def plan_decisions(
         self, decisions: tuple[Decision, ...], source: str, path: DesignPath
@@ -233,7 +233,7 @@ class _ComponentPlanner:
                 planned += alternative.outcome.then
             else:
                 planned.append(alternative)
-            # What follows a decision that always ends is never reached, and nobody would write it.
+            # Decisions after an exhaustive one are unreachable.
             if is_exhaustive(decision):
                 break
         return tuple(planned)

@@ -1,4 +1,4 @@
-"""Typed trees for a plan: of the type that their place asks for, so that no language has to convert."""
+"""Typed expression trees with explicit int-to-float conversions."""
 
 import math
 from dataclasses import replace
@@ -31,14 +31,14 @@ _NO_SPAN = (0, 0)
 
 
 class UnsoundDesignError(ValueError):
-    """A design with mistakes was to be generated; check it first."""
+    """Code was requested for a design that has errors."""
 
 
 def typed_tree(text: str, scope: Scope, expected: str) -> Expr:
-    """The tree of an expression with the type of its place.
+    """Parse an expression and convert it to the expected type.
 
     Raises:
-        UnsoundDesignError: The expression has mistakes.
+        UnsoundDesignError: The expression has errors.
     """
     parsed = parse_expression(text, scope, expected)
     if parsed.tree is None or parsed.diagnostics:
@@ -48,7 +48,7 @@ def typed_tree(text: str, scope: Scope, expected: str) -> Expr:
 
 
 def as_type(node: Expr, expected: str) -> Expr:
-    """The node, or where an int stands for a float its conversion."""
+    """Convert an int node to float where a float is expected."""
     if expected != FLOAT or node.type != INT:
         return node
     match node:
@@ -63,7 +63,7 @@ def as_type(node: Expr, expected: str) -> Expr:
 
 
 def _with_conversions(node: Expr, scope: Scope) -> Expr:
-    """The same tree with every int converted where the node above it works on floats."""
+    """Insert a conversion at every int operand of a float operation."""
     match node:
         case Not(operand=operand) | Minus(operand=operand):
             return replace(node, operand=_with_conversions(operand, scope))
@@ -76,26 +76,26 @@ def _with_conversions(node: Expr, scope: Scope) -> Expr:
             return replace(node, test=_with_conversions(test, scope), then=sides[0], otherwise=sides[1])
         case FunctionCall(function=function, arguments=arguments, type=type_):
             is_mixed = FUNCTIONS[function].return_type == NUMBER and type_ == FLOAT
-            settled = (_with_conversions(argument, scope) for argument in arguments)
-            return replace(node, arguments=tuple(as_type(each, FLOAT) if is_mixed else each for each in settled))
+            converted = (_with_conversions(argument, scope) for argument in arguments)
+            return replace(node, arguments=tuple(as_type(value, FLOAT) if is_mixed else value for value in converted))
         case OutputRef(arguments=pairs) if pairs:
             return replace(node, arguments=_converted_arguments(node, scope))
         case _:
             return node
 
 
-def _converted_arguments(reading: OutputRef, scope: Scope) -> tuple[tuple[str, Expr], ...]:
-    interface = scope.uses[reading.alias]
-    output = interface.output(reading.output) if interface else None
-    types = {each.name: scope.type_of(each) for each in (output.arguments if output else None) or ()}
+def _converted_arguments(reference: OutputRef, scope: Scope) -> tuple[tuple[str, Expr], ...]:
+    interface = scope.uses[reference.alias]
+    output = interface.output(reference.output) if interface else None
+    types = {argument.name: scope.type_of(argument) for argument in (output.arguments if output else None) or ()}
     return tuple(
         (name, as_type(_with_conversions(value, scope), types.get(name, value.type)))
-        for name, value in reading.arguments or ()
+        for name, value in reference.arguments or ()
     )
 
 
 def initial_value(declaration: Declaration, scope: Scope) -> Expr:
-    """The first value of a declaration, of its type; where none is given false, 0 or the first element."""
+    """Return the initial value of a declaration; the default is false, 0 or the first element."""
     type_ = scope.type_of(declaration)
     if declaration.initial:
         return typed_tree(declaration.initial, scope, type_)
@@ -109,7 +109,7 @@ def initial_value(declaration: Declaration, scope: Scope) -> Expr:
 
 
 def literal_value(node: Expr) -> float | None:
-    """The number that a node is written as, None when it is no plain number."""
+    """Return the value of a literal with an optional sign; None for any other node."""
     match node:
         case Number(value=value):
             return value
@@ -121,7 +121,7 @@ def literal_value(node: Expr) -> float | None:
 
 
 def literal_nanoseconds(node: Expr, unit: str) -> int | None:
-    """A literal time in nanoseconds, None when it is not known before it runs."""
+    """Return a literal time in nanoseconds; None if the node is not a literal."""
     time = literal_value(node)
     if time is None:
         return None

@@ -1,4 +1,4 @@
-"""From a declared component without a class of its own to what is written for it."""
+"""Plan declared components that have neither a design nor a hand-written class."""
 
 from vicode.generators.plan.component import plan_functions, plan_values
 from vicode.generators.plan.plan_types import InterfacePlan
@@ -8,7 +8,6 @@ from vicode.model.xabsl.names import is_basic_behavior
 
 
 def plan_interface(project: Project, interface: Interface) -> InterfacePlan:
-    """What a component hands on to the world, or keeps."""
     scope = build_scope(project, None)
     return InterfacePlan(
         component=interface.component,

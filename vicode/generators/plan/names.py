@@ -1,4 +1,4 @@
-"""Names that fit into every language: snake case, each once."""
+"""Unique snake-case identifiers that are valid in every language."""
 
 import re
 
@@ -6,28 +6,27 @@ from vicode.model.names import snake_case
 
 
 class NameAllocator:
-    """Gives names out, none twice; case does not tell two apart."""
+    """Allocates names that are unique ignoring case."""
 
     def __init__(self, taken: frozenset[str] = frozenset()) -> None:
-        """Begin with names that nobody gets."""
         self._taken = {name.casefold() for name in taken}
 
-    def allocate(self, wanted: str, separator: str = "_") -> str:
-        """The name, or the first of name_2, name_3 … that is free."""
-        name, number = wanted, 1
+    def allocate(self, base: str, separator: str = "_") -> str:
+        """Return the base name, or the first free one of base_2, base_3, …"""
+        name, number = base, 1
         while name.casefold() in self._taken:
             number += 1
-            name = f"{wanted}{separator}{number}"
+            name = f"{base}{separator}{number}"
         self._taken.add(name.casefold())
         return name
 
 
 def identifier_stem(text: str) -> str:
-    """A piece of an identifier from any text."""
+    """Convert any text to a part of an identifier."""
     return re.sub(r"[^a-z0-9]+", "_", snake_case(text), flags=re.ASCII).strip("_") or "x"
 
 
 def package_name(name: str) -> str:
-    """The name of a package from a project's name, which may be any text."""
+    """Convert a project name, which may be any text, to a package name."""
     stem = identifier_stem(name)
     return f"project_{stem}" if stem[0].isdigit() else stem

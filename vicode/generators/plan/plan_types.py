@@ -1,4 +1,4 @@
-"""What all generators read: names, orders and typed trees of a project, decided once as frozen values."""
+"""The types of the plan, which every generator reads."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -11,7 +11,7 @@ from vicode.model.project import Enumeration, Project
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ValuePlan:
-    """A declared name with its type and first value, which is already of that type."""
+    """A declared value; `initial` has the declared type."""
 
     name: str
     type: str
@@ -24,7 +24,7 @@ class ValuePlan:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class FunctionPlan:
-    """An output with arguments; `result` tells its type, the arguments have defaults."""
+    """An output with arguments; every argument has a default."""
 
     result: ValuePlan
     arguments: tuple[ValuePlan, ...]
@@ -32,7 +32,7 @@ class FunctionPlan:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class UsedComponent:
-    """A component by its alias: what vicode writes has a `module`, what is hand-written an `implementation`.
+    """A used component; a generated one has a `module`, a hand-written one an `implementation`.
 
     `functions` are its outputs with arguments.
     """
@@ -46,9 +46,11 @@ class UsedComponent:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class InterfacePlan:
-    """A component that vicode writes without a design: it hands on to the world, or keeps variables (`is_internal`).
+    """A generated component without a design, which accesses the world.
 
-    `is_behavior`: it is told its parameters and then does something.
+    Attributes:
+        is_internal: It holds variables instead of accessing the world.
+        is_behavior: It is a basic behavior: each step passes its parameters to a method of the world.
     """
 
     component: str
@@ -64,7 +66,7 @@ class InterfacePlan:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CodePlan:
-    """Hand-written code: the id of its region, a stem for the name of its function, and what it is for."""
+    """Hand-written code with its region id, the stem of its function name and its description."""
 
     region_id: str
     stem: str
@@ -74,7 +76,7 @@ class CodePlan:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TimerCondition:
-    """The time in the state is `time` or more, in the component's unit; `ns` if that is known now."""
+    """The time in the state is at least `time` (in the time unit of the component); `ns` if `time` is a literal."""
 
     time: Expr
     ns: int | None
@@ -99,7 +101,7 @@ Condition = ExpressionCondition | TimerCondition | CodeCondition
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class StateChange:
-    """Ends the decision: to another state, by the transition of this id (empty: it has none)."""
+    """Ends the decision with a change to `state`; `transition` is the id of the transition or empty."""
 
     state: str
     transition: str
@@ -107,12 +109,12 @@ class StateChange:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class NoChange:
-    """Ends the decision without a change."""
+    """Ends the decision without a state change."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Branch:
-    """Decides further; a side that is exhausted falls through to what follows, one that `ends` never does."""
+    """Nested decisions; a side in which none applies falls through to the next decision."""
 
     then: "tuple[DecisionPlan, ...]"
     otherwise: "tuple[DecisionPlan, ...]"
@@ -121,9 +123,9 @@ class Branch:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class DecisionPlan:
-    """If all conditions hold, tested in order (none: always), the outcome is taken.
+    """Takes the outcome if all conditions hold; they are tested in order.
 
-    `id` if it was given one; `path` leads to the decision in the design as it works, which has nothing disabled in it.
+    `path` is the path of the decision in the design without disabled elements.
     """
 
     conditions: tuple[Condition, ...]
@@ -135,7 +137,7 @@ class DecisionPlan:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class AssignStep:
-    """Give an own variable or output a value, or with `alias` a variable of a used component."""
+    """Sets a variable or output of the component, or with `alias` a variable of a used component."""
 
     name: str
     value: Expr
@@ -144,9 +146,9 @@ class AssignStep:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CallStep:
-    """Set the parameters of a used component, and step it; `defaults` are those that the call leaves out.
+    """Sets the parameters of a used component and steps it.
 
-    A design's own component knows its defaults, so that only hand-written ones are told them.
+    `defaults` are the omitted parameters of a hand-written component. A generated component supplies its own defaults.
     """
 
     alias: str
@@ -156,7 +158,7 @@ class CallStep:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CodeStep:
-    """Run hand-written code."""
+    """Runs hand-written code."""
 
     code: CodePlan
 
@@ -166,9 +168,12 @@ ActionStep = AssignStep | CallStep | CodeStep
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class StatePlan:
-    """A state; `stem` is its name for functions. `modulates` are already at the end of `act`.
+    """A state.
 
-    `calls` are the aliases of designs that it calls, the common actions included.
+    Attributes:
+        stem: The part of method names that identifies the state.
+        actions: Includes the actions that `modulates` stands for.
+        calls: Aliases of the designs that the state calls, including calls in common actions.
     """
 
     name: str
@@ -187,10 +192,16 @@ class StatePlan:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ComponentPlan:
-    """One component: the initial state first. `source` is the design's file, `module` the stem of what is written.
+    """One component.
 
-    `time_unit` is "s" or "ms": what times in expressions count. `arithmetic` is "" or "xabsl". `uses_action_done` is set
-    where an expression says `action_done`. `design` is what works of the design, in its `project`.
+    Attributes:
+        design: The design without disabled elements.
+        module: The module name without suffix.
+        source: The design file, relative to the project folder; may be empty.
+        time_unit: The unit of times in expressions, "s" or "ms".
+        arithmetic: "" or "xabsl".
+        uses_action_done: Whether an expression contains `action_done`.
+        states: The initial state first.
     """
 
     project: Project
@@ -217,9 +228,9 @@ class ComponentPlan:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PackagePlan:
-    """Names of what is written for a project: the package, and in it a module for every design, by component.
+    """The package of a project and its modules by component.
 
-    `interfaces` are the components that one module more holds, since vicode writes them without a design.
+    `interfaces` are the generated components without a design; they share one module.
     """
 
     project: Project
@@ -231,9 +242,9 @@ class PackagePlan:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ProjectPlan:
-    """All that is to be written; `components` are those asked for.
+    """The plan of a project; `components` holds the requested components.
 
-    A constant in `nonzero_constants` may stand below a line without care.
+    `nonzero_constants` are constants with a nonzero literal value, which are safe divisors.
     """
 
     project: Project

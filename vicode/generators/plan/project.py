@@ -1,4 +1,4 @@
-"""From a project to its plan: which components, and how their modules are called."""
+"""Plan a project: its components and their module names."""
 
 from collections.abc import Collection, Mapping
 
@@ -14,13 +14,13 @@ from vicode.model.project import Project
 def plan_project(
     project: Project, components: Collection[str], sources: Mapping[str, str], reserved: frozenset[str]
 ) -> ProjectPlan:
-    """Plan components with every design they use.
+    """Plan components of a project.
 
     Args:
-        project: A project without mistakes in what is planned.
-        components: Names of those to plan.
-        sources: Design files by component, as they are named to people.
-        reserved: Names no module may have in a language.
+        project: A project without errors in the planned components.
+        components: The names of the components to plan.
+        sources: Design files by component.
+        reserved: Names that no module may have in the language.
     """
     package = plan_package(project, reserved)
     constants = plan_values(project.constants, build_scope(project, None))
@@ -37,12 +37,12 @@ def plan_project(
             for design in project.designs
             if design.component in components
         ),
-        interfaces=tuple(plan_interface(project, each) for each in project.components if each.is_generated),
+        interfaces=tuple(plan_interface(project, item) for item in project.components if item.is_generated),
     )
 
 
 def plan_package(project: Project, reserved: frozenset[str]) -> PackagePlan:
-    """Names that depend on the names in the project alone: they are known of designs with mistakes too."""
+    """Plan the names of a package; they depend only on names, so designs may have errors."""
     names = NameAllocator(reserved)
     components = sorted(design.component for design in project.designs)
     return PackagePlan(
@@ -50,27 +50,27 @@ def plan_package(project: Project, reserved: frozenset[str]) -> PackagePlan:
         name=package_name(project.name),
         modules={component: names.allocate(identifier_stem(component)) for component in components},
         has_declarations=bool(project.enumerations or project.constants),
-        interfaces=frozenset(each.component for each in project.components if each.is_generated),
+        interfaces=frozenset(item.component for item in project.components if item.is_generated),
     )
 
 
 def collect_components(project: Project, components: Collection[str] | None) -> frozenset[str]:
-    """The components with all that they use, directly or not, as far as they have designs.
+    """Return the components and all designs they use, directly or indirectly.
 
     Raises:
-        UnsoundDesignError: One of them has no design.
+        UnsoundDesignError: A requested component has no design.
     """
     designs = {design.component: design for design in project.designs}
     if components is None:
         return frozenset(designs)
     unknown = sorted(set(components) - set(designs))
     if unknown:
-        raise UnsoundDesignError(f"there is no design of '{unknown[0]}'")
-    found: set[str] = set()
-    waiting = sorted(components)
-    while waiting:
-        component = waiting.pop()
-        if component in designs and component not in found:
-            found.add(component)
-            waiting += [use.component for use in designs[component].uses]
-    return frozenset(found)
+        raise UnsoundDesignError(f"the component '{unknown[0]}' has no design")
+    collected: set[str] = set()
+    pending = sorted(components)
+    while pending:
+        component = pending.pop()
+        if component in designs and component not in collected:
+            collected.add(component)
+            pending += [use.component for use in designs[component].uses]
+    return frozenset(collected)

@@ -1,4 +1,4 @@
-"""Python: a module a component, one method a state, on the BICA runtime."""
+"""Python generator: one module per component and one method per state, on the BICA runtime."""
 
 from collections.abc import Callable
 from pathlib import Path
@@ -33,7 +33,7 @@ RUNTIME = "vicode.bica"
 
 
 def generate_python(plan: ProjectPlan, *, standalone: bool) -> tuple[OutputFile, ...]:
-    """All files of a project; with `standalone` the runtime lies inside the package."""
+    """Generate all files of a project; with `standalone` the package contains the runtime."""
     names = assign_global_names(plan)
     runtime = ".bica" if standalone else RUNTIME
     folder = f"{LANGUAGE}/{plan.package.name}"
@@ -44,18 +44,18 @@ def generate_python(plan: ProjectPlan, *, standalone: bool) -> tuple[OutputFile,
     if shared is not None:
         text = render("python/declarations.py.jinja", view=shared)
         files.append(OutputFile(path=f"{folder}/declarations.py", text=add_header(text, project)))
-    handed_on = build_interfaces_view(plan, names, runtime)
-    if handed_on is not None:
-        text = render("python/interfaces.py.jinja", view=handed_on)
+    interfaces = build_interfaces_view(plan, names, runtime)
+    if interfaces is not None:
+        text = render("python/interfaces.py.jinja", view=interfaces)
         files.append(OutputFile(path=f"{folder}/{INTERFACES_MODULE}.py", text=add_header(text, project)))
     files += [
-        _module(ComponentWriter(project=plan, component=each, names=names, runtime=runtime)) for each in plan.components
+        _module(ComponentWriter(project=plan, component=item, names=names, runtime=runtime)) for item in plan.components
     ]
     return (*files, *(_copy_runtime(folder) if standalone else ()))
 
 
 def component_writer(plan: ProjectPlan) -> Callable[[ComponentPlan], ComponentCode]:
-    """What writes the modules of a project's components, one at a time."""
+    """Return a function that writes the module of one component."""
     names = assign_global_names(plan)
 
     def write(component: ComponentPlan) -> ComponentCode:
@@ -66,7 +66,7 @@ def component_writer(plan: ProjectPlan) -> Callable[[ComponentPlan], ComponentCo
 
 
 def list_paths(package: PackagePlan, *, standalone: bool) -> tuple[str, ...]:
-    """Every path that `generate_python` may write for the whole project."""
+    """List every path that `generate_python` may return."""
     folder = f"{LANGUAGE}/{package.name}"
     modules = ["__init__"]
     modules += ["declarations"] if package.has_declarations else []
@@ -76,7 +76,7 @@ def list_paths(package: PackagePlan, *, standalone: bool) -> tuple[str, ...]:
 
 
 def class_path(package: PackagePlan, component: str) -> str:
-    """Where the class of a design's component is found: "package.module:Class"."""
+    """Return the import path of a generated class, "package.module:Class"."""
     module = INTERFACES_MODULE if component in package.interfaces else package.modules[component]
     return f"{package.name}.{module}:{component_class_name(component)}"
 

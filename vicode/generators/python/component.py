@@ -1,4 +1,4 @@
-"""The module of one component in Python."""
+"""Writes the module of one component."""
 
 from dataclasses import dataclass, replace
 
@@ -33,7 +33,7 @@ from vicode.regions import wrap_region
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ComponentWriter:
-    """Writes one component; `runtime` is the package it imports."""
+    """Writes one component; `runtime` is the package of the runtime that the module imports."""
 
     project: ProjectPlan
     component: ComponentPlan
@@ -42,7 +42,6 @@ class ComponentWriter:
 
     @property
     def expression_printer(self) -> PythonExpressionPrinter:
-        """Spells this component's expressions."""
         return PythonExpressionPrinter(
             names=self.names,
             nonzero_constants=self.project.nonzero_constants,
@@ -52,7 +51,6 @@ class ComponentWriter:
         )
 
     def build_view(self) -> ComponentModuleView:
-        """What the template of a component sees."""
         plan = self.component
         methods = (
             self._write_constructor(),
@@ -106,7 +104,7 @@ class ComponentWriter:
             lines += format_statement(
                 f"self.{value.name} = ", self.expression_printer.to_doc(value.initial), indent=BODY_INDENT
             )
-        states: list[Doc] = [_state(state, asks_done=plan.uses_action_done) for state in plan.states]
+        states: list[Doc] = [_state(state, uses_action_done=plan.uses_action_done) for state in plan.states]
         lines += render_doc(call_doc("self._set_states", states, must_break=True), BODY_INDENT)
         return MethodView(signature="    def __init__(self, root: Root) -> None:", body="\n".join(lines))
 
@@ -114,7 +112,7 @@ class ComponentWriter:
         return component_class_name(use.component)
 
     def _list_imports(self, view: ComponentModuleView) -> tuple[tuple[str, ...], ...]:
-        """Sections: the runtime, hand-written modules, the package's own."""
+        """List the import sections: the runtime, hand-written modules, modules of the package."""
         written = names_in_code([view.module_code, *self._class_source(view)])
         runtime = [Import(module=self.runtime, name=name) for name in (self._base, "State")]
         if "arithmetic" in written:
@@ -124,15 +122,15 @@ class ComponentWriter:
         own += self._import_declarations(written)
         is_inside = self.runtime.startswith(".")
         sections = ([], hand_written, [*runtime, *own]) if is_inside else (runtime, hand_written, own)
-        return tuple(tuple(format_imports(each)) for each in sections if each)
+        return tuple(tuple(format_imports(imports)) for imports in sections if imports)
 
     def _class_source(self, view: ComponentModuleView) -> list[str]:
-        """All code of the class, so that what it names can be imported."""
+        """Return the code of the class, whose names determine the imports."""
         methods = [f"{method.signature}\n{method.body}" for method in view.methods]
         return ["\n".join([f"class {view.class_name}:", "    pass", *methods, view.members])]
 
     def _import_declarations(self, written: frozenset[str]) -> list[Import]:
-        shared = [*(each.name for each in self.project.enumerations), *(each.name for each in self.project.constants)]
+        shared = [*(item.name for item in self.project.enumerations), *(item.name for item in self.project.constants)]
         used = [name for name in dict.fromkeys(shared) if self.names[name] in written]
         return [Import(module=".declarations", name=self.names[name]) for name in used]
 
@@ -146,7 +144,7 @@ class ComponentWriter:
         return Import(module=module, name=class_name, alias="" if class_name == name else name)
 
 
-def _state(state: StatePlan, *, asks_done: bool) -> Doc:
+def _state(state: StatePlan, *, uses_action_done: bool) -> Doc:
     arguments: list[Doc] = [quoted(state.name), f"self._in_{state.stem}"]
     if state.requires:
         arguments.append(concat("requires=", _tuple([f"self.{alias}" for alias in state.requires])))
@@ -160,7 +158,7 @@ def _state(state: StatePlan, *, asks_done: bool) -> Doc:
         arguments.append(f"capacity={state.capacity}")
     if state.synchronized is not None:
         arguments.append(f"synchronized={state.synchronized}")
-    if asks_done and state.calls:
+    if uses_action_done and state.calls:
         arguments.append(concat("calls=", _tuple([f"self.{alias}" for alias in state.calls])))
     return call_doc("State", arguments)
 

@@ -1,4 +1,4 @@
-"""Pieces of a Python expression: how tightly they bind, and where their lines may end."""
+"""Documents of Python expressions with operator precedence and possible line breaks."""
 
 from dataclasses import dataclass
 
@@ -15,7 +15,7 @@ from vicode.generators.python.pretty_printer import (
 )
 
 CHOICE, OR, AND, NOT, COMPARISON, ADDITION, MULTIPLICATION, NEGATIVE, ATOM = range(1, 10)
-# Formatters see `and` and `or` as one level.
+# Formatters treat `and` and `or` as one level.
 _LEVELS = {OR: AND}
 
 
@@ -23,8 +23,11 @@ _LEVELS = {OR: AND}
 class ExpressionDoc:
     """An expression.
 
-    `breakable` may end lines at its operators, which only brackets around allow; `unbreakable` only inside its own brackets.
-    `weakest_operator` is the level of the operator that binds least, outside brackets, and how many of that level there are.
+    Attributes:
+        breakable: May break lines at operators, which requires enclosing brackets.
+        unbreakable: Breaks lines only inside its own brackets.
+        weakest_operator: The lowest precedence outside brackets, and the number of operators with that precedence.
+        operands: The operands of a chain, each with the operator before it.
     """
 
     breakable: Doc
@@ -37,26 +40,25 @@ class ExpressionDoc:
 
 
 def atom(text: str) -> ExpressionDoc:
-    """A name or literal."""
+    """Return the document of a name or literal."""
     return ExpressionDoc(breakable=text, unbreakable=text)
 
 
 def call_expression(function: str, arguments: list[Doc]) -> ExpressionDoc:
-    """A call."""
     doc = call_doc(function, arguments)
     return ExpressionDoc(breakable=doc, unbreakable=doc, ends_with_bracket=bool(arguments))
 
 
 def operator_chain(parts: list[tuple[str | None, ExpressionDoc]], precedence: int) -> ExpressionDoc:
-    """Operands of one precedence with the operator before each but the first."""
+    """Join operands of one precedence, each but the first with the operator before it."""
     is_comparison = precedence == COMPARISON
     flat: list[tuple[str | None, ExpressionDoc]] = []
     for operator, piece in parts:
-        # Python reads them from the left, so a chain that begins with another one needs no brackets; nor does
-        # a longer `and`, whatever the order.
+        # Operators are left-associative, so a first operand of the same precedence needs no brackets. `and` and `or`
+        # are associative and need none at any position.
         is_same = piece.precedence == precedence and (not flat or precedence in (AND, OR)) and not is_comparison
         if is_same and piece.operands:
-            flat += [(operator if index == 0 else each, part) for index, (each, part) in enumerate(piece.operands)]
+            flat += [(inner if index else operator, part) for index, (inner, part) in enumerate(piece.operands)]
         else:
             flat.append((operator, _parenthesize_below(piece, precedence, is_first=not flat)))
     pieces = [piece for _operator, piece in flat]
@@ -113,17 +115,17 @@ def conditional_expression(then: ExpressionDoc, test: ExpressionDoc, otherwise: 
 
 
 def parenthesized(piece: ExpressionDoc) -> ExpressionDoc:
-    """The same in brackets."""
+    """Enclose an expression in brackets."""
     doc = bracketed("(", piece.breakable)
     return ExpressionDoc(breakable=doc, unbreakable=doc, starts_with_bracket=True, ends_with_bracket=True)
 
 
 def format_statement(before: str, piece: ExpressionDoc, after: str = "", *, indent: int) -> list[str]:
-    """A line of code with an expression in it, in as many lines as it needs."""
+    """Format a statement that contains one expression; it may span several lines."""
     flat = _flat(before, piece, after, indent)
     if len(flat) == 1 and len(flat[0]) <= LINE_WIDTH:
         return flat
-    # Brackets that the expression has already serve to break it, unless operators would be torn apart.
+    # Break inside existing brackets unless that separates operators.
     has_brackets = piece.starts_with_bracket or piece.ends_with_bracket
     is_single = piece.weakest_operator[1] <= 1 and piece.precedence != CHOICE
     if is_single and has_brackets and (piece.weakest_operator[1] == 0 or all(len(line) <= LINE_WIDTH for line in flat)):

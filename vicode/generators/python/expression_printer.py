@@ -1,4 +1,4 @@
-"""Spells typed trees as Python, with no bracket too many."""
+"""Prints typed expression trees as Python with the fewest brackets."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
@@ -59,10 +59,13 @@ _XABSL_OPERATORS = {"/": "xabsl_divide", "//": "floor_divide", "%": "xabsl_remai
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PythonExpressionPrinter:
-    """Spells expressions of one component: `names` of constants and enumerations in the module, the unit of times.
+    """Prints the expressions of one component.
 
-    `uses_xabsl_arithmetic`: it divides as XABSL does. `functions` are outputs with arguments by alias and name, `enclosing_calls` those among
-    whose arguments this is.
+    Attributes:
+        names: Names of constants and enumerations in the module.
+        time_unit: "s" or "ms".
+        functions: Outputs with arguments by alias and name.
+        enclosing_calls: Functions whose arguments contain the printed expression.
     """
 
     names: Mapping[str, str]
@@ -73,7 +76,7 @@ class PythonExpressionPrinter:
     enclosing_calls: frozenset[tuple[str, str]] = frozenset()
 
     def to_doc(self, node: Expr) -> ExpressionDoc:
-        """The Python of a typed tree."""
+        """Return the document of a typed tree."""
         match node:
             case Number(value=value):
                 return atom(format_number(value))
@@ -93,7 +96,7 @@ class PythonExpressionPrinter:
                 return self._operation_doc(node)
 
     def conditions_to_doc(self, conditions: tuple[Condition, ...]) -> ExpressionDoc:
-        """All conditions of a guard, joined by `and`."""
+        """Join the conditions of a guard by `and`."""
         pieces = [self._condition_doc(condition) for condition in conditions]
         if len(pieces) == 1:
             return pieces[0]
@@ -123,27 +126,27 @@ class PythonExpressionPrinter:
         passed = operator_chain([(None, atom("self.root.now_ns")), ("-", since)], ADDITION)
         return operator_chain([(None, passed), ("/", atom("1e6"))], MULTIPLICATION)
 
-    def _output_doc(self, reading: OutputRef) -> ExpressionDoc:
-        target, arguments = f"self.{reading.alias}.{reading.output}", reading.arguments
+    def _output_doc(self, reference: OutputRef) -> ExpressionDoc:
+        target, arguments = f"self.{reference.alias}.{reference.output}", reference.arguments
         if arguments is None:
             return atom(target)
-        if (reading.alias, reading.output) in self.enclosing_calls or (
-            self.uses_xabsl_arithmetic and _calls_itself(reading)
+        if (reference.alias, reference.output) in self.enclosing_calls or (
+            self.uses_xabsl_arithmetic and _calls_itself(reference)
         ):
-            return self._nested_call_doc(reading)
+            return self._nested_call_doc(reference)
         return call_expression(target, [_keyword(name, self.to_doc(value)) for name, value in arguments])
 
-    def _nested_call_doc(self, reading: OutputRef) -> ExpressionDoc:
-        """XABSL keeps the arguments of a function in one place, which a call of it among them changes."""
-        given, function = dict(reading.arguments or ()), (reading.alias, reading.output)
+    def _nested_call_doc(self, reference: OutputRef) -> ExpressionDoc:
+        """Pass the arguments lazily: XABSL stores them in one place per function, which a nested call overwrites."""
+        values, function = dict(reference.arguments or ()), (reference.alias, reference.output)
         inside = replace(self, enclosing_calls=self.enclosing_calls | {function})
         declared = self.functions[function].arguments
-        # Decimals are stored first, then bools, then elements.
-        ordered = sorted(declared, key=lambda each: (each.type == BOOL) + 2 * (each.type not in (BOOL, INT, FLOAT)))
-        arguments: list[Doc] = [f"self.{reading.alias}.{reading.output}"]
-        for each in ordered:
-            value = inside.to_doc(given.get(each.name, each.initial)).breakable
-            arguments.append(concat(f"{each.name}=lambda: ", value))
+        # XABSL stores decimals first, then bools, then elements.
+        ordered = sorted(declared, key=lambda item: (item.type == BOOL) + 2 * (item.type not in (BOOL, INT, FLOAT)))
+        arguments: list[Doc] = [f"self.{reference.alias}.{reference.output}"]
+        for argument in ordered:
+            value = inside.to_doc(values.get(argument.name, argument.initial)).breakable
+            arguments.append(concat(f"{argument.name}=lambda: ", value))
         return call_expression("self._ask", arguments)
 
     def _operation_doc(self, node: Expr) -> ExpressionDoc:
@@ -170,7 +173,7 @@ class PythonExpressionPrinter:
                 )
                 return call_expression(name, [self.to_doc(argument).breakable for argument in arguments])
             case _:
-                raise AssertionError(f"no spelling for {node}")
+                raise AssertionError(f"unexpected expression node: {node}")
 
     def _binary_doc(self, node: Binary) -> ExpressionDoc:
         operator, left, right = node.operator, node.left, node.right
@@ -183,7 +186,7 @@ class PythonExpressionPrinter:
         return operator_chain([(None, self.to_doc(left)), (operator, right_piece)], level)
 
     def _is_nonzero(self, node: Expr, operator: str) -> bool:
-        """Whether Python's own operator, which raises for zero alone, gives the same before it."""
+        """Whether the operator of Python gives the same result for this divisor; it raises only for zero."""
         if self.uses_xabsl_arithmetic and operator == "%":
             return False
         if isinstance(node, Variable) and node.kind == ScopeSymbolKind.CONSTANT:
@@ -192,17 +195,17 @@ class PythonExpressionPrinter:
 
 
 def functions_by_output(component: ComponentPlan) -> dict[tuple[str, str], FunctionPlan]:
-    """The outputs with arguments that a component may ask, by alias and name."""
-    return {(use.alias, each.result.name): each for use in component.uses for each in use.functions}
+    """Return the outputs with arguments of all used components, by alias and name."""
+    return {(use.alias, function.result.name): function for use in component.uses for function in use.functions}
 
 
 def format_number(value: float) -> str:
-    """A number as a formatter leaves it."""
+    """Format a number as ruff does."""
     return repr(value).replace("e+", "e")
 
 
 def _as_float(node: Expr) -> Expr:
-    # `//` and `%` of two ints would be an int, and are defined to be floats.
+    # `//` and `%` are defined to return floats, but return an int for two ints.
     match node:
         case Number(value=value, span=span):
             return Number(value=float(value), type=FLOAT, span=span)
@@ -212,11 +215,12 @@ def _as_float(node: Expr) -> Expr:
             return node
 
 
-def _calls_itself(reading: OutputRef) -> bool:
-    """Whether a function is called among its own arguments."""
-    inside = (each for _name, value in reading.arguments or () for each in walk(value))
+def _calls_itself(reference: OutputRef) -> bool:
+    """Whether a call of a function contains another call of it."""
+    nodes = (node for _name, value in reference.arguments or () for node in walk(value))
     return any(
-        isinstance(each, OutputRef) and (each.alias, each.output) == (reading.alias, reading.output) for each in inside
+        isinstance(node, OutputRef) and (node.alias, node.output) == (reference.alias, reference.output)
+        for node in nodes
     )
 
 

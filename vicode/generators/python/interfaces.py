@@ -1,4 +1,4 @@
-"""The module with what a project declares but nobody wrote: components that hand on to the world, or keep variables."""
+"""Writes the module of the components without a design, which access the world or hold shared variables."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -20,21 +20,21 @@ _MARGIN = " " * BODY_INDENT
 
 
 def build_interfaces_view(plan: ProjectPlan, names: dict[str, str], runtime: str) -> InterfacesModuleView | None:
-    """What the template of these components sees; None when there are none."""
+    """Return the view of the module; None if there are no such components."""
     if not plan.interfaces:
         return None
-    # A property may have the name of its type, which inside the class would then be the property.
-    shared = [each.name for each in plan.enumerations] + [each.name for each in plan.constants]
+    # A property may have the same name as its type and would hide the type inside the class.
+    shared = [*(item.name for item in plan.enumerations), *(item.name for item in plan.constants)]
     names = names | {name: f"declarations.{names[name]}" for name in shared}
-    speller = PythonExpressionPrinter(names=names, nonzero_constants=plan.nonzero_constants)
-    classes = tuple(_InterfaceWriter(each, speller).build_view() for each in plan.interfaces)
-    texts = [f"{method.signature}\n{method.body}" for each in classes for method in each.methods]
+    printer = PythonExpressionPrinter(names=names, nonzero_constants=plan.nonzero_constants)
+    classes = tuple(_InterfaceWriter(item, printer).build_view() for item in plan.interfaces)
+    texts = [f"{method.signature}\n{method.body}" for view in classes for method in view.methods]
     written = names_in_code(["\n".join(["class X:", "    pass", *texts])])
     imports = [Import(module=runtime, name="Component")]
     own = [Import(module=".", name="declarations")] if "declarations" in written else []
     return InterfacesModuleView(
-        docstring=docstring(f"What the components of the project {plan.name} have of the world, and keep for all.", 0),
-        imports=tuple(tuple(format_imports(each)) for each in (imports, own) if each),
+        docstring=docstring(f"World access and shared variables of the project {plan.name}.", 0),
+        imports=tuple(tuple(format_imports(section)) for section in (imports, own) if section),
         imports_for_types=tuple(format_imports([Import(module=runtime, name="Root")])),
         classes=classes,
     )
@@ -42,18 +42,17 @@ def build_interfaces_view(plan: ProjectPlan, names: dict[str, str], runtime: str
 
 @dataclass(frozen=True, slots=True)
 class _InterfaceWriter:
-    """Writes one class."""
+    """Writes the class of one component."""
 
     plan: InterfacePlan
     expression_printer: PythonExpressionPrinter
 
     def build_view(self) -> InterfaceClassView:
-        """What the template sees of it."""
         plan = self.plan
         methods = [*self._constructor(), *modulate_method(plan.parameters, self.expression_printer)]
         if not plan.is_internal:
             methods += [method for value in plan.outputs for method in self._getter(value)]
-            methods += [self._function(each) for each in plan.functions]
+            methods += [self._function(function) for function in plan.functions]
             methods += [method for value in plan.variables for method in (*self._getter(value), self._setter(value))]
             methods += self._work_method()
         return InterfaceClassView(
@@ -68,15 +67,15 @@ class _InterfaceWriter:
         texts = [(value.name, declaration_description(value.doc, value.unit, value.range)) for value in values]
         entries = [(name, text) for name, text in texts if text]
         sections = (section("Attributes", entries, 4),) if entries else ()
-        default = "Variables that all may read and set." if plan.is_internal else "Handed on to the world."
+        default = "Shared variables." if plan.is_internal else "Provided by the world."
         return docstring(plan.doc or default, 4, sections)
 
     def _constructor(self) -> Iterator[MethodView]:
-        kept = (*self.plan.parameters, *(self.plan.variables if self.plan.is_internal else ()))
-        if not kept:
+        values = (*self.plan.parameters, *(self.plan.variables if self.plan.is_internal else ()))
+        if not values:
             return
         lines = [f"{_MARGIN}super().__init__(root)"]
-        for value in kept:
+        for value in values:
             lines += format_statement(
                 f"self.{value.name} = ", self.expression_printer.to_doc(value.initial), indent=BODY_INDENT
             )
@@ -88,24 +87,24 @@ class _InterfaceWriter:
 
     def _setter(self, value: ValuePlan) -> MethodView:
         type_ = type_name(value.type, self.expression_printer)
-        given = "value" if self._is_plain(value) else "value.value"
+        argument = "value" if self._is_plain(value) else "value.value"
         signature = f"    @{value.name}.setter\n    def {value.name}(self, value: {type_}) -> None:"
-        return MethodView(signature=signature, body=f"{_MARGIN}self.world.{_world_name(value)} = {given}")
+        return MethodView(signature=signature, body=f"{_MARGIN}self.world.{_world_name(value)} = {argument}")
 
     def _function(self, function: FunctionPlan) -> MethodView:
         result = function.result
         signature = keyword_signature(
             result.name, function.arguments, type_name(result.type, self.expression_printer), self.expression_printer
         )
-        given: list[Doc] = [
-            concat(f"{_world_name(each)}={each.name}" + ("" if self._is_plain(each) else ".value"))
-            for each in function.arguments
+        arguments: list[Doc] = [
+            concat(f"{_world_name(value)}={value.name}" + ("" if self._is_plain(value) else ".value"))
+            for value in function.arguments
         ]
-        asked = "\n".join(render_doc(call_doc(f"self.world.{_world_name(result)}", given), BODY_INDENT)).strip()
-        return MethodView(signature=signature, body=self._return_body(result, asked))
+        call = "\n".join(render_doc(call_doc(f"self.world.{_world_name(result)}", arguments), BODY_INDENT)).strip()
+        return MethodView(signature=signature, body=self._return_body(result, call))
 
-    def _return_body(self, value: ValuePlan, asked: str) -> str:
-        text = asked if self._is_plain(value) else f"{type_name(value.type, self.expression_printer)}({asked})"
+    def _return_body(self, value: ValuePlan, source: str) -> str:
+        text = source if self._is_plain(value) else f"{type_name(value.type, self.expression_printer)}({source})"
         doc = declaration_description(value.doc, value.unit, value.range)
         lines = [docstring(doc, BODY_INDENT)] if doc else []
         if value.type == BOOL:
@@ -117,24 +116,25 @@ class _InterfaceWriter:
     def _work_method(self) -> Iterator[MethodView]:
         if not self.plan.is_behavior:
             return
-        given: list[Doc] = [
-            f"{_world_name(each)}=self.{each.name}" + ("" if self._is_plain(each) else ".value")
-            for each in self.plan.parameters
+        arguments: list[Doc] = [
+            f"{_world_name(value)}=self.{value.name}" + ("" if self._is_plain(value) else ".value")
+            for value in self.plan.parameters
         ]
-        asked = python_attribute_name(self.plan.xabsl_name or snake_case(self.plan.component))
-        lines = render_doc(call_doc(f"self.world.{asked}", given), BODY_INDENT)
+        function = python_attribute_name(self.plan.xabsl_name or snake_case(self.plan.component))
+        lines = render_doc(call_doc(f"self.world.{function}", arguments), BODY_INDENT)
         yield MethodView(signature="    def work(self) -> None:", body="\n".join(lines))
 
     def _is_plain(self, value: ValuePlan) -> bool:
-        """Whether the world has it as it is; of elements it has the names."""
+        """Whether the world uses the same value; elements of enumerations are strings there."""
         return value.type in (BOOL, INT, FLOAT)
 
 
 def _world_name(value: ValuePlan) -> str:
-    """What the world calls it: as an engine of XABSL would, so that one world serves both."""
+    """Return the name in the world, which is the same for the XABSL engine."""
     return python_attribute_name(value.xabsl_name or value.name)
 
 
 _EMPTY_WORK = MethodView(
-    signature="    def work(self) -> None:", body=docstring("Do nothing: it only keeps variables.", BODY_INDENT)
+    signature="    def work(self) -> None:",
+    body=docstring("Do nothing; the component only holds variables.", BODY_INDENT),
 )

@@ -1,4 +1,4 @@
-"""The methods of a generated class: what a state decides and does, line by line."""
+"""Writes the methods of a generated class: the decisions and actions of its states."""
 
 from dataclasses import dataclass
 
@@ -39,17 +39,17 @@ class MethodWriter:
     expression_printer: PythonExpressionPrinter
 
     def write_states(self) -> list[MethodView]:
-        """Every method that comes from states, in the order of a reader."""
+        """Write the methods of the common section and of all states."""
         plan = self.component
         methods: list[MethodView] = []
         if plan.common_decisions:
-            doc = "Test what is tested before the guards of every state; true if that ended the decision."
+            doc = "Test the common transitions; return whether one of them ended the decision."
             lines = [*self._decide(plan.common_decisions, BODY_INDENT, ended=" True")]
             lines += [] if lines[-1:] == [" " * BODY_INDENT + "return True"] else [" " * BODY_INDENT + "return False"]
             methods += [_method("_decide_common(self) -> bool", doc, lines), *self._predicates(plan.common_decisions)]
         if plan.common_actions:
             lines = self._steps(plan.common_actions)
-            methods += [_method("_act_common(self) -> None", "Act as in every state.", lines)]
+            methods += [_method("_act_common(self) -> None", "Run the common actions.", lines)]
             methods += self._actions(plan.common_actions)
         for state in plan.states:
             methods += self._write_state(state)
@@ -86,7 +86,7 @@ class MethodWriter:
                 return [" " * BODY_INDENT + "if decide:", *self._decide(decisions, BODY_INDENT + 4)]
 
     def _enter_or_leave(self, phase: str, stem: str, steps: tuple[ActionStep, ...]) -> list[MethodView]:
-        """What is done on entering or leaving; code that stands alone there needs no method of its own."""
+        """Write the enter or leave method; a single code action is inlined."""
         if not steps:
             return []
         signature = f"_{phase}_{stem}(self) -> None"
@@ -119,10 +119,10 @@ class MethodWriter:
             case CodeStep(code=body):
                 return [" " * BODY_INDENT + f"self._do_{body.stem}()"]
             case CallStep(alias=alias, arguments=arguments, defaults=defaults):
-                given: list[Doc] = [f"self.{alias}"]
+                values: list[Doc] = [f"self.{alias}"]
                 pairs = (*arguments, *defaults)
-                given += [concat(f"{name}=", self.expression_printer.to_doc(value).breakable) for name, value in pairs]
-                return render_doc(call_doc("self._call", given), BODY_INDENT)
+                values += [concat(f"{name}=", self.expression_printer.to_doc(value).breakable) for name, value in pairs]
+                return render_doc(call_doc("self._call", values), BODY_INDENT)
             case AssignStep(name=name, value=value, alias=alias) if alias:
                 return self._set_in_component(alias, name, value)
             case AssignStep(name=name, value=value):
@@ -131,8 +131,8 @@ class MethodWriter:
     def _set_in_component(self, alias: str, name: str, value: Expr) -> list[str]:
         match value:
             case Binary(
-                operator="+" | "-" | "*" as operator, left=OutputRef(alias=there, output=left), right=right
-            ) if there == alias and left == name:
+                operator="+" | "-" | "*" as operator, left=OutputRef(alias=left_alias, output=left), right=right
+            ) if left_alias == alias and left == name:
                 return format_statement(
                     f"self.{alias}.{name} {operator}= ", self.expression_printer.to_doc(right), indent=BODY_INDENT
                 )
@@ -194,8 +194,8 @@ class MethodWriter:
         for condition in alternative.conditions:
             time = literal_value(condition.time) if isinstance(condition, TimerCondition) else None
             if time is not None:
-                remark = f"  # after {time:g} {self.component.time_unit}"
-                lines = format_statement(f"{keyword} ", piece, ":" + remark, indent=indent)
+                suffix = f"  # after {time:g} {self.component.time_unit}"
+                lines = format_statement(f"{keyword} ", piece, ":" + suffix, indent=indent)
                 if all(len(line) <= LINE_WIDTH for line in lines):
                     return lines
         return format_statement(f"{keyword} ", piece, ":", indent=indent)
@@ -218,10 +218,10 @@ def _region(body: CodePlan, indent: int) -> str:
 
 
 def python_code(body: CodePlan) -> str:
-    """The Python of a body, with `pass` where there is nothing to do.
+    """Return the Python text of the code, with `pass` if it has no statement.
 
     Raises:
-        UnsoundDesignError: It is not written in Python.
+        UnsoundDesignError: The code is not written in Python.
     """
     text = body.code.in_language("python")
     if text is None:

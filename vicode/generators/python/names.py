@@ -1,4 +1,4 @@
-"""Names at the top of a generated module, and which of them hand-written code uses."""
+"""Global names of generated modules and the names used in code."""
 
 import ast
 import keyword
@@ -12,9 +12,9 @@ from vicode.model.python_parser import parse_module
 RESERVED_MODULES = frozenset(
     {*keyword.kwlist, *keyword.softkwlist, "__init__", "bica", "declarations", INTERFACES_MODULE}
 )
-"""What no module of a package may be called."""
+"""Module names that no design may use."""
 
-# What generated code itself says at the top, in a class body or in a function.
+# Names that generated code uses.
 _RESERVED_NAMES = frozenset(
     [
         "Component",
@@ -46,38 +46,37 @@ _WORD = re.compile(r"[A-Za-z_]\w*", re.ASCII)
 
 
 def assign_global_names(plan: ProjectPlan) -> dict[str, str]:
-    """Names of enumerations, constants and classes in modules; one that is ours gets a `_`.
+    """Assign names to enumerations, constants and classes; a name that collides gets a trailing `_`.
 
-    Classes are found under `class_key`, since a component and a constant may share a name: then the constant yields.
+    The keys of classes are those of `class_key`. If a component and a constant share a name, the constant is renamed.
     """
-    # Of all designs, so that a part of a project finds the names that the whole has.
+    # All designs count, so that generating a part of a project gives the same names.
     used = [use.component for design in plan.project.designs for use in design.uses]
-    written = [*plan.package.modules, *sorted(plan.package.interfaces), *used]
-    classes = {class_key(component): component_class_name(component) for component in written}
+    components = [*plan.package.modules, *sorted(plan.package.interfaces), *used]
+    classes = {class_key(component): component_class_name(component) for component in components}
     names = {"arithmetic": "arithmetic", **classes}
     taken = _RESERVED_NAMES | set(classes.values())
-    for declared in (*(each.name for each in plan.enumerations), *(each.name for each in plan.constants)):
+    for declared in [*(item.name for item in plan.enumerations), *(item.name for item in plan.constants)]:
         names[declared] = _unique_name(declared, taken)
     return names
 
 
 def class_key(component: str) -> str:
-    """How `assign_global_names` calls the class of a component."""
+    """Return the key of a component's class in the result of `assign_global_names`."""
     return f"class {component}"
 
 
 def component_class_name(component: str) -> str:
-    """The name of a component's class."""
     return _unique_name(component, _RESERVED_NAMES)
 
 
 def names_in_code(texts: Iterable[str]) -> frozenset[str]:
-    """Names that Python code reads; of code that does not parse, every word."""
+    """Return the names in Python code; every word if the code does not parse."""
     return frozenset(word for text in texts for word in _names_in(text))
 
 
 def has_statement(text: str) -> bool:
-    """Whether there is more than blanks and comments in a piece of code."""
+    """Whether code contains more than whitespace and comments."""
     tree = _parse(text)
     return bool(text.strip()) if tree is None else bool(tree.body)
 

@@ -1,4 +1,4 @@
-"""How parameters are taken: the signature of a method with keywords, and their types."""
+"""Signatures of methods with keyword parameters."""
 
 from collections.abc import Iterable
 
@@ -12,11 +12,11 @@ from vicode.model.expressions import BOOL, FLOAT, INT
 
 
 def modulate_method(parameters: tuple[ValuePlan, ...], expression_printer: PythonExpressionPrinter) -> list[MethodView]:
-    """The method that takes the parameters of a component; none without parameters."""
+    """Write the method that sets the parameters of a component; empty without parameters."""
     if not parameters:
         return []
     margin = " " * BODY_INDENT
-    lines = [docstring("Take the parameters of an activation.", BODY_INDENT)]
+    lines = [docstring("Set the parameters.", BODY_INDENT)]
     lines += [f"{margin}self.{value.name} = {value.name}" for value in parameters]
     signature = keyword_signature("modulate", parameters, "None", expression_printer)
     return [MethodView(signature=signature, body="\n".join(lines))]
@@ -25,19 +25,23 @@ def modulate_method(parameters: tuple[ValuePlan, ...], expression_printer: Pytho
 def keyword_signature(
     name: str, parameters: Iterable[ValuePlan], result: str, expression_printer: PythonExpressionPrinter
 ) -> str:
-    """The lines of a method up to its colon: everything but self is given by keyword and has a default."""
-    given: list[Doc] = [_parameter(value, expression_printer) for value in parameters]
-    given = ["self", "*", *given] if given else ["self"]
-    signature = render_doc(DocGroup(concat(f"def {name}(", join_docs(given, ", "), f") -> {result}:")), METHOD_INDENT)
+    """Format the signature of a method whose parameters are all keyword-only and have defaults."""
+    arguments: list[Doc] = [_parameter(value, expression_printer) for value in parameters]
+    arguments = ["self", "*", *arguments] if arguments else ["self"]
+    signature = render_doc(
+        DocGroup(concat(f"def {name}(", join_docs(arguments, ", "), f") -> {result}:")), METHOD_INDENT
+    )
     if len(signature) > 1 or len(signature[0]) > LINE_WIDTH:
-        signature = render_doc(concat(call_doc(f"def {name}", given, must_break=True), f" -> {result}:"), METHOD_INDENT)
+        signature = render_doc(
+            concat(call_doc(f"def {name}", arguments, must_break=True), f" -> {result}:"), METHOD_INDENT
+        )
     return "\n".join(signature)
 
 
 def type_name(type_: str, expression_printer: PythonExpressionPrinter) -> str:
-    """How a type is written."""
+    """Return the annotation of a type."""
     return type_ if type_ in (BOOL, INT, FLOAT) else expression_printer.names[type_]
 
 
-def _parameter(value: ValuePlan, speller: PythonExpressionPrinter) -> Doc:
-    return concat(f"{value.name}: {type_name(value.type, speller)} = ", speller.to_doc(value.initial).breakable)
+def _parameter(value: ValuePlan, printer: PythonExpressionPrinter) -> Doc:
+    return concat(f"{value.name}: {type_name(value.type, printer)} = ", printer.to_doc(value.initial).breakable)

@@ -1,4 +1,4 @@
-"""Breaks long code into lines as Python's formatters do: a document of texts, groups and possible line ends."""
+"""A pretty printer that breaks lines as Python formatters do (documents of text, groups and soft line breaks)."""
 
 from dataclasses import dataclass
 
@@ -8,28 +8,28 @@ INDENT_WIDTH = 4
 
 @dataclass(frozen=True, slots=True)
 class SoftLine:
-    """A place where a line may end; else `flat` stands there."""
+    """A possible line break; prints `flat` where the line does not break."""
 
     flat: str = " "
 
 
 @dataclass(frozen=True, slots=True)
 class IfBreak:
-    """Text that stands only where the group around it is broken."""
+    """Text that is printed only if the enclosing group is broken."""
 
     text: str
 
 
 @dataclass(frozen=True, slots=True)
 class Concat:
-    """One part after the other."""
+    """Consecutive parts."""
 
     parts: "tuple[Doc, ...]"
 
 
 @dataclass(frozen=True, slots=True)
 class DocGroup:
-    """Stands in one line if it fits, else all its own line ends are taken."""
+    """Printed on one line if it fits; otherwise all its soft lines break."""
 
     inner: "Doc"
     must_break: bool = False
@@ -37,7 +37,7 @@ class DocGroup:
 
 @dataclass(frozen=True, slots=True)
 class Indent:
-    """One step further in."""
+    """Content indented by one level."""
 
     inner: "Doc"
 
@@ -47,25 +47,23 @@ _Task = tuple[int, bool, Doc]
 
 
 def concat(*parts: Doc) -> Doc:
-    """The parts in a row."""
     return Concat(parts)
 
 
 def join_docs(parts: list[Doc], separator: Doc) -> Doc:
-    """The parts with something between them."""
-    between: list[Doc] = []
+    joined: list[Doc] = []
     for part in parts:
-        between += [separator, part] if between else [part]
-    return Concat(tuple(between))
+        joined += [separator, part] if joined else [part]
+    return Concat(tuple(joined))
 
 
 def bracketed(opening: str, inner: Doc, closing: str = ")") -> Doc:
-    """Brackets with lines of their own for what is inside, if that is too long."""
+    """Enclose a document in brackets; a document that does not fit moves to separate lines."""
     return DocGroup(concat(opening, Indent(concat(SoftLine(""), inner)), SoftLine(""), closing))
 
 
 def call_doc(function: str, arguments: list[Doc], *, must_break: bool = False) -> Doc:
-    """A call; its arguments stand in one line, or each in its own with a comma behind."""
+    """Build a call with its arguments on one line, or one per line with a trailing comma."""
     if not arguments:
         return f"{function}()"
     inner = DocGroup(concat(join_docs(arguments, concat(",", SoftLine())), IfBreak(",")), must_break)
@@ -73,7 +71,7 @@ def call_doc(function: str, arguments: list[Doc], *, must_break: bool = False) -
 
 
 def render_doc(doc: Doc, indent: int = 0) -> list[str]:
-    """The lines of a document, the first one indented too."""
+    """Render a document to lines; the first line is indented too."""
     out: list[str] = [" " * indent]
     column = indent
     tasks: list[_Task] = [(indent, False, doc)]
@@ -98,21 +96,21 @@ def render_doc(doc: Doc, indent: int = 0) -> list[str]:
     return "".join(out).split("\n")
 
 
-def _fits(first: list[_Task], rest: list[_Task], room: int) -> bool:
-    """Whether all up to the next possible line end has room."""
-    tasks, waiting = first, len(rest)
-    while room >= 0:
+def _fits(first: list[_Task], rest: list[_Task], width: int) -> bool:
+    """Whether everything up to the next possible line break fits into `width` columns."""
+    tasks, remaining = first, len(rest)
+    while width >= 0:
         if not tasks:
-            if not waiting:
+            if not remaining:
                 return True
-            waiting -= 1
-            tasks.append(rest[waiting])
+            remaining -= 1
+            tasks.append(rest[remaining])
         depth, is_flat, item = tasks.pop()
         match item:
             case str(text) | SoftLine(flat=text) | IfBreak(text=text):
                 if isinstance(item, SoftLine) and not is_flat:
                     return True
-                room -= 0 if isinstance(item, IfBreak) and is_flat else len(text)
+                width -= 0 if isinstance(item, IfBreak) and is_flat else len(text)
             case Concat(parts=parts):
                 tasks += [(depth, is_flat, part) for part in reversed(parts)]
             case Indent(inner=inner):

@@ -1,4 +1,4 @@
-"""A module beside a component that tests its guards and reads their names between iterations."""
+"""Writes a module that evaluates the guards of a component between iterations."""
 
 from collections.abc import Iterable, Iterator
 
@@ -16,7 +16,7 @@ from vicode.generators.python.expression_doc import ExpressionDoc
 from vicode.generators.python.expression_printer import PythonExpressionPrinter, functions_by_output
 from vicode.generators.python.imports import Import, format_imports
 from vicode.generators.python.names import assign_global_names
-from vicode.generators.python.pretty_printer import render_doc as lay_out
+from vicode.generators.python.pretty_printer import render_doc
 from vicode.generators.python.text import docstring, quoted
 from vicode.generators.python.views import GuardProbeView, ProbesModuleView
 from vicode.model.design import COMMON
@@ -26,16 +26,16 @@ from vicode.output import OutputFile
 from vicode.templating import render
 
 PROBES_MODULE = "_probes"
-"""The module; names of components' modules do not begin with an underscore."""
+"""The name of the module; modules of components never start with an underscore."""
 
 
 def generate_probes(plan: ProjectPlan, component: ComponentPlan) -> OutputFile:
-    """The module for one component of a plan: `GUARDS`, `READS` and `ENUMERATIONS`.
+    """Generate the module for one component: the tables `GUARDS`, `READS` and `ENUMERATIONS`.
 
-    Guards are found by the ids of their decisions, so those without an id are left out.
+    The keys are the ids of the decisions; decisions without an id are omitted.
     """
     names = assign_global_names(plan)
-    speller = PythonExpressionPrinter(
+    printer = PythonExpressionPrinter(
         names=names,
         nonzero_constants=plan.nonzero_constants,
         time_unit=component.time_unit,
@@ -43,17 +43,20 @@ def generate_probes(plan: ProjectPlan, component: ComponentPlan) -> OutputFile:
         functions=functions_by_output(component),
     )
     sources = [(COMMON, component.common_decisions), *((state.name, state.decisions) for state in component.states)]
-    declared = [*(each.name for each in plan.enumerations), *(each.name for each in plan.constants)]
+    declared = [*(item.name for item in plan.enumerations), *(item.name for item in plan.constants)]
     imports = format_imports([Import(module="vicode.bica", name="arithmetic")])
     imports += format_imports(Import(module=".declarations", name=names[name]) for name in declared)
     view = ProbesModuleView(
-        docstring=docstring(f"Tests the guards of {component.component} without changing anything.", 0),
+        docstring=docstring(f"Evaluates the guards of {component.component} without side effects.", 0),
         imports=tuple(imports),
         sources=tuple(
-            (quoted(source), tuple(_guard_view(each, speller) for each in _alternatives(decisions) if each.id))
+            (
+                quoted(source),
+                tuple(_guard_view(decision, printer) for decision in _alternatives(decisions) if decision.id),
+            )
             for source, decisions in sources
         ),
-        enumerations=tuple((quoted(each.name), names[each.name]) for each in plan.enumerations),
+        enumerations=tuple((quoted(item.name), names[item.name]) for item in plan.enumerations),
     )
     text = render("python/probes.py.jinja", view=view)
     return OutputFile(path=f"python/{plan.package.name}/{PROBES_MODULE}.py", text=text)
@@ -66,33 +69,33 @@ def _alternatives(decisions: Iterable[DecisionPlan]) -> Iterator[DecisionPlan]:
             yield from _alternatives((*alternative.outcome.then, *alternative.outcome.otherwise))
 
 
-def _guard_view(alternative: DecisionPlan, speller: PythonExpressionPrinter) -> GuardProbeView:
-    reads = dict(pair for condition in alternative.conditions for pair in _reads(condition, speller))
+def _guard_view(alternative: DecisionPlan, printer: PythonExpressionPrinter) -> GuardProbeView:
+    reads = dict(pair for condition in alternative.conditions for pair in _reads(condition, printer))
     return GuardProbeView(
         id=quoted(alternative.id),
-        conditions=tuple(_condition(condition, speller) for condition in alternative.conditions),
-        reads=tuple((quoted(name), reading) for name, reading in reads.items()),
+        conditions=tuple(_condition(condition, printer) for condition in alternative.conditions),
+        reads=tuple((quoted(name), function) for name, function in reads.items()),
     )
 
 
-def _condition(condition: Condition, speller: PythonExpressionPrinter) -> str:
-    """A function of the component; code of a person is only named, since running it may change something."""
+def _condition(condition: Condition, printer: PythonExpressionPrinter) -> str:
+    """Return a function of the component; hand-written code may have side effects and is given by name only."""
     if isinstance(condition, CodeCondition):
         return quoted(f"_when_{condition.code.stem}")
-    return _function(speller.conditions_to_doc((condition,)))
+    return _function(printer.conditions_to_doc((condition,)))
 
 
-def _reads(condition: Condition, speller: PythonExpressionPrinter) -> Iterator[tuple[str, str]]:
+def _reads(condition: Condition, printer: PythonExpressionPrinter) -> Iterator[tuple[str, str]]:
     match condition:
         case ExpressionCondition(expression=tree) | TimerCondition(time=tree):
             for node in walk(tree):
-                name = _read_name(node, speller)
+                name = _read_name(node, printer)
                 if name:
-                    yield name, _function(speller.to_doc(node))
+                    yield name, _function(printer.to_doc(node))
 
 
-def _read_name(node: Expr, speller: PythonExpressionPrinter) -> str:
-    """How a person wrote what is read, nothing for all else."""
+def _read_name(node: Expr, printer: PythonExpressionPrinter) -> str:
+    """Return the name of a value as written in the design; empty for other nodes."""
     match node:
         case Variable(name=name, kind=kind) if kind != ScopeSymbolKind.CONSTANT:
             return name
@@ -103,7 +106,7 @@ def _read_name(node: Expr, speller: PythonExpressionPrinter) -> str:
         case Done(alias=alias):
             return f"done({alias})"
         case OutputRef(alias=alias, output=output):
-            return _text(speller.to_doc(node)).removeprefix("self.") if node.arguments else f"{alias}.{output}"
+            return _text(printer.to_doc(node)).removeprefix("self.") if node.arguments else f"{alias}.{output}"
         case _:
             return ""
 
@@ -113,4 +116,4 @@ def _function(piece: ExpressionDoc) -> str:
 
 
 def _text(piece: ExpressionDoc) -> str:
-    return "\n".join(lay_out(piece.unbreakable, 0)).strip()
+    return "\n".join(render_doc(piece.unbreakable, 0)).strip()

@@ -1,11 +1,11 @@
-"""What the templates of Python see: finished strings and lists of them."""
+"""The data of the Python templates: formatted strings and lists of them."""
 
 from dataclasses import dataclass
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class MethodView:
-    """A method: its lines up to the colon, and what is inside, all indented."""
+    """A method; both texts are indented, and the signature ends with a colon."""
 
     signature: str
     body: str
@@ -13,7 +13,7 @@ class MethodView:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ComponentModuleView:
-    """A module with one component; `imports` are the sections of imports, `settings` attributes of the class."""
+    """A module with one component; `imports` are import sections, `settings` are class attributes."""
 
     docstring: str
     imports: tuple[tuple[str, ...], ...]
@@ -29,7 +29,7 @@ class ComponentModuleView:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class EnumerationClassView:
-    """An enumeration: its members as lines."""
+    """An enumeration; `members` are lines."""
 
     name: str
     docstring: str
@@ -57,7 +57,7 @@ class InterfaceClassView:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class InterfacesModuleView:
-    """A module with all components that have no design and that nobody wrote; `imports` are its sections."""
+    """The module of the components without a design; `imports` are import sections."""
 
     docstring: str
     imports: tuple[tuple[str, ...], ...]
@@ -67,7 +67,7 @@ class InterfacesModuleView:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class GuardProbeView:
-    """How one guard is tested: `id` and `reads` are quoted, `conditions` and the values of `reads` are expressions."""
+    """One guard; `id` and the names in `reads` are quoted, `conditions` and the values of `reads` are expressions."""
 
     id: str
     conditions: tuple[str, ...]
@@ -76,7 +76,7 @@ class GuardProbeView:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ProbesModuleView:
-    """A module that tests the guards of a component: `sources` are states, quoted, with their guards."""
+    """A module that evaluates the guards of a component; `sources` are quoted state names with their guards."""
 
     docstring: str
     imports: tuple[str, ...]

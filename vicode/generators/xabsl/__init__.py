@@ -1,4 +1,4 @@
-"""XABSL: an option a design, symbols for what components offer, and the agents."""
+"""XABSL generator: one option per design, symbol files for components, and the agents."""
 
 import re
 from collections.abc import Callable
@@ -26,54 +26,54 @@ _DECLARATIONS, _BEHAVIORS = "declarations", "basic_behaviors"
 
 
 def generate_xabsl(plan: ProjectPlan, *, standalone: bool) -> tuple[OutputFile, ...]:
-    """All files of a project; XABSL's engines have no runtime that could be copied beside them (`standalone`)."""
+    """Generate all files of a project; `standalone` has no effect, since XABSL engines need no runtime."""
     del standalone
     project, paths = plan.project, _OutputPaths(plan.package)
     if not project.designs:
         return ()
-    vocabulary = XabslNameMap(project)
-    writer = SymbolsWriter(vocabulary)
-    whole = f"the project {plan.name}"
-    files = [_declaration_file(paths.agents, writer.agents_file(paths.includes()), whole)]
+    name_map = XabslNameMap(project)
+    writer = SymbolsWriter(name_map)
+    origin = f"the project {plan.name}"
+    files = [_declaration_file(paths.agents, writer.agents_file(paths.includes()), origin)]
     if paths.has_declarations:
         files.append(
             _declaration_file(
-                paths.symbols[_DECLARATIONS], writer.declarations_file(paths.namespaces[_DECLARATIONS]), whole
+                paths.symbols[_DECLARATIONS], writer.declarations_file(paths.namespaces[_DECLARATIONS]), origin
             )
         )
     if paths.has_behaviors:
         files.append(
-            _declaration_file(paths.symbols[_BEHAVIORS], writer.behaviors_file(paths.namespaces[_BEHAVIORS]), whole)
+            _declaration_file(paths.symbols[_BEHAVIORS], writer.behaviors_file(paths.namespaces[_BEHAVIORS]), origin)
         )
     for interface in project.components:
         if interface.readable:
             key = _namespace_key(interface.component)
             files.append(
-                _declaration_file(paths.symbols[key], writer.interface_file(interface, paths.namespaces[key]), whole)
+                _declaration_file(paths.symbols[key], writer.interface_file(interface, paths.namespaces[key]), origin)
             )
     for component in plan.components:
         key = _namespace_key(component.component)
         if key in paths.symbols:
             file = writer.design_file(component.design, paths.namespaces[key])
             files.append(_declaration_file(paths.symbols[key], file, _source_of(component)))
-        files.append(_option_file(component, build_option(component, vocabulary), paths))
+        files.append(_option_file(component, build_option(component, name_map), paths))
     return tuple(files)
 
 
 def component_writer(plan: ProjectPlan) -> Callable[[ComponentPlan], ComponentCode]:
-    """What writes the options of a project, one at a time."""
-    paths, vocabulary = _OutputPaths(plan.package), XabslNameMap(plan.project)
+    """Return a function that writes the option of one component."""
+    paths, name_map = _OutputPaths(plan.package), XabslNameMap(plan.project)
 
     def write(component: ComponentPlan) -> ComponentCode:
-        written = build_option(component, vocabulary)
-        file = _option_file(component, written, paths)
-        return ComponentCode(file=file, origins=option_origins(file.text, written))
+        option = build_option(component, name_map)
+        file = _option_file(component, option, paths)
+        return ComponentCode(file=file, origins=option_origins(file.text, option))
 
     return write
 
 
 def list_paths(package: PackagePlan, *, standalone: bool) -> tuple[str, ...]:
-    """Every path that `generate_xabsl` may write for the whole project."""
+    """List every path that `generate_xabsl` may return."""
     del standalone
     paths = _OutputPaths(package)
     if not package.project.designs:
@@ -82,7 +82,7 @@ def list_paths(package: PackagePlan, *, standalone: bool) -> tuple[str, ...]:
 
 
 class _OutputPaths:
-    """Where the files of a project are, by the names in it alone: they are known of designs with mistakes too."""
+    """The paths of a project's files; they depend only on names, so designs may have errors."""
 
     def __init__(self, package: PackagePlan) -> None:
         project = package.project
@@ -90,30 +90,28 @@ class _OutputPaths:
         self.agents = f"{self.folder}/agents.xabsl"
         self.has_declarations = _has_declarations(project)
         self.has_behaviors = any(map(is_basic_behavior, project.components))
-        wanted = {_DECLARATIONS: _DECLARATIONS} if self.has_declarations else {}
-        wanted |= {_BEHAVIORS: _BEHAVIORS} if self.has_behaviors else {}
-        wanted |= {_namespace_key(each.component): component_name(each) for each in project.components if each.readable}
-        wanted |= {
-            _namespace_key(each.component): component_name(each)
-            for each in project.designs
-            if symbol_declarations(each)
-        }
+        bases = {_DECLARATIONS: _DECLARATIONS} if self.has_declarations else {}
+        bases |= {_BEHAVIORS: _BEHAVIORS} if self.has_behaviors else {}
+        interfaces = [interface for interface in project.components if interface.readable]
+        bases |= {_namespace_key(interface.component): component_name(interface) for interface in interfaces}
+        designs = [design for design in project.designs if symbol_declarations(design)]
+        bases |= {_namespace_key(design.component): component_name(design) for design in designs}
         names = NameAllocator()
-        self.namespaces = {key: names.allocate(_safe_file_name(name)) for key, name in wanted.items()}
+        self.namespaces = {key: names.allocate(_safe_file_name(name)) for key, name in bases.items()}
         self.symbols = {key: f"{self.folder}/Symbols/{name}.xabsl" for key, name in self.namespaces.items()}
         names = NameAllocator()
         self.options = {
-            each.component: f"{self.folder}/Options/{names.allocate(_safe_file_name(component_name(each)))}.xabsl"
-            for each in project.designs
+            design.component: f"{self.folder}/Options/{names.allocate(_safe_file_name(component_name(design)))}.xabsl"
+            for design in project.designs
         }
 
     def includes(self) -> list[str]:
-        """All files but that of the agents, as it includes them."""
+        """List the paths that the agents file includes."""
         return [path.removeprefix(f"{self.folder}/") for path in (*self.symbols.values(), *self.options.values())]
 
 
-def _option_file(component: ComponentPlan, written: GeneratedOption, paths: _OutputPaths) -> OutputFile:
-    text = print_option(written.option, written.comments)
+def _option_file(component: ComponentPlan, option: GeneratedOption, paths: _OutputPaths) -> OutputFile:
+    text = print_option(option.option, option.comments)
     return OutputFile(path=paths.options[component.component], text=add_header(text, _source_of(component), "//"))
 
 
@@ -126,17 +124,17 @@ def _declaration_file(path: str, file: FileNode, source: str) -> OutputFile:
 
 
 def _has_declarations(project: Project) -> bool:
-    """Whether there is a file for enumerations and constants; bools and elements are no constants of XABSL."""
-    vocabulary = XabslNameMap(project)
-    numbers = (vocabulary.scope.type_of(each) in ("int", "float") for each in project.constants)
-    return bool(project.enumerations) or any(numbers)
+    """Whether a declarations file is needed; XABSL supports only numeric constants."""
+    name_map = XabslNameMap(project)
+    has_numbers = any(name_map.scope.type_of(constant) in ("int", "float") for constant in project.constants)
+    return bool(project.enumerations) or has_numbers
 
 
 def _namespace_key(component: str) -> str:
-    """What a component's namespace is found under; those of the project have names without it."""
+    """Return the key of a component's namespace, which differs from the keys of the project's namespaces."""
     return f"component {component}"
 
 
 def _safe_file_name(name: str) -> str:
-    """A name that can be that of a file, whatever was written."""
+    """Convert any text to a valid file name."""
     return re.sub(r"[^A-Za-z0-9_.]", "_", name).strip(".") or "x"

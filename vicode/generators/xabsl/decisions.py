@@ -1,4 +1,4 @@
-"""Decisions of a design as complete trees: every `if` has its `else`, and what is exhausted stays."""
+"""Build XABSL decision trees, which are complete: every `if` has an `else`."""
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
@@ -13,7 +13,7 @@ from vicode.xabsl import tree
 
 @dataclass(frozen=True, slots=True)
 class _DecisionItem:
-    """An alternative with what is asked for it: by the groups that were opened around it, and by itself."""
+    """A decision with its own tests and the tests of the enclosing groups that were dissolved."""
 
     around: tuple[tree.ExpressionNode, ...]
     own: tuple[tree.ExpressionNode, ...]
@@ -23,17 +23,16 @@ class _DecisionItem:
 
     @property
     def tests(self) -> tuple[tree.ExpressionNode, ...]:
-        """All of it."""
         return (*self.around, *self.own)
 
     def inside(self, *tests: tree.ExpressionNode) -> "_DecisionItem":
-        """The same in a group that asks these."""
+        """Add the tests of an enclosing group."""
         return replace(self, around=(*tests, *self.around))
 
 
 @dataclass(frozen=True, slots=True)
 class _Continuation:
-    """What follows when nothing before it was taken; `is_leaf`: it asks nothing, so that it may be said twice."""
+    """Builds the tree that applies if no earlier decision did; a leaf has no tests, so it may be built twice."""
 
     build: Callable[[], tree.DecisionTreeNode | None]
     is_leaf: bool
@@ -41,9 +40,11 @@ class _Continuation:
 
 @dataclass(slots=True)
 class DecisionTreeBuilder:
-    """Builds the trees of one option, and notes from which decision each outcome comes.
+    """Builds the trees of one option.
 
-    `unplaced_docs` are descriptions that the language has no place for, by the tree they belong to.
+    Attributes:
+        node_paths: The paths of the decisions that the nodes come from.
+        unplaced_docs: Descriptions that XABSL has no syntax for, by tree.
     """
 
     expressions: XabslExpressionBuilder
@@ -53,29 +54,29 @@ class DecisionTreeBuilder:
     _docs: dict[int, str] = field(default_factory=dict)
 
     def build_complete(self, alternatives: Sequence[tuple[str, DecisionPlan]]) -> tree.DecisionTreeNode:
-        """The tree of alternatives, each with the state (or COMMON) whose decision it is."""
-        items = [item for state, each in alternatives for item in self._items([each], state)]
-        found = self._build_chain(items, _Continuation(tree.StayNode, is_leaf=True))
-        assert found is not None
-        return self._with_doc(found)
+        """Build the tree of decisions, each with its state (or COMMON); without a match the state stays."""
+        items = [item for state, decision in alternatives for item in self._items([decision], state)]
+        node = self._build_chain(items, _Continuation(tree.StayNode, is_leaf=True))
+        assert node is not None
+        return self._with_doc(node)
 
     def build_open(self, alternatives: Sequence[DecisionPlan], state: str) -> tree.DecisionTreeNode:
-        """The tree of alternatives that `can_be_common_decision` holds for, which ends where the states go on."""
-        found = self._build_chain(list(self._items(alternatives, state)), _Continuation(lambda: None, is_leaf=False))
-        assert found is not None
-        return self._with_doc(found)
+        """Build the tree of a common decision, which has no final `else`: the decisions of the states follow."""
+        node = self._build_chain(list(self._items(alternatives, state)), _Continuation(lambda: None, is_leaf=False))
+        assert node is not None
+        return self._with_doc(node)
 
     def pop_else_doc(self, node: tree.DecisionTreeNode) -> str:
-        """The description of a tree that is to stand before the `else` in front of it."""
+        """Remove the description of a tree and return it; it is printed before the `else`."""
         doc = node.doc if isinstance(node, tree.IfNode) else ""
         if isinstance(node, tree.IfNode):
             node.doc = ""
         return doc or self._pop_doc(node)
 
     def _items(self, alternatives: Sequence[DecisionPlan], state: str) -> Iterator[_DecisionItem]:
-        for each in alternatives:
-            own = self.expressions.build_conditions(each.conditions, state)
-            outcome = each.outcome
+        for decision in alternatives:
+            own = self.expressions.build_conditions(decision.conditions, state)
+            outcome = decision.outcome
             if isinstance(outcome, Branch):
                 outcome = _OwnedBranch(
                     then=outcome.then,
@@ -83,10 +84,10 @@ class DecisionTreeBuilder:
                     then_always_ends=outcome.then_always_ends,
                     state=state,
                 )
-            yield _DecisionItem((), own, outcome, description_line(each.doc), each.path)
+            yield _DecisionItem((), own, outcome, description_line(decision.doc), decision.path)
 
     def _build_chain(self, items: Sequence[_DecisionItem], follow: _Continuation) -> tree.DecisionTreeNode | None:
-        """One item after the other, then what follows."""
+        """Build the items in order, followed by `follow`."""
         for item in reversed(items):
             is_leaf = not item.tests and not isinstance(item.outcome, Branch)
             follow = _Continuation(partial(self._build_item, item, follow), is_leaf)
@@ -120,13 +121,13 @@ class DecisionTreeBuilder:
         test = conjunction(item.tests)
         must_open = not branch.then_always_ends and not follow.is_leaf
         if must_open or (item.around and others):
-            # What falls through goes on with what follows; said twice, a few groups would become thousands of lines.
-            before = [each.inside(test) for each in inner]
-            after = [each.inside(*item.around, negation(conjunction(item.own))) for each in others]
-            found = self._build_chain([*before, *after], follow)
-            if item.doc and isinstance(found, tree.IfNode) and not found.doc:
-                found.doc = item.doc
-            return found
+            # Falling through must reach `follow`. Repeating it in each branch would grow exponentially with the groups.
+            before = [nested.inside(test) for nested in inner]
+            after = [other.inside(*item.around, negation(conjunction(item.own))) for other in others]
+            chain = self._build_chain([*before, *after], follow)
+            if item.doc and isinstance(chain, tree.IfNode) and not chain.doc:
+                chain.doc = item.doc
+            return chain
         then = self._build_chain(inner, follow)
         assert then is not None
         block = tree.BlockNode(self._with_doc(then)) if isinstance(then, tree.IfNode) else self._with_doc(then)
@@ -140,10 +141,10 @@ class DecisionTreeBuilder:
         return node
 
     def _with_doc(self, node: tree.DecisionTreeNode) -> tree.DecisionTreeNode:
-        """A tree with no `else` before it: only an `if` has a place for a description."""
-        words = self._pop_doc(node)
-        if words:
-            self.unplaced_docs.append((node, words))
+        """Keep the description of a tree without an `else` before it; only an `if` can hold one itself."""
+        doc = self._pop_doc(node)
+        if doc:
+            self.unplaced_docs.append((node, doc))
         return node
 
     def _pop_doc(self, node: tree.DecisionTreeNode) -> str:
@@ -152,14 +153,14 @@ class DecisionTreeBuilder:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class _OwnedBranch(Branch):
-    """A branch that knows whose decision it is."""
+    """A branch with the state whose decision it is."""
 
     state: str
 
 
 def can_be_common_decision(alternatives: Sequence[DecisionPlan]) -> bool:
-    """Whether alternatives can be a common decision: each asks something, groups end, and none of them stays."""
-    return bool(alternatives) and all(each.conditions and _can_end_in_common(each.outcome) for each in alternatives)
+    """Whether decisions can form a common decision: all have conditions, groups always end, none keeps the state."""
+    return bool(alternatives) and all(item.conditions and _can_end_in_common(item.outcome) for item in alternatives)
 
 
 def _can_end_in_common(outcome: StateChange | NoChange | Branch) -> bool:
@@ -174,7 +175,7 @@ def _can_end_in_common(outcome: StateChange | NoChange | Branch) -> bool:
 
 def _may_keep_state(alternatives: Sequence[DecisionPlan]) -> bool:
     return any(
-        isinstance(each.outcome, NoChange)
-        or (isinstance(each.outcome, Branch) and _may_keep_state((*each.outcome.then, *each.outcome.otherwise)))
-        for each in alternatives
+        isinstance(item.outcome, NoChange)
+        or (isinstance(item.outcome, Branch) and _may_keep_state((*item.outcome.then, *item.outcome.otherwise)))
+        for item in alternatives
     )

@@ -1,4 +1,4 @@
-"""Expressions of designs as trees of XABSL, with parentheses where precedence or a reader wants them."""
+"""Build XABSL expression trees, with parentheses where precedence or readability requires them."""
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
@@ -51,9 +51,11 @@ _FACTORS = {"degrees": 180.0 / pi, "radians": pi / 180.0}
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class XabslExpressionBuilder:
-    """Spells the expressions of one design. `components` are those it uses by alias, the own one under "".
+    """Builds the expressions of one design.
 
-    `can_use_action_done` tells where `done(alias)` is the same as action_done: in the state, or among the common decisions.
+    Attributes:
+        components: The used components by alias; the component itself has the alias "".
+        can_use_action_done: Whether `done(alias)` equals `action_done` in a state (or COMMON).
     """
 
     name_map: XabslNameMap
@@ -63,25 +65,23 @@ class XabslExpressionBuilder:
     can_use_action_done: Callable[[str, str], bool]
 
     def build(self, node: Expr, state: str = "") -> tree.ExpressionNode:
-        """The expression of a typed tree; `state` is where a decision asks for it, empty in actions.
+        """Build the expression of a typed tree; `state` is the state of the decision, empty in actions.
 
         Raises:
-            UnsoundDesignError: XABSL cannot say it.
+            UnsoundDesignError: XABSL cannot express it.
         """
-        asks_done = lambda alias: bool(state) and self.can_use_action_done(state, alias)  # noqa: E731 - a partial reads worse
-        sayer = ExpressibilityChecker(
+        checker = ExpressibilityChecker(
             has_xabsl_arithmetic=self.uses_xabsl_arithmetic,
             constants=self.name_map.constants,
-            is_done_expressible=asks_done,
+            is_done_expressible=lambda alias: bool(state) and self.can_use_action_done(state, alias),
         )
-        unsaid = next(sayer.check(node), None)
-        if unsaid is not None:
-            raise UnsoundDesignError(unsaid.message)
+        unsupported = next(checker.check(node), None)
+        if unsupported is not None:
+            raise UnsoundDesignError(unsupported.message)
         return self._build(node)
 
     def build_conditions(self, conditions: Sequence[Condition], state: str) -> tuple[tree.ExpressionNode, ...]:
-        """What a guard asks, each part of it."""
-        return tuple(self._condition(each, state) for each in conditions)
+        return tuple(self._condition(condition, state) for condition in conditions)
 
     def _condition(self, condition: Condition, state: str) -> tree.ExpressionNode:
         match condition:
@@ -91,17 +91,17 @@ class XabslExpressionBuilder:
                 return self._timer_condition(condition)
             case _:
                 text = condition.code.code.in_language("xabsl")
-                found = parse_embedded_expression(text or "")
-                if text is None or found.node is None or found.diagnostics:
+                embedded = parse_embedded_expression(text or "")
+                if text is None or embedded.node is None or embedded.diagnostics:
                     raise UnsoundDesignError("the code of a guard is not written in XABSL")
-                return found.node
+                return embedded.node
 
     def _timer_condition(self, after: TimerCondition) -> tree.ExpressionNode:
         since: tree.ExpressionNode = tree.KeywordNode("state_time")
         if self.time_unit == "ms":
             return _binary(">=", since, self.build(after.time))
         if isinstance(after.time, Variable):
-            # What is divided is exact for whole milliseconds; what is multiplied would not be.
+            # Dividing whole milliseconds gives the exact comparison; multiplying seconds does not.
             return _binary(">=", _binary("/", since, tree.NumberNode("1000")), self.build(after.time))
         ms = (after.ns or 0) / 1e6
         return _binary(">=", since, tree.NumberNode(format_decimal(ms)))
@@ -130,26 +130,26 @@ class XabslExpressionBuilder:
             return self.name_map.constant(variable.name, variable.type)
         if variable.kind == ScopeSymbolKind.PARAMETER:
             design = self.name_map.project.design(own)
-            declared = next(each for each in design.parameters if each.name == variable.name) if design else None
+            declared = next(item for item in design.parameters if item.name == variable.name) if design else None
             return tree.ReferenceNode(f"@{unqualified_name(declared) if declared else variable.name}")
         return tree.ReferenceNode(self.name_map.symbol_name(own, variable.name))
 
-    def _output_reference(self, reading: OutputRef) -> tree.ExpressionNode:
-        component = self.components[reading.alias]
-        name = self.name_map.symbol_name(component, reading.output)
-        declared = self.name_map.output_arguments(component, reading.output)
+    def _output_reference(self, reference: OutputRef) -> tree.ExpressionNode:
+        component = self.components[reference.alias]
+        name = self.name_map.symbol_name(component, reference.output)
+        declared = self.name_map.output_arguments(component, reference.output)
         if declared is None:
             return tree.ReferenceNode(name)
-        names = {each.name: unqualified_name(each) for each in declared}
-        given = dict(reading.arguments or ())
-        said = [tree.ArgumentNode(tree.NameNode(names[each]), self._build(value)) for each, value in given.items()]
-        said += self.name_map.missing_arguments(declared, given)
-        return tree.FunctionCallNode(tree.NameNode(name), tree.ArgumentListNode(said))
+        names = {argument.name: unqualified_name(argument) for argument in declared}
+        values = dict(reference.arguments or ())
+        arguments = [tree.ArgumentNode(tree.NameNode(names[key]), self._build(value)) for key, value in values.items()]
+        arguments += self.name_map.missing_arguments(declared, values)
+        return tree.FunctionCallNode(tree.NameNode(name), tree.ArgumentListNode(arguments))
 
     def _operation(self, node: Expr) -> tree.ExpressionNode:
         match node:
             case FunctionCall():
-                return self._apply(node.function, [self._build(each) for each in node.arguments])
+                return self._apply(node.function, [self._build(argument) for argument in node.arguments])
             case Not(operand=operand):
                 return negation(self._build(operand))
             case Minus(operand=operand):
@@ -168,7 +168,7 @@ class XabslExpressionBuilder:
                     return _boolean_conditional(self._build(test), *sides)
                 return conditional(self._build(test), *sides)
             case _:
-                raise UnsoundDesignError(f"XABSL has no words for {type(node).__name__}")
+                raise UnsoundDesignError(f"XABSL cannot express {type(node).__name__}")
 
     def _compare(self, operator: str, left: Expr, right: Expr) -> tree.ExpressionNode:
         if left.type in (INT, FLOAT):
@@ -186,7 +186,7 @@ class XabslExpressionBuilder:
         return self._compare_elements(operator, left, right)
 
     def _compare_elements(self, operator: str, left: Expr, right: Expr) -> tree.ExpressionNode:
-        """What has an enumeration of itself goes to the left; an element has it only where it is wanted."""
+        """Put the operand with a declared enumeration on the left; an element gets its type from the other operand."""
         left, right = self._resolve_constant(left), self._resolve_constant(right)
         if not _knows_enumeration(left) and not (self.uses_xabsl_arithmetic and _has_typed_side(left)):
             left, right = (right, left) if _knows_enumeration(right) or not isinstance(left, Ternary) else (left, right)
@@ -203,14 +203,14 @@ class XabslExpressionBuilder:
                 return _binary(operator, self._build(left), self._build(right))
 
     def _resolve_constant(self, node: Expr) -> Expr:
-        """A constant of an enumeration as the element that it is."""
+        """Replace a constant of an enumeration by its element."""
         value = self.name_map.constants.get(node.name) if isinstance(node, Variable) else None
         if isinstance(value, str) and isinstance(node, Variable) and node.kind == ScopeSymbolKind.CONSTANT:
             return EnumElement(element=value, type=node.type, span=node.span)
         return node
 
-    def _apply(self, function: str, given: list[tree.ExpressionNode]) -> tree.ExpressionNode:
-        first = given[0]
+    def _apply(self, function: str, arguments: list[tree.ExpressionNode]) -> tree.ExpressionNode:
+        first = arguments[0]
         match function:
             case "float":
                 return first
@@ -218,9 +218,9 @@ class XabslExpressionBuilder:
                 return conditional(_binary("<", first, _ZERO), _negative(first), first)
             case "min" | "max":
                 sign = "<" if function == "min" else ">"
-                return reduce(lambda best, each: conditional(_binary(sign, each, best), each, best), given)
+                return reduce(lambda best, value: conditional(_binary(sign, value, best), value, best), arguments)
             case "clamp":
-                low, high = given[1:]
+                low, high = arguments[1:]
                 return conditional(_binary("<", first, low), low, conditional(_binary("<", high, first), high, first))
             case "sign":
                 below = conditional(_binary("<", first, _ZERO), number_node(-1), _ZERO)
@@ -232,12 +232,12 @@ class XabslExpressionBuilder:
 
 
 def join_operands(sign: str, operands: Sequence[tree.ExpressionNode]) -> tree.ExpressionNode:
-    """Operands in a row, read from the left as XABSL does."""
+    """Join operands left-associatively."""
     return reduce(lambda left, right: _binary(sign, left, right), operands)
 
 
 def conjunction(tests: Sequence[tree.ExpressionNode]) -> tree.ExpressionNode:
-    """Tests in a row, without parentheses around those that are rows of tests themselves."""
+    """Join tests by `&&` and flatten nested conjunctions."""
     return join_operands("&&", [part for test in tests for part in _conjuncts(test)])
 
 
@@ -252,21 +252,20 @@ def _conjuncts(test: tree.ExpressionNode) -> Iterator[tree.ExpressionNode]:
 
 
 def negation(operand: tree.ExpressionNode) -> tree.ExpressionNode:
-    """What holds when the operand does not."""
     return tree.UnaryNode("!", _parenthesize_below(operand, _SIGN))
 
 
 def conditional(
     test: tree.ExpressionNode, then: tree.ExpressionNode, otherwise: tree.ExpressionNode
 ) -> tree.ExpressionNode:
-    """`test ? then : otherwise`; what is itself such a choice stands in parentheses."""
-    return tree.ConditionalNode(*(_parenthesize_below(each, _OR) for each in (test, then, otherwise)))
+    """Build `test ? then : otherwise`; nested conditionals get parentheses."""
+    return tree.ConditionalNode(*(_parenthesize_below(part, _OR) for part in (test, then, otherwise)))
 
 
 def _boolean_conditional(
     test: tree.ExpressionNode, then: tree.ExpressionNode, otherwise: tree.ExpressionNode
 ) -> tree.ExpressionNode:
-    """A choice between bools, which no original engine reads as such."""
+    """Build a conditional between bools from logical operators; the original engines do not support it directly."""
     return join_operands("||", [join_operands("&&", [test, then]), join_operands("&&", [negation(test), otherwise])])
 
 
@@ -278,8 +277,8 @@ def _negative(operand: tree.ExpressionNode) -> tree.ExpressionNode:
 def _binary(operator: str, left: tree.ExpressionNode, right: tree.ExpressionNode) -> tree.ExpressionNode:
     level = _LEVELS[operator]
     first = level + 1 if level == _COMPARISON else level
-    # That && goes before || need not be known to who reads.
-    sides = [_parenthesized(each) if level == _OR and _level(each) == _AND else each for each in (left, right)]
+    # Parentheses make the precedence of && over || explicit.
+    sides = [_parenthesized(side) if level == _OR and _level(side) == _AND else side for side in (left, right)]
     return tree.BinaryNode(operator, _parenthesize_below(sides[0], first), _parenthesize_below(sides[1], level + 1))
 
 
@@ -304,12 +303,12 @@ def _level(expression: tree.ExpressionNode) -> int:
 
 
 def _knows_enumeration(node: Expr) -> bool:
-    """Whether a tree of an enumeration's type tells the enumeration of itself."""
+    """Whether an expression determines its enumeration without context."""
     return isinstance(node, OutputRef) or (isinstance(node, Variable) and node.kind != ScopeSymbolKind.CONSTANT)
 
 
 def _has_typed_side(node: Expr) -> bool:
-    """Whether a choice tells its enumeration by one of its sides."""
+    """Whether one side of a conditional determines the enumeration."""
     match node:
         case Ternary(then=then, otherwise=otherwise):
             return _has_typed_side(then) or _has_typed_side(otherwise)

@@ -1,4 +1,4 @@
-"""From the plan of a design to its option, with what the language has no place for as comments beside it."""
+"""Build the option of a component; design elements without XABSL syntax become comments."""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -32,7 +32,7 @@ _STAY_ONLY = (DecisionPlan(conditions=(), outcome=NoChange()),)
 
 @dataclass(frozen=True, slots=True)
 class GeneratedOption:
-    """An option; `comments` are comments beside its nodes, `node_paths` tell which nodes come from which thing."""
+    """An option with comments at its nodes and the design paths of its nodes."""
 
     option: tree.OptionNode
     comments: tuple[AttachedComment, ...]
@@ -40,22 +40,26 @@ class GeneratedOption:
 
 
 def build_option(plan: ComponentPlan, name_map: XabslNameMap | None = None) -> GeneratedOption:
-    """The option of a design; who writes several hands on the project's vocabulary.
+    """Build the option of a component.
+
+    Args:
+        plan: The plan of the component.
+        name_map: The names of the project, to share them between options.
 
     Raises:
-        UnsoundDesignError: XABSL cannot say something in it.
+        UnsoundDesignError: XABSL cannot express the design.
     """
-    limit = next(find_unsupported_in_design(plan.project, plan.design), None)
-    if limit is not None:
-        raise UnsoundDesignError(limit.message)
+    unsupported = next(find_unsupported_in_design(plan.project, plan.design), None)
+    if unsupported is not None:
+        raise UnsoundDesignError(unsupported.message)
     return _OptionBuilder(plan, name_map or XabslNameMap(plan.project)).build()
 
 
 class _OptionBuilder:
-    """Builds the parts of one option, which share names."""
+    """Builds one option; its parts share names."""
 
-    def __init__(self, plan: ComponentPlan, vocabulary: XabslNameMap) -> None:
-        self.plan, self.design, self.name_map = plan, plan.design, vocabulary
+    def __init__(self, plan: ComponentPlan, name_map: XabslNameMap) -> None:
+        self.plan, self.design, self.name_map = plan, plan.design, name_map
         self.components = {"": plan.component, **{use.alias: use.component for use in plan.uses}}
         self.state_names = {state.name: unqualified_name(state) for state in self.design.states}
         self.expressions = XabslExpressionBuilder(
@@ -89,11 +93,11 @@ class _OptionBuilder:
             wrap_description(self.design.doc, 0),
         )
         self._add_comment(common or actions or states[0], self.design.common.doc)
-        remarks = [
+        comments = [
             *self.comments,
-            *(found for node, words in self.decisions.unplaced_docs for found in attach_comment(node, words)),
+            *(line for node, doc in self.decisions.unplaced_docs for line in attach_comment(node, doc)),
         ]
-        return GeneratedOption(option, tuple(remarks), (*self.node_paths, *self.decisions.node_paths))
+        return GeneratedOption(option, tuple(comments), (*self.node_paths, *self.decisions.node_paths))
 
     def _parameter(self, index: int) -> tree.ParameterNode:
         declared = self.design.parameters[index]
@@ -128,15 +132,15 @@ class _OptionBuilder:
 
     def _decision(self, plan: StatePlan, *, has_common: bool) -> tree.DecisionNode | None:
         own = () if plan.decisions == _STAY_ONLY else plan.decisions
-        before: Sequence[DecisionPlan] = () if has_common else self.plan.common_decisions
-        if not own and not before:
+        common: Sequence[DecisionPlan] = () if has_common else self.plan.common_decisions
+        if not own and not common:
             return None
-        found = self.decisions.build_complete(
-            [*((COMMON, each) for each in before), *((plan.name, each) for each in own)]
+        node = self.decisions.build_complete(
+            [*((COMMON, decision) for decision in common), *((plan.name, decision) for decision in own)]
         )
         if not has_common:
-            return tree.DecisionNode(found)
-        return tree.DecisionNode(found, begins_with_else=True, else_doc=self.decisions.pop_else_doc(found))
+            return tree.DecisionNode(node)
+        return tree.DecisionNode(node, begins_with_else=True, else_doc=self.decisions.pop_else_doc(node))
 
     def _actions(self, steps: Sequence[ActionStep], path: DesignPath) -> tree.ActionBlockNode:
         actions = tree.ActionBlockNode([action for step in steps for action in self._step(step)])
@@ -153,32 +157,31 @@ class _OptionBuilder:
                 yield self._call(step)
             case CodeStep(code=body):
                 text = body.code.in_language("xabsl")
-                piece = parse_embedded_actions(text or "")
-                if text is None or piece.node is None or piece.diagnostics:
+                embedded = parse_embedded_actions(text or "")
+                if text is None or embedded.node is None or embedded.diagnostics:
                     raise UnsoundDesignError(f"the code '{body.region_id}' is not written in XABSL")
-                self._keep_comments(piece, piece.node.actions)
-                yield from piece.node.actions
+                self._keep_comments(embedded, embedded.node.actions)
+                yield from embedded.node.actions
 
     def _call(self, call: CallStep) -> tree.CallNode:
         name, kind, interface = self.name_map.callee(self.components[call.alias])
-        names = {each.name: unqualified_name(each) for each in interface.parameters}
-        given = [
-            tree.ArgumentNode(tree.NameNode(names[each]), self.expressions.build(value))
-            for each, value in call.arguments
+        names = {parameter.name: unqualified_name(parameter) for parameter in interface.parameters}
+        arguments = [
+            tree.ArgumentNode(tree.NameNode(names[key]), self.expressions.build(value)) for key, value in call.arguments
         ]
-        given += self.name_map.missing_arguments(interface.parameters, [each for each, _value in call.arguments])
-        return tree.CallNode(tree.NameNode(name), tree.ArgumentListNode(given), kind)
+        arguments += self.name_map.missing_arguments(interface.parameters, [key for key, _value in call.arguments])
+        return tree.CallNode(tree.NameNode(name), tree.ArgumentListNode(arguments), kind)
 
-    def _add_comment(self, node: tree.SyntaxNode, words: str) -> None:
-        self.comments += attach_comment(node, words)
+    def _add_comment(self, node: tree.SyntaxNode, text: str) -> None:
+        self.comments += attach_comment(node, text)
 
-    def _keep_comments(self, piece: EmbeddedCode[tree.ActionBlockNode], actions: Sequence[tree.ActionNode]) -> None:
-        """Comments of hand-written code stay at the actions that they stand before, or behind."""
-        for token, comments in piece.comments.items():
-            following = next((each for each in actions if each.first_token >= token), None)
+    def _keep_comments(self, embedded: EmbeddedCode[tree.ActionBlockNode], actions: Sequence[tree.ActionNode]) -> None:
+        """Attach the comments of hand-written code to the following or preceding action."""
+        for token, comments in embedded.comments.items():
+            following = next((action for action in actions if action.first_token >= token), None)
             for comment in comments:
                 is_behind = bool(actions) and (following is None or not comment.own_line)
-                before = [each for each in actions if each.last_token < token]
+                before = [action for action in actions if action.last_token < token]
                 node = before[-1] if is_behind and before else following
                 if node is not None:
                     self.comments.append(AttachedComment(node, comment, is_behind=is_behind and bool(before)))

@@ -1,4 +1,4 @@
-"""Finds in the file of an option which lines come from which state, decision and actions."""
+"""Map the lines of an option file to states, decisions and actions."""
 
 from collections.abc import Iterator
 
@@ -12,26 +12,26 @@ from vicode.xabsl.tokens import DOC
 
 
 def find_origins(plan: ComponentPlan, text: str) -> tuple[Origin, ...]:
-    """The origins in the file of an option, the wider before those inside them; none in any other text."""
+    """Return the origins, outer before inner; empty if the text is not the generated file."""
     return option_origins(text, build_option(plan))
 
 
-def option_origins(text: str, written: GeneratedOption) -> tuple[Origin, ...]:
-    """The same of an option that is written already."""
+def option_origins(text: str, generated: GeneratedOption) -> tuple[Origin, ...]:
+    """Return the origins of an option that is already built."""
     parsed, option = parse_option(text)
-    if option is None or option != written.option:
+    if option is None or option != generated.option:
         return ()
-    found = _origins(written, option, parsed.tokens)
-    return tuple(sorted(found, key=lambda origin: (origin.first, -origin.last)))
+    origins = _origins(generated, option, parsed.tokens)
+    return tuple(sorted(origins, key=lambda origin: (origin.first, -origin.last)))
 
 
-def _origins(written: GeneratedOption, option: tree.OptionNode, tokens: Tokens) -> Iterator[Origin]:
-    read = {id(made): found for made, found in pair_nodes(written.option, option)}
-    for made, path in written.node_paths:
-        node = read[id(made)]
+def _origins(generated: GeneratedOption, option: tree.OptionNode, tokens: Tokens) -> Iterator[Origin]:
+    parsed_nodes = {id(built): node for built, node in pair_nodes(generated.option, option)}
+    for built, path in generated.node_paths:
+        node = parsed_nodes[id(built)]
         first, last = node.first_token, node.last_token
         if isinstance(node, tree.IfNode) and path != ("common", "transitions"):
-            # What goes on after `else` comes from another decision.
+            # The part after `else` comes from another decision.
             last = node.then.last_token
         first = (
             _include_else_and_doc(first, tokens)
@@ -43,14 +43,14 @@ def _origins(written: GeneratedOption, option: tree.OptionNode, tokens: Tokens) 
 
 
 def _include_else_and_doc(first: int, tokens: Tokens) -> int:
-    """The token that a decision begins with: the `else` before it, and what describes it, belong to it."""
+    """Return the first token of a decision, including a preceding `else` and description."""
     if first and tokens.kinds[first - 1] == "else":
         first -= 1
     return first - 1 if first and tokens.kinds[first - 1] == DOC else first
 
 
 def _include_comments(line: int, tokens: Tokens) -> int:
-    """The first line of the comment that ends right above a line."""
+    """Return the first line of the comment directly above a line."""
     lines = tokens.text.split("\n")
     while line > 2 and lines[line - 2].strip().startswith("//"):
         line -= 1

@@ -1,4 +1,4 @@
-"""The files that declare: enumerations and constants, what each component offers, basic behaviors, agents."""
+"""Build the declaration files: enumerations, constants, symbols, basic behaviors and agents."""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -25,7 +25,7 @@ from vicode.xabsl import tree
 
 
 def format_range(declaration: Declaration) -> str:
-    """A range as it stands between brackets."""
+    """Format a range without its brackets."""
     if declaration.range is None:
         return ""
     return "..".join(("-" if end < 0 else "") + format_decimal(abs(end)) for end in declaration.range)
@@ -33,55 +33,62 @@ def format_range(declaration: Declaration) -> str:
 
 @dataclass(frozen=True, slots=True)
 class SymbolsWriter:
-    """Writes the declarations of one project."""
+    """Builds the declaration files of one project."""
 
     name_map: XabslNameMap
 
     @property
     def project(self) -> Project:
-        """What is written."""
         return self.name_map.project
 
     def declarations_file(self, namespace: str) -> tree.FileNode:
-        """Enumerations and constants."""
-        made: list[tree.DeclarationNode] = [self._enumeration(each) for each in self.project.enumerations]
-        made += self._constants()
-        return tree.FileNode(body=[tree.NamespaceNode(tree.NameNode(namespace), "Enumerations and constants", made)])
+        declarations: list[tree.DeclarationNode] = [self._enumeration(item) for item in self.project.enumerations]
+        declarations += self._constants()
+        return tree.FileNode(
+            body=[tree.NamespaceNode(tree.NameNode(namespace), "Enumerations and constants", declarations)]
+        )
 
     def behaviors_file(self, namespace: str) -> tree.FileNode:
-        """What a robot's program is told to do."""
-        made: list[tree.DeclarationNode] = [
+        declarations: list[tree.DeclarationNode] = [
             tree.BehaviorNode(
-                tree.NameNode(component_name(each)),
-                [self._parameter(parameter, 2) for parameter in each.parameters],
-                wrap_description(each.doc or each.title, 1),
+                tree.NameNode(component_name(interface)),
+                [self._parameter(parameter, 2) for parameter in interface.parameters],
+                wrap_description(interface.doc or interface.title, 1),
             )
-            for each in self.project.components
-            if is_basic_behavior(each)
+            for interface in self.project.components
+            if is_basic_behavior(interface)
         ]
-        return tree.FileNode(body=[tree.NamespaceNode(tree.NameNode(namespace), "Basic behaviors", made)])
+        return tree.FileNode(body=[tree.NamespaceNode(tree.NameNode(namespace), "Basic behaviors", declarations)])
 
     def interface_file(self, interface: Interface, namespace: str) -> tree.FileNode:
-        """What a hand-written component offers."""
-        made = [self._symbol(interface.component, each, output_role(interface)) for each in interface.outputs]
-        made += [self._symbol(interface.component, each, variable_role(interface)) for each in interface.variables]
+        """Build the symbols of a component without a design."""
+        declarations = [self._symbol(interface.component, item, output_role(interface)) for item in interface.outputs]
+        declarations += [
+            self._symbol(interface.component, item, variable_role(interface)) for item in interface.variables
+        ]
         heading = title_text(interface.title or interface.component)
         return tree.FileNode(
-            body=[tree.NamespaceNode(tree.NameNode(namespace), heading, [*made], wrap_description(interface.doc, 0))]
+            body=[
+                tree.NamespaceNode(
+                    tree.NameNode(namespace), heading, [*declarations], wrap_description(interface.doc, 0)
+                )
+            ]
         )
 
     def design_file(self, design: Design, namespace: str) -> tree.FileNode:
-        """What a design keeps and shows."""
-        made = [self._symbol(design.component, each, INTERNAL_SYMBOL) for each in symbol_declarations(design)]
-        return tree.FileNode(body=[tree.NamespaceNode(tree.NameNode(namespace), title_text(design.component), [*made])])
+        """Build the symbols of a design: its outputs and variables."""
+        declarations = [self._symbol(design.component, item, INTERNAL_SYMBOL) for item in symbol_declarations(design)]
+        return tree.FileNode(
+            body=[tree.NamespaceNode(tree.NameNode(namespace), title_text(design.component), [*declarations])]
+        )
 
     def agents_file(self, includes: Sequence[str]) -> tree.FileNode:
-        """The file to begin with: all other files, and the agents."""
+        """Build the main file, which includes all other files and declares the agents."""
         agents: list[tree.OptionNode | tree.NamespaceNode | tree.AgentNode] = []
         for agent in effective_agents(self.project):
             root = self.project.design(agent.root)
             if root is None:
-                raise UnsoundDesignError(f"the agent '{agent.name}' begins with '{agent.root}', which has no design")
+                raise UnsoundDesignError(f"the root '{agent.root}' of the agent '{agent.name}' has no design")
             heading = title_text(agent.title or agent.name)
             name, option = tree.NameNode(unqualified_name(agent)), tree.NameNode(component_name(root))
             agents.append(tree.AgentNode(name, heading, option, wrap_description(agent.doc, 0)))
@@ -92,20 +99,20 @@ class SymbolsWriter:
         )
 
     def _enumeration(self, enumeration: Enumeration) -> tree.EnumerationNode:
-        elements = [tree.NameNode(element_name(enumeration, each)) for each in enumeration.element_names]
+        elements = [tree.NameNode(element_name(enumeration, name)) for name in enumeration.element_names]
         meanings = (f"{element.text}: {doc}" for element, (_, doc) in zip(elements, enumeration.elements, strict=True))
-        described = [each for each, (_, doc) in zip(meanings, enumeration.elements, strict=True) if doc]
+        described = [text for text, (_, doc) in zip(meanings, enumeration.elements, strict=True) if doc]
         doc = wrap_description(" ".join([enumeration.doc, "; ".join(described)]), 1)
         return tree.EnumerationNode(tree.NameNode(unqualified_name(enumeration)), elements, enumeration.internal, doc)
 
     def _constants(self) -> Iterator[tree.ConstantNode]:
-        for each in self.project.constants:
-            if self.name_map.type_of(each).text == "float":
-                value = self.name_map.constants.get(each.name)
+        for item in self.project.constants:
+            if self.name_map.type_of(item).text == "float":
+                value = self.name_map.constants.get(item.name)
                 if value is None:
-                    raise UnsoundDesignError(f"the constant '{each.name}' has no value")
-                name, unit = tree.NameNode(unqualified_name(each)), title_text(each.unit)
-                yield tree.ConstantNode(name, _constant_text(each, value), unit, wrap_description(each.doc, 1))
+                    raise UnsoundDesignError(f"the constant '{item.name}' has no value")
+                name, unit = tree.NameNode(unqualified_name(item)), title_text(item.unit)
+                yield tree.ConstantNode(name, _constant_text(item, value), unit, wrap_description(item.doc, 1))
 
     def _symbol(self, component: str, declared: Declaration, role: str) -> tree.SymbolNode:
         type_ = self.name_map.type_of(declared)
@@ -117,7 +124,7 @@ class SymbolsWriter:
             type_,
             format_range(declared) if is_number else "",
             title_text(declared.unit) if is_number else "",
-            None if parameters is None else [self._parameter(each, 2) for each in parameters],
+            None if parameters is None else [self._parameter(item, 2) for item in parameters],
             wrap_description(declared.doc, 1),
         )
 
@@ -134,7 +141,7 @@ class SymbolsWriter:
 
 
 def _header_lines(project: Project) -> Iterator[str]:
-    """The first lines: a title, which a doc may begin with, as that of an imported project does, then the doc."""
+    """Return the title and the doc; the first line of the doc may be the title, as in imported projects."""
     lines = project.doc.strip().splitlines()
     has_title = bool(lines) and len(lines[0]) <= _MAX_TITLE_LENGTH and not lines[0].endswith(".")
     yield f"Title: {lines[0] if has_title else project.name}"
