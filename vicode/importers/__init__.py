@@ -1,4 +1,4 @@
-"""Behaviors of XABSL as projects of designs; nothing is left out without a word."""
+"""Import XABSL behaviors as vicode projects."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -17,14 +17,17 @@ from vicode.xabsl.source_loader import ProgramSource
 __all__ = ["ROBOT_WORLD", "ImportResult", "ImportedDesign", "import_behavior", "render_robot_class"]
 
 ROBOT_WORLD = "robot:Robot"
-"""The world of an imported project, which `robot_text` is the beginning of."""
+"""The world of an imported project; `render_robot_class` generates a skeleton of it."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ImportedDesign:
-    """Where a design belongs (relative to the project), and remarks for the things in it.
+    """The file and the comments of an imported design.
 
-    `file` is what it was read from, `anchors` are the tokens of it that things of the design come from.
+    Attributes:
+        path: The design file, relative to the project.
+        file: The XABSL file it was imported from.
+        anchors: Tokens of that file with the design elements they became.
     """
 
     component: str
@@ -36,7 +39,7 @@ class ImportedDesign:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ImportResult:
-    """A project with its designs; `comments` belong to project.yaml."""
+    """An imported project; `comments` are those of project.yaml."""
 
     project: Project
     designs: tuple[ImportedDesign, ...]
@@ -44,89 +47,91 @@ class ImportResult:
 
 
 def import_behavior(source: ProgramSource, compiled: CompileResult, name: str) -> ImportResult:
-    """Turn a behavior that was compiled without errors into a project.
+    """Convert a behavior that was compiled without errors to a project.
 
     Args:
-        source: its files.
-        compiled: what the compiler found out about them.
-        name: the project's name.
+        source: The files of the behavior.
+        compiled: The result of compiling them.
+        name: The name of the project.
     """
-    vocabulary = import_declarations(source, compiled.table)
-    meanings = {(id(tokens), at): declared for tokens, at, declared in compiled.references}
-    designs, placed = [], []
-    options = {id(each.node): each for each in compiled.table.options.values()}
-    remarks = list(vocabulary.comments)
+    declarations = import_declarations(source, compiled.table)
+    references = {(id(tokens), token): declared for tokens, token, declared in compiled.references}
+    designs, imported = [], []
+    options = {id(option.node): option for option in compiled.table.options.values()}
+    comments = list(declarations.comments)
     for path, parsed in source.files.items():
         for item in parsed.file.body:
             if id(item) not in options:
                 continue
-            importer = OptionImporter(vocabulary, meanings, parsed, options[id(item)])
-            design, found = importer.import_design()
+            importer = OptionImporter(declarations, references, parsed, options[id(item)])
+            design, design_comments = importer.import_design()
             designs.append(design)
-            placed.append(
+            imported.append(
                 ImportedDesign(
                     component=design.component,
                     path=_path(source, path),
-                    comments=tuple(found),
+                    comments=tuple(design_comments),
                     file=path,
                     anchors=tuple(importer.anchors),
                 )
             )
-    agents = tuple(_agents(source, compiled, vocabulary))
+    agents = tuple(_agents(source, compiled, declarations))
     for path, parsed in source.files.items():
         if not any(isinstance(item, tree.OptionNode) for item in parsed.file.body):
-            remarks += _place_file_comments(parsed.file, vocabulary, is_main=path == source.main)
+            comments += _place_file_comments(parsed.file, declarations, is_main=path == source.main)
     project = Project(
         name=name,
         doc=_doc(source),
         languages=("python", "xabsl"),
         world=ROBOT_WORLD,
-        enumerations=tuple(vocabulary.enumerations),
-        constants=tuple(vocabulary.constants),
-        components=tuple(vocabulary.interfaces),
+        enumerations=tuple(declarations.enumerations),
+        constants=tuple(declarations.constants),
+        components=tuple(declarations.interfaces),
         agents=agents,
         designs=tuple(designs),
     )
-    return ImportResult(project=project, designs=tuple(placed), comments=tuple(remarks))
+    return ImportResult(project=project, designs=tuple(imported), comments=tuple(comments))
 
 
 def _path(source: ProgramSource, file: Path) -> str:
-    """Where the design of a file goes: where the file stands beside the one with the agents."""
+    """Return the path of the design, which mirrors the location of the file relative to the main file."""
     folder = source.main.parent
-    shown = file.relative_to(folder) if file.is_relative_to(folder) else Path(file.name)
-    return shown.with_suffix(".yaml").as_posix()
+    relative = file.relative_to(folder) if file.is_relative_to(folder) else Path(file.name)
+    return relative.with_suffix(".yaml").as_posix()
 
 
 def _doc(source: ProgramSource) -> str:
-    """What the first comment of a behavior says, its title first."""
+    """Return the title and the header comment of a behavior."""
     lines = [line.strip() for line in source.files[source.main].file.header.splitlines()]
-    others = [line for line in lines if line and line.partition(":")[0].strip() != "Title"]
-    return "\n".join([*([source.title] if source.title else []), *others])
+    other_lines = [line for line in lines if line and line.partition(":")[0].strip() != "Title"]
+    return "\n".join([*([source.title] if source.title else []), *other_lines])
 
 
-def _agents(source: ProgramSource, compiled: CompileResult, vocabulary: ImportedDeclarations) -> Iterator[Agent]:
+def _agents(source: ProgramSource, compiled: CompileResult, declarations: ImportedDeclarations) -> Iterator[Agent]:
     names = DesignNames()
-    for each in source.files[source.main].file.body:
-        if isinstance(each, tree.AgentNode):
-            name = names.allocate(each.name.text)
-            vocabulary.paths[id(each)] = ("agents", name)
+    for node in source.files[source.main].file.body:
+        if isinstance(node, tree.AgentNode):
+            name = names.allocate(node.name.text)
+            declarations.paths[id(node)] = ("agents", name)
             yield Agent(
                 name=name,
-                root=vocabulary.components[compiled.table.options[each.root.text]],
-                title=each.title if each.title != name else "",
-                doc=each.doc,
-                xabsl_name=xabsl_name_or_empty(name, each.name.text),
+                root=declarations.components[compiled.table.options[node.root.text]],
+                title=node.title if node.title != name else "",
+                doc=node.doc,
+                xabsl_name=xabsl_name_or_empty(name, node.name.text),
             )
 
 
 def _place_file_comments(
-    file: tree.FileNode, vocabulary: ImportedDeclarations, *, is_main: bool
+    file: tree.FileNode, declarations: ImportedDeclarations, *, is_main: bool
 ) -> Iterator[PlacedComment]:
-    """Comments of a file that declares symbols or agents."""
+    """Place the comments of a file that declares symbols or agents."""
     anchors: list[Anchor] = []
     for item in file.body:
-        inside = item.declarations if isinstance(item, tree.NamespaceNode) else [item]
-        anchors += [(each.first_token, vocabulary.paths[id(each)]) for each in inside if id(each) in vocabulary.paths]
+        nodes = item.declarations if isinstance(item, tree.NamespaceNode) else [item]
+        anchors += [
+            (node.first_token, declarations.paths[id(node)]) for node in nodes if id(node) in declarations.paths
+        ]
     if file.header and not is_main:
         yield (anchors[0][1] if anchors else (), file.header)
     yield from place_comments(file.comments, anchors)

@@ -1,4 +1,4 @@
-"""Comments of a file of XABSL, which become remarks beside the things of a design they stand before."""
+"""Map comments of an XABSL file to the design elements they precede."""
 
 import textwrap
 from bisect import bisect_left
@@ -9,21 +9,21 @@ from vicode.importers.declarations import PlacedComment
 from vicode.xabsl.lexer import Comment
 
 Anchor = tuple[int, DesignPath]
-"""The number of a token, and the path of the thing that begins with it."""
+"""The index of a token and the path of the design element that starts there."""
 
 
 def comment_text(comments: Iterable[Comment]) -> str:
-    """What comments say, without their signs."""
-    return "\n".join(_plain(each.text) for each in comments).strip()
+    """Join the text of comments without the comment markers."""
+    return "\n".join(_plain(comment.text) for comment in comments).strip()
 
 
 def looks_like_code(text: str) -> bool:
-    """Whether a comment holds code that was set aside rather than words."""
+    """Whether a comment contains commented-out code."""
     return any(sign in text for sign in ";{}") or "goto " in text
 
 
 def place_comments(comments: dict[int, list[Comment]], anchors: Sequence[Anchor]) -> Iterator[PlacedComment]:
-    """Where each comment belongs: at what follows it, or behind what stands before it in its line."""
+    """Assign each comment to the following element, or to the preceding one if it is on the same line."""
     ordered = sorted(anchors, key=lambda anchor: anchor[0])
     starts = [token for token, _path in ordered]
     for token, group in sorted(comments.items()):
@@ -31,10 +31,10 @@ def place_comments(comments: dict[int, list[Comment]], anchors: Sequence[Anchor]
             text = _plain(comment.text)
             if not text.strip():
                 continue
-            at = bisect_left(starts, token)
-            if (not comment.own_line and at) or at == len(ordered):
-                at -= 1
-            yield (ordered[at][1] if ordered else (), text)
+            index = bisect_left(starts, token)
+            if (not comment.own_line and index) or index == len(ordered):
+                index -= 1
+            yield (ordered[index][1] if ordered else (), text)
 
 
 def _plain(text: str) -> str:

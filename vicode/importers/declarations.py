@@ -1,4 +1,4 @@
-"""What a behavior declares, in the words of a project: enumerations, constants, and components with symbols."""
+"""Convert the declarations of a behavior to enumerations, constants and components of a project."""
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field, replace
@@ -16,15 +16,20 @@ from vicode.xabsl.symbol_table import BOOLEAN, DECIMAL, ENUM, Definition, Symbol
 _TYPES = {BOOLEAN: "bool", DECIMAL: "float"}
 
 PlacedComment = tuple[DesignPath, str]
-"""A comment above the thing that a path leads to."""
+"""The path of a design element and the comment above it."""
 
 
 @dataclass(slots=True)
 class ImportedDeclarations:
-    """What names mean, and how designs say them.
+    """The declarations of a project and the names they have in designs.
 
-    `components` are names of components by option and basic behavior, `symbols` pairs of a component and a name in it,
-    `names` the names of constants, enumerations, and of parameters inside calls.
+    Attributes:
+        components: Component names by option and basic behavior.
+        symbols: The component and the name in it, by symbol.
+        names: Names of constants, enumerations, elements and parameters.
+        enums: Enumerations by XABSL name.
+        paths: The path of a declaration in the project file, by the id of its node.
+        shared: The names of constants and enumerations, which are visible in every design.
     """
 
     enumerations: list[Enumeration] = field(default_factory=list)
@@ -35,46 +40,42 @@ class ImportedDeclarations:
     symbols: dict[Definition, tuple[str, str]] = field(default_factory=dict)
     names: dict[Definition, str] = field(default_factory=dict)
     enums: dict[str, Enumeration] = field(default_factory=dict)
-    """Enumerations by their names in XABSL."""
     paths: dict[int, DesignPath] = field(default_factory=dict)
-    """Where in the project file a declaration went, by the identity of its node."""
     shared: DesignNames = field(default_factory=DesignNames)
-    """Names that every design knows: those of constants and enumerations."""
 
     @property
     def shared_names(self) -> frozenset[str]:
-        """Names of constants and enumerations, which no design may give to another thing."""
-        return frozenset([each.name for each in self.constants] + [each.name for each in self.enumerations])
+        """Names of constants and enumerations, which designs must not reuse."""
+        return frozenset([item.name for item in self.constants] + [item.name for item in self.enumerations])
 
 
 def import_declarations(source: ProgramSource, table: SymbolTable) -> ImportedDeclarations:
-    """Name all that a behavior declares, in the order of its files."""
+    """Convert the declarations of a behavior in the order of its files."""
     return _DeclarationImporter(table).run(source)
 
 
 class _DeclarationImporter:
-    """Gives names and collects declarations."""
+    """Allocates names and collects declarations."""
 
     def __init__(self, table: SymbolTable) -> None:
         self.table = table
         self.result = ImportedDeclarations()
-        # Components and enumerations become classes side by side.
+        # Components and enumerations become classes in one namespace.
         self.class_names = DesignNames()
-        everything = [*(each for found in table.readable.values() for each in found)]
+        everything = [*(symbol for symbols in table.readable.values() for symbol in symbols)]
         everything += [*table.enums.values(), *table.options.values(), *table.behaviors.values()]
-        self.by_node = {id(each.node): each for each in everything}
+        self.by_node = {id(declared.node): declared for declared in everything}
 
     def run(self, source: ProgramSource) -> ImportedDeclarations:
-        """All declarations."""
         namespaces = [
             item
             for parsed in source.files.values()
             for item in parsed.file.body
             if isinstance(item, tree.NamespaceNode)
         ]
-        for each in self.table.enums.values():
-            self._enumeration(each)
-        for option in sorted(self.table.options.values(), key=lambda each: each.name.lower()):
+        for enumeration in self.table.enums.values():
+            self._enumeration(enumeration)
+        for option in sorted(self.table.options.values(), key=lambda option: option.name.lower()):
             self._component(option)
         for behavior in self.table.behaviors.values():
             self._component(behavior)
@@ -86,55 +87,55 @@ class _DeclarationImporter:
         self.result.components[declared] = self.class_names.allocate(declared.name)
         if declared.role == "behavior":
             names = DesignNames()
-            for each in declared.parameters.values():
-                self.result.names[each] = names.allocate(each.name)
+            for parameter in declared.parameters.values():
+                self.result.names[parameter] = names.allocate(parameter.name)
 
     def _enumeration(self, declared: Definition) -> None:
         assert isinstance(declared.node, tree.EnumerationNode)
         name = self.result.shared.allocate(self.class_names.allocate(declared.name))
         self.result.names[declared] = name
-        names, elements, others = DesignNames(), [], []
-        for each in declared.elements.values():
-            element = names.allocate(each.name)
-            self.result.names[each] = f"{name}.{element}"
+        names, elements, xabsl_elements = DesignNames(), [], []
+        for definition in declared.elements.values():
+            element = names.allocate(definition.name)
+            self.result.names[definition] = f"{name}.{element}"
             elements.append((element, ""))
-            if element != each.name:
-                others.append((element, each.name))
-        made = Enumeration(
+            if element != definition.name:
+                xabsl_elements.append((element, definition.name))
+        enumeration = Enumeration(
             name=name,
             elements=tuple(elements),
             doc=declared.node.doc,
             internal=declared.node.is_internal,
             xabsl_name=xabsl_name_or_empty(name, declared.name),
-            xabsl_elements=tuple(others),
+            xabsl_elements=tuple(xabsl_elements),
         )
-        self.result.enumerations.append(made)
-        self.result.enums[declared.name] = made
+        self.result.enumerations.append(enumeration)
+        self.result.enums[declared.name] = enumeration
         self.result.paths[id(declared.node)] = ("enumerations", name)
 
     def _namespace(self, item: tree.NamespaceNode) -> None:
-        """A component of the world for what the robot's program has, one more for what the engine keeps."""
-        kept: list[Definition] = []
-        given: list[Definition] = []
+        """Convert a namespace to a component for the symbols of the world and one for internal symbols."""
+        internal: list[Definition] = []
+        world: list[Definition] = []
         first: DesignPath | None = None
-        for each in item.declarations:
-            declared = self.by_node.get(id(each))
+        for node in item.declarations:
+            declared = self.by_node.get(id(node))
             if declared is None:
                 continue
-            if isinstance(each, tree.BehaviorNode):
-                self._behavior(each, declared)
-            elif isinstance(each, tree.ConstantNode):
-                self._constant(each, declared)
-            elif isinstance(each, tree.SymbolNode):
-                (kept if declared.role == "internal" else given).append(declared)
-            first = first or self.result.paths.get(id(each))
-        if given:
-            self._add_interface(item, "", WORLD, given)
-        if kept:
-            self._add_interface(item, "_internal" if given else "", INTERNAL, kept)
-        if first is not None and not given and not kept:
-            words = [f"namespace {item.name.text}", item.title, item.doc]
-            self.result.comments.append((first, ": ".join(word for word in words if word)))
+            if isinstance(node, tree.BehaviorNode):
+                self._behavior(node, declared)
+            elif isinstance(node, tree.ConstantNode):
+                self._constant(node, declared)
+            elif isinstance(node, tree.SymbolNode):
+                (internal if declared.role == "internal" else world).append(declared)
+            first = first or self.result.paths.get(id(node))
+        if world:
+            self._add_interface(item, "", WORLD, world)
+        if internal:
+            self._add_interface(item, "_internal" if world else "", INTERNAL, internal)
+        if first is not None and not world and not internal:
+            texts = [f"namespace {item.name.text}", item.title, item.doc]
+            self.result.comments.append((first, ": ".join(text for text in texts if text)))
 
     def _add_interface(
         self, item: tree.NamespaceNode, suffix: str, implementation: str, symbols: Iterable[Definition]
@@ -143,14 +144,14 @@ class _DeclarationImporter:
         names = DesignNames()
         outputs: list[Declaration] = []
         variables: list[Declaration] = []
-        for each in symbols:
-            assert isinstance(each.node, tree.SymbolNode)
-            name = names.allocate(each.name)
-            self.result.symbols[each] = (component, name)
-            made = _with_symbol_name(component, self._declaration(each.node, each, name), each.name)
-            (outputs if each.role == "input" else variables).append(made)
-            section = "outputs" if each.role == "input" else "variables"
-            self.result.paths[id(each.node)] = ("components", component, section, name)
+        for symbol in symbols:
+            assert isinstance(symbol.node, tree.SymbolNode)
+            name = names.allocate(symbol.name)
+            self.result.symbols[symbol] = (component, name)
+            declaration = _with_symbol_name(component, self._declaration(symbol.node, symbol, name), symbol.name)
+            (outputs if symbol.role == "input" else variables).append(declaration)
+            section = "outputs" if symbol.role == "input" else "variables"
+            self.result.paths[id(symbol.node)] = ("components", component, section, name)
         self.result.interfaces.append(
             Interface(
                 component=component,
@@ -163,23 +164,22 @@ class _DeclarationImporter:
             )
         )
 
-    def _behavior(self, item: tree.BehaviorNode, declared: Definition) -> Interface:
+    def _behavior(self, item: tree.BehaviorNode, declared: Definition) -> None:
         component = self.result.components[declared]
-        made = Interface(
+        interface = Interface(
             component=component,
             doc=item.doc,
             xabsl_name=xabsl_name_or_empty(component, declared.name),
             implementation=WORLD,
             parameters=tuple(self._parameters(declared)),
         )
-        self.result.interfaces.append(made)
+        self.result.interfaces.append(interface)
         self.result.paths[id(item)] = ("components", component)
-        return made
 
-    def _constant(self, item: tree.ConstantNode, declared: Definition) -> Declaration:
+    def _constant(self, item: tree.ConstantNode, declared: Definition) -> None:
         name = self.result.shared.allocate(declared.name)
         self.result.names[declared] = name
-        made = Declaration(
+        constant = Declaration(
             name=name,
             type="float",
             initial=to_design_number(item.number),
@@ -187,22 +187,21 @@ class _DeclarationImporter:
             doc=item.doc,
             xabsl_name=xabsl_name_or_empty(name, declared.name),
         )
-        self.result.constants.append(made)
+        self.result.constants.append(constant)
         self.result.paths[id(item)] = ("constants", name)
-        return made
 
     def _parameters(self, owner: Definition) -> Iterator[Declaration]:
-        for each in owner.parameters.values():
-            assert isinstance(each.node, tree.ParameterNode)
-            yield self._declaration(each.node, each, self.result.names[each])
+        for parameter in owner.parameters.values():
+            assert isinstance(parameter.node, tree.ParameterNode)
+            yield self._declaration(parameter.node, parameter, self.result.names[parameter])
 
     def _declaration(self, item: tree.SymbolNode | tree.ParameterNode, declared: Definition, name: str) -> Declaration:
         arguments: tuple[Declaration, ...] | None = None
         if isinstance(item, tree.SymbolNode) and item.parameters is not None:
             names = DesignNames()
-            for each in declared.parameters.values():
-                self.result.names[each] = names.allocate(each.name)
-            arguments = tuple(_with_default(each, self.result.enumerations) for each in self._parameters(declared))
+            for parameter in declared.parameters.values():
+                self.result.names[parameter] = names.allocate(parameter.name)
+            arguments = tuple(_with_default(item, self.result.enumerations) for item in self._parameters(declared))
         return convert_declaration(item, declared, name, self.result, arguments)
 
 
@@ -210,15 +209,15 @@ def convert_declaration(
     item: tree.SymbolNode | tree.ParameterNode,
     declared: Definition,
     name: str,
-    vocabulary: ImportedDeclarations,
+    declarations: ImportedDeclarations,
     arguments: tuple[Declaration, ...] | None = None,
 ) -> Declaration:
-    """A symbol or parameter as a design declares it; a range that is no pair of numbers goes to the words about it."""
+    """Convert a symbol or parameter; a range that is not a pair of numbers becomes part of the doc."""
     ends = parse_range(item.range) if declared.kind == DECIMAL else None
     docs = [item.doc, "" if ends or not item.range else f"[{item.range}]"]
     return Declaration(
         name=name,
-        type=vocabulary.enums[declared.enum].name if declared.kind == ENUM else _TYPES[declared.kind],
+        type=declarations.enums[declared.enum].name if declared.kind == ENUM else _TYPES[declared.kind],
         unit=item.unit,
         range=ends,
         doc=" ".join(doc for doc in docs if doc),
@@ -228,12 +227,12 @@ def convert_declaration(
 
 
 def _with_default(declaration: Declaration, enums: Iterable[Enumeration]) -> Declaration:
-    """An argument that may be left out, as all may in XABSL."""
-    firsts = {each.name: f"{each.name}.{each.elements[0][0]}" for each in enums}
+    """Add the XABSL default to an argument, since every argument is optional in XABSL."""
+    firsts = {item.name: f"{item.name}.{item.elements[0][0]}" for item in enums}
     return replace(declaration, initial={"bool": "False", "float": "0", **firsts}[declaration.type])
 
 
 def _with_symbol_name(component: str, declaration: Declaration, written: str) -> Declaration:
-    """With the name of a symbol where that is not the one it would get in XABSL, which begins with its component's."""
+    """Set the XABSL name of a declaration if it differs from the default, which starts with the component name."""
     plain = replace(declaration, xabsl_name="")
     return plain if symbol_name(component, plain) == written else replace(plain, xabsl_name=written)

@@ -1,4 +1,4 @@
-"""Expressions of XABSL in the words of designs."""
+"""Translate XABSL expressions to design expressions."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -14,14 +14,18 @@ _KEYWORDS = {"true": "True", "false": "False", "option_time": "component_time"}
 
 @dataclass(frozen=True, slots=True)
 class ExpressionTranslator:
-    """Spells the expressions of one file; `resolve` tells what a word there means, `design_name` how a design says it."""
+    """Translates the expressions of one file.
+
+    Attributes:
+        resolve: Returns the definition that a token refers to.
+        design_name: Returns the name of a definition in the design.
+    """
 
     tokens: Tokens
     resolve: Callable[[Tokens, int], Definition]
     design_name: Callable[[Definition], str]
 
     def translate(self, expression: tree.ExpressionNode) -> str:
-        """An expression as a design's text."""
         match expression:
             case tree.NumberNode(text=text):
                 return to_design_number(text)
@@ -42,15 +46,15 @@ class ExpressionTranslator:
             case tree.ConditionalNode(condition=condition, yes=yes, no=no):
                 return f"{self._operand(yes)} if {self._operand(condition)} else {self._operand(no)}"
 
-    def translate_arguments(self, given: tree.ArgumentListNode) -> tuple[tuple[str, str], ...]:
-        """Parameters by the names of designs, with their values, as written."""
+    def translate_arguments(self, arguments: tree.ArgumentListNode) -> tuple[tuple[str, str], ...]:
+        """Translate arguments to pairs of parameter name and value."""
         return tuple(
-            (self.design_name(self.resolve(self.tokens, each.name.first_token)), self.translate(each.value))
-            for each in given.items
+            (self.design_name(self.resolve(self.tokens, argument.name.first_token)), self.translate(argument.value))
+            for argument in arguments.items
         )
 
     def _operand(self, expression: tree.ExpressionNode) -> str:
-        """Python reads a condition the other way round, so one inside another expression is set in parentheses."""
+        """Translate an operand; a conditional gets parentheses, since its parts have another order in Python."""
         text = self.translate(expression)
         return f"({text})" if isinstance(expression, tree.ConditionalNode) else text
 
@@ -58,5 +62,5 @@ class ExpressionTranslator:
         declared = self.resolve(self.tokens, function.name.first_token)
         if not isinstance(declared.node, tree.SymbolNode) or declared.node.parameters is None:
             return self.design_name(declared)
-        given = ", ".join(f"{name}={value}" for name, value in self.translate_arguments(function.arguments))
-        return f"{self.design_name(declared)}({given})"
+        arguments = ", ".join(f"{name}={value}" for name, value in self.translate_arguments(function.arguments))
+        return f"{self.design_name(declared)}({arguments})"

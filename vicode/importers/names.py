@@ -1,4 +1,4 @@
-"""Names of XABSL, which may hold dots and begin with an underscore, as names of designs."""
+"""Convert XABSL names, which may contain dots and start with an underscore, to design names."""
 
 import keyword
 import re
@@ -19,19 +19,18 @@ _RESERVED = frozenset(
         *("True", "False", "None", "true", "false", "bool", "int", "float", "done", "self", "mro", "action_done"),
     }
 )
-"""Words that mean something else in designs or in what is generated from them."""
+"""Names with another meaning in designs or generated code."""
 
 
 class DesignNames:
-    """Gives names out, none twice; case does not tell two apart, as it does not in some file systems."""
+    """Allocates names that are unique ignoring case, since some file systems ignore it."""
 
     def __init__(self, taken: frozenset[str] = frozenset()) -> None:
-        """Begin with names that nobody gets."""
         self._taken = {name.casefold() for name in taken}
 
-    def allocate(self, wanted: str) -> str:
-        """A free name like the one of XABSL."""
-        stem = to_design_name(wanted)
+    def allocate(self, xabsl_name: str) -> str:
+        """Return an unused design name derived from an XABSL name."""
+        stem = to_design_name(xabsl_name)
         name, number = stem, 1
         while name.casefold() in self._taken:
             number += 1
@@ -41,7 +40,7 @@ class DesignNames:
 
 
 def to_design_name(text: str) -> str:
-    """The nearest name that a design may have."""
+    """Convert an XABSL name to a similar valid design name."""
     stem = re.sub(r"[^A-Za-z0-9_]", "_", text).strip("_")[:_MAX_LENGTH] or "x"
     if not is_valid_name(stem):
         stem = f"x_{stem}"
@@ -49,12 +48,12 @@ def to_design_name(text: str) -> str:
 
 
 def to_design_number(text: str) -> str:
-    """A number as a design may have it; whole ones that not every language holds exactly are decimals."""
+    """Convert a number literal; an integer above 2**53 becomes a float, since not every language represents it."""
     if text.endswith("."):
         return f"{text}0"
     return f"{text}.0" if "." not in text and abs(int(text)) > _MAX_INTEGER else text
 
 
-def xabsl_name_or_empty(name: str, written: str) -> str:
-    """The name in XABSL where it is another one, else nothing."""
-    return "" if name == written else written
+def xabsl_name_or_empty(name: str, xabsl_name: str) -> str:
+    """Return the XABSL name if it differs from the design name."""
+    return "" if name == xabsl_name else xabsl_name

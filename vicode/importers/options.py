@@ -1,4 +1,4 @@
-"""An option of XABSL as a design: its states, decision trees as groups, actions, parameters."""
+"""Convert an XABSL option to a design; nested decision trees become groups."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
@@ -29,12 +29,12 @@ from vicode.xabsl.parser import ParsedFile
 from vicode.xabsl.symbol_table import Definition
 
 TokenReferences = dict[tuple[int, int], Definition]
-"""What a word means: by the identity of its file's tokens and its number."""
+"""Definitions by the id of the token list and the index of the token."""
 
 
 @dataclass(slots=True)
 class OptionImporter:
-    """Makes the design of one option."""
+    """Converts one option to a design."""
 
     declarations: ImportedDeclarations
     references: TokenReferences
@@ -49,23 +49,22 @@ class OptionImporter:
     _comments: dict[int, list[Comment]] = field(init=False)
 
     def __post_init__(self) -> None:
-        """Name what belongs to the option alone."""
         self.names = DesignNames(self.declarations.shared_names)
-        self.parameter_names = {each: self.names.allocate(each.name) for each in self.definition.parameters.values()}
-        given = DesignNames()
-        self.states = {name: given.allocate(name) for name in self.definition.states}
+        self.parameter_names = {item: self.names.allocate(item.name) for item in self.definition.parameters.values()}
+        state_names = DesignNames()
+        self.states = {name: state_names.allocate(name) for name in self.definition.states}
         self.translator = ExpressionTranslator(self.parsed.tokens, self._resolve, self._design_name)
         self._comments = dict(self.parsed.file.comments)
 
     def import_design(self) -> tuple[Design, list[PlacedComment]]:
-        """The design, and the comments that have no other place in it."""
+        """Return the design and the comments in its file."""
         option = self.option
         component = self.declarations.components[self.definition]
         self.anchors.append((option.first_token, ("component",)))
         parameters = tuple(self._parameters())
         common = self._common()
-        states = tuple(self._state(each) for each in option.states)
-        initial = next(each.name.text for each in option.states if each.is_initial)
+        states = tuple(self._state(state) for state in option.states)
+        initial = next(state.name.text for state in option.states if state.is_initial)
         design = Design(
             component=component,
             xabsl_name=xabsl_name_or_empty(component, option.name.text),
@@ -78,21 +77,20 @@ class OptionImporter:
             common=common,
             states=states,
         )
-        remarks = list(place_comments(self._comments, self.anchors))
-        head = self.parsed.file.header
-        return design, [*([((), head)] if head else []), *remarks]
+        comments = list(place_comments(self._comments, self.anchors))
+        header = self.parsed.file.header
+        return design, [*([((), header)] if header else []), *comments]
 
     @property
     def option(self) -> tree.OptionNode:
-        """What was written."""
         assert isinstance(self.definition.node, tree.OptionNode)
         return self.definition.node
 
-    def _resolve(self, tokens: Tokens, at: int) -> Definition:
-        return self.references[id(tokens), at]
+    def _resolve(self, tokens: Tokens, token: int) -> Definition:
+        return self.references[id(tokens), token]
 
     def _design_name(self, declared: Definition) -> str:
-        """How this design says what a word means."""
+        """Return the name of a definition in this design."""
         if declared in self.parameter_names:
             return self.parameter_names[declared]
         if declared in self.declarations.symbols:
@@ -106,10 +104,10 @@ class OptionImporter:
         return self.uses[component]
 
     def _parameters(self) -> Iterator[Declaration]:
-        for each, name in self.parameter_names.items():
-            assert isinstance(each.node, tree.ParameterNode)
-            self.anchors.append((each.node.first_token, ("parameters", name)))
-            yield convert_declaration(each.node, each, name, self.declarations)
+        for parameter, name in self.parameter_names.items():
+            assert isinstance(parameter.node, tree.ParameterNode)
+            self.anchors.append((parameter.node.first_token, ("parameters", name)))
+            yield convert_declaration(parameter.node, parameter, name, self.declarations)
 
     def _common(self) -> CommonSection:
         path: DesignPath = ("common",)
@@ -127,53 +125,52 @@ class OptionImporter:
         self.anchors.append((state.first_token, path))
         transitions: tuple[Decision, ...] = ()
         if state.decision is not None:
-            at = (*path, "transitions")
             self.anchors.append((state.decision.first_token, path))
-            transitions = self._decisions(state.decision.tree, state.decision.else_doc, at)
-            # Nobody needs to be told that what has no reason to change stays.
+            transitions = self._decisions(state.decision.tree, state.decision.else_doc, (*path, "transitions"))
+            # A final `stay` is the default.
             if isinstance(transitions[-1], Stay) and not transitions[-1].doc:
                 transitions = transitions[:-1]
         actions = self._actions(state.actions, (*path, "actions"))
-        number = float(state.robots or 0)
+        robots = float(state.robots or 0)
         return State(
             name=name,
             xabsl_name=xabsl_name_or_empty(name, state.name.text),
             doc=doc,
             final=state.is_target,
-            capacity=number if state.cooperation == "capacity" else None,
-            synchronized=number if state.cooperation == "synchronized" else None,
+            capacity=robots if state.cooperation == "capacity" else None,
+            synchronized=robots if state.cooperation == "synchronized" else None,
             transitions=transitions,
             actions=actions,
         )
 
     def _leading_comment(self, state: tree.StateNode) -> str:
-        """Comments right before a state say what it is for, as no others may stand there."""
-        found = [each for each in self._comments.get(state.first_token, ()) if each.own_line]
-        words = comment_text(found)
-        if not words or looks_like_code(words):
+        """Take the comments directly before a state as its doc, unless they contain code."""
+        comments = self._comments.get(state.first_token, ())
+        text = comment_text([comment for comment in comments if comment.own_line])
+        if not text or looks_like_code(text):
             return ""
-        self._comments[state.first_token] = [each for each in self._comments[state.first_token] if not each.own_line]
-        return words
+        self._comments[state.first_token] = [comment for comment in comments if not comment.own_line]
+        return text
 
     # Decisions
 
     def _decisions(self, node: tree.DecisionTreeNode, doc: str, path: DesignPath) -> tuple[Decision, ...]:
-        """A tree as a list: what is tested when the one before does not hold follows it."""
-        made: list[Decision] = []
+        """Flatten a tree to a list; the `else` branch of a decision follows it."""
+        decisions: list[Decision] = []
         current: tree.DecisionTreeNode | None = node
         while current is not None:
-            here = (*path, len(made))
-            self.anchors.append((current.first_token, here))
+            decision_path = (*path, len(decisions))
+            self.anchors.append((current.first_token, decision_path))
             match current:
                 case tree.BlockNode(inner=inner):
                     current = inner
                 case tree.GotoNode() | tree.StayNode():
-                    made.append(self._leaf(current, Guard(), doc))
+                    decisions.append(self._leaf(current, Guard(), doc))
                     current = None
                 case tree.IfNode():
-                    made.append(self._branch(current, _join_docs(doc, current.doc), here))
+                    decisions.append(self._branch(current, _join_docs(doc, current.doc), decision_path))
                     doc, current = current.else_doc, current.otherwise
-        return tuple(made)
+        return tuple(decisions)
 
     def _branch(self, node: tree.IfNode, doc: str, path: DesignPath) -> Decision:
         guard = self._guard(node.condition)
@@ -191,7 +188,7 @@ class OptionImporter:
         return Transition(to=self.states[node.state.text], guard=guard, doc=doc)
 
     def _guard(self, condition: tree.ExpressionNode) -> Guard:
-        """A condition; that so much time has passed is said as people do."""
+        """Convert a condition; a test of the state time becomes `after`."""
         after = self._elapsed_time(condition)
         if after:
             return Guard(after=after)
@@ -221,34 +218,34 @@ class OptionImporter:
     # Actions
 
     def _actions(self, actions: tree.ActionBlockNode | None, path: DesignPath) -> tuple[Action, ...]:
-        made: list[Action] = []
-        for each in actions.actions if actions else ():
-            made = self._append_action(made, each)
-            self.anchors.append((each.first_token, (*path, len(made) - 1)))
-        return tuple(made)
+        converted: list[Action] = []
+        for action in actions.actions if actions else ():
+            converted = self._append_action(converted, action)
+            self.anchors.append((action.first_token, (*path, len(converted) - 1)))
+        return tuple(converted)
 
-    def _append_action(self, made: list[Action], action: tree.ActionNode) -> list[Action]:
-        """The actions with one more; assignments that follow each other stand together."""
+    def _append_action(self, converted: list[Action], action: tree.ActionNode) -> list[Action]:
+        """Append an action; consecutive assignments form one action."""
         if isinstance(action, tree.CallNode):
             called = self._resolve(self.parsed.tokens, action.name.first_token)
             alias = self._alias(self.declarations.components[called])
-            names = {each: self._parameter_name(called, each) for each in called.parameters.values()}
-            wording = replace(self.translator, design_name=lambda each: names.get(each) or self._design_name(each))
-            return [*made, Call(alias=alias, arguments=wording.translate_arguments(action.arguments))]
+            names = {item: self._parameter_name(called, item) for item in called.parameters.values()}
+            translator = replace(self.translator, design_name=lambda item: names.get(item) or self._design_name(item))
+            return [*converted, Call(alias=alias, arguments=translator.translate_arguments(action.arguments))]
         symbol = self._resolve(self.parsed.tokens, action.symbol.first_token)
         pair = (self._design_name(symbol), self.translator.translate(action.value))
-        last = made[-1] if made else None
+        last = converted[-1] if converted else None
         if isinstance(last, Assign) and pair[0] not in dict(last.values):
-            return [*made[:-1], Assign(values=(*last.values, pair))]
-        return [*made, Assign(values=(pair,))]
+            return [*converted[:-1], Assign(values=(*last.values, pair))]
+        return [*converted, Assign(values=(pair,))]
 
     def _parameter_name(self, called: Definition, parameter: Definition) -> str:
-        """The name of a parameter in the design that is called, which gives names in the same order."""
+        """Return the name of a parameter in the called design, which allocates its names in the same order."""
         if called.role == "behavior":
             return self.declarations.names[parameter]
         names = DesignNames(self.declarations.shared_names)
-        return {each: names.allocate(each.name) for each in called.parameters.values()}[parameter]
+        return {item: names.allocate(item.name) for item in called.parameters.values()}[parameter]
 
 
 def _join_docs(first: str, second: str) -> str:
-    return "\n".join(each for each in (first, second) if each)
+    return "\n".join(doc for doc in (first, second) if doc)

@@ -1,4 +1,4 @@
-"""A class to begin with for what the designs ask of the robot: it senses nothing and does nothing yet."""
+"""Generate a skeleton of the robot class that an imported project accesses as its world."""
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
@@ -42,24 +42,24 @@ class _RobotView:
 
 
 def render_robot_class(project: Project) -> str:
-    """A Python module with the class `Robot`, which has all that components of the world ask for."""
-    asked = [each for each in project.components if each.implementation == WORLD]
-    symbols = [_symbols(project, each) for each in asked if each.readable]
-    acts = tuple(_behavior_method(project, each) for each in asked if is_basic_behavior(each))
-    if acts:
-        symbols.append(_Section(title="What it does", doc=(), values=(), functions=acts))
-    return render("importers/robot_class.py.jinja", view=_RobotView(sections=tuple(symbols)))
+    """Render a Python module with the class `Robot`, which has every member that the components access."""
+    interfaces = [interface for interface in project.components if interface.implementation == WORLD]
+    sections = [_symbol_section(project, interface) for interface in interfaces if interface.readable]
+    behaviors = tuple(_behavior_method(project, item) for item in interfaces if is_basic_behavior(item))
+    if behaviors:
+        sections.append(_Section(title="Basic behaviors", doc=(), values=(), functions=behaviors))
+    return render("importers/robot_class.py.jinja", view=_RobotView(sections=tuple(sections)))
 
 
-def _symbols(project: Project, interface: Interface) -> _Section:
-    sensed = [each for each in interface.outputs if each.arguments is None]
-    asked = [each for each in interface.outputs if each.arguments is not None]
+def _symbol_section(project: Project, interface: Interface) -> _Section:
+    values = [output for output in interface.outputs if output.arguments is None]
+    functions = [output for output in interface.outputs if output.arguments is not None]
     title = _line(interface.title or interface.component)
     return _Section(
         title=title,
         doc=tuple(line for line in _lines(interface.doc) if line.lower() != title.lower()),
-        values=tuple(_value(project, each) for each in (*sensed, *interface.variables)),
-        functions=tuple(_function(project, each) for each in asked),
+        values=tuple(_value(project, item) for item in (*values, *interface.variables)),
+        functions=tuple(_function(project, item) for item in functions),
     )
 
 
@@ -92,8 +92,8 @@ def _behavior_method(project: Project, interface: Interface) -> _Function:
 
 
 def _parameters(project: Project, declarations: Iterable[Declaration]) -> str:
-    given = [f"{_name(each)}: {_type(each)} = {_default(project, each)}" for each in declarations]
-    return f", *, {', '.join(given)}" if given else ""
+    parameters = [f"{_name(item)}: {_type(item)} = {_default(project, item)}" for item in declarations]
+    return f", *, {', '.join(parameters)}" if parameters else ""
 
 
 def _name(declaration: Declaration) -> str:
@@ -117,15 +117,15 @@ def _description(project: Project, declaration: Declaration) -> str:
     if declaration.range:
         facts.append(f"{declaration.range[0]:g} to {declaration.range[1]:g}")
     if enumeration is not None:
-        facts.append(", ".join(element_name(enumeration, each) for each in enumeration.element_names))
+        facts.append(", ".join(element_name(enumeration, name) for name in enumeration.element_names))
     fact = f"({'; '.join(facts)})" if facts else ""
     return " ".join(part for part in (declaration.doc, fact) if part)
 
 
 def _lines(text: str) -> Iterator[str]:
-    return (_line(each) for each in text.splitlines() if each.strip())
+    return (_line(line) for line in text.splitlines() if line.strip())
 
 
 def _line(text: str) -> str:
-    """A stranger's words as part of a comment, which no sign in them ends."""
-    return "".join(sign if sign.isprintable() else " " for sign in text).strip()
+    """Replace non-printable characters, which could end a comment."""
+    return "".join(char if char.isprintable() else " " for char in text).strip()

@@ -56,7 +56,7 @@ class Corridor:
         """The largest of the least distances, in m."""
         return max(self.__getattr__(f"laser_min_{region}") for region in REGIONS)
 
-    # What it does
+    # Basic behaviors
 
     def differential_drive(self, *, speed: float, turning_speed: float) -> None:
         """Drive with m/s and degrees/s until told otherwise."""
