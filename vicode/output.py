@@ -1,4 +1,4 @@
-"""Files to write: compared with a folder (new, changed, unchanged, stale), and written so that none is ever half."""
+"""Output files: compares them with a folder and writes them atomically."""
 
 import os
 import secrets
@@ -12,14 +12,14 @@ from pathlib import Path
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class OutputFile:
-    """A file to be: `path` is relative, with slashes."""
+    """A file to write; `path` is relative and separated by slashes."""
 
     path: str
     text: str
 
 
 class FileStatus(StrEnum):
-    """What a folder has to say to a file that should be in it."""
+    """The status of an output file relative to the folder."""
 
     NEW = "new"
     CHANGED = "changed"
@@ -29,7 +29,7 @@ class FileStatus(StrEnum):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class FileDiff:
-    """One file in a folder: `old` as it is on disk, `new` as it should be; None where there is none."""
+    """The texts of a file on disk (`old`) and in the output (`new`); None if it does not exist there."""
 
     path: str
     status: FileStatus
@@ -44,17 +44,17 @@ def compare_files(
     kept_paths: Iterable[str] = (),
     is_generated: Callable[[str], bool] = lambda _text: False,
 ) -> tuple[FileDiff, ...]:
-    """Every file against the folder, by path.
+    """Compare output files with a folder; the result is sorted by path.
 
     Args:
-        files: What should be there.
-        folder: Where to look; it need not exist.
-        is_ours: Whether a text that stands beside the files was generated, so that it is stale.
-        keep: Further paths that are not stale, though this time nothing is written to them.
+        files: The output files.
+        folder: The folder, which need not exist.
+        kept_paths: Paths of further files that are not stale.
+        is_generated: Whether the text of an existing file is generated: such a file is stale if it is not in `files`.
     """
-    wanted = {file.path: file.text for file in files}
-    kept = {*wanted, *kept_paths}
-    differences = [_compare_one(path, text, _read(folder / path)) for path, text in wanted.items()]
+    texts = {file.path: file.text for file in files}
+    kept = {*texts, *kept_paths}
+    differences = [_compare_one(path, text, _read(folder / path)) for path, text in texts.items()]
     for path in _list_sibling_sources(kept, folder):
         old = _read(folder / path)
         if path not in kept and old is not None and is_generated(old):
@@ -63,23 +63,23 @@ def compare_files(
 
 
 def apply_diffs(differences: Iterable[FileDiff], folder: Path) -> tuple[Path, ...]:
-    """Write what is new or changed, delete what is stale; returns the touched files."""
-    touched = []
+    """Write new and changed files and delete stale ones; returns the paths of these files."""
+    written = []
     for difference in differences:
         path = folder / difference.path
         if difference.status is FileStatus.UNCHANGED:
             continue
-        touched.append(path)
+        written.append(path)
         if difference.new is None:
             path.unlink()
             continue
         path.parent.mkdir(parents=True, exist_ok=True)
         write_atomically(path, difference.new)
-    return tuple(touched)
+    return tuple(written)
 
 
 def back_up_edited(path: Path) -> Path:
-    """Copy a file to NAME.edited beside it, or NAME.edited2 … where that is taken; returns the copy."""
+    """Copy a file to NAME.edited in its folder, or to NAME.edited2 … if that exists; returns the path of the copy."""
     number = 1
     while (copy := path.with_name(f"{path.name}.edited{number if number > 1 else ''}")).exists():
         number += 1
@@ -88,7 +88,7 @@ def back_up_edited(path: Path) -> Path:
 
 
 def format_diff(difference: FileDiff) -> str:
-    """The change as a unified diff."""
+    """Format the difference as a unified diff."""
     old, new = difference.old or "", difference.new or ""
     before = f"a/{difference.path}" if difference.old is not None else "/dev/null"
     after = f"b/{difference.path}" if difference.new is not None else "/dev/null"
@@ -96,12 +96,15 @@ def format_diff(difference: FileDiff) -> str:
 
 
 def write_atomically(path: Path, content: str | bytes, *, is_durable: bool = True) -> None:
-    """Replace a file in one step: a reader, or a crash in the middle, sees the old content or the new one.
+    """Replace a file atomically: after a crash it has either the old or the new content.
 
-    With `is_durable` the new one also outlives a loss of power right after; what can be made again need not wait for that.
+    Args:
+        path: The file; symbolic links are followed.
+        content: The new content.
+        is_durable: Whether to flush the content to the disk, so that it also survives a power failure.
 
     Raises:
-        OSError: It cannot be written; the error names this file, which is as it was.
+        OSError: The file cannot be written; the error names `path`, which is unchanged.
     """
     target = path.resolve()
     temporary = target.with_name(f".{target.name}.{secrets.token_hex(4)}.tmp")
@@ -137,7 +140,7 @@ def _compare_one(path: str, new: str, old: str | None) -> FileDiff:
 
 
 def _read(path: Path) -> str | None:
-    """The text with plain line ends; None when there is no such file. Bytes that are no UTF-8 are shown as such."""
+    """The text with line feeds as line breaks, None if the file does not exist. Invalid UTF-8 bytes are escaped."""
     try:
         return path.read_text(encoding="utf-8", errors="backslashreplace")
     except (FileNotFoundError, IsADirectoryError, NotADirectoryError):
@@ -145,13 +148,13 @@ def _read(path: Path) -> str | None:
 
 
 def _list_sibling_sources(paths: Iterable[str], folder: Path) -> list[str]:
-    """Source files in the folders that hold `paths`, and below them."""
+    """Source files in and below the folders of `paths`."""
     packages = sorted({path.rsplit("/", 1)[0] for path in paths if "/" in path})
     suffixes = {Path(path).suffix for path in paths}
-    found = {
+    siblings = {
         file.relative_to(folder).as_posix()
         for package in packages
         for file in (folder / package).rglob("*")
         if file.suffix in suffixes and file.is_file()
     }
-    return sorted(found)
+    return sorted(siblings)

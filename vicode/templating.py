@@ -1,6 +1,6 @@
-"""The one Jinja environment: templates of a folder fill in finished strings, an unknown name in one is an error.
+"""Renders Jinja templates; undefined names are errors.
 
-In templates of HTML every string is escaped; what is HTML already is told so by the template.
+HTML templates escape all strings; a template marks a string that is already HTML as safe.
 """
 
 from functools import lru_cache
@@ -12,17 +12,17 @@ _PACKAGE_FOLDER = Path(__file__).parent
 
 
 def render(template: str, **views: object) -> str:
-    """The text of a template, `python/component.py.jinja`, filled with views."""
+    """Render a template, such as `python/component.py.jinja`, with views as its variables."""
     return _environment().get_template(template).render(**views)
 
 
 def read_asset(path: str) -> str:
-    """A file that stands among the templates and is no template, `docsite/site.css`."""
+    """Read a file of the templates folder that is not a template, such as `docsite/site.css`."""
     return (_folder() / path).read_text(encoding="utf-8")
 
 
 def template_files(folder: str) -> tuple[Path, ...]:
-    """Everything in a folder of templates and below it, by name."""
+    """All files in and below a folder of templates, sorted by path."""
     return tuple(sorted(path for path in (_folder() / folder).rglob("*") if path.is_file()))
 
 
@@ -35,7 +35,7 @@ def _environment() -> Environment:
         trim_blocks=True,
         lstrip_blocks=True,
         keep_trailing_newline=True,
-        # Nobody edits a template while it is used.
+        # Templates do not change while the program runs.
         auto_reload=False,
     )
 
@@ -45,6 +45,6 @@ def _is_html(template: str | None) -> bool:
 
 
 def _folder() -> Path:
-    # In an installed package the templates lie inside it, in a checkout beside it.
+    # An installed package contains the templates; in a checkout they are next to the package.
     installed = _PACKAGE_FOLDER / "_templates"
     return installed if installed.is_dir() else _PACKAGE_FOLDER.parent / "templates"

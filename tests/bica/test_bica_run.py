@@ -121,7 +121,7 @@ def test_errors_are_counted_or_stop_it(robot: Path) -> None:
         ("sample_player", "write it as module:Class"),
         ("sample_player:Nobody", "cannot load sample_player:Nobody"),
         ("no_such_module:Player", "No module named 'no_such_module'"),
-        ("sample_player:Side", "is not a component of this runtime, bica.component"),
+        ("sample_player:Side", "is not a component; derive it from bica.component.Component"),
     ],
 )
 def test_what_cannot_start_is_said_in_a_line(robot: Path, name: str, message: str) -> None:

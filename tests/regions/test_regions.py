@@ -80,9 +80,9 @@ def test_a_definition_keeps_the_distance_formatters_want() -> None:
     [
         ("# <vicode a 12345678>\nx = 1\n", 1, "no end mark"),
         ("# <vicode a 12345678>\n# <vicode b 12345678>\n# </vicode>\n", 1, "no end mark"),
-        ("x = 1\n# </vicode>\n", 2, "without its begin"),
-        ("# <vicode a>\n", 1, "cannot be read"),
-        (regions.wrap_region("a", "x") + regions.wrap_region("a", "x"), 4, "two regions with the id 'a'"),
+        ("x = 1\n# </vicode>\n", 2, "end mark without begin mark"),
+        ("# <vicode a>\n", 1, "invalid mark"),
+        (regions.wrap_region("a", "x") + regions.wrap_region("a", "x"), 4, "duplicate region id 'a'"),
     ],
 )
 def test_broken_marks_are_named(text: str, line: int, message: str) -> None:

@@ -1,6 +1,6 @@
-"""BICA runtime: iterative components that step each other, in plain standard Python.
+"""BICA runtime: iterative components that step each other.
 
-The folder stands alone: copied beside a robot program it runs without vicode.
+The package uses only the standard library. Copied into a robot program, it runs without vicode.
 """
 
 from .clock import Clock, RealClock, SimulatedClock

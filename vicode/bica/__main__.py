@@ -1,4 +1,4 @@
-"""Run a component with `python -m vicode.bica`, or `python -m bica` where the folder was copied."""
+"""Runs a component with `python -m vicode.bica`, or `python -m bica` if the package was copied."""
 
 import sys
 

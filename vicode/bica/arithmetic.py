@@ -1,7 +1,7 @@
-"""IEEE arithmetic for guards and actions: nothing here raises, and every language gives the same results.
+"""IEEE arithmetic for guards and actions: no function raises, and all generated languages give the same results.
 
-Numbers are ints exact to ±2**53, and doubles. Where Python raises, C's libm decides: nan or an infinity.
-The table of rules is in docs/semantics.md.
+Numbers are doubles and integers that are exact to ±2**53. Where Python raises, the result is that of C's libm:
+nan or an infinity. docs/semantics.md lists the rules.
 """
 
 import math
@@ -36,19 +36,19 @@ def modulo(a: float, b: float) -> float:
 
 
 def xabsl_divide(a: float, b: float) -> float:
-    """Return a / b as XABSL's engine does, which divides by 1e-7 instead of 0."""
+    """Return a / b as the XABSL engine computes it: it divides by 1e-7 instead of 0."""
     return a / (b or 1e-7)
 
 
 def xabsl_remainder(a: float, b: float) -> float:
-    """Return the remainder of whole parts as XABSL's engine does, with the sign of a; 0 for b below 1."""
+    """Return the remainder of the integer parts as the XABSL engine computes it: sign of a; 0 if int(b) is 0."""
     if not (math.isfinite(a) and math.isfinite(b)) or not int(b):
         return 0.0
     return math.fmod(int(a), int(b))
 
 
 def power(a: float, b: float) -> float:
-    """Return a to the power of b as C's pow."""
+    """Return a to the power of b, as C's pow does."""
     x, y = float(a), float(b)
     try:
         return math.pow(x, y)
@@ -61,22 +61,22 @@ def power(a: float, b: float) -> float:
 
 
 def sqrt(x: float) -> float:
-    """Return the square root; nan below zero."""
+    """Return the square root; nan for negative x."""
     return math.sqrt(x) if x >= 0 else math.nan
 
 
 def log(x: float) -> float:
-    """Return the natural logarithm; -inf at zero, nan below."""
+    """Return the natural logarithm; -inf for 0, nan for negative x."""
     return _log_with(math.log, x)
 
 
 def log10(x: float) -> float:
-    """Return the decimal logarithm; -inf at zero, nan below."""
+    """Return the decimal logarithm; -inf for 0, nan for negative x."""
     return _log_with(math.log10, x)
 
 
 def exp(x: float) -> float:
-    """Return e to the power of x; inf when that is too large."""
+    """Return e to the power of x; inf on overflow."""
     try:
         return math.exp(x)
     except OverflowError:
@@ -119,7 +119,7 @@ def atan2(y: float, x: float) -> float:
 
 
 def hypot(x: float, y: float) -> float:
-    """Return sqrt(x * x + y * y): the same everywhere, while the libraries' hypot differ in their last bit."""
+    """Return sqrt(x * x + y * y). The hypot functions of libraries differ in the last bit; this does not."""
     x, y = float(x), float(y)
     return math.sqrt(x * x + y * y)
 
@@ -135,37 +135,37 @@ def radians(x: float) -> float:
 
 
 def to_int(x: float) -> int:
-    """Return x truncated towards zero; 0 for nan, the nearest 64-bit integer beyond their range."""
+    """Return x truncated towards zero and saturated to 64 bits; 0 for nan."""
     return _saturate(x, int)
 
 
 def floor(x: float) -> int:
-    """Return the greatest integer that is not above x, within the rules of `to_int`."""
+    """Return the greatest integer <= x, saturated as in `to_int`."""
     return _saturate(x, math.floor)
 
 
 def ceil(x: float) -> int:
-    """Return the least integer that is not below x, within the rules of `to_int`."""
+    """Return the least integer >= x, saturated as in `to_int`."""
     return _saturate(x, math.ceil)
 
 
 def round_half_even(x: float) -> int:
-    """Return the nearest integer, of two equally near the even one, within the rules of `to_int`."""
+    """Return the nearest integer, ties to even, saturated as in `to_int`."""
     return _saturate(x, round)
 
 
 def minimum(a: float, *others: float) -> float:
-    """Return the least: from left to right, `b if b < a else a`; so a nan in front stays and later ones are skipped."""
+    """Return the minimum: `b if b < a else a` from left to right, so a leading nan stays and a later nan is skipped."""
     return min(a, *others) if others else a
 
 
 def maximum(a: float, *others: float) -> float:
-    """Return the greatest: from left to right, `b if b > a else a`."""
+    """Return the maximum: `b if b > a else a` from left to right."""
     return max(a, *others) if others else a
 
 
 def clamp(x: float, low: float, high: float) -> float:
-    """Return x, not below `low` nor above `high`; `low` is tested first, and nan stays nan."""
+    """Return x limited to [low, high]; `low` is tested first, and nan stays nan."""
     if x < low:
         return low
     return min(x, high)
@@ -177,8 +177,7 @@ def sign(x: float) -> int:
 
 
 def is_nan(x: float) -> bool:
-    """Tell whether x is not a number."""
-    return x != x  # noqa: PLR0124 - true of nan alone, and quicker than a call
+    return x != x  # noqa: PLR0124 - only true for nan, and faster than a call
 
 
 _DEGREES_PER_RADIAN = 180.0 / math.pi

@@ -1,44 +1,42 @@
-"""Clocks: where a root reads the time of an iteration, in integer nanoseconds."""
+"""Clocks: the source of the time of an iteration, in integer nanoseconds."""
 
 import time
 from typing import Protocol
 
 
 class Clock(Protocol):
-    """Anything that tells the nanoseconds since its own start and never goes back."""
+    """A monotonic clock."""
 
     def now_ns(self) -> int:
-        """Return the nanoseconds since the clock was started."""
+        """Return the nanoseconds since the start of the clock."""
         ...
 
 
 class RealClock:
-    """The time that really passes, from 0 when the clock is made."""
+    """Real time, which starts at 0 when the clock is created."""
 
     def __init__(self) -> None:
         self._start_ns = time.monotonic_ns()
 
     def now_ns(self) -> int:
-        """Return the nanoseconds since the clock was made."""
         return time.monotonic_ns() - self._start_ns
 
 
 class SimulatedClock:
-    """A clock that passes only when it is told to."""
+    """A clock that only changes when `advance` is called."""
 
     def __init__(self, start_ns: int = 0) -> None:
         self._now_ns = start_ns
 
     def now_ns(self) -> int:
-        """Return the simulated nanoseconds."""
         return self._now_ns
 
     def advance(self, ns: int) -> None:
-        """Let `ns` nanoseconds pass.
+        """Advance the clock by `ns` nanoseconds.
 
         Raises:
             ValueError: `ns` is negative.
         """
         if ns < 0:
-            raise ValueError(f"a clock cannot go back: {ns} ns")
+            raise ValueError(f"cannot move the clock back by {-ns} ns; pass 0 or more")
         self._now_ns += ns

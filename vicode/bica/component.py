@@ -1,4 +1,4 @@
-"""Component, the unit of the BICA architecture, and the one algorithm that steps it (docs/semantics.md)."""
+"""Component, the unit of the BICA architecture, and the algorithm that steps it (docs/semantics.md)."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from .root import Root
     from .team import CooperativeState
 
-# All other names without a leading underscore belong to the design: aliases, parameters, outputs and variables.
+# All other names without a leading underscore are available to designs: aliases, parameters, outputs and variables.
 RESERVED_NAMES = frozenset(
     {
         "action_done",
@@ -39,12 +39,12 @@ class State:
     """One state of a component.
 
     Args:
-        run: decides and then acts; called with `False` it only acts.
-        requires: stepped before the component works in this state.
-        final: the component is done in this state.
-        calls: components that it calls, when the component asks whether they are done.
-        capacity: so many robots of a team may be in it at once.
-        synchronized: so many robots of a team enter it at once.
+        run: Takes a transition, then runs the actions; `run(False)` only runs the actions.
+        requires: Components that are stepped before the component works in this state.
+        final: Whether the component is done in this state.
+        calls: Called components whose `is_done` the component reads.
+        capacity: Maximum number of robots of a team that are in the state at the same time.
+        synchronized: Minimum number of robots of a team that enter the state together.
     """
 
     name: str
@@ -59,17 +59,17 @@ class State:
 
 
 class Component:
-    """A unit of functionality that works iteratively while others step it (BICA paper, section IV).
+    """A unit of functionality that works iteratively while other components step it (BICA paper, section IV).
 
-    A hand-written component overrides `work`, may override `restart` and `modulate`, and offers its outputs as plain
-    attributes, or as methods when they take arguments. A component with states calls `_set_states` in its constructor.
+    A hand-written component overrides `work`, and `restart` and `modulate` if needed. Its outputs are plain
+    attributes, or methods if they have arguments. A component with states calls `_set_states` in its constructor.
     """
 
     design_file: ClassVar[str] = ""
     frequency_hz: ClassVar[float | None] = None
     resume: ClassVar[bool] = False
 
-    # Slots keep the runtime's own attributes out of the instance's dictionary, which is the design's, and quick.
+    # Slots are faster, and they keep the attributes of the runtime out of `__dict__`, which holds those of the design.
     __slots__ = (
         "__dict__",
         "_called",
@@ -104,7 +104,7 @@ class Component:
         self._started_ns = self._entered_ns = self._worked_ns = 0
 
     def step(self) -> None:
-        """Be active in this iteration: restart if it was not in the last one, then work if it is time to."""
+        """Activate the component: restart it if it was inactive, then work if its period has elapsed."""
         root = self.root
         try:
             iteration = root.iteration
@@ -121,7 +121,7 @@ class Component:
                 self._worked_ns = now_ns
                 if self._called:
                     self._called = []
-                # CPython calls a local quicker than an attribute that holds a function.
+                # CPython calls a local function faster than one that is stored in an attribute.
                 run = current.run
                 run()
             elif self._called:
@@ -132,29 +132,29 @@ class Component:
             root.report(make_error_record(self, error))
 
     def work(self) -> None:
-        """Do what the component is for; overridden by hand-written components."""
+        """Run one iteration of the component; hand-written components override it."""
 
     def restart(self) -> None:
-        """Get ready for a new activation; called before the initial state is entered."""
+        """Prepare a new activation; called before the initial state is entered."""
 
     def modulate(self) -> None:
-        """Take the parameters of an activation: keyword-only, with defaults; overridden by components that have any."""
+        """Set the parameters; components with parameters override it with keyword-only arguments that have defaults."""
 
     @property
     def is_done(self) -> bool:
-        """Whether it ended in a final state when last stepped, which was in this or the previous iteration."""
+        """Whether it was in a final state after its last step, in this or the previous iteration."""
         return self._current.final and self.root.iteration - self._stepped_in <= 1
 
     @property
     def action_done(self) -> bool:
-        """Whether a component that the active state calls is done."""
+        """Whether any component called by the active state is done."""
         return any(component.is_done for component in self._current.calls)
 
     @property
     def conflict(self) -> bool:
-        """Whether as many other robots are in the active state as may be in it."""
-        together = self._cooperative_states.get(self.state)
-        return together is not None and together.is_full
+        """Whether other robots already fill the capacity of the active state."""
+        cooperative_state = self._cooperative_states.get(self.state)
+        return cooperative_state is not None and cooperative_state.is_full
 
     @property
     def state_time(self) -> float:
@@ -180,7 +180,7 @@ class Component:
                 )
 
     def _change_to(self, name: str, transition: str | None = None) -> None:
-        """Leave the active state for another, enter that and act in it; a change to the active state only acts."""
+        """Leave the active state, enter another one and run its actions; a self transition only runs the actions."""
         old, new = self._current, self._states[name]
         if self._cooperative_states and not self._may_enter(name):
             new = old
@@ -203,19 +203,19 @@ class Component:
         run(False)
 
     def _may_enter(self, name: str) -> bool:
-        together = self._cooperative_states.get(name)
-        return together is None or together.may_enter()
+        cooperative_state = self._cooperative_states.get(name)
+        return cooperative_state is None or cooperative_state.may_enter()
 
     def _stay(self) -> None:
-        """End the decision without a change: act in the active state."""
+        """End the decision without a transition and run the actions of the active state."""
         if self._cooperative_states:
-            # The others are asked for leave to stay too; only what they are told by it counts.
+            # The result does not matter: the call announces to the team that this robot uses the state.
             self._may_enter(self.state)
         self._current.run(False)
 
     def _call(self, component: Component, /, **parameters: Any) -> None:
-        """Modulate `component` and step it; remembered until the next work, to step it when it is not time to work."""
-        # Parameters that cannot be set now could not be set again either: the mistake is told once, here.
+        """Modulate and step `component`; `step` repeats the call until the component works again."""
+        # Modulated before it is stored, so that invalid parameters are reported once and not in each repetition.
         _modulate(component, parameters)
         if self._period_ns:
             self._called.append((component, parameters))
@@ -223,7 +223,7 @@ class Component:
 
     def _repeat_calls(self) -> None:
         for component, parameters in self._called:
-            # Another component may have modulated it since, so the parameters are set again.
+            # Another component may have modulated it in between, so the parameters are set again.
             _modulate(component, parameters)
             component.step()
 

@@ -1,8 +1,8 @@
-"""What the runtime says when a component's own code fails.
+"""Errors of the runtime, and the location of errors in the code of components.
 
 Exception
-├── ComponentError    a component raised and the root was told to stop
-└── CyclicUseError    components use each other in a circle
+├── ComponentError    a component raised an exception and the root stops on errors
+└── CyclicUseError    components use each other in a cycle
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
     from .component import Component
 
-# Hand-editable bodies stand between marks in generated files; the first mark names the body.
+# Marks enclose the editable regions of generated files; the first mark contains the id of the region.
 _MARK = re.compile(r"\s*# <vicode (?P<id>\S+) ")
 _BODIES = {
     "_in": "state",
@@ -32,12 +32,14 @@ _BODIES = {
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ErrorRecord:
-    """One exception in a component's own code, and the place it came from.
+    """An exception in the code of a component, with its location.
 
-    `body` says which piece of the design failed: `state` (guards and actions written in the state's method),
-    `enter`, `leave`, `guard`, `action`, `common transitions`, `common actions`, or a method's name.
-    `line` counts from 1 within the marked `region` that holds the body, if there is one, else within the method
-    from the line after its `def`; `file_line` within the file.
+    Attributes:
+        body: The part of the design that failed: `state` (guards and actions in the method of the state), `enter`,
+            `leave`, `guard`, `action`, `common transitions`, `common actions`, or the name of a method.
+        region: The id of the region that contains the line, if any.
+        line: Line in the region, or else in the body of the method, from 1.
+        file_line: Line in the file, from 1.
     """
 
     component: str
@@ -55,7 +57,7 @@ class ErrorRecord:
 
     @property
     def place(self) -> tuple[str, str, int]:
-        """What makes two records the same mistake."""
+        """Identifies the error: records with the same place are counted as one error."""
         return (self.component, self.method, self.line)
 
     def __str__(self) -> str:
@@ -68,7 +70,7 @@ class ErrorRecord:
 
 
 class ComponentError(Exception):
-    """A component raised while its root stops on errors; `record` tells where."""
+    """A component raised an exception and its root stops on errors; `record` holds the location."""
 
     def __init__(self, record: ErrorRecord) -> None:
         super().__init__(str(record))
@@ -76,16 +78,16 @@ class ComponentError(Exception):
 
 
 class CyclicUseError(Exception):
-    """Components use each other in a circle, so none could be made first."""
+    """Components use each other in a cycle, so no order of creation exists."""
 
     def __init__(self, names: tuple[str, ...]) -> None:
-        super().__init__(f"components use each other in a circle: {' -> '.join(names)}")
+        super().__init__(f"components use each other in a cycle: {' -> '.join(names)}; remove one of these uses")
         self.names = names
 
 
 def make_error_record(component: Component, error: Exception) -> ErrorRecord:
-    """Describe `error`, raised by code of `component`, with the innermost place in that component's own methods."""
-    frame, file_line = _find_own_frame(component, error)
+    """Create the record of an exception in `component`; it refers to the innermost frame in methods of `component`."""
+    frame, file_line = _find_component_frame(component, error)
     code = frame.f_code
     region, line_before = find_region(code.co_filename, file_line, code.co_firstlineno)
     prefix = "_" + code.co_name.split("_")[1] if code.co_name.startswith("_") else ""
@@ -106,14 +108,14 @@ def make_error_record(component: Component, error: Exception) -> ErrorRecord:
 
 
 def describe_exception(error: BaseException) -> str:
-    """Say what was raised, in a line's words."""
+    """Return the type and message of an exception."""
     return f"{type(error).__name__}: {error}" if str(error) else type(error).__name__
 
 
 def find_region(file: str, file_line: int, first_line: int = 0) -> tuple[str, int]:
-    """Return the id of the marked region around a line and the line of its mark, else "" and `first_line`.
+    """Return the id of the region around a line and the line of its mark, or "" and `first_line` if there is none.
 
-    Only what follows `first_line`, the `def` of a method, is looked at.
+    The search starts after `first_line`, the `def` of the method.
     """
     for number in range(file_line - 1, first_line, -1):
         mark = _MARK.match(linecache.getline(file, number))
@@ -122,16 +124,16 @@ def find_region(file: str, file_line: int, first_line: int = 0) -> tuple[str, in
     return "", first_line
 
 
-def _find_own_frame(component: Component, error: Exception) -> tuple[FrameType, int]:
-    """Return the deepest frame of a method of `component` that is not the runtime's, or the deepest of all."""
+def _find_component_frame(component: Component, error: Exception) -> tuple[FrameType, int]:
+    """Return the innermost frame of a method of `component` outside the runtime, or else the innermost frame."""
     traceback = error.__traceback__
     assert traceback is not None
-    found = (traceback.tb_frame, traceback.tb_lineno)
-    own = None
+    innermost = (traceback.tb_frame, traceback.tb_lineno)
+    component_frame = None
     while traceback is not None:
-        found = (traceback.tb_frame, traceback.tb_lineno)
-        is_own = traceback.tb_frame.f_locals.get("self") is component
-        if is_own and traceback.tb_frame.f_globals.get("__package__") != __package__:
-            own = found
+        innermost = (traceback.tb_frame, traceback.tb_lineno)
+        is_method = traceback.tb_frame.f_locals.get("self") is component
+        if is_method and traceback.tb_frame.f_globals.get("__package__") != __package__:
+            component_frame = innermost
         traceback = traceback.tb_next
-    return own or found
+    return component_frame or innermost

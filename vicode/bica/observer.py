@@ -1,4 +1,4 @@
-"""Observer: the activation tree of each iteration as plain, JSON-ready records."""
+"""Observer: records the activation tree of each iteration as JSON-compatible dictionaries."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ ActivationLink = Literal["root", "requires", "modulates"]
 
 
 class StepRecord(TypedDict):
-    """One step of one component: `by` whom it was activated, and what became of it."""
+    """One step of a component; `by` is the component that stepped it."""
 
     component: str
     by: str | None
@@ -33,7 +33,7 @@ class StepRecord(TypedDict):
 
 
 class IterationRecord(TypedDict):
-    """One iteration; `tree` lists the steps in the order they began."""
+    """One iteration; `tree` lists the steps in the order of their start."""
 
     iteration: int
     time_ns: int
@@ -41,11 +41,11 @@ class IterationRecord(TypedDict):
 
 
 class Observer:
-    """Watches all components of one root.
+    """Observes all components of one root.
 
     Args:
-        sink: handed the record of each iteration; without one they are kept in `records`.
-        values: also record outputs, variables and parameters: the public plain attributes.
+        sink: Called with the record of each iteration; without it, the records are appended to `records`.
+        values: Whether to record outputs, variables and parameters, that is, public attributes with plain values.
     """
 
     def __init__(self, sink: Callable[[IterationRecord], None] | None = None, *, values: bool = False) -> None:
@@ -57,7 +57,7 @@ class Observer:
         self._modulated: tuple[Component, dict[str, Any]] | None = None
 
     def attach(self, component: Component) -> None:
-        """Watch `component` by shadowing its `step` and `modulate` in the instance."""
+        """Observe `component`: instance attributes shadow its methods `step` and `modulate`."""
         plain_step = component.step
         plain_modulate: Callable[..., None] = component.modulate
         defaults = getattr(type(component).modulate, "__kwdefaults__", None) or {}
@@ -70,7 +70,7 @@ class Observer:
         replace_step(component, lambda: self._observe_step(component, plain_step))
 
     def observe_iteration(self, root: Root) -> None:
-        """Step the root component and pass on the record of the iteration."""
+        """Step the root component and pass the record of the iteration to the sink."""
         self._tree = []
         self._active.clear()
         self._modulated = None
@@ -116,7 +116,7 @@ class Observer:
 
 
 def to_json_value(value: object) -> Any:
-    """Turn a value into what JSON can say and what is the same in every run."""
+    """Convert a value to JSON data that is the same in each run."""
     if isinstance(value, dict):
         return {str(key): to_json_value(item) for key, item in value.items()}
     if isinstance(value, list | tuple):
@@ -131,7 +131,7 @@ def to_json_value(value: object) -> Any:
 
 
 def _collect_values(component: Component) -> dict[str, object]:
-    """Return the attributes of the design that are plain values; references to other components are none."""
+    """Return the public attributes with plain values; references to other components are left out."""
     return {
         name: value
         for name, value in vars(component).items()

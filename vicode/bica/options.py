@@ -1,4 +1,4 @@
-"""The command's arguments, and the numbers that make sense in them."""
+"""The command-line arguments of the runtime."""
 
 from __future__ import annotations
 
@@ -9,56 +9,60 @@ _MAX_TICK_MS = 3_600_000.0
 
 
 def make_parser() -> argparse.ArgumentParser:
-    """Make the parser of the command's arguments."""
     parser = argparse.ArgumentParser(prog=f"python -m {__package__}", description="Run a component in a world.")
     add = parser.add_argument
     add("component", metavar="MODULE:CLASS", help="the root component")
-    add("--world", metavar="MODULE:CLASS", help="made with seed=N if it takes that; may have advance, finished, …")
-    add("--path", metavar="DIR", action="append", default=[], help="import from here too; may be repeated")
-    add("--seed", type=int, default=0, metavar="N", help="seed of the world (0)")
+    add("--world", metavar="MODULE:CLASS", help="the world; created with seed=N if it has that parameter")
+    add("--path", metavar="DIR", action="append", default=[], help="add DIR to the import path; may be repeated")
+    add("--seed", type=int, default=0, metavar="N", help="seed of the world (default: 0)")
     add("--ticks", type=count, metavar="N", help="stop after N iterations")
-    add("--seconds", type=seconds, metavar="S", help="stop after S seconds of the clock")
+    add("--seconds", type=seconds, metavar="S", help="stop after S seconds of real or simulated time")
     add("--until-done", action="store_true", help="stop when the root component is done")
-    add("--tick-ms", type=tick_ms, default=20.0, metavar="MS", help="time between two iterations (20)")
-    add("--real-time", action="store_true", help="let real time pass instead of simulated time")
-    add("--on-error", choices=("continue", "stop"), default="continue", help="what an exception in a component does")
-    add("--trace", metavar="FILE", help="write one JSON line an iteration, and a summary")
-    add("--stream", action="store_true", help="write JSON lines with the world's snapshot on standard output")
-    add("--values", action="store_true", help="add outputs and variables to the lines")
+    add("--tick-ms", type=tick_ms, default=20.0, metavar="MS", help="period of the iterations (default: 20)")
+    add("--real-time", action="store_true", help="run in real time instead of simulated time")
+    add(
+        "--on-error",
+        choices=("continue", "stop"),
+        default="continue",
+        help="what to do after an exception in a component (default: continue)",
+    )
+    add("--trace", metavar="FILE", help="write one JSON line per iteration and a summary to FILE")
+    add("--stream", action="store_true", help="write JSON lines with snapshots of the world to standard output")
+    add("--values", action="store_true", help="include outputs and variables in the JSON lines")
     return parser
 
 
 def count(text: str) -> int:
-    """Read a number of iterations.
+    """Parse a number of iterations.
 
     Raises:
-        argparse.ArgumentTypeError: it is below 0.
+        argparse.ArgumentTypeError: It is negative.
     """
     number = int(text)
     if number < 0:
-        raise argparse.ArgumentTypeError(f"{text} is below 0")
+        raise argparse.ArgumentTypeError(f"{text} is negative; write 0 or more")
     return number
 
 
 def seconds(text: str) -> float:
-    """Read a length of time.
+    """Parse a duration in seconds.
 
     Raises:
-        argparse.ArgumentTypeError: it is below 0, or no finite number.
+        argparse.ArgumentTypeError: It is negative or not finite.
     """
     number = float(text)
     if not math.isfinite(number) or number < 0:
-        raise argparse.ArgumentTypeError(f"{text} is no length of time; write a number of seconds, 0 or more")
+        raise argparse.ArgumentTypeError(f"{text} is not a valid duration; write seconds, 0 or more")
     return number
 
 
 def tick_ms(text: str) -> float:
-    """Read the time between two iterations, from a nanosecond to an hour.
+    """Parse the period of the iterations in milliseconds.
 
     Raises:
-        argparse.ArgumentTypeError: it is outside of that.
+        argparse.ArgumentTypeError: It is shorter than a nanosecond or longer than an hour.
     """
     number = float(text)
     if not 1e-6 <= number <= _MAX_TICK_MS:
-        raise argparse.ArgumentTypeError(f"{text} is no time between iterations; write milliseconds above 0, as 20")
+        raise argparse.ArgumentTypeError(f"{text} is not a valid period; write milliseconds greater than 0, such as 20")
     return number

@@ -1,4 +1,4 @@
-"""Root: makes every component once and steps the one at the top, an iteration at a time."""
+"""Root: creates each component once and steps the root component in each iteration."""
 
 from __future__ import annotations
 
@@ -25,12 +25,12 @@ class Root:
     """The top of an activation tree.
 
     Args:
-        clock: read once at the start of each iteration; real time if left out.
-        world: what hand-written components sense and act on, as their `world`.
-        on_error: `continue` prints each failing place once and goes on, `stop` raises `ComponentError`,
-            a function is handed the record.
-        observer: told who stepped whom in each iteration.
-        parameters: set once in the root component by its `modulate`.
+        clock: Read once at the start of each iteration; default: real time.
+        world: The `world` of hand-written components, which they sense and act on.
+        on_error: `continue` prints each error location once, `stop` raises `ComponentError`; a function is called
+            with the `ErrorRecord`.
+        observer: Records the activation tree of each iteration.
+        parameters: Passed once to `modulate` of the root component.
     """
 
     def __init__(
@@ -62,17 +62,17 @@ class Root:
 
     @property
     def components(self) -> tuple[Component, ...]:
-        """All components made for this root, in the order they were completed."""
+        """All components of this root, in the order in which their construction finished."""
         return tuple(self._components.values())
 
     @property
     def measure(self) -> bool:
-        """Whether cycle times are measured; once begun it goes on."""
+        """Whether cycle times are measured; cannot be switched off again."""
         return self._cycle_times is not None
 
     @measure.setter
-    def measure(self, is_wanted: bool) -> None:
-        if is_wanted and self._cycle_times is None:
+    def measure(self, is_enabled: bool) -> None:
+        if is_enabled and self._cycle_times is None:
             self._cycle_times = {}
             for component in self.components:
                 measure_steps(component, self._cycle_times)
@@ -80,46 +80,46 @@ class Root:
 
     @property
     def cycle_times(self) -> dict[str, CycleTimes]:
-        """Measured work times by component name; empty unless `measure` is set."""
+        """Cycle times by component name; empty unless `measure` is set."""
         return self._cycle_times or {}
 
     def component(self, component_class: type[C]) -> C:
-        """Return this root's only instance of `component_class`, making it at the first call.
+        """Return the instance of `component_class`, which the first call creates.
 
         Raises:
-            CyclicUseError: making it needs itself.
+            CyclicUseError: The component uses itself, directly or indirectly.
         """
         known = self._components.get(component_class)
         if known is not None:
             return cast("C", known)
         if component_class in self._under_construction:
-            circle = [*self._under_construction[self._under_construction.index(component_class) :], component_class]
-            raise CyclicUseError(tuple(cls.__name__ for cls in circle))
+            cycle = [*self._under_construction[self._under_construction.index(component_class) :], component_class]
+            raise CyclicUseError(tuple(cls.__name__ for cls in cycle))
         self._under_construction.append(component_class)
         try:
-            made = component_class(self)
+            component = component_class(self)
         finally:
             self._under_construction.pop()
-        self._components[component_class] = made
-        self._instrument(made)
-        return made
+        self._components[component_class] = component
+        self._instrument(component)
+        return component
 
     def step(self) -> None:
-        """Run one iteration: everything in it sees the time read at its start."""
+        """Run one iteration; the clock is only read at its start."""
         read_clock, step_main = self._read_clock, self._step_main
         self.now_ns = read_clock()
         self.iteration += 1
         step_main()
 
     def report(self, record: ErrorRecord) -> None:
-        """Count an error of a component and deal with it as `on_error` says."""
+        """Count the error of a component and handle it according to `on_error`."""
         self.errors[record.place] += 1
         if callable(self._on_error):
             self._on_error(record)
         elif self._on_error == "stop":
             raise ComponentError(record)
         elif self.errors[record.place] == 1:
-            sys.stderr.write(f"error: {record} (reported once, then counted)\n")
+            sys.stderr.write(f"error: {record} (reported once; repetitions are only counted)\n")
 
     def _find_step(self) -> Callable[[], None]:
         return self.main.step if self._observer is None else partial(self._observer.observe_iteration, self)

@@ -1,6 +1,6 @@
-"""The command that runs a component in a world: simulated or real time, trace, live stream, summary.
+"""The command that runs a component in a world.
 
-Exit codes: 0 ran to its end, 1 a component failed and `--on-error stop` was given, 2 could not run, 130 interrupted.
+Exit codes: 0 success, 1 a component failed with `--on-error stop`, 2 could not run, 130 interrupted.
 """
 
 from __future__ import annotations
@@ -40,17 +40,17 @@ def main(arguments: Sequence[str] | None = None) -> int:
     try:
         with ExitStack() as files:
             try:
-                lines, root = _prepare(options, files)
+                writer, root = _prepare(options, files)
             except (CyclicUseError, OSError) as error:
                 raise UserCodeError(str(error)) from error
             with wrap_user_errors("the world failed", only_user_code=True):
-                return _run(root, lines)
+                return _run(root, writer)
     except UserCodeError as error:
         return _fail(str(error), is_streamed=options.stream)
     except KeyboardInterrupt:
         return EXIT_CODES["interrupted"]
     except BrokenPipeError:
-        # Whoever read the stream has gone; nothing is left to say, also not by the interpreter's last flush.
+        # The reader of the stream closed it. Redirect standard output, or the final flush of the interpreter fails.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 1
 
@@ -60,16 +60,16 @@ def _prepare(options: argparse.Namespace, files: ExitStack) -> tuple[_RecordWrit
     world = make_world(options.world, options.seed)
     trace = None
     if options.trace:
-        trace = Path(options.trace).open("w", encoding="utf-8")  # noqa: SIM115 - the stack closes it
+        trace = Path(options.trace).open("w", encoding="utf-8")  # noqa: SIM115 - closed by the stack
         files.callback(trace.close)
-    lines = _RecordWriter(trace=trace, world=world, options=options)
-    with wrap_user_errors(f"cannot make {options.component}"):
-        return lines, _make_root(component_class, lines)
+    writer = _RecordWriter(trace=trace, world=world, options=options)
+    with wrap_user_errors(f"cannot create {options.component}"):
+        return writer, _make_root(component_class, writer)
 
 
 def _fail(message: str, *, is_streamed: bool) -> int:
-    """Tell the user, and whoever reads the stream, who could not tell it from an end that the program made itself."""
-    # A message of several lines would not be the one line that people look for.
+    """Write the error to standard error, and to the stream so that its reader recognizes the failure."""
+    # Errors are one line each.
     line = " ".join(message.split("\n"))
     if is_streamed:
         sys.stdout.write(json.dumps({"failed": line}) + "\n")
@@ -80,7 +80,7 @@ def _fail(message: str, *, is_streamed: bool) -> int:
 
 @dataclass(slots=True, kw_only=True)
 class _RecordWriter:
-    """Where the records of a run go: a trace file, the standard output of a live stream, both, or nowhere."""
+    """Writes the records of a run to a trace file, to standard output, or both."""
 
     trace: TextIO | None
     world: Any
@@ -95,7 +95,7 @@ class _RecordWriter:
                 sys.stdout.flush()
 
     def write_summary(self, summary: dict[str, Any], cycle_times: dict[str, Any]) -> None:
-        # Measured times differ from run to run, and the trace of a seed must not.
+        # The trace excludes cycle times: it must be the same for each run with one seed.
         if self.trace is not None:
             self.trace.write(json.dumps({"summary": summary}) + "\n")
         if self.options.stream:
@@ -106,7 +106,7 @@ class _RecordWriter:
 
 
 class _Interrupt:
-    """Notes the first Ctrl-C, so that the iteration ends whole; the second one ends the command at once."""
+    """Handles Ctrl-C: the first one stops the run after the current iteration, the second one immediately."""
 
     def __init__(self, *, is_silent: bool) -> None:
         self.is_requested = False
@@ -116,27 +116,27 @@ class _Interrupt:
     def _handle_signal(self, _number: int, _frame: FrameType | None) -> None:
         self.is_requested = True
         if not self._is_silent:
-            # Written past Python's streams: the signal may have come in the middle of a write to them.
+            # Bypasses Python's streams: the signal may interrupt a write to them.
             os.write(2, b"stopping after this iteration; press Ctrl-C again to end at once\n")
         signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
-def _make_root(component_class: type[Component], lines: _RecordWriter) -> Root:
-    options = lines.options
-    is_watched = lines.trace is not None or options.stream
+def _make_root(component_class: type[Component], writer: _RecordWriter) -> Root:
+    options = writer.options
+    is_observed = writer.trace is not None or options.stream
     root = Root(
         component_class,
         clock=RealClock() if options.real_time else SimulatedClock(),
-        world=lines.world,
+        world=writer.world,
         on_error=options.on_error,
-        observer=Observer(lines.write_iteration, values=options.values) if is_watched else None,
+        observer=Observer(writer.write_iteration, values=options.values) if is_observed else None,
     )
     root.measure = True
     return root
 
 
-def _run(root: Root, lines: _RecordWriter) -> int:
-    stopped = _loop(root, lines.options)
+def _run(root: Root, writer: _RecordWriter) -> int:
+    stopped = _loop(root, writer.options)
     summary = {
         "stopped": stopped,
         "iterations": root.iteration,
@@ -146,12 +146,12 @@ def _run(root: Root, lines: _RecordWriter) -> int:
         "errors": root.errors.total(),
         "world": _call_optional(root.world, "summary"),
     }
-    lines.write_summary(summary, {name: times.as_plain() for name, times in root.cycle_times.items()})
+    writer.write_summary(summary, {name: times.as_plain() for name, times in root.cycle_times.items()})
     return EXIT_CODES.get(stopped, 0)
 
 
 def _loop(root: Root, options: argparse.Namespace) -> str:
-    """Iterate until something says stop, and return what it was."""
+    """Run iterations and return the reason for the end."""
     interrupt, world = _Interrupt(is_silent=options.stream), root.world
     tick_ns = round(options.tick_ms * 1e6)
     limit = _count_ticks(options, tick_ns)
@@ -175,14 +175,14 @@ def _loop(root: Root, options: argparse.Namespace) -> str:
 
 
 def _wait(root: Root, tick_ns: int) -> None:
-    """Let time pass until the next tick; a late one is not caught up."""
+    """Wait for the next tick; delays are not compensated."""
     clock = root.clock
     if isinstance(clock, SimulatedClock):
         clock.advance(tick_ns)
         return
-    spare_ns = root.now_ns + tick_ns - clock.now_ns()
-    if spare_ns > 0:
-        time.sleep(spare_ns / 1e9)
+    remaining_ns = root.now_ns + tick_ns - clock.now_ns()
+    if remaining_ns > 0:
+        time.sleep(remaining_ns / 1e9)
 
 
 def _count_ticks(options: argparse.Namespace, tick_ns: int) -> float:
@@ -190,9 +190,9 @@ def _count_ticks(options: argparse.Namespace, tick_ns: int) -> float:
     return min(by_seconds, math.inf if options.ticks is None else options.ticks)
 
 
-def _call_optional(world: Any, question: str) -> Any:
-    answer = getattr(world, question, None)
-    return to_json_value(answer()) if answer is not None else None
+def _call_optional(world: Any, name: str) -> Any:
+    method = getattr(world, name, None)
+    return to_json_value(method()) if method is not None else None
 
 
 def _format_summary(summary: dict[str, Any], cycle_times: dict[str, Any]) -> str:

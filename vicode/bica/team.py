@@ -1,4 +1,7 @@
-"""Robots that agree on who is in a state: only so many at once, or so many together, by what they tell each other."""
+"""Cooperative states: robots of a team limit the number of robots in a state, or enter a state together.
+
+The robots coordinate with `TeamMessage`s, which the robot program exchanges.
+"""
 
 from __future__ import annotations
 
@@ -14,7 +17,14 @@ StateKey = tuple[str, str]
 
 @dataclass(frozen=True, slots=True)
 class TeamMessage:
-    """What a robot tells the others: the cooperative states it is in, wants to enter, and whose component works."""
+    """The message of a robot to its team.
+
+    Attributes:
+        priority: Priority of the robot.
+        executed: Cooperative states that the robot is in.
+        entering: Cooperative states that the robot is about to enter.
+        near: Cooperative states of active components.
+    """
 
     priority: int = 0
     executed: tuple[StateKey, ...] = ()
@@ -24,12 +34,18 @@ class TeamMessage:
 
 @dataclass(slots=True, eq=False)
 class CooperativeState:
-    """What a robot knows of the others at one state.
+    """A cooperative state, and what the other robots do there.
 
     Args:
-        team: This robot among the others.
-        number: How many may be in it, or must enter it at once.
-        is_capacity: At most `number` may be in it; else at least so many enter at once.
+        team: The team of this robot.
+        number: The capacity, or the number of robots that enter together.
+        is_capacity: Whether `number` is the capacity.
+        executing: Number of other robots in the state.
+        entering: Number of other robots that are about to enter the state.
+        in_component: Number of other robots whose component is active.
+        highest_priority: Highest priority of the robots that are about to enter the state.
+        is_entering: Whether this robot is about to enter the state.
+        waiting_iterations: Number of iterations since this robot is about to enter the state.
     """
 
     team: Team
@@ -43,26 +59,26 @@ class CooperativeState:
     waiting_iterations: int = 0
 
     def reset(self) -> None:
-        """Forget what the others told; count the cycles since this robot wants to enter."""
+        """Clear the messages of the last iteration and update `waiting_iterations`."""
         self.executing = self.entering = self.in_component = 0
         self.waiting_iterations = self.waiting_iterations + 1 if self.is_entering else 0
         self.is_entering = False
 
     @property
     def is_full(self) -> bool:
-        """Whether as many others are in it as may be."""
+        """Whether other robots fill the capacity."""
         return self.is_capacity and self.executing >= self.number
 
     def may_enter(self) -> bool:
-        """Whether this robot may be in it now; else the others are told that it wants to, unless it gives way."""
+        """Return whether this robot may enter the state now. If not, announce its intention, unless it yields."""
         return self._can_enter_within_capacity() if self.is_capacity else self._can_enter_together()
 
     def _can_enter_within_capacity(self) -> bool:
-        is_wanted = self.executing + self.entering >= self.number
-        if is_wanted and not self.is_full and self.highest_priority == self.team.priority:
-            # Two of one priority: neither enters, and both give way.
+        is_contested = self.executing + self.entering >= self.number
+        if is_contested and not self.is_full and self.highest_priority == self.team.priority:
+            # Robots with equal priority yield to each other: none of them enters.
             return False
-        is_free = not self.is_full and not (is_wanted and self.highest_priority > self.team.priority)
+        is_free = not self.is_full and not (is_contested and self.highest_priority > self.team.priority)
         if is_free and self.waiting_iterations >= self.team.ticks:
             return True
         self.is_entering = True
@@ -70,56 +86,56 @@ class CooperativeState:
 
     def _can_enter_together(self) -> bool:
         self.is_entering = True
-        are_enough = self.in_component + 1 >= self.number
-        are_ready = self.executing + self.entering == self.in_component
-        return are_enough and are_ready and self.waiting_iterations > self.team.ticks // 2
+        has_enough_robots = self.in_component + 1 >= self.number
+        is_team_ready = self.executing + self.entering == self.in_component
+        return has_enough_robots and is_team_ready and self.waiting_iterations > self.team.ticks // 2
 
 
 @dataclass(slots=True, eq=False)
 class Team:
-    """This robot among the others; `ticks` are the iterations until an answer of the others has come."""
+    """The cooperative states of this robot; `ticks` is the number of iterations until the team answers a message."""
 
     priority: int = 0
     ticks: int = 0
     _states: dict[StateKey, tuple[Component, CooperativeState]] = field(default_factory=dict)
 
     def join(self, component: Component, state: str, *, capacity: int | None, synchronized: int) -> CooperativeState:
-        """Make a state of a component one that robots agree on."""
+        """Register a state of a component as a cooperative state."""
         number = synchronized if capacity is None else capacity
-        made = CooperativeState(self, number, capacity is not None)
-        self._states[type(component).__name__, state] = (component, made)
-        return made
+        cooperative_state = CooperativeState(self, number, capacity is not None)
+        self._states[type(component).__name__, state] = (component, cooperative_state)
+        return cooperative_state
 
     def prepare(self) -> None:
-        """Forget what the others told; before their new messages are heard, once an iteration."""
+        """Clear the messages of the last iteration. Call it once per iteration, before `hear`."""
         for _component, state in self._states.values():
             state.reset()
 
     def hear(self, message: TeamMessage) -> None:
-        """Take in the message of another robot; states that this one does not have are ignored."""
-        for place in message.executed:
-            if place in self._states:
-                self._states[place][1].executing += 1
-        for place in message.entering:
-            if place in self._states:
-                state = self._states[place][1]
+        """Process the message of another robot; unknown states are ignored."""
+        for key in message.executed:
+            if key in self._states:
+                self._states[key][1].executing += 1
+        for key in message.entering:
+            if key in self._states:
+                state = self._states[key][1]
                 state.highest_priority = (
                     max(state.highest_priority, message.priority) if state.entering else message.priority
                 )
                 state.entering += 1
-        for place in message.near:
-            if place in self._states:
-                self._states[place][1].in_component += 1
+        for key in message.near:
+            if key in self._states:
+                self._states[key][1].in_component += 1
 
     def tell(self) -> TeamMessage:
-        """What the others must hear after this iteration."""
+        """Return the message to the other robots. Call it after each iteration."""
         executed, entering, near = [], [], []
-        for place, (component, state) in self._states.items():
+        for key, (component, state) in self._states.items():
             if component._stepped_in != component.root.iteration:
                 continue
-            near.append(place)
-            if component.state == place[1]:
-                executed.append(place)
+            near.append(key)
+            if component.state == key[1]:
+                executed.append(key)
             elif state.is_entering:
-                entering.append(place)
+                entering.append(key)
         return TeamMessage(self.priority, tuple(executed), tuple(entering), tuple(near))

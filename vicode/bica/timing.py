@@ -1,4 +1,4 @@
-"""Cycle times: how long each component really works and how often."""
+"""Cycle times: the measured duration and frequency of the work of each component."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 @dataclass(slots=True)
 class CycleTimes:
-    """Times of the steps in which one component worked, with all that it stepped in them."""
+    """Durations of the steps in which a component worked, including the steps of components that it stepped."""
 
     count: int = 0
     total_ns: int = 0
@@ -35,17 +35,16 @@ class CycleTimes:
 
     @property
     def mean_ns(self) -> float:
-        """Mean duration of a step with work."""
         return self.total_ns / self.count if self.count else 0.0
 
     @property
     def real_frequency_hz(self) -> float:
-        """How often it worked a second, on the root's clock."""
+        """Mean frequency of the work on the clock of the root."""
         spent_ns = self.last_work_ns - self.first_work_ns
         return (self.count - 1) * 1e9 / spent_ns if spent_ns > 0 else 0.0
 
     def as_plain(self) -> dict[str, float]:
-        """Return the figures as a record, times in milliseconds."""
+        """Return the figures as JSON data, with times in milliseconds."""
         return {
             "count": self.count,
             "mean_ms": self.mean_ns / 1e6,
@@ -56,7 +55,7 @@ class CycleTimes:
 
 
 def measure_steps(component: Component, cycle_times: dict[str, CycleTimes]) -> None:
-    """Replace `component.step` by one that fills the component's entry in `cycle_times`."""
+    """Replace `component.step` by a function that also updates the entry of the component in `cycle_times`."""
     plain_step = component.step
     times = cycle_times.setdefault(type(component).__name__, CycleTimes())
 
@@ -73,7 +72,7 @@ def measure_steps(component: Component, cycle_times: dict[str, CycleTimes]) -> N
 
 
 def will_work(component: Component) -> bool:
-    """Tell before a step whether the component restarts or its period has elapsed, so that it works in it."""
+    """Return, before a step, whether the component works in it: it restarts, or its period has elapsed."""
     root = component.root
     missed = root.iteration - component._stepped_in
     is_restart = missed > 1 and (missed > root.iteration or not component.resume)
@@ -81,5 +80,5 @@ def will_work(component: Component) -> bool:
 
 
 def replace_step(component: Component, step: Callable[[], None]) -> None:
-    """Shadow the method `step` in this one instance, so that components that nobody watches pay nothing."""
+    """Shadow the method `step` in this instance, so that components without observer have no overhead."""
     component.__dict__["step"] = step

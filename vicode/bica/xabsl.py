@@ -1,4 +1,4 @@
-"""What designs with the rules of XABSL are made of: they restart, and are done, as the options of its engine."""
+"""Component with XABSL semantics: it restarts and is done as an option in the XABSL engine."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
 
 class XabslComponent(Component):
-    """A component that works as an option of XABSL's engine does, also where it is stepped twice in an iteration."""
+    """A component that behaves as an option in the XABSL engine, even if it is stepped twice in an iteration."""
 
     __slots__ = ("_cells", "_restarted_in")
 
@@ -22,10 +22,10 @@ class XabslComponent(Component):
         self._cells: dict[str, dict[str, Any]] = {}
 
     def step(self) -> None:
-        """Be active; what was not active in the iteration before restarts however often it is stepped in this one."""
+        """Activate the component; if it was inactive in the last iteration, each step in this one restarts it."""
         iteration = self.root.iteration
         if self._stepped_in == iteration and self._restarted_in == iteration:
-            # To the step this looks as if it had missed an iteration.
+            # Makes `Component.step` restart it, as after a missed iteration.
             self._stepped_in = iteration - 2
         super().step()
 
@@ -40,7 +40,7 @@ class XabslComponent(Component):
         return self._stepped_in == iteration - 1
 
     def _ask(self, function: Callable[..., Any], **given: Callable[[], Any]) -> Any:
-        """Call a function that is called among its own arguments: the inner call changes what was given before."""
+        """Call a function whose arguments may call it; as in XABSL, the inner call overwrites earlier arguments."""
         cells = self._cells.setdefault(function.__name__, {})
         for name, value in given.items():
             cells[name] = value()

@@ -1,4 +1,4 @@
-"""Generated code that was edited outside: so far the guard that keeps it from being written over."""
+"""Detects edits in generated code, so that generation does not overwrite them."""
 
 from vicode.sync.hand_edits import find_hand_edits, find_hand_edits_by_file
 
