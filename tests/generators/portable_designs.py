@@ -1,4 +1,4 @@
-"""Random pairs of designs that XABSL can say: a player with a helper that it calls, over a world of eyes and legs."""
+"""Random projects that XABSL can express: a player, a helper that it calls, and components of the world."""
 
 from dataclasses import dataclass
 
@@ -32,7 +32,7 @@ _rarely = st.sampled_from([False, False, False, True])
 
 @dataclass(frozen=True)
 class ExpressionDrawer:
-    """Draws expressions of one design; `is_xabsl` allows what has another result without."""
+    """Draws expressions of one design; `is_xabsl` allows operators whose result depends on the arithmetic."""
 
     draw: st.DrawFn
     numbers: tuple[str, ...]
@@ -40,11 +40,9 @@ class ExpressionDrawer:
     is_xabsl: bool
 
     def pick(self, *choices: str) -> str:
-        """One of these."""
         return self.draw(st.sampled_from(choices))
 
     def number(self, depth: int = 2) -> str:
-        """A number."""
         return self._computed(depth) if depth > 0 and self.draw(st.booleans()) else self.pick(*self.numbers)
 
     def _computed(self, depth: int) -> str:
@@ -67,7 +65,6 @@ class ExpressionDrawer:
                 return self.pick(*several, f"clamp({inner}, {leaf}, 3)", *asked)
 
     def truth(self, depth: int = 2) -> str:
-        """A truth."""
         if depth <= 0 or self.pick("leaf", "tree") == "leaf":
             return self.pick(*self.truths)
         match self.pick("join", "compare", "chain", "side", "choice", "not", "nan"):
@@ -88,12 +85,12 @@ class ExpressionDrawer:
                 return f"is_nan({self.number(depth - 1)})"
 
     def side(self, depth: int = 1) -> str:
-        """An element, or what holds one."""
+        """Draw an expression of an enumeration."""
         leaf = self.pick(*_SIDES)
         return leaf if depth <= 0 else f"({leaf} if {self.truth(depth - 1)} else {self.pick(*_SIDES)})"
 
     def assign(self) -> Assign:
-        """Values for what is kept."""
+        """Draw assignments to outputs and variables."""
         wholes = ("n + 1", "n - 2", "3", "-n", "0", "n if seen else limit")
         match self.pick("a", "n", "seen", "side"):
             case "a":
@@ -106,12 +103,12 @@ class ExpressionDrawer:
                 return Assign(values=(("side", self.side()), ("eyes.led", "seen")))
 
     def legs(self) -> Call:
-        """A call of the legs that may leave something out."""
+        """Draw a call of the legs with a subset of the arguments."""
         given = (("side", self.side()), ("speed", self.number(1)))
         return Call(alias="legs", arguments=given[: self.draw(st.integers(0, 2))])
 
     def decisions(self, names: list[str], asks: tuple[str, ...], depth: int = 2) -> tuple[Decision, ...]:
-        """Decisions between states, groups among them."""
+        """Draw decisions, including groups."""
         return tuple(self._decision(names, asks, depth) for _ in range(self.draw(st.integers(0, 3))))
 
     def _decision(self, names: list[str], asks: tuple[str, ...], depth: int) -> Decision:
@@ -133,7 +130,7 @@ class ExpressionDrawer:
 
 @st.composite
 def portable_projects(draw: st.DrawFn) -> Project:
-    """A project with two designs."""
+    """Draw a project with two designs."""
     is_xabsl, unit = draw(st.booleans()), draw(st.sampled_from(["", "ms"]))
     helper = draw(_designs("Helper", is_xabsl=is_xabsl, unit=unit))
     return project_of(draw(_designs("Player", is_xabsl=is_xabsl, unit=unit)), helper)
@@ -173,7 +170,7 @@ def _designs(draw: st.DrawFn, component: str, *, is_xabsl: bool, unit: str) -> D
         doc="Does */ something",
         arithmetic="xabsl" if is_xabsl else "",
         time_unit=unit,
-        uses=tuple(Use(alias=each, component=each.capitalize()) for each in uses),
+        uses=tuple(Use(alias=alias, component=alias.capitalize()) for alias in uses),
         parameters=()
         if is_player
         else (
@@ -189,7 +186,7 @@ def _designs(draw: st.DrawFn, component: str, *, is_xabsl: bool, unit: str) -> D
 
 
 def project_of(*designs: Design) -> Project:
-    """A project that declares all that these designs use."""
+    """Draw a project with all declarations that the designs use."""
     bearing = (Declaration(name="x"), Declaration(name="y", type="float", initial="scale"))
     eyes = Interface(
         component="Eyes",

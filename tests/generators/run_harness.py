@@ -1,4 +1,4 @@
-"""Generates designs in the user's notation and steps them with a simulated clock."""
+"""Generates designs from YAML and steps them with a simulated clock."""
 
 import importlib
 import itertools
@@ -73,7 +73,7 @@ components:
 
 
 class RunHarness:
-    """A component at work; `tick` lets time pass and steps it, `log` is what was done since."""
+    """A running component; `tick` advances the clock and steps it, `log` holds the entries since the last tick."""
 
     def __init__(self, root_class: type[Any]) -> None:
         self.world = SimpleNamespace(log=[], seen=False, distance=0.0)
@@ -83,7 +83,7 @@ class RunHarness:
         self.main: Any = self.root.main
 
     def tick(self, ms: int = 100, **world: object) -> list[str]:
-        """One iteration; returns what was logged in it. The first is at time 0."""
+        """Run one iteration and return its log entries. The first one is at time 0."""
         if self.root.iteration:
             self.clock.advance(ms * 1_000_000)
         vars(self.world).update(world)
@@ -97,7 +97,7 @@ StartHarness = Callable[..., RunHarness]
 
 @pytest.fixture
 def play(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> StartHarness:
-    """Generate designs, the first of them the root, and make it."""
+    """Generate designs and create the first one as root."""
 
     def start(*designs: str) -> RunHarness:
         name = f"play{next(_NUMBERS)}"
@@ -109,7 +109,7 @@ def play(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> StartHarness:
         findings = [*opened.findings, *check_project(opened.project)]
         errors = [finding for finding in findings if finding.severity is Severity.ERROR]
         assert not errors, render_text(errors)
-        sources = {each: path.name for each, path in opened.files.items() if each}
+        sources = {component: path.name for component, path in opened.files.items() if component}
         write_files(generate(opened.project, sources=sources), tmp_path / "out")
         monkeypatch.syspath_prepend(tmp_path / "out" / "python")
         monkeypatch.syspath_prepend(tmp_path)

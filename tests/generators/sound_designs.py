@@ -1,4 +1,4 @@
-"""Random projects without mistakes: typed expressions over a few declared names, hostile words, tidy code."""
+"""Random projects without errors: typed expressions over a few names, hostile texts, formatted code."""
 
 from hypothesis import strategies as st
 
@@ -132,7 +132,7 @@ def _decisions(names: list[str]) -> st.SearchStrategy[tuple[Transition | Stay | 
 
 @st.composite
 def sound_designs(draw: st.DrawFn) -> Design:
-    """A design that names only what `sound_projects` declares."""
+    """Draw a design that uses only declarations of `sound_projects`."""
     names = draw(st.lists(st.sampled_from(_STATES), min_size=1, max_size=4, unique=True))
     decisions, initial = _decisions(names), draw(st.sampled_from(names))
     states = tuple(
@@ -169,7 +169,7 @@ def sound_designs(draw: st.DrawFn) -> Design:
 
 
 def project_of(design: Design, words: str = "") -> Project:
-    """A project that declares all that sound designs use."""
+    """Draw a project with all declarations that sound designs use."""
     eyes = Interface(
         component="Eyes",
         implementation="field.eyes:Eyes",

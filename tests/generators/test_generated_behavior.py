@@ -1,4 +1,4 @@
-"""Generated components do what docs/semantics.md says."""
+"""Generated components behave as docs/semantics.md specifies."""
 
 import math
 
@@ -26,7 +26,7 @@ states:
 """
 
 
-def test_entering_requiring_deciding_acting_in_order(play: StartHarness) -> None:
+def test_order_of_enter_requires_decision_and_actions(play: StartHarness) -> None:
     two = play(TWO.format(frequency=1000))
     assert two.tick() == ["enter A", "eyes", "legs restart", "legs 1 8"]
     assert two.tick() == ["eyes", "legs 1 8"]
@@ -34,7 +34,7 @@ def test_entering_requiring_deciding_acting_in_order(play: StartHarness) -> None
     assert two.tick() == ["eyes", "legs 1 8", "act B"]
 
 
-def test_times_are_kept_to_the_nanosecond(play: StartHarness) -> None:
+def test_times_are_exact_to_the_nanosecond(play: StartHarness) -> None:
     two = play(TWO.format(frequency=1000))
     two.tick(seen=True)
     assert two.main.state == "B"
@@ -65,7 +65,7 @@ states:
 """
 
 
-def test_whoever_paused_restarts(play: StartHarness) -> None:
+def test_paused_component_restarts(play: StartHarness) -> None:
     caller = play(CALLER, TWO.format(frequency=1000))
     caller.tick(seen=True)
     assert caller.main.two.state == "B"
@@ -76,7 +76,7 @@ def test_whoever_paused_restarts(play: StartHarness) -> None:
     assert caller.main.two.state == "A"
 
 
-def test_whoever_resumes_goes_on(play: StartHarness) -> None:
+def test_resuming_component_continues(play: StartHarness) -> None:
     caller = play(CALLER, "resume: true\n" + TWO.format(frequency=1000))
     caller.tick(seen=True)
     caller.tick(distance=1.0)
@@ -142,7 +142,7 @@ states:
 """
 
 
-def test_values_are_set_as_declared(play: StartHarness) -> None:
+def test_values_have_their_declared_types(play: StartHarness) -> None:
     values = play(VALUES)
     assert (values.main.speed, type(values.main.speed)) == (3.0, float)
     assert values.tick()[-1] == "legs 7 -3"
@@ -170,7 +170,7 @@ states:
 """
 
 
-def test_a_final_state_is_told_to_the_caller(play: StartHarness) -> None:
+def test_caller_sees_final_state(play: StartHarness) -> None:
     nested = play(NESTED, LAST)
     states = []
     for _ in range(5):
@@ -194,7 +194,7 @@ states:
 """
 
 
-def test_an_exception_is_reported_with_its_place_and_work_goes_on(play: StartHarness) -> None:
+def test_exception_is_reported_with_its_location_and_execution_continues(play: StartHarness) -> None:
     failing = play(FAILING)
     failing.main.n = 1
     failing.tick()
@@ -218,7 +218,7 @@ states:
 """
 
 
-def test_times_may_count_milliseconds(play: StartHarness) -> None:
+def test_time_unit_may_be_milliseconds(play: StartHarness) -> None:
     component = play(MILLISECONDS)
     states = []
     for _ in range(6):

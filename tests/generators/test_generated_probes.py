@@ -1,4 +1,4 @@
-"""The probes of a component test its guards as the component itself does."""
+"""The probes of a component evaluate its guards as the component does."""
 
 import ast
 import importlib
@@ -34,7 +34,7 @@ states:
 
 
 @given(sound_designs())
-def test_probes_compile_and_name_every_guard(design: Design) -> None:
+def test_probes_compile_and_list_every_guard(design: Design) -> None:
     assume(is_sound(project_of(design)))
     text = python_probes(project_of(with_decision_ids(design)), design.component).text
     module = ast.parse(text)
@@ -42,7 +42,7 @@ def test_probes_compile_and_name_every_guard(design: Design) -> None:
     assert names == ["GUARDS", "READS", "ENUMERATIONS"]
 
 
-def test_probes_say_what_holds(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_probes_evaluate_guards(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     design = read_design(DESIGN.format(name="Probed"), "probed.yaml").design
     assert design is not None
     project = project_of(with_decision_ids(design))

@@ -1,6 +1,6 @@
-"""Golden cases: design in, files out; each also proves that the code compiles, is formatted, and is always the same.
+"""Golden cases: designs and their generated files, which also compile, are formatted and are reproducible.
 
-`pytest --accept` rewrites what is expected; read it as a diff.
+`pytest --accept` rewrites the expected files.
 """
 
 import shutil
@@ -31,45 +31,45 @@ def open_case(name: str) -> OpenProject:
 
 def generate_case(name: str) -> tuple[OutputFile, ...]:
     opened = open_case(name)
-    sources = {each: path.name for each, path in opened.files.items() if each}
+    sources = {component: path.name for component, path in opened.files.items() if component}
     return generate(opened.project, sources=sources)
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_the_files_are_as_expected(name: str, accept: bool) -> None:
+def test_files_match_expected_files(name: str, accept: bool) -> None:
     folder = CASES / name / "generated"
     files = generate_case(name)
     if accept:
         shutil.rmtree(folder, ignore_errors=True)
         write_files(files, folder)
-    found = {
+    expected = {
         path.relative_to(folder).as_posix(): path.read_text("utf-8") for path in folder.rglob("*") if path.is_file()
     }
-    assert {file.path: file.text for file in files} == found
+    assert {file.path: file.text for file in files} == expected
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_the_code_is_what_the_tools_would_leave(name: str, tmp_path: Path) -> None:
+def test_code_is_formatted_and_has_no_lint_errors(name: str, tmp_path: Path) -> None:
     write_files(generate_case(name), tmp_path)
     assert format_diff(tmp_path) == ""
     assert lint_errors(tmp_path) == ""
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_the_code_compiles_and_its_marks_are_whole(name: str) -> None:
+def test_code_compiles_and_region_marks_are_valid(name: str) -> None:
     for file in generate_case(name):
         comment = regions.get_comment_prefix(file.path)
         if file.path.endswith(".py"):
             compile(file.text, file.path, "exec")
-        found = regions.find_regions(file.text, comment)
-        assert not found.findings
-        assert not any(regions.is_edited(region) for region in found.regions)
+        result = regions.find_regions(file.text, comment)
+        assert not result.findings
+        assert not any(regions.is_edited(region) for region in result.regions)
         assert regions.has_header(file.text)
         assert not regions.is_edited_outside_regions(file.text, comment)
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_the_same_project_gives_the_same_bytes(name: str) -> None:
+def test_generation_is_reproducible(name: str) -> None:
     files = generate_case(name)
     assert files == generate_case(name)
     assert {file.path for file in files} == set(list_outputs(open_case(name).project))

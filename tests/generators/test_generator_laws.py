@@ -1,4 +1,4 @@
-"""Laws of generated code on random sound designs."""
+"""Properties of code generated from random designs."""
 
 import ast
 import tempfile
@@ -28,32 +28,32 @@ def is_sound(project: Project) -> bool:
 
 
 @given(sound_designs(), words)
-def test_sound_designs_give_code_that_compiles(design: Design, text: str) -> None:
+def test_code_of_sound_designs_compiles(design: Design, text: str) -> None:
     project = project_of(design, text)
     assume(is_sound(project))
     files = generate(project)
     for file in files:
         compile(file.text, file.path, "exec", dont_inherit=True)
-        found = regions.find_regions(file.text)
-        assert not found.findings
-        assert not any(regions.is_edited(region) for region in found.regions)
+        result = regions.find_regions(file.text)
+        assert not result.findings
+        assert not any(regions.is_edited(region) for region in result.regions)
         assert not regions.is_edited_outside_regions(file.text)
     assert files == generate(project)
 
 
 @given(sound_designs())
-def test_what_is_disabled_is_not_in_the_code(design: Design) -> None:
+def test_disabled_elements_are_not_generated(design: Design) -> None:
     project = project_of(design)
     assume(is_sound(project))
     assert generate(project) == generate(project_of(strip_disabled(design)))
 
 
-# Shrinking would start the formatter thousands of times.
+# Shrinking would run the formatter thousands of times.
 @settings(
     max_examples=max(8, settings.default.max_examples // 20), phases=[Phase.explicit, Phase.reuse, Phase.generate]
 )
 @given(st.lists(sound_designs(), min_size=1, max_size=4))
-def test_the_formatter_changes_nothing(some: list[Design]) -> None:
+def test_code_is_formatted(some: list[Design]) -> None:
     with tempfile.TemporaryDirectory() as folder:
         for number, design in enumerate(some):
             project = project_of(design)
@@ -63,7 +63,7 @@ def test_the_formatter_changes_nothing(some: list[Design]) -> None:
 
 
 @given(projects, st.lists(designs, max_size=2))
-def test_any_project_gives_code_that_compiles_or_is_called_unsound(project: Project, some: list[Design]) -> None:
+def test_any_project_gives_code_that_compiles_or_is_rejected(project: Project, some: list[Design]) -> None:
     unique = {design.component: design for design in some}
     whole = replace(project, designs=tuple(unique.values()))
     try:
@@ -77,7 +77,7 @@ def test_any_project_gives_code_that_compiles_or_is_called_unsound(project: Proj
 
 
 @given(docs)
-def test_no_doc_leaves_its_docstring(text: str) -> None:
+def test_docs_stay_inside_docstrings(text: str) -> None:
     source = f"class A:\n{docstring(text, 4)}\n"
     (node,) = ast.parse(source).body
     assert isinstance(node, ast.ClassDef)
@@ -86,25 +86,25 @@ def test_no_doc_leaves_its_docstring(text: str) -> None:
 
 
 @given(docs)
-def test_no_remark_leaves_its_comment(text: str) -> None:
+def test_comments_stay_inside_comments(text: str) -> None:
     lines = comment(text, 4)
     assert all(line.startswith("    # ") for line in lines)
     assert ast.parse("\n".join(lines)).body == []
 
 
 @given(st.text())
-def test_strings_say_what_they_are_told(text: str) -> None:
+def test_strings_evaluate_to_their_text(text: str) -> None:
     assert ast.literal_eval(quoted(text)) == text
 
 
 @settings(max_examples=15)
 @given(sound_designs())
-def test_what_was_just_generated_is_not_edited(design: Design) -> None:
+def test_generated_code_is_not_edited(design: Design) -> None:
     project = project_of(design)
     assume(is_sound(project))
     with tempfile.TemporaryDirectory() as name:
         write_files(generate(project), Path(name))
         different = generate(project, sources={design.component: "other.yaml"})
         differences = compare_files(different, Path(name))
-        assert any(each.old != each.new for each in differences)
+        assert any(difference.old != difference.new for difference in differences)
         assert find_hand_edits(differences) == ()

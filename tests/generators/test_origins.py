@@ -1,4 +1,4 @@
-"""Which lines come from which thing: what stands in them says the same, in shipped and in random designs."""
+"""Origins of generated lines match the content of the lines, in shipped and random designs."""
 
 import re
 from pathlib import Path
@@ -18,7 +18,6 @@ FORWARD = open_project(ROOT / "designs" / "forward").project
 
 
 def text_of(project: Project, component: str) -> str:
-    """The module of a component."""
     others = {design.component for design in project.designs} - {component}
     whole = {file.path: file.text for file in generate(project, components=(component,), exclude=others)}
     shared = {file.path for file in generate(project, components=(component,), exclude={*others, component})}
@@ -27,7 +26,7 @@ def text_of(project: Project, component: str) -> str:
 
 
 def assert_lines_say_it(project: Project, component: str) -> int:
-    """Every decision's lines hold its target, inside the lines of its state; how many there are."""
+    """Check that the lines of each decision contain its target and lie inside its state; return their number."""
     text = text_of(project, component)
     lines, design = text.split("\n"), project.design(component)
     assert design is not None
@@ -56,20 +55,22 @@ def is_inside(inner: Origin, outer: Origin) -> bool:
 
 
 @pytest.mark.parametrize("component", [design.component for design in FORWARD.designs])
-def test_the_shipped_designs(component: str) -> None:
+def test_shipped_designs(component: str) -> None:
     assert_lines_say_it(FORWARD, component)
 
 
-def test_the_player_in_full() -> None:
+def test_player() -> None:
     assert assert_lines_say_it(FORWARD, "Player") == 16
     text = text_of(FORWARD, "Player")
     lines = text.split("\n")
-    found = {origin.path: lines[origin.first - 1].strip() for origin in list_origins(FORWARD, "Player", "python", text)}
-    assert found["states", "Kick"].startswith("def _in_kick(")
-    assert found["states", "Kick", "enter"] == "def _enter_kick(self) -> None:"
-    assert found["states", "LookForBall", "transitions", 0] == "# ball seen"
-    assert found[("module",)].startswith("# <vicode module")
-    assert found["common", "transitions", 0] == "# fallen"
+    first_lines = {
+        origin.path: lines[origin.first - 1].strip() for origin in list_origins(FORWARD, "Player", "python", text)
+    }
+    assert first_lines["states", "Kick"].startswith("def _in_kick(")
+    assert first_lines["states", "Kick", "enter"] == "def _enter_kick(self) -> None:"
+    assert first_lines["states", "LookForBall", "transitions", 0] == "# ball seen"
+    assert first_lines[("module",)].startswith("# <vicode module")
+    assert first_lines["common", "transitions", 0] == "# fallen"
 
 
 @given(sound_designs())
@@ -77,6 +78,6 @@ def test_random_designs(design: Design) -> None:
     assert_lines_say_it(project_of(design), design.component)
 
 
-def test_a_text_that_is_no_module_has_no_origins() -> None:
+def test_other_texts_have_no_origins() -> None:
     assert list_origins(FORWARD, "Player", "python", "def (") == ()
     assert list_origins(FORWARD, "Nobody", "python", "") == ()

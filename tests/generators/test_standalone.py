@@ -1,4 +1,4 @@
-"""With --standalone the package needs neither vicode nor anything but the standard library."""
+"""A package generated with --standalone needs only the standard library."""
 
 import subprocess
 import sys
@@ -19,7 +19,7 @@ states:
 """
 
 
-def test_a_copied_package_runs_on_a_bare_python(tmp_path: Path) -> None:
+def test_standalone_package_runs_without_vicode(tmp_path: Path) -> None:
     (tmp_path / "halver.yaml").write_text(DESIGN, encoding="utf-8")
     project = open_project(tmp_path).project
     files = generate(project, standalone=True)

@@ -1,4 +1,4 @@
-"""Designs in XABSL: the files compile, and their program does what the generated Python does."""
+"""Generated XABSL compiles and behaves like the generated Python."""
 
 import importlib
 import itertools
@@ -43,12 +43,12 @@ from vicode.xabsl.parser import parse
 from vicode.xabsl.printer import print_file
 
 _NUMBERS = itertools.count()
-# What a random design earns: states that nothing leads to, numbers out of range, what is called twice.
-EARNED = {"X643", "X645", "X646", "X647"}
+# Warnings that random designs may cause: unreachable states, numbers out of range, duplicate calls.
+EXPECTED_WARNINGS = {"X643", "X645", "X646", "X647"}
 
 
 def texts_of(project: Project) -> dict[str, str]:
-    """The files of a project in XABSL, by their names in its folder."""
+    """Generate the XABSL files of a project, by path relative to its folder."""
     folder = next(path for path in list_outputs(project, languages=["xabsl"]) if path.endswith("/agents.xabsl"))
     root = folder.removesuffix("agents.xabsl")
     return {file.path.removeprefix(root): file.text for file in generate(project, languages=["xabsl"])}
@@ -59,21 +59,25 @@ def compiled_of(project: Project) -> CompileResult:
 
 
 @given(portable_projects())
-def test_what_is_sound_compiles(project: Project) -> None:
-    errors = [each for each in check_project(project) if each.severity is Severity.ERROR]
+def test_sound_designs_compile(project: Project) -> None:
+    errors = [finding for finding in check_project(project) if finding.severity is Severity.ERROR]
     assert not errors, render_text(errors)
     result = compiled_of(project)
-    bad = [each for each in result.findings if each.severity is not Severity.NOTE and each.rule.code not in EARNED]
+    bad = [
+        finding
+        for finding in result.findings
+        if finding.severity is not Severity.NOTE and finding.rule.code not in EXPECTED_WARNINGS
+    ]
     assert not bad, render_text(bad)
     assert not any(
-        each.rule.code in ("X651", "X652") for each in result.findings if project.designs[0].arithmetic == ""
+        finding.rule.code in ("X651", "X652") for finding in result.findings if project.designs[0].arithmetic == ""
     )
     assert result.program is not None
     assert result.program.title == "Law"
 
 
 @given(portable_projects())
-def test_the_files_are_laid_out_and_sealed(project: Project) -> None:
+def test_files_are_formatted_and_have_a_checksum(project: Project) -> None:
     files = generate(project, languages=["xabsl"])
     assert [file.path for file in files] == sorted(list_outputs(project, languages=["xabsl"]))
     for file in files:
@@ -84,7 +88,7 @@ def test_the_files_are_laid_out_and_sealed(project: Project) -> None:
 
 
 def option_of(transitions: tuple[Decision, ...], common: tuple[Decision, ...] = ()) -> str:
-    """The text of an option, one blank between words."""
+    """Generate an option, with whitespace collapsed."""
     names = ("a", "b", "c", "d", "e")
     design = Design(
         component="One",
@@ -94,7 +98,7 @@ def option_of(transitions: tuple[Decision, ...], common: tuple[Decision, ...] = 
         states=(State(name="S", transitions=transitions), *(State(name=name) for name in "XYZ")),
     )
     project = Project(name="Law", languages=("xabsl",), designs=(design,))
-    assert not [each for each in check_project(project) if each.severity is Severity.ERROR]
+    assert not [finding for finding in check_project(project) if finding.severity is Severity.ERROR]
     assert compiled_of(project).program is not None
     return " ".join(texts_of(project)["Options/One.xabsl"].replace("one.", "").split())
 
@@ -107,19 +111,19 @@ def to(state: str, when: str = "") -> Transition:
     return Transition(to=state, guard=Guard(when=when))
 
 
-def test_what_falls_through_keeps_the_guards_around_it() -> None:
+def test_groups_that_fall_through_are_flattened() -> None:
     inner = DecisionGroup(guard=Guard(when="b"), then=(to("X", "c"),), otherwise=(to("Y", "d"),))
     text = option_of((DecisionGroup(guard=Guard(when="a"), then=(inner,), otherwise=()), to("Z", "e")))
     assert "decision { if (a && b && c) goto X; else if (a && !b && d) goto Y; else if (e) goto Z; else stay; }" in text
 
 
-def test_what_ends_stays_nested() -> None:
+def test_groups_that_always_end_stay_nested() -> None:
     group = DecisionGroup(guard=Guard(when="a"), then=(to("X", "b"), Stay()), otherwise=(to("Y", "c"),))
     text = option_of((group, to("Z")))
     assert "decision { if (a) { if (b) goto X; else stay; } else if (c) goto Y; else goto Z; }" in text
 
 
-def test_common_decisions_are_common_where_xabsl_can_say_them() -> None:
+def test_common_decisions_are_common_where_xabsl_can_express_them() -> None:
     ending = DecisionGroup(guard=Guard(when="a"), then=(to("X", "b"), to("Y")))
     text = option_of((to("Z", "c"),), (ending, to("X", "d")))
     assert "common decision { if (a) { if (b) goto X; else goto Y; } else if (d) goto X; }" in text
@@ -131,15 +135,15 @@ def test_common_decisions_are_common_where_xabsl_can_say_them() -> None:
 
 
 @given(projects, st.lists(designs, max_size=2))
-def test_any_project_is_written_or_called_unsound(project: Project, some: list[Design]) -> None:
+def test_any_project_is_generated_or_rejected(project: Project, some: list[Design]) -> None:
     unique = {design.component: design for design in some}
-    whole = replace(project, languages=("xabsl",), designs=tuple(unique.values()))
-    paths = list_outputs(whole)
+    combined = replace(project, languages=("xabsl",), designs=tuple(unique.values()))
+    paths = list_outputs(combined)
     assert len({path.casefold() for path in paths}) == len(paths)
     assert all(path.startswith("xabsl/") and ".." not in path.split("/") for path in paths)
-    errors = [each for each in check_project(whole) if each.severity is Severity.ERROR]
+    errors = [finding for finding in check_project(combined) if finding.severity is Severity.ERROR]
     try:
-        files = generate(whole)
+        files = generate(combined)
     except UnsoundDesignError:
         assert errors
         return
@@ -147,7 +151,7 @@ def test_any_project_is_written_or_called_unsound(project: Project, some: list[D
 
 
 @pytest.mark.parametrize(
-    ("when", "said"),
+    ("when", "xabsl"),
     [
         ("min(n, m) > 1", "(m < n ? m : n) > 1"),
         ("max(n, m) > 1", "(m > n ? m : n) > 1"),
@@ -164,12 +168,12 @@ def test_any_project_is_written_or_called_unsound(project: Project, some: list[D
         ("component_time > 2 and state_time < 3", "option_time / 1000 > 2 && state_time / 1000 < 3"),
     ],
 )
-def test_expressions_are_written_out(when: str, said: str) -> None:
-    assert f"initial state S {{ decision {{ if ({said}) goto X;" in option_of((to("X", when),))
+def test_expressions_are_translated(when: str, xabsl: str) -> None:
+    assert f"initial state S {{ decision {{ if ({xabsl}) goto X;" in option_of((to("X", when),))
 
 
 class World:
-    """What both programs sense and tell: Python by the names of designs, XABSL by those of symbols."""
+    """The world of both programs: Python uses the names of the design, XABSL the symbol names."""
 
     def __init__(self) -> None:
         self.log: list[dict[str, Any]] = []
@@ -197,7 +201,7 @@ class World:
 
 @pytest.fixture(scope="module")
 def folder() -> Iterator[Path]:
-    """Where generated Python is imported from."""
+    """Folder that generated Python is imported from."""
     with tempfile.TemporaryDirectory() as name:
         sys.path.insert(0, name)
         yield Path(name)
@@ -205,7 +209,7 @@ def folder() -> Iterator[Path]:
 
 
 def main_of(project: Project, folder: Path) -> Root:
-    """The generated Python, ready to run."""
+    """Generate Python and create its root."""
     renamed = replace(project, name=f"law{next(_NUMBERS)}")
     write_files(generate(renamed, languages=["python"]), folder / renamed.name)
     sys.path.insert(0, str(folder / renamed.name / "python"))
@@ -220,13 +224,13 @@ def main_of(project: Project, folder: Path) -> Root:
 
 
 @given(portable_projects(), st.integers(0, 10_000))
-def test_both_programs_do_the_same(folder: Path, project: Project, seed: int) -> None:
+def test_both_programs_behave_the_same(folder: Path, project: Project, seed: int) -> None:
     root, rng = main_of(project, folder), random.Random(seed)
     result = compiled_of(project)
     assert result.program is not None
     world, now = World(), SimpleNamespace(ms=0)
     engine = Engine(result.program, world, symbols=declared_symbols(result.table), clock=lambda: now.ms)
-    components = {type(each).__name__: each for each in root.components}
+    components = {type(component).__name__: component for component in root.components}
     for iteration in range(14):
         if iteration:
             step = rng.choice((1, 10, 30, 60))
@@ -237,13 +241,13 @@ def test_both_programs_do_the_same(folder: Path, project: Project, seed: int) ->
             "distance": rng.choice((-5.0, 0.0, 2.0, 300.0)),
             "side": rng.choice(SIDES),
         }
-        for each in (world, root.world):
-            each.sense(**sensed)
+        for target in (world, root.world):
+            target.sense(**sensed)
         root.step()
         engine.execute()
         assert states_of(engine, components) == []
         assert known(values_of(engine)) == known(values_in(components, engine))
-        assert [known(dict(each)) for each in world.log] == [known(dict(each)) for each in root.world.log]
+        assert [known(dict(entry)) for entry in world.log] == [known(dict(entry)) for entry in root.world.log]
         assert world.eyes_led == root.world.led
 
 
@@ -251,7 +255,7 @@ SIDES = ("left", "right")
 
 
 def states_of(engine: Engine, components: dict[str, Component]) -> list[str]:
-    """What differs in the states of what was active."""
+    """List the active components whose states differ."""
     return [
         f"{view.name}: {view.state} in XABSL, {components[view.name].state} in Python"
         for view in engine.active_options
@@ -265,22 +269,22 @@ def values_of(engine: Engine) -> dict[str, Any]:
 
 
 def values_in(components: dict[str, Component], engine: Engine) -> dict[str, Any]:
-    """The same values where Python has them; of elements the names."""
-    found = {}
+    """Return the values of the symbols in Python; elements of enumerations as names."""
+    values = {}
     for slot in engine.program.symbols:
         owner, _dot, name = slot.name.partition(".")
         value = getattr(components[owner.capitalize()], name)
-        found[slot.name] = getattr(value, "name", value)
-    return found
+        values[slot.name] = getattr(value, "name", value)
+    return values
 
 
 def known(values: dict[str, Any]) -> dict[str, Any]:
-    """The values, nan as a word, since that is not equal to itself."""
+    """Replace nan, which is not equal to itself."""
     return {name: "nan" if value != value else value for name, value in values.items()}  # noqa: PLR0124
 
 
 @given(portable_projects())
-def test_every_decision_is_found_in_the_lines_of_its_state(project: Project) -> None:
+def test_origins_of_decisions_lie_inside_those_of_their_state(project: Project) -> None:
     for design in project.designs:
         text = texts_of(project)[f"Options/{design.component}.xabsl"]
         lines = text.split("\n")
@@ -296,5 +300,5 @@ def test_every_decision_is_found_in_the_lines_of_its_state(project: Project) -> 
             target = getattr(located.decision, "to", located.source)
             assert "stay;" in block if target == located.source else f"goto {target};" in block
             if located.source in states:
-                around = states[located.source]
-                assert around.first <= origin.first <= origin.last <= around.last
+                outer = states[located.source]
+                assert outer.first <= origin.first <= origin.last <= outer.last

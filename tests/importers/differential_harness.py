@@ -1,4 +1,4 @@
-"""Runs an imported behavior twice, as generated Python and by the engine of XABSL, on the same world's inputs."""
+"""Runs an imported behavior as generated Python and in the XABSL engine with the same inputs."""
 
 import importlib
 import random
@@ -26,18 +26,18 @@ Record = dict[str, Any]
 
 
 def import_checked(source: ProgramSource, name: str = "behavior") -> tuple[ImportResult, CompileResult]:
-    """A behavior as designs, without errors."""
+    """Import a behavior and assert that the project has no errors."""
     compiled = compile_source(source)
     assert compiled.program is not None, compiled.findings
-    made = import_behavior(source, compiled, name)
-    errors = [each for each in check_project(made.project) if each.severity is Severity.ERROR]
+    imported = import_behavior(source, compiled, name)
+    errors = [finding for finding in check_project(imported.project) if finding.severity is Severity.ERROR]
     assert errors == []
-    return made, compiled
+    return imported, compiled
 
 
 @dataclass
 class RecordingWorld:
-    """A world that writes down what its basic behaviors are told."""
+    """A world that records the calls of its basic behaviors."""
 
     symbols: SymbolList
     program: Program
@@ -53,18 +53,18 @@ class RecordingWorld:
         return lambda **given: self.calls.append((name, given))
 
     def outputs(self) -> Record:
-        """What the robot was set to."""
-        named = [each.name for each in self.symbols.symbols if each.role == "output"]
+        """Return the values of the output symbols."""
+        named = [symbol.name for symbol in self.symbols.symbols if symbol.role == "output"]
         return {name: getattr(self.world, python_name(name)) for name in named}
 
     def take_calls(self) -> list[tuple[str, Record]]:
-        """What was told since the last time."""
+        """Return the calls since the last time."""
         told, self.calls = self.calls, []
         return told
 
 
 class EngineRun:
-    """The engine of XABSL."""
+    """The XABSL engine."""
 
     def __init__(self, compiled: CompileResult, agent: str) -> None:
         assert compiled.program is not None
@@ -76,11 +76,13 @@ class EngineRun:
         assert self.engine.select(agent)
 
     def cycle(self, ms: int) -> Record:
-        """One cycle at a time; what was active, set and told."""
+        """Run one cycle; return active options, memory, outputs and calls."""
         self.now = ms
         self.engine.execute()
-        options = {each.name: (each.state, each.option_time, each.state_time) for each in self.engine.active_options}
-        memory = {each.name: getattr(self.engine.memory, name) for each, name in self._memory()}
+        options = {
+            option.name: (option.state, option.option_time, option.state_time) for option in self.engine.active_options
+        }
+        memory = {symbol.name: getattr(self.engine.memory, name) for symbol, name in self._memory()}
         return {
             "options": options,
             "set": self.recording.outputs(),
@@ -89,14 +91,14 @@ class EngineRun:
         }
 
     def _memory(self) -> Iterator[tuple[Any, str]]:
-        for each in self.program.symbols:
-            found = [name for name in vars(self.engine.memory) if name == python_name(each.name)]
-            if found:
-                yield each, found[0]
+        for symbol in self.program.symbols:
+            names = [name for name in vars(self.engine.memory) if name == python_name(symbol.name)]
+            if names:
+                yield symbol, names[0]
 
 
 class GeneratedPythonRun:
-    """The Python that is generated from the imported designs."""
+    """The Python generated from the imported designs."""
 
     def __init__(self, project: Project, compiled: CompileResult, agent: str, folder: Path) -> None:
         assert compiled.program is not None
@@ -107,33 +109,34 @@ class GeneratedPythonRun:
             path.parent.mkdir(parents=True, exist_ok=True)
             path.write_text(file.text, encoding="utf-8")
         self.clock = SimulatedClock(0)
-        component = next(each.root for each in project.agents if (each.xabsl_name or each.name) == agent)
+        component = next(
+            declared.root for declared in project.agents if (declared.xabsl_name or declared.name) == agent
+        )
         module, _, name = python_class_path(project, component).partition(":")
-        for known in [each for each in sys.modules if each.split(".")[0] == module.split(".")[0]]:
-            del sys.modules[known]
+        for loaded in [loaded for loaded in sys.modules if loaded.split(".")[0] == module.split(".")[0]]:
+            del sys.modules[loaded]
         sys.path.insert(0, str(folder / "python"))
         try:
             importlib.invalidate_caches()
-            made = getattr(importlib.import_module(module), name)
+            imported = getattr(importlib.import_module(module), name)
         finally:
             sys.path.remove(str(folder / "python"))
         self.now = 0
-        self.root = Root(made, clock=self, world=self.recording.world, on_error="stop")
-        self.names = {each.component: each.xabsl_name or each.component for each in project.designs}
+        self.root = Root(imported, clock=self, world=self.recording.world, on_error="stop")
+        self.names = {design.component: design.xabsl_name or design.component for design in project.designs}
 
     def now_ns(self) -> int:
-        """The time of the root."""
         return self.now * 1_000_000
 
     def cycle(self, ms: int) -> Record:
-        """One iteration at a time; what was active, set and told."""
+        """Run one iteration; return active options, memory, outputs and calls."""
         self.now = ms
         self.root.step()
         options = {}
         for component in self.root.components:
             name = type(component).__name__
             design = next(
-                (each for each in self.project.designs if name in (each.component, f"{each.component}_")), None
+                (design for design in self.project.designs if name in (design.component, f"{design.component}_")), None
             )
             if design is None or component._stepped_in != self.root.iteration:
                 continue
@@ -145,15 +148,15 @@ class GeneratedPythonRun:
 
 
 def random_input_rows(symbols: SymbolList, seed: int, count: int) -> Iterator[tuple[int, dict[str, float]]]:
-    """Times in ms, and inputs that change now and then."""
+    """Yield times in ms with the inputs that change."""
     chance = random.Random(seed)
-    inputs = [each for each in symbols.symbols if each.role == "input"]
-    elements = {name: len(each) for name, each in (*symbols.enums, *symbols.internal_enums)}
+    inputs = [symbol for symbol in symbols.symbols if symbol.role == "input"]
+    elements = {name: len(elements) for name, elements in (*symbols.enums, *symbols.internal_enums)}
     ms = chance.randrange(1000)
     for _ in range(count):
         ms += chance.choice((1, 20, 33, 500, 4000))
         changed = chance.sample(inputs, min(len(inputs), chance.choice((0, 1, 3, 8))))
-        yield ms, {each.name: _value(each, elements, chance) for each in changed}
+        yield ms, {symbol.name: _value(symbol, elements, chance) for symbol in changed}
 
 
 def _value(symbol: Any, elements: dict[str, int], chance: random.Random) -> float:
@@ -167,9 +170,9 @@ def _value(symbol: Any, elements: dict[str, int], chance: random.Random) -> floa
 
 
 def compare_runs(source: ProgramSource, folder: Path, agent: str, *, count: int, seed: int = 1) -> int:
-    """Run both on the same inputs; they do the same in every cycle. Returns how many cycles had no error."""
-    made, compiled = import_checked(source)
-    first, second = EngineRun(compiled, agent), GeneratedPythonRun(made.project, compiled, agent, folder)
+    """Assert that both behave the same in every cycle; return the number of cycles without an exception."""
+    imported, compiled = import_checked(source)
+    first, second = EngineRun(compiled, agent), GeneratedPythonRun(imported.project, compiled, agent, folder)
     done = 0
     for number, (ms, inputs) in enumerate(random_input_rows(first.symbols, seed, count)):
         for name, value in inputs.items():
@@ -183,10 +186,10 @@ def compare_runs(source: ProgramSource, folder: Path, agent: str, *, count: int,
 
 
 def compare_team_runs(source: ProgramSource, folder: Path, agent: str, *, robots: int, count: int) -> set[str]:
-    """Run teams of both on the same inputs, who hear each other; returns the states that were active."""
-    made, compiled = import_checked(source)
+    """Assert that communicating teams of both behave the same; return the states that were active."""
+    imported, compiled = import_checked(source)
     engines = [EngineRun(compiled, agent) for _ in range(robots)]
-    pythons = [GeneratedPythonRun(made.project, compiled, agent, folder / str(number)) for number in range(robots)]
+    pythons = [GeneratedPythonRun(imported.project, compiled, agent, folder / str(number)) for number in range(robots)]
     for number, (first, second) in enumerate(zip(engines, pythons, strict=True)):
         first.engine.team.priority = second.root.team.priority = number // 2
         first.engine.team.ticks = second.root.team.ticks = 2

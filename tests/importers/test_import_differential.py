@@ -1,4 +1,4 @@
-"""The Python of an imported behavior does in every cycle what the engine of XABSL does with the behavior itself."""
+"""The generated Python of an imported behavior behaves like the XABSL engine in every cycle."""
 
 import os
 from pathlib import Path
@@ -82,11 +82,11 @@ namespace symbols("Symbols") {
 
 
 def agents(*files: str) -> str:
-    return "".join(f'include "{each}";\n' for each in files) + 'agent one("One", main);\n'
+    return "".join(f'include "{file}";\n' for file in files) + 'agent one("One", main);\n'
 
 
 @pytest.mark.parametrize("program", PROGRAMS)
-def test_programs_do_the_same(program: str, tmp_path: Path) -> None:
+def test_programs_behave_the_same(program: str, tmp_path: Path) -> None:
     source = load_source(CASES / "programs" / program / "agents.xabsl")
     compiled = compile_source(source)
     assert compiled.program is not None
@@ -96,19 +96,19 @@ def test_programs_do_the_same(program: str, tmp_path: Path) -> None:
 
 @given(behaviors(with_functions=True), st.integers(0, 1000))
 @settings(suppress_health_check=[HealthCheck.function_scoped_fixture])
-def test_random_behaviors_do_the_same(
+def test_random_behaviors_behave_the_same(
     tmp_path_factory: pytest.TempPathFactory, files: dict[str, tree.FileNode], seed: int
 ) -> None:
     source = load_texts({name: print_file(file) for name, file in files.items()})
     compare_runs(source, tmp_path_factory.mktemp("behavior"), "main", count=15, seed=seed)
 
 
-def test_a_call_among_the_arguments_changes_what_was_given_before(tmp_path: Path) -> None:
+def test_nested_call_overwrites_earlier_arguments(tmp_path: Path) -> None:
     texts = {"agents.xabsl": agents("symbols.xabsl", "main.xabsl"), "symbols.xabsl": NESTED, "main.xabsl": NESTING}
     assert compare_runs(load_texts(texts), tmp_path, "one", count=300) == 300
 
 
-def test_robots_of_a_team_agree_in_the_same_way(tmp_path: Path) -> None:
+def test_teams_cooperate_the_same_way(tmp_path: Path) -> None:
     texts = {
         "agents.xabsl": agents("symbols.xabsl", "main.xabsl", "support.xabsl"),
         "symbols.xabsl": TEAM,
@@ -120,7 +120,7 @@ def test_robots_of_a_team_agree_in_the_same_way(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("path", WRITTEN or [str(CASES / "programs" / "drive_circle" / "agents.xabsl")])
-def test_whole_behaviors_do_the_same(path: str, tmp_path: Path) -> None:
+def test_complete_behaviors_behave_the_same(path: str, tmp_path: Path) -> None:
     source = load_source(Path(path))
     compiled = compile_source(source)
     assert compiled.program is not None

@@ -1,4 +1,4 @@
-"""The law between importing and generating: a behavior that becomes designs, and XABSL again, is the same program."""
+"""Importing a behavior and generating XABSL from the result gives the same program."""
 
 import os
 from collections.abc import Iterable
@@ -39,38 +39,42 @@ ODD = {
 }
 WRITTEN = [path for path in os.environ.get("VICODE_XABSL_BEHAVIORS", "").split(":") if path]
 SLIPS = {"X651", "X652"}
-"""What the original compiler, or its engines, would not read."""
+"""Errors that the original compiler or its engines report."""
 
 
 def texts_of(project: Project) -> dict[str, str]:
-    """The files of a project in XABSL, by their names in its folder."""
+    """Generate the XABSL files of a project, by path relative to its folder."""
     files = generate(project, languages=["xabsl"])
     root = next(file.path for file in files if file.path.endswith("/agents.xabsl")).removesuffix("agents.xabsl")
     return {file.path.removeprefix(root): file.text for file in files}
 
 
 def assert_is_the_same(source: ProgramSource) -> None:
-    made, before = import_checked(source)
+    imported, before = import_checked(source)
     assert before.program is not None
-    project = replace(made.project, languages=("xabsl",))
-    errors = [each for each in check_project(project) if each.severity is Severity.ERROR]
+    project = replace(imported.project, languages=("xabsl",))
+    errors = [finding for finding in check_project(project) if finding.severity is Severity.ERROR]
     assert not errors, render_text(errors)
     after = compile_source(load_texts(texts_of(project)))
     assert after.program is not None, render_text(after.findings)
     assert parse_words(write_code(after.program)) == parse_words(write_code(before.program))
     assert after.program.title == (before.program.title or "behavior")
     assert _slips(after.findings) <= _slips(before.findings)
-    known = {each.rule.code for each in before.findings}
-    new = [each for each in after.findings if each.rule.code not in known and each.severity is not Severity.NOTE]
+    known = {finding.rule.code for finding in before.findings}
+    new = [
+        finding
+        for finding in after.findings
+        if finding.rule.code not in known and finding.severity is not Severity.NOTE
+    ]
     assert not new, render_text(new)
 
 
 def _slips(findings: Iterable[Finding]) -> int:
-    return sum(each.rule.code in SLIPS for each in findings)
+    return sum(finding.rule.code in SLIPS for finding in findings)
 
 
 @pytest.mark.parametrize("name", [name for name in PROGRAMS if (CASES / "programs" / name / "agents.xabsl").exists()])
-def test_whole_programs(name: str) -> None:
+def test_complete_programs(name: str) -> None:
     assert_is_the_same(load_source(CASES / "programs" / name / "agents.xabsl"))
 
 
@@ -85,10 +89,10 @@ def test_random_programs(files: dict[str, tree.FileNode]) -> None:
 
 
 @pytest.mark.parametrize("name", ODD)
-def test_odd_programs(name: str) -> None:
+def test_unusual_programs(name: str) -> None:
     assert_is_the_same(load_texts(ODD[name]))
 
 
 @pytest.mark.parametrize("path", WRITTEN or [str(CASES / "programs" / "drive_circle" / "agents.xabsl")])
-def test_behaviors_of_teams(path: str) -> None:
+def test_team_behaviors(path: str) -> None:
     assert_is_the_same(load_source(Path(path)))

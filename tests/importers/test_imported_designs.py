@@ -1,4 +1,4 @@
-"""What becomes of a behavior: names, comments, groups, declarations; and that the files say the same."""
+"""Imported names, comments, groups and declarations, and their files."""
 
 from dataclasses import replace
 from pathlib import Path
@@ -97,7 +97,7 @@ def texts() -> dict[str, str]:
     }
     files["Options/main.xabsl"] = files["Options/main.xabsl"].replace("@a = 1", "a = 1")
     agents = "/*** Title: Ball player\n Platform: none\n Written in a night. */\n"
-    agents += "".join(f'include "{each}";\n' for each in files)
+    agents += "".join(f'include "{file}";\n' for file in files)
     return {**files, "agents.xabsl": agents + '/** the one */ agent player.one("A player", main);\n// the end\n'}
 
 
@@ -113,7 +113,7 @@ def main(project: Project) -> Design:
     return design
 
 
-def test_what_is_declared_becomes_enumerations_constants_and_components(project: Project) -> None:
+def test_declarations_become_enumerations_constants_and_components(project: Project) -> None:
     (side,) = project.enumerations
     assert (side.name, side.xabsl_name, side.doc, side.internal) == ("ball_side", "ball.side", "where it is", False)
     assert side.element_names == ("left", "right_most", "initial_")
@@ -124,7 +124,7 @@ def test_what_is_declared_becomes_enumerations_constants_and_components(project:
     by_name = project.interfaces()
     ball, kept = by_name["ball_symbols"], by_name["ball_symbols_internal"]
     assert (ball.implementation, ball.title, ball.xabsl_name) == (WORLD, "The ball", "ball.symbols")
-    assert [(each.name, each.xabsl_name, each.type) for each in ball.outputs] == [
+    assert [(output.name, output.xabsl_name, output.type) for output in ball.outputs] == [
         ("ball_distance", "ball.distance", "float"),
         ("ball_odd", "ball.odd", "float"),
         ("class_", "class", "bool"),
@@ -135,19 +135,19 @@ def test_what_is_declared_becomes_enumerations_constants_and_components(project:
     ]
     assert ball.outputs[0].range == (0, 9000)
     assert (ball.outputs[1].range, ball.outputs[1].doc) == (None, "[mm]")
-    assert [each.xabsl_name for each in ball.outputs[-1].arguments or ()] == ["to.x", ""]
-    assert [each.name for each in ball.variables] == ["speed"]
+    assert [output.xabsl_name for output in ball.outputs[-1].arguments or ()] == ["to.x", ""]
+    assert [variable.name for variable in ball.variables] == ["speed"]
     assert kept.implementation == INTERNAL
-    assert [(each.name, each.type) for each in kept.variables] == [("memory", "ball_side")]
+    assert [(variable.name, variable.type) for variable in kept.variables] == [("memory", "ball_side")]
 
 
-def test_an_option_and_a_basic_behavior_of_one_name_are_two_components(project: Project, main: Design) -> None:
+def test_option_and_basic_behavior_with_the_same_name_are_two_components(project: Project, main: Design) -> None:
     assert main.component == "main"
-    behavior = next(each for each in project.components if each.xabsl_name == "main")
+    behavior = next(component for component in project.components if component.xabsl_name == "main")
     assert behavior.component == "main_2"
-    calls = [each for each in main.states[0].actions if isinstance(each, Call)]
+    calls = [action for action in main.states[0].actions if isinstance(action, Call)]
     used = {use.alias: use.component for use in main.uses}
-    assert [used[each.alias] for each in calls] == ["go_to", "main_2", "helper"]
+    assert [used[call.alias] for call in calls] == ["go_to", "main_2", "helper"]
 
 
 def test_agents_have_titles(project: Project) -> None:
@@ -162,7 +162,7 @@ def test_agents_have_titles(project: Project) -> None:
     assert project.doc == "Ball player\nPlatform: none\nWritten in a night."
 
 
-def test_trees_stay_trees(main: Design) -> None:
+def test_nested_decisions_become_groups(main: Design) -> None:
     state = main.states[0]
     assert (state.name, state.xabsl_name, state.doc) == ("search_all", "search.all", "looks around\nfor the ball")
     near, far = state.transitions
@@ -190,23 +190,23 @@ def test_actions_keep_their_order(main: Design) -> None:
         )
     )
     assert second == Assign(values=(("ball_symbols.speed", "-reach"),))
-    assert [each.arguments for each in calls if isinstance(each, Call)] == [
+    assert [call.arguments for call in calls if isinstance(call, Call)] == [
         (("to_x", "ball_symbols.ball_odd"), ("fast", "True")),
         (),
         (("a", "1"), ("side", "ball_symbols_internal.memory")),
     ]
 
 
-def test_every_comment_is_in_the_files() -> None:
-    made, _compiled = import_checked(load_texts(texts()))
-    text = add_comments(save_project_file(made.project), made.comments, is_project_file=True)
+def test_files_contain_every_comment() -> None:
+    imported, _compiled = import_checked(load_texts(texts()))
+    text = add_comments(save_project_file(imported.project), imported.comments, is_project_file=True)
     for words in ("nearer than this", "namespace acts: What it does", "the end", "Title: ignored here"):
         assert words in text
-    for design, about in zip(made.project.designs, made.designs, strict=True):
-        written = add_comments(save_design(design), about.comments)
+    for design, imported_design in zip(imported.project.designs, imported.designs, strict=True):
+        written = add_comments(save_design(design), imported_design.comments)
         assert read_design(written).design == design
         if design.component == "main":
-            assert about.path == "Options/main.yaml"
+            assert imported_design.path == "Options/main.yaml"
             for line in ("# what the file is", "# is it near?", "# faster", "#  action { go.to(); }"):
                 assert line in written
             lines = [line.strip() for line in written.splitlines()]
@@ -215,20 +215,20 @@ def test_every_comment_is_in_the_files() -> None:
 
 
 @pytest.mark.parametrize("program", PROGRAMS)
-def test_the_files_say_what_was_imported(program: str) -> None:
+def test_files_load_as_the_imported_project(program: str) -> None:
     source = load_source(CASES / "programs" / program / "agents.xabsl")
-    made, _compiled = import_checked(source)
+    imported, _compiled = import_checked(source)
     again, _ = import_checked(source)
-    assert again == made
-    text = add_comments(save_project_file(made.project), made.comments, is_project_file=True)
-    assert read_project_file(text).project == replace(made.project, designs=())
-    for design, about in zip(made.project.designs, made.designs, strict=True):
-        read = read_design(add_comments(save_design(design), about.comments))
+    assert again == imported
+    text = add_comments(save_project_file(imported.project), imported.comments, is_project_file=True)
+    assert read_project_file(text).project == replace(imported.project, designs=())
+    for design, imported_design in zip(imported.project.designs, imported.designs, strict=True):
+        read = read_design(add_comments(save_design(design), imported_design.comments))
         assert read.findings == ()
         assert read.design == design
 
 
-def test_a_remark_never_changes_what_a_file_means(tmp_path: Path) -> None:
+def test_comments_do_not_change_the_content_of_a_file(tmp_path: Path) -> None:
     text = "vicode: 1\ncomponent: X\nmodule: |\n  one\n  two\ninitial: a\nstates: {a: {}}\n"
     marked = add_comments(text, [(("module",), "about the module"), (("states", "a"), "evil: {\n\x00 }"), ((), "top")])
     assert read_design(marked).design == read_design(text).design

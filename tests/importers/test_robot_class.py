@@ -1,4 +1,4 @@
-"""The class that an import begins for the robot: it has all that is asked for, and serves both kinds of program."""
+"""The generated robot class works as the world of generated Python and of the XABSL engine."""
 
 from importlib.util import module_from_spec, spec_from_file_location
 from pathlib import Path
@@ -16,7 +16,7 @@ from vicode.xabsl.engine import Engine
 from vicode.xabsl.source_loader import ProgramSource, load_source
 
 
-def made_robot(text: str, folder: Path) -> Any:
+def create_robot(text: str, folder: Path) -> Any:
     path = folder / "robot.py"
     path.write_text(text, encoding="utf-8")
     spec = spec_from_file_location("robot", path)
@@ -28,37 +28,37 @@ def made_robot(text: str, folder: Path) -> Any:
 
 
 @pytest.mark.parametrize("program", [*PROGRAMS, "odd names"])
-def test_it_serves_both(program: str, tmp_path: Path) -> None:
+def test_robot_class_works_with_both_programs(program: str, tmp_path: Path) -> None:
     path = CASES / "programs" / program / "agents.xabsl"
     source: ProgramSource = load_source(path) if program in PROGRAMS else load_texts(texts())
-    made, compiled = import_checked(source)
+    imported, compiled = import_checked(source)
     assert compiled.program is not None
-    robot = made_robot(render_robot_class(made.project), tmp_path)
+    robot = create_robot(render_robot_class(imported.project), tmp_path)
     symbols = declared_symbols(compiled.table)
     engine = Engine(compiled.program, robot, symbols=symbols, clock=lambda: 5)
     agent = compiled.program.agents[0][0]
-    python = GeneratedPythonRun(made.project, compiled, agent, tmp_path)
+    python = GeneratedPythonRun(imported.project, compiled, agent, tmp_path)
     python.root.world = robot
     for component in python.root.components:
         component.world = robot
     for _ in range(5):
         engine.execute()
         python.root.step()
-    active = {to_design_name(each.name): to_design_name(each.state) for each in engine.active_options}
-    states = {type(each).__name__: each.state for each in python.root.components}
+    active = {to_design_name(option.name): to_design_name(option.state) for option in engine.active_options}
+    states = {type(component).__name__: component.state for component in python.root.components}
     assert active
     if program in PROGRAMS:
         assert active.items() <= states.items()
 
 
-def test_a_strangers_words_stay_in_comments(tmp_path: Path) -> None:
+def test_texts_stay_inside_comments(tmp_path: Path) -> None:
     files = texts()
     evil = 'x */ """ \n raise SystemExit'
     files["Symbols/ball.xabsl"] = (
         files["Symbols/ball.xabsl"].replace("how far", evil.replace("*/", "")).replace('"The ball"', '"a\nimport os"')
     )
-    made, _compiled = import_checked(load_texts(files))
-    robot = made_robot(render_robot_class(made.project), tmp_path)
+    imported, _compiled = import_checked(load_texts(files))
+    robot = create_robot(render_robot_class(imported.project), tmp_path)
     assert robot.ball_distance == 0
     assert robot.class_ is False
     assert robot.angle(to_x=1) == 0

@@ -1,4 +1,4 @@
-"""A corridor with bends, and the robot in it: a disc with a differential drive and a laser scanner."""
+"""A corridor with bends and a disc-shaped robot with a differential drive and a laser scanner."""
 
 import math
 from itertools import pairwise
@@ -7,9 +7,9 @@ from random import Random
 RADIUS_M = 0.25
 FARTHEST_M = 20.0
 REGIONS = ("wnw", "nw", "nnw", "n", "nne", "ne", "ene")
-"""Seven equal parts of the half circle ahead, from the left to the right."""
+"""Seven equal sectors of the half circle ahead, from left to right."""
 
-# Corners of the walls, left and right of the way, in metres; the way leads from (0, 0) to the goal.
+# Corners of the left and right wall in metres; the corridor starts at (0, 0).
 _LEFT = ((-1.0, 1.0), (5.0, 1.0), (5.0, 6.0), (12.0, 6.0))
 _RIGHT = ((-1.0, -1.0), (7.0, -1.0), (7.0, 4.0), (12.0, 4.0))
 _GOAL_X = 11.0
@@ -21,13 +21,13 @@ Wall = tuple[Point, Point]
 
 
 class Corridor:
-    """The world: a robot that begins somewhere near the start of the corridor, as the seed decides.
+    """The world; the seed determines the start pose of the robot.
 
     Attributes:
-        x, y: place of the robot in m.
-        heading: in degrees, counter-clockwise.
-        amount_turned: in degrees, either way.
-        bumps: how often the robot met a wall.
+        x, y: Position of the robot in m.
+        heading: In degrees, counter-clockwise.
+        amount_turned: Sum of absolute turns in degrees.
+        bumps: Number of collisions with a wall.
     """
 
     def __init__(self, seed: int = 1) -> None:
@@ -41,7 +41,7 @@ class Corridor:
         left, right = (list(pairwise(side)) for side in (_LEFT, _RIGHT))
         self._walls: list[Wall] = [*left, *right, (_LEFT[0], _RIGHT[0])]
 
-    # What the robot senses: laser_max, and laser_min_n for each region
+    # Sensors: laser_max, and laser_min_n for each region
 
     def __getattr__(self, name: str) -> float:
         region = name.removeprefix("laser_min_")
@@ -53,59 +53,60 @@ class Corridor:
 
     @property
     def laser_max(self) -> float:
-        """The largest of the least distances, in m."""
+        """The maximum of the minimum distances in m."""
         return max(self.__getattr__(f"laser_min_{region}") for region in REGIONS)
 
     # Basic behaviors
 
     def differential_drive(self, *, speed: float, turning_speed: float) -> None:
-        """Drive with m/s and degrees/s until told otherwise."""
+        """Drive with `speed` (m/s) and `turning_speed` (degrees/s) until the next command."""
         if self._now_s >= self._free_at_s:
             self._speed, self._turning_speed = speed, turning_speed
 
     def wait(self, *, time: float) -> None:
-        """Take no command for so many seconds."""
+        """Ignore commands for `time` seconds."""
         if self._now_s >= self._free_at_s:
             self._free_at_s = self._now_s + time
 
-    # How time passes
+    # Simulation
 
     @property
     def finished(self) -> bool:
-        """Whether the robot has come through the corridor."""
+        """Whether the robot has reached the end of the corridor."""
         return self.x >= _GOAL_X
 
     def advance(self, now_ns: int) -> None:
-        """Let time pass until then."""
+        """Simulate until `now_ns`."""
         while self._now_s + _STEP_S <= now_ns / 1e9 + 1e-9:
             self._now_s += _STEP_S
             self._move()
 
     def snapshot(self) -> dict[str, float]:
-        """Where the robot is."""
         return {"x": round(self.x, 2), "y": round(self.y, 2), "heading": round(self.heading, 1)}
 
     def summary(self) -> dict[str, object]:
-        """What came of it."""
         return {"through": self.finished, "bumps": self.bumps, "turned_deg": round(self.amount_turned)}
 
     def _move(self) -> None:
         turned = self._turning_speed * _STEP_S
         self.heading = (self.heading + turned + 180.0) % 360.0 - 180.0
         self.amount_turned += abs(turned)
-        way = self._speed * _STEP_S
-        x, y = self.x + way * math.cos(math.radians(self.heading)), self.y + way * math.sin(math.radians(self.heading))
-        # At a wall the robot slides along it.
-        free = next((at for at in ((x, y), (x, self.y), (self.x, y)) if self._is_free(at)), (self.x, self.y))
+        distance = self._speed * _STEP_S
+        x, y = (
+            self.x + distance * math.cos(math.radians(self.heading)),
+            self.y + distance * math.sin(math.radians(self.heading)),
+        )
+        # The robot slides along walls.
+        free = next((point for point in ((x, y), (x, self.y), (self.x, y)) if self._is_free(point)), (self.x, self.y))
         self.bumps += free != (x, y) and not self._is_at_wall
         self._is_at_wall = free != (x, y)
         self.x, self.y = free
 
-    def _is_free(self, place: Point) -> bool:
-        return all(_distance(place, wall) >= RADIUS_M for wall in self._walls)
+    def _is_free(self, point: Point) -> bool:
+        return all(_distance(point, wall) >= RADIUS_M for wall in self._walls)
 
     def _see(self, degrees: float) -> float:
-        """How far a ray goes."""
+        """Return the length of a ray."""
         ahead = (math.cos(math.radians(degrees)), math.sin(math.radians(degrees)))
         return min((_hit((self.x, self.y), ahead, wall) for wall in self._walls), default=FARTHEST_M)
 
