@@ -60,6 +60,11 @@ RUNNING_ALLOWED = frozenset(
     }
 )
 
+# Public class names that several modules define, and why.
+REPEATED_CLASS_NAMES = {
+    "State": "the value in vicode.model, and the public runtime type of vicode.bica",
+}
+
 FunctionNode = ast.FunctionDef | ast.AsyncFunctionDef
 NESTING_STATEMENTS = (
     ast.If,
@@ -134,6 +139,17 @@ def test_functions_take_few_positional_parameters() -> None:
     counts = {_describe_function(path, node): _count_positional(node) for path in PACKAGE for node in _functions(path)}
     offenders = [f"{place}: {count} parameters" for place, count in counts.items() if count > POSITIONAL_PARAMETERS]
     _assert_none(offenders, f"put `*` before the rest (at most {POSITIONAL_PARAMETERS} positional)")
+
+
+def test_public_class_names_are_unique() -> None:
+    modules: dict[str, list[str]] = {}
+    for path in PACKAGE:
+        for name in _public_classes(path):
+            modules.setdefault(name, []).append(path)
+    repeated = {name: paths for name, paths in modules.items() if len(paths) > 1}
+    offenders = [f"{name}: {', '.join(paths)}" for name, paths in repeated.items() if name not in REPEATED_CLASS_NAMES]
+    _assert_none(offenders, "rename all but one, for example with the subject as a prefix")
+    _assert_none(sorted(REPEATED_CLASS_NAMES.keys() - repeated.keys()), "remove the exception: the name is unique")
 
 
 @pytest.mark.parametrize(("pattern", "mend", "kind"), FORBIDDEN_TEXT, ids=[row[1] for row in FORBIDDEN_TEXT])
@@ -223,6 +239,11 @@ def _is_utf8(content: bytes) -> bool:
 def _has_short_docstring(path: str) -> bool:
     docstring = ast.get_docstring(_parse(path)) or ""
     return 1 <= len(docstring.split("\n\n")[0].splitlines()) <= 3
+
+
+def _public_classes(path: str) -> Iterator[str]:
+    classes = (node.name for node in _parse(path).body if isinstance(node, ast.ClassDef))
+    return (name for name in classes if not name.startswith("_"))
 
 
 def _functions(path: str) -> Iterator[FunctionNode]:
