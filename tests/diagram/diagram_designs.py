@@ -1,4 +1,4 @@
-"""Designs to lay out, and the one question all placements must answer: does anything overlap?"""
+"""Designs for layout tests, and the check that nothing overlaps."""
 
 import random
 from collections.abc import Collection
@@ -23,7 +23,7 @@ def shipped_designs() -> list[Design]:
 
 
 def ring_design(size: int, chords: int = 1) -> Design:
-    """States in a ring, each with so many more transitions to anywhere."""
+    """States in a ring, each with additional transitions."""
     chance = random.Random(size)
     states = [
         State(
@@ -39,7 +39,7 @@ def ring_design(size: int, chords: int = 1) -> Design:
 
 
 def list_boxes(design: Design, placement: NodeLayout) -> dict[str, tuple[Point, Size]]:
-    """Every box that is drawn, under names for messages."""
+    """Every drawn box, with a name for messages."""
     boxes = {f"state {name}": (at, state_size(name)) for name, at in placement.states.items()}
     boxes |= {
         f"use {use.alias}": (placement.uses[use.alias], use_size(use.alias, use.component)) for use in design.uses
@@ -50,7 +50,7 @@ def list_boxes(design: Design, placement: NodeLayout) -> dict[str, tuple[Point, 
 
 
 def find_overlaps(boxes: dict[str, tuple[Point, Size]], apart_from: Collection[str] = ()) -> list[tuple[str, str]]:
-    """Pairs of boxes that overlap, without those of which both are in `apart_from`."""
+    """Pairs of overlapping boxes, except those with both names in `apart_from`."""
     return [
         (one, other)
         for (one, (at, size)), (other, (place, extent)) in combinations(boxes.items(), 2)

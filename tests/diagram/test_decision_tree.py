@@ -1,4 +1,4 @@
-"""Drawings of decisions: every decision is in them, nothing stands on anything else, no line runs through a box."""
+"""Decision trees contain every decision, nothing overlaps, and no edge crosses a box."""
 
 from itertools import combinations, pairwise
 
@@ -51,7 +51,7 @@ def rect_of(group: Shapes) -> Rect:
     return (min(x for x, _ in points), min(y for _, y in points), max(x for x, _ in points), max(y for _, y in points))
 
 
-def test_what_a_tree_says() -> None:
+def test_tree_contents() -> None:
     near = Guard(when="near")
     items = (
         DecisionGroup(
@@ -76,7 +76,7 @@ def test_what_a_tree_says() -> None:
 
 
 @given(st.lists(decisions, min_size=1, max_size=4).map(tuple))
-def test_nothing_stands_in_the_way(items: tuple[Decision, ...]) -> None:
+def test_nothing_overlaps(items: tuple[Decision, ...]) -> None:
     drawing = draw(items)
     assert drawing is not None
     nothing_overlaps(drawing)
@@ -95,13 +95,13 @@ def nothing_overlaps(drawing: VectorImage) -> None:
 
 
 def runs_through(start: tuple[float, float], end: tuple[float, float], box: Rect) -> bool:
-    """Whether a line across or down has a part inside a box; its border may be touched."""
+    """Whether a horizontal or vertical segment enters a box; touching its border is allowed."""
     left, right = sorted((start[0], end[0]))
     top, bottom = sorted((start[1], end[1]))
     return left < box[2] - 1 and right > box[0] + 1 and top < box[3] - 1 and bottom > box[1] + 1
 
 
-def test_nothing_to_decide() -> None:
+def test_no_decisions_give_no_tree() -> None:
     assert draw(()) is None
 
 
@@ -111,7 +111,7 @@ def nested(depth: int, wide: int) -> tuple[Decision, ...]:
     return tuple(DecisionGroup(guard=Guard(when=f"a{index}"), then=nested(depth - 1, wide)) for index in range(wide))
 
 
-def test_of_many_tests_the_first_are_drawn_and_a_box_leads_to_the_rest() -> None:
+def test_many_tests_are_collapsed_into_a_linked_box() -> None:
     drawing = draw(tuple(Transition(to="B", guard=Guard(when=f"a == {number}")) for number in range(MAX_NODES)))
     assert drawing is not None
     boxes = [group for group in drawing.groups if group.css_class != "way"]
@@ -123,19 +123,19 @@ def test_of_many_tests_the_first_are_drawn_and_a_box_leads_to_the_rest() -> None
     assert boxes[-1].title == "stay"
 
 
-def test_of_deep_tests_the_upper_levels_are_drawn_and_boxes_lead_to_the_rest() -> None:
+def test_deep_trees_show_their_upper_levels_and_linked_boxes() -> None:
     drawing = draw(nested(5, 3))
     assert drawing is not None
     boxes = [group for group in drawing.groups if group.css_class != "way"]
     folded = [group for group in boxes if group.css_class == "folded"]
-    # Levels of 3, 9 and 27 tests fit, one of 81 does not; below each of the 27 there are 3 with 3 each and their ends.
+    # Levels of 3, 9 and 27 tests fit, one of 81 does not; each of the 27 has 3 children with 3 each and their ends.
     assert sum(group.css_class == "condition" for group in boxes) == 3 + 9 + 27
     assert [group.title for group in folded] == ["21 more tests, which are not drawn"] * 27
     assert folded[0].href == "#states-A-transitions-0-then-0-then-0-then-0"
 
 
 @given(st.lists(decisions, min_size=1, max_size=4).map(tuple), st.integers(1, 12))
-def test_a_folded_tree_is_a_tree(items: tuple[Decision, ...], most: int) -> None:
+def test_a_collapsed_tree_is_a_tree(items: tuple[Decision, ...], most: int) -> None:
     whole, part = draw(items), draw(items, most)
     assert whole is not None
     assert part is not None
@@ -150,7 +150,7 @@ def test_a_folded_tree_is_a_tree(items: tuple[Decision, ...], most: int) -> None
 
 
 @given(st.lists(decisions, min_size=1, max_size=4).map(tuple))
-def test_every_box_and_line_leads_somewhere_and_says_what_it_is(items: tuple[Decision, ...]) -> None:
+def test_every_box_and_edge_has_a_link_and_a_title(items: tuple[Decision, ...]) -> None:
     drawing = draw(items)
     if drawing is None:
         return

@@ -1,4 +1,4 @@
-"""Who uses whom, drawn: users stand before what they use, circles end, nothing overlaps."""
+"""Dependency diagrams: users come before the components they use, cycles terminate, nothing overlaps."""
 
 from itertools import combinations
 from pathlib import Path
@@ -21,7 +21,7 @@ def xs_of(figure: Diagram) -> dict[str, float]:
     return {node.key: node.center[0] for node in figure.nodes}
 
 
-def test_users_stand_before_what_they_use() -> None:
+def test_users_come_before_the_components_they_use() -> None:
     figure = dependency_diagram(open_project(FORWARD).project)
     xs = xs_of(figure)
     for arrow in figure.edges:
@@ -37,7 +37,7 @@ def test_boxes_do_not_overlap() -> None:
         assert apart or abs(one.center[1] - other.center[1]) >= one.size.height
 
 
-def test_circles_end() -> None:
+def test_cycles_terminate() -> None:
     names = [f"C{index}" for index in range(30)]
     designs = tuple(
         Design(
@@ -52,7 +52,7 @@ def test_circles_end() -> None:
 
 
 def asking_project(count: int) -> Project:
-    """So many designs that call the next one, ask one interface, and require another."""
+    """Designs that call the next one, read from one interface, and require another."""
     designs = tuple(
         Design(
             component=f"D{index}",
@@ -70,7 +70,7 @@ def asking_project(count: int) -> Project:
     )
 
 
-def test_a_dense_figure_leaves_out_what_is_only_asked() -> None:
+def test_a_dense_diagram_omits_components_only_read_from() -> None:
     few, many = asking_project(20), asking_project(60)
     assert not has_omitted_uses(few)
     assert dependency_diagram(few, sparse=True) == dependency_diagram(few)
@@ -80,7 +80,7 @@ def test_a_dense_figure_leaves_out_what_is_only_asked() -> None:
     assert len(dependency_diagram(many, sparse=True).edges) == len(dependency_diagram(many).edges) - 60
 
 
-def test_designs_are_links_and_names_are_only_names() -> None:
+def test_designs_are_links_and_names_are_escaped() -> None:
     evil = '"><script>alert(1)</script>'
     project = Project(name="p", designs=(Design(component=evil, doc=evil, uses=(Use(alias="a", component="B"),)),))
     figure = dependency_diagram(project, lambda component: f"/design/p/{component}")
@@ -90,7 +90,7 @@ def test_designs_are_links_and_names_are_only_names() -> None:
     assert not [element for element in root.iter() if element.tag.endswith("script")]
 
 
-def test_thumbnails_are_small_whatever_they_show() -> None:
+def test_thumbnails_are_small_for_any_design() -> None:
     for design in (*shipped_designs(), Design(component="Nothing"), ring_design(300)):
         text = render_thumbnail(design)
         ElementTree.fromstring(text)

@@ -1,4 +1,4 @@
-"""Drawings taken out: every form is well made, shows what the design says, and holds no markup from it."""
+"""Exported diagrams are well formed, show the design in every format, and contain no markup from it."""
 
 import re
 from io import BytesIO
@@ -24,7 +24,7 @@ DESIGNS = {design.component: design for design in shipped_designs()}
 
 
 def everything() -> Design:
-    """A small design with each thing that is drawn in a way of its own."""
+    """A small design with every kind of element."""
     look = State(
         name="Look",
         requires=("eyes",),
@@ -61,7 +61,7 @@ def test_svg_shows_every_state(component: str) -> None:
     assert {use.alias for use in design.uses} <= set(texts)
 
 
-def test_svg_draws_what_is_chosen() -> None:
+def test_svg_shows_the_selected_states() -> None:
     player = DESIGNS["Player"]
     without_links = texts_of(svg_of(player, ExportOptions(links=False)))
     assert "Kick" in without_links
@@ -71,7 +71,7 @@ def test_svg_draws_what_is_chosen() -> None:
     assert not {"LookForBall", "search_ball", "every state"} & set(part)
 
 
-def test_svg_holds_everything_it_draws() -> None:
+def test_svg_bounds_contain_all_shapes() -> None:
     root = svg_of(DESIGNS["Player"])
     left, top, width, height = map(float, root.attrib["viewBox"].split())
     for element in root.iter(f"{SVG}text"):
@@ -80,7 +80,7 @@ def test_svg_holds_everything_it_draws() -> None:
 
 
 @pytest.mark.parametrize("form", list(ExportFormat))
-def test_hostile_texts_are_only_texts(form: ExportFormat) -> None:
+def test_hostile_texts_are_escaped(form: ExportFormat) -> None:
     states = tuple(
         State(name=name, doc=name, transitions=(Transition(to=name, doc=name, guard=Guard(when=name)),))
         for name in HOSTILE_NAMES
@@ -99,11 +99,11 @@ def test_hostile_texts_are_only_texts(form: ExportFormat) -> None:
 
 
 @pytest.mark.parametrize("form", list(ExportFormat))
-def test_a_design_without_states_can_be_taken_out(form: ExportFormat) -> None:
+def test_a_design_without_states_can_be_exported(form: ExportFormat) -> None:
     assert export_design(Design(component="Nothing"), form)
 
 
-def test_png_has_the_size_asked_for() -> None:
+def test_png_has_the_requested_size() -> None:
     root = svg_of(DESIGNS["Player"])
     content = export_design(DESIGNS["Player"], ExportFormat.PNG, ExportOptions(scale=1.5))
     assert content[:8] == b"\x89PNG\r\n\x1a\n"
@@ -124,7 +124,7 @@ def test_pdf_can_be_read_and_searched() -> None:
     assert export_design(DESIGNS["Player"], ExportFormat.PDF) == content
 
 
-def test_pdf_shows_letters_that_helvetica_has_not() -> None:
+def test_pdf_shows_characters_missing_in_helvetica() -> None:
     state = State(name="A", transitions=(Transition(to="B", doc="α → β", guard=Guard(when="x" * 40)),))
     design = Design(component="Greek", initial="A", states=(state, State(name="B")))
     text = PdfReader(BytesIO(export_design(design, ExportFormat.PDF))).pages[0].extract_text()
@@ -132,7 +132,7 @@ def test_pdf_shows_letters_that_helvetica_has_not() -> None:
 
 
 @pytest.mark.nightly
-def test_large_designs_fit_into_what_the_forms_allow() -> None:
+def test_large_designs_respect_the_limits_of_the_formats() -> None:
     design = ring_design(400)
     page = PdfReader(BytesIO(export_design(design, ExportFormat.PDF))).pages[0]
     assert max(page.mediabox.width, page.mediabox.height) <= 14_400
@@ -163,7 +163,7 @@ def test_mermaid() -> None:
 def test_mermaid_follows_its_grammar(component: str) -> None:
     lines = export_design(DESIGNS[component], ExportFormat.MERMAID).decode().splitlines()
     name = r"(\[\*\]|[A-Za-z]\w*)"
-    # What the lexer of stateDiagram-v2 takes: no colon, semicolon, quote or bracket inside a text.
+    # The lexer of stateDiagram-v2 allows no colon, semicolon, quote or bracket inside a text.
     form = re.compile(
         rf'    ({name} --> {name}( : [^:;"<>{{}}\[\]%#]*(#\d+;[^:;"<>{{}}\[\]%#]*)*)?|state "[^"]+" as \w+|\w+)'
     )
@@ -171,7 +171,7 @@ def test_mermaid_follows_its_grammar(component: str) -> None:
     assert [line for line in lines[5:] if not form.fullmatch(line)] == []
 
 
-def test_what_is_disabled_is_drawn_set_back_and_not_listed() -> None:
+def test_disabled_elements_are_muted_in_pictures_and_omitted_in_text() -> None:
     away = Transition(to="Off", guard=Guard(when="x"))
     design = Design(
         component="Half", initial="On", states=(State(name="On", transitions=(away,)), State(name="Off", disabled=True))
@@ -181,7 +181,7 @@ def test_what_is_disabled_is_drawn_set_back_and_not_listed() -> None:
     assert "Off" not in export_design(design, ExportFormat.MERMAID).decode()
 
 
-def test_a_label_stays_where_it_was_put() -> None:
+def test_a_label_keeps_its_manual_position() -> None:
     def at(label_at: tuple[float, float] | None) -> tuple[float, float]:
         away = Transition(to="B", guard=Guard(when="x"), label_at=label_at)
         states = (State(name="A", at=(0, 0), transitions=(away,)), State(name="B", at=(400, 0)))
@@ -189,7 +189,7 @@ def test_a_label_stays_where_it_was_put() -> None:
         return route.label_position
 
     assert at(None) == pytest.approx((200, 0))
-    # A quarter of the way, and 20 pixels to the right of who walks from A to B.
+    # A quarter along the edge, and 20 pixels to the right of its direction from A to B.
     x, y = at((0.25, 20))
     assert x < 150
     assert y == pytest.approx(20)
@@ -213,7 +213,7 @@ def test_dot_is_drawn_by_graphviz() -> None:
     graph = pygraphviz.AGraph(string=export_design(DESIGNS["Player"], ExportFormat.DOT).decode())
     labels = {node.attr["label"] for node in graph.nodes()}
     assert {"LookForBall", "perception", "every state"} <= labels
-    # A used component is linked, and every transition has an arrow of its own.
+    # A used component is linked, and every transition has an edge.
     assert len(graph.edges()) == len(re.findall("->", export_design(DESIGNS["Player"], ExportFormat.DOT).decode()))
     plain = pygraphviz.AGraph(
         string=export_design(DESIGNS["Player"], ExportFormat.DOT, ExportOptions(links=False)).decode()
@@ -222,7 +222,7 @@ def test_dot_is_drawn_by_graphviz() -> None:
 
 
 @pytest.mark.parametrize(("palette", "selector"), [(LIGHT, ".stage {"), (DARK, '.stage[data-theme="dark"] {')])
-def test_colours_are_those_of_the_canvas(palette: ColorPalette, selector: str) -> None:
+def test_colors_are_those_of_the_canvas(palette: ColorPalette, selector: str) -> None:
     sheet = CANVAS_SHEET.read_text(encoding="utf-8")
     rules = sheet.split(selector, 1)[1].split("}", 1)[0]
     shown = dict(re.findall(r"--([\w-]+):\s*(#[0-9a-f]{6})", rules))
@@ -235,7 +235,7 @@ def test_colours_are_those_of_the_canvas(palette: ColorPalette, selector: str) -
 @pytest.mark.parametrize(
     ("form", "mark"), [(ExportFormat.MERMAID, "%% "), (ExportFormat.PLANTUML, "' "), (ExportFormat.DOT, "// ")]
 )
-def test_a_text_says_what_leads_to_no_state(form: ExportFormat, mark: str) -> None:
+def test_text_formats_mention_transitions_to_missing_states(form: ExportFormat, mark: str) -> None:
     gone = Transition(to="Gone\nend")
     lost = Design(
         component="Lost",
@@ -249,12 +249,12 @@ def test_a_text_says_what_leads_to_no_state(form: ExportFormat, mark: str) -> No
         f"{mark}not drawn: every state to Nowhere, as there is no such state",
         f"{mark}not drawn: A to Gone end, as there is no such state",
     ]
-    # What is left out because only some states are wanted is nobody's mistake.
+    # Transitions omitted because only some states are exported are not mentioned.
     some = export_design(lost, form, ExportOptions(only=frozenset({"B"}))).decode()
     assert "A to" not in some
 
 
-def test_no_label_hides_another_where_there_is_little_room() -> None:
+def test_labels_do_not_overlap_in_dense_diagrams() -> None:
     guard = Guard(when="state_time > 0 and (motion.head_target_reached or motion.head_got_stuck)")
     names = ("A", "B", "C", "D", "E", "F")
     states = tuple(

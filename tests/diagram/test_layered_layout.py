@@ -1,4 +1,4 @@
-"""Places without Graphviz: instant, nothing overlaps, and what has a place keeps it."""
+"""Layered layout without Graphviz: nothing overlaps, and given positions are kept."""
 
 import itertools
 import math
@@ -30,7 +30,7 @@ def designs(draw: st.DrawFn) -> Design:
 
 
 @given(designs())
-def test_given_places_are_kept_and_nothing_else_overlaps(design: Design) -> None:
+def test_given_positions_are_kept_and_nothing_else_overlaps(design: Design) -> None:
     placement = complete_layout(design)
     kept = _given(design)
     boxes = list_boxes(design, placement)
@@ -38,7 +38,7 @@ def test_given_places_are_kept_and_nothing_else_overlaps(design: Design) -> None
     assert not find_overlaps(boxes, apart_from=kept)
 
 
-def test_shipped_designs_without_their_places_do_not_overlap() -> None:
+def test_shipped_designs_without_positions_do_not_overlap() -> None:
     for design in shipped_designs():
         assert not find_overlaps(list_boxes(design, complete_layout(design)))
 

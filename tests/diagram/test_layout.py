@@ -1,4 +1,4 @@
-"""Layout by Graphviz in its worker, and what happens when that fails."""
+"""Layout with Graphviz in its worker process, and its failures."""
 
 import os
 import signal
@@ -28,7 +28,7 @@ def test_shipped_designs_are_laid_out_the_same_each_time_without_overlaps(design
     _assert_sound(design, first)
 
 
-def test_what_layers_show_far_larger_is_placed_in_layers() -> None:
+def test_layers_are_used_if_graphviz_needs_far_more_space() -> None:
     design = ring_design(300, chords=3)
     layout = compute_layout(design, timeout_s=PATIENCE_S)
     assert layout.method == LayoutMethod.LAYERS
@@ -37,7 +37,7 @@ def test_what_layers_show_far_larger_is_placed_in_layers() -> None:
     _assert_sound(design, layout)
 
 
-def test_the_players_layout_is_read_on_a_screen() -> None:
+def test_the_layout_of_the_player_fits_a_screen() -> None:
     (design,) = (design for design in shipped_designs() if design.component == "Player")
     placement = compute_layout(design, timeout_s=PATIENCE_S).layout
     assert screens_needed([*placement.states.values(), *placement.uses.values()]) < 1.1
@@ -57,12 +57,12 @@ def test_a_design_without_states_has_a_layout() -> None:
     assert compute_layout(Design(component="D")).layout.states == {}
 
 
-def test_nothing_needs_a_dot_program(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+def test_layout_needs_no_dot_program(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     monkeypatch.setenv("PATH", str(tmp_path))
     assert compute_layout(ring_design(12), timeout_s=PATIENCE_S).method == LayoutMethod.GRAPHVIZ
 
 
-def test_without_library_and_program_there_are_layers(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+def test_without_library_and_program_layers_are_used(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     monkeypatch.setenv("PATH", str(tmp_path))
     _hide_library(monkeypatch, tmp_path)
     layout = compute_layout(ring_design(12), timeout_s=PATIENCE_S)
@@ -71,7 +71,7 @@ def test_without_library_and_program_there_are_layers(monkeypatch: pytest.Monkey
     _assert_sound(ring_design(12), layout)
 
 
-def test_an_installed_dot_stands_in_for_the_library(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+def test_an_installed_dot_replaces_the_library(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     program = tmp_path / "dot"
     program.write_text(f"#!{sys.executable}\nprint('graph 1 10 10\\nnode s0 5 5 1 1 A\\nnode s1 5 1 1 1 B\\nstop')\n")
     program.chmod(0o700)
@@ -84,7 +84,7 @@ def test_an_installed_dot_stands_in_for_the_library(monkeypatch: pytest.MonkeyPa
     assert below_y == pytest.approx(y + 4 * 72, abs=5)
 
 
-def test_what_takes_too_long_is_placed_in_layers_and_the_next_is_served() -> None:
+def test_a_timeout_falls_back_to_layers_and_the_next_request_is_served() -> None:
     design = ring_design(800, chords=3)
     with LayoutService() as service:
         late = service.compute(design, timeout_s=0.2)
@@ -122,7 +122,7 @@ def test_closing_from_another_thread_ends_a_request() -> None:
     assert layout.method == LayoutMethod.LAYERS
 
 
-def test_a_program_that_cannot_be_started_is_said() -> None:
+def test_a_program_that_cannot_be_started_is_reported() -> None:
     with LayoutService(("no-such-program-here",)) as service:
         assert "No such file" in service.compute(ring_design(3)).note
 
@@ -133,7 +133,7 @@ def test_a_thousand_states_get_an_answer() -> None:
     assert len(set(layout.layout.states.values())) == 1000
 
 
-def test_noise_of_the_library_is_no_answer() -> None:
+def test_output_of_the_library_is_not_a_response() -> None:
     program = (
         "import os; from vicode.diagram.worker import _private_stdout\n"
         "with _private_stdout() as answers: os.write(1, b'noise'); answers.write('answer')"
@@ -143,7 +143,7 @@ def test_noise_of_the_library_is_no_answer() -> None:
 
 
 @pytest.mark.parametrize("command", [WORKER_COMMAND, ("no-such-program-here",)], ids=["graphviz", "layers"])
-def test_only_some_states_move_to_about_where_they_were(command: tuple[str, ...]) -> None:
+def test_selected_states_stay_near_their_old_positions(command: tuple[str, ...]) -> None:
     (design,) = (design for design in shipped_designs() if design.component == "Player")
     moved = {state.name for state in design.states[1:5]}
     before = complete_layout(design)
@@ -157,7 +157,7 @@ def test_only_some_states_move_to_about_where_they_were(command: tuple[str, ...]
     assert not find_overlaps(boxes, apart_from=[name for name in boxes if name.removeprefix("state ") not in moved])
 
 
-def test_a_free_spot_is_kept() -> None:
+def test_a_free_position_is_kept() -> None:
     far = tuple(State(name=name, at=(5000.0, 3000.0)) for name in ("A", "B"))
     design = Design(component="D", states=(*far, State(name="C", at=(0.0, 0.0))))
     after = compute_layout(design, only={"A", "B", "unknown"}, timeout_s=PATIENCE_S).layout.states
@@ -166,7 +166,7 @@ def test_a_free_spot_is_kept() -> None:
     assert not find_overlaps(list_boxes(design, complete_layout(replace(design, states=_at(design, after)))))
 
 
-def test_neither_library_is_imported_by_the_editors_side() -> None:
+def test_the_editor_process_imports_neither_library() -> None:
     program = (
         "import sys, vicode.diagram.layout\nsys.exit(', '.join({'graphviz', 'pygraphviz'} & set(sys.modules)) or None)"
     )
@@ -178,7 +178,7 @@ def _at(design: Design, places: dict[str, tuple[float, float]]) -> tuple[State, 
 
 
 def _hide_library(monkeypatch: pytest.MonkeyPatch, folder: Path) -> None:
-    """A module of the same name that cannot be imported stands in front of the real one."""
+    """Shadow the real library by a module that cannot be imported."""
     (folder / "pygraphviz.py").write_text("raise ImportError('no wheel for this machine')\n")
     monkeypatch.setenv("PYTHONPATH", str(folder))
 

@@ -1,4 +1,4 @@
-"""DOT text: deterministic, one arrow a pair, and no name can break out of it."""
+"""DOT text is deterministic, has one edge per pair, and escapes names."""
 
 import pytest
 
@@ -21,7 +21,7 @@ def test_the_same_design_gives_the_same_text() -> None:
     assert _lines(ring_design(30)) == _lines(ring_design(30))
 
 
-def test_arrows_are_merged_and_self_loops_left_out() -> None:
+def test_edges_are_merged_and_self_loops_omitted() -> None:
     leads = tuple(Transition(to=to, guard=Guard(after="1")) for to in ("B", "B", "A", "nowhere"))
     design = Design(
         component="D", initial="A", states=(State(name="A", transitions=leads), State(name="B", transitions=leads))
@@ -29,13 +29,13 @@ def test_arrows_are_merged_and_self_loops_left_out() -> None:
     assert _arrows(design) == ["s0 -> s1"]
 
 
-def test_arrows_lead_away_from_the_initial_state() -> None:
+def test_edges_point_away_from_the_initial_state() -> None:
     states = (State(name="End", transitions=(Transition(to="Start"),)), State(name="Start", transitions=()))
     design = Design(component="D", initial="Start", states=states)
     assert _arrows(design) == ["s1 -> s0"]
 
 
-def test_links_weigh_less_than_transitions_and_need_no_rank_of_their_own() -> None:
+def test_links_weigh_less_than_transitions_and_need_no_separate_rank() -> None:
     first = State(name="A", requires=("eyes",), modulates=(Call(alias="legs"),), transitions=(Transition(to="B"),))
     design = Design(
         component="D",
@@ -62,7 +62,7 @@ def test_long_names_get_wider_boxes() -> None:
 
 
 @pytest.mark.parametrize("name", HOSTILE_NAMES)
-def test_a_name_stays_in_its_line(name: str) -> None:
+def test_a_name_stays_on_one_line(name: str) -> None:
     states = (State(name=name, transitions=(Transition(to="Other"),)), State(name="Other"))
     plain = _lines(
         Design(component="D", states=(State(name="First", transitions=(Transition(to="Other"),)), states[1]))

@@ -1,4 +1,4 @@
-"""A component among its neighbors: users to the left, used to the right, many of them in one box."""
+"""A component and its neighbors: users on the left, used components on the right, many of them collapsed."""
 
 import pytest
 
@@ -14,7 +14,7 @@ def user_of(name: str, *used: str, asked: tuple[str, ...] = ()) -> Design:
 
 
 def around(project: Project, name: str) -> dict[str, float]:
-    """How far to the right of it each neighbor stands."""
+    """The horizontal offset of each neighbor."""
     names = {design.component for design in project.designs}
     figure = neighborhood_diagram(project, name, names.__contains__)
     known = {node.key for node in figure.nodes}
@@ -28,7 +28,7 @@ def around(project: Project, name: str) -> dict[str, float]:
     return {node.key: node.center[0] for node in figure.nodes}
 
 
-def test_users_stand_to_the_left_and_used_to_the_right() -> None:
+def test_users_are_on_the_left_and_used_components_on_the_right() -> None:
     designs = (
         user_of("Top", "Middle"),
         user_of("Middle", "Leg", "Other", asked=("World", "Helper")),
@@ -38,18 +38,18 @@ def test_users_stand_to_the_left_and_used_to_the_right() -> None:
     places = around(Project(name="p", designs=designs), "Middle")
     assert set(places) == {"Middle", "Top", "Other", "Leg", "Helper"}
     assert places["Top"] < 0 == places["Middle"] < places["Leg"]
-    # Who uses it and is used by it stands among the users; what is only asked is shown if it is a design.
+    # A component that is user and used is among the users; one that is only read from is shown if it is a design.
     assert places["Other"] < 0 < places["Helper"]
 
 
-def test_one_that_is_alone_has_nobody_around_it() -> None:
+def test_an_unused_component_has_no_neighbors() -> None:
     assert around(Project(name="p", designs=(user_of("Alone", asked=("World",)), user_of("Other"))), "Alone") == {
         "Alone": 0
     }
 
 
 @pytest.mark.parametrize("count", [12, 13, 40])
-def test_of_many_the_first_are_shown_and_how_many_more_there_are(count: int) -> None:
+def test_many_neighbors_are_collapsed_into_a_count(count: int) -> None:
     users = tuple(user_of(f"User{index:02}", "Middle") for index in range(count))
     middle = user_of("Middle", *(f"Leg{index:02}" for index in range(count)))
     project = Project(name="p", designs=(*users, middle))

@@ -1,4 +1,4 @@
-"""A design is simulated as a person does it: inputs set, stepped, played, stopped, gone back in, edited meanwhile."""
+"""The simulation panel as a user works with it: inputs, steps, play, breakpoints, stepping back, edits."""
 
 import json
 import re
@@ -46,7 +46,7 @@ def test_an_input_is_set_and_the_state_follows(editor: str, page: Page) -> None:
     guard = page.locator(".guard", has_text="→ FollowBall")
     expect(guard).to_contain_text("false")
 
-    # A switch changes the truth of the guard at once, and the next decision follows it.
+    # A switch changes the guard immediately; the next iteration takes the transition.
     page.get_by_role("switch", name="Perception ball_seen").click()
     expect(guard).to_contain_text("true")
     expect(guard).to_contain_text("perception.ball_seen = true")
@@ -57,14 +57,14 @@ def test_an_input_is_set_and_the_state_follows(editor: str, page: Page) -> None:
     where(page, "0.10 s · iteration 6 · FollowBall")
     expect(page.locator("svg.plot rect.plot-state")).to_have_count(2)
 
-    # Back to the past, with its inputs, and on again.
+    # Back to the past with its inputs, and forward again.
     page.keyboard.press("Control+Shift+F10")
     expect(active(page)).to_have_attribute("data-id", "LookForBall")
     expect(page.get_by_text("Viewing the past: 1 iteration before the latest.")).to_be_visible()
     page.keyboard.press("F10")
     expect(active(page)).to_have_attribute("data-id", "FollowBall")
 
-    # A number beside a slider, and who is active.
+    # The number next to a slider, and the active components.
     age = page.get_by_role("spinbutton", name="Perception ball_age, number")
     age.fill("3.5")
     expect(page.locator(".guard", has_text="→ LookForBall")).to_contain_text("ball_age = 3.5")
@@ -86,7 +86,7 @@ def test_breakpoints_stop_a_run(editor: str, page: Page) -> None:
     page.get_by_role("switch", name="Perception ball_seen").click()
     expect(page.get_by_text("Stopped on entering FollowBall")).to_be_visible()
 
-    # One on a transition, by the gutter of its guard.
+    # A breakpoint on a transition, by the gutter of its guard.
     page.get_by_role("button", name="Breakpoint on → LookForBall").click()
     expect(page.locator('g.chip[data-id="FollowBall/0"] .breakpoint-sign')).to_have_count(1)
     page.get_by_role("spinbutton", name="Perception ball_age, number").fill("9")
@@ -96,13 +96,13 @@ def test_breakpoints_stop_a_run(editor: str, page: Page) -> None:
     expect(state(page, "FollowBall").locator(".breakpoint-sign")).to_have_count(0)
 
 
-def test_an_edit_ends_the_run_and_offers_to_start_again(editor: str, page: Page) -> None:
+def test_an_edit_ends_the_run_and_offers_restart(editor: str, page: Page) -> None:
     open_simulation(page, editor)
     page.keyboard.press("F10")
     expect(active(page)).to_have_attribute("data-id", "LookForBall")
     select_state(page, "LookForBall")
 
-    # A move changes nothing that runs; another initial state does.
+    # Moving a box does not affect the run; another initial state does.
     page.keyboard.press("ArrowRight")
     select_state(page, "FollowBall")
     page.keyboard.press("F10")
@@ -128,7 +128,7 @@ def test_the_player_plays_in_its_own_world(editor: str, page: Page) -> None:
     expect(page.get_by_text("Viewing the past:")).to_be_visible()
 
 
-def test_code_that_never_ends_is_told_with_its_line(editor: str, page: Page, project: Path) -> None:
+def test_an_endless_loop_in_the_panel_is_reported_with_its_line(editor: str, page: Page, project: Path) -> None:
     file = project / "forward" / "player.yaml"
     text = file.read_text()
     file.write_text(text.replace('log = logging.getLogger("player")', 'print("<b>loaded</b>")\n    log = None'))
@@ -148,7 +148,7 @@ def test_code_that_never_ends_is_told_with_its_line(editor: str, page: Page, pro
     )
 
 
-def test_a_recorded_trace_is_looked_at(editor: str, page: Page, tmp_path: Path) -> None:
+def test_a_recorded_trace_is_viewed(editor: str, page: Page, tmp_path: Path) -> None:
     trace = tmp_path / "trace.jsonl"
     root = {"component": "Player", "by": None, "link": "root", "changed_from": None, "values": {"kicks": 0}}
     lines = [{"iteration": 1, "time_ns": 0, "tree": [{**root, "state": "LookForBall"}]}]
@@ -189,7 +189,7 @@ def test_the_menu_runs_to_a_state_and_sets_breakpoints(editor: str, page: Page) 
 
 
 @pytest.mark.nightly
-def test_a_long_run_can_be_paused_and_time_gone_through(editor: str, page: Page) -> None:
+def test_a_long_run_is_paused_and_browsed(editor: str, page: Page) -> None:
     open_simulation(page, editor)
     page.keyboard.press("Shift+F6")
     where(page, "iteration 1")
@@ -207,7 +207,7 @@ def test_a_long_run_can_be_paused_and_time_gone_through(editor: str, page: Page)
     where(page, "0.02 s · iteration 2 ·")
 
 
-def test_texts_from_strangers_stay_texts_while_simulated(editor: str, page: Page, project: Path) -> None:
+def test_untrusted_texts_are_escaped_in_the_simulation(editor: str, page: Page, project: Path) -> None:
     evil = "<img src=x onerror=document.title='owned'>\"' {{7*7}}"
     quoted = json.dumps(evil)
     file = project / "forward" / "project.yaml"
@@ -242,7 +242,7 @@ def test_texts_from_strangers_stay_texts_while_simulated(editor: str, page: Page
 
 @pytest.mark.nightly
 @pytest.mark.parametrize("colours", ["light", "dark"])
-def test_axe_finds_nothing_while_it_runs(editor: str, page: Page, colours: str) -> None:
+def test_axe_reports_nothing_during_a_simulation(editor: str, page: Page, colours: str) -> None:
     page.emulate_media(color_scheme="dark" if colours == "dark" else "light", reduced_motion="reduce")
     open_simulation(page, editor)
     found = complaints(page)

@@ -1,4 +1,4 @@
-"""What keeps user code within bounds."""
+"""Limits on user code."""
 
 import time
 
@@ -7,7 +7,7 @@ import pytest
 from vicode.simulation.limits import MAX_LINES, CapturedOutput, TimeLimitError, time_limit
 
 
-def test_prints_are_kept_line_by_line() -> None:
+def test_output_is_captured_by_line() -> None:
     prints = CapturedOutput()
     print("one\ntwo", file=prints)
     print("th", end="", file=prints)
@@ -16,7 +16,7 @@ def test_prints_are_kept_line_by_line() -> None:
     assert prints.drain() == ([], 0)
 
 
-def test_more_prints_are_counted() -> None:
+def test_omitted_lines_are_counted() -> None:
     prints = CapturedOutput()
     for number in range(MAX_LINES + 7):
         print(number, file=prints)
@@ -31,7 +31,7 @@ def test_a_long_line_is_cut() -> None:
     assert len(prints.drain()[0][0]) == 2000
 
 
-def test_time_is_up_in_the_middle_of_a_loop() -> None:
+def test_the_time_limit_interrupts_a_loop() -> None:
     with pytest.raises(TimeLimitError), time_limit(0.05):
         _loop()
 
@@ -41,6 +41,6 @@ def _loop() -> None:
         time.sleep(0.001)
 
 
-def test_enough_time_is_enough() -> None:
+def test_code_within_the_time_limit_is_not_interrupted() -> None:
     with time_limit(30):
         pass

@@ -1,4 +1,4 @@
-"""The protocol: what is written is read again, and junk is refused without a traceback."""
+"""The protocol round-trips, and malformed lines are rejected without a traceback."""
 
 import json
 
@@ -38,7 +38,7 @@ SETUP = Setup(
 MOMENT = IterationResult(iteration=1, time_ns=0, state="Dark", prints=["Ä\n"], guards={"Dark/0": {"holds": None}})
 
 
-def test_setup_and_requests_are_read_as_written() -> None:
+def test_setup_and_requests_round_trip() -> None:
     assert decode_setup(encode_setup(SETUP)) == SETUP
     request = Request(
         kind="run", count=3, inputs={"Eye": {"seen": True}}, stops=StopConditions(states=("Lit",), errors=True)
@@ -56,13 +56,13 @@ def test_setup_and_requests_are_read_as_written() -> None:
         Failed(message="no", error={"line": 3}, prints=["x"]),
     ],
 )
-def test_answers_are_read_as_written(answer: Ready | IterationResult | Inspected | Stopped | Failed) -> None:
+def test_responses_round_trip(answer: Ready | IterationResult | Inspected | Stopped | Failed) -> None:
     line = encode_response(answer)
     assert line.count(b"\n") == 1
     assert decode_response(line) == answer
 
 
-def test_a_moment_too_large_to_tell_leaves_its_values_out() -> None:
+def test_an_iteration_above_the_size_limit_omits_its_values() -> None:
     large = IterationResult(iteration=2, time_ns=5, state="Lit", world="x" * MAX_MESSAGE_BYTES)
     told = decode_response(encode_response(large))
     assert isinstance(told, IterationResult)
@@ -86,7 +86,7 @@ def test_a_moment_too_large_to_tell_leaves_its_values_out() -> None:
         b"[" * 100_000,
     ],
 )
-def test_junk_is_refused(line: bytes) -> None:
+def test_malformed_lines_are_rejected(line: bytes) -> None:
     for decode in (decode_response, decode_request, decode_setup):
         with pytest.raises(ProtocolError):
             decode(line)
@@ -101,7 +101,7 @@ _NAMES = st.sampled_from(["kind", "iteration", "time_ns", "state", "tree", "guar
 
 
 @given(st.dictionaries(_NAMES, _JSON | st.sampled_from(["ready", "iteration", "failed"])))
-def test_no_line_raises_anything_else(plain: dict[str, object]) -> None:
+def test_any_line_decodes_or_raises_a_protocol_error(plain: dict[str, object]) -> None:
     line = json.dumps(plain).encode()
     for decode in (decode_response, decode_request, decode_setup):
         try:
@@ -110,7 +110,7 @@ def test_no_line_raises_anything_else(plain: dict[str, object]) -> None:
             continue
 
 
-def test_reasons_to_rest_have_an_order() -> None:
+def test_stop_reasons_have_priorities() -> None:
     moment = IterationResult(iteration=4, time_ns=0, state="Lit", changed_from="Dark", transition="Dark/0", done=True)
     every = StopConditions(states=("Lit",), transitions=("Dark/0",), changes=True)
     assert stop_reason(moment, every, was_done=False) == "transition"

@@ -1,4 +1,4 @@
-"""A small project with all that a simulation can meet: every type of input, a function, code, a used design."""
+"""A small project with everything a simulation handles: every type of input, a function, code, a used design."""
 
 import asyncio
 from collections.abc import Awaitable, Callable
@@ -101,7 +101,7 @@ def write_lamps(folder: Path, lamp: str = LAMP) -> Path:
 
 
 def prepare_lamp(folder: Path, *, stubbed: frozenset[str] | None = None, **wish: object) -> PreparedRun:
-    """What runs the lamp; hand-written components are stood in unless told otherwise."""
+    """The prepared run of the lamp; hand-written components are stubs by default."""
     opened = open_project(folder)
     design = opened.project.design("Lamp")
     assert design is not None
@@ -110,7 +110,7 @@ def prepare_lamp(folder: Path, *, stubbed: frozenset[str] | None = None, **wish:
 
 
 def simulate(stage: PreparedRun, folder: Path, act: Callable[[Simulation], Awaitable[None]]) -> None:
-    """Let a test act on a simulation, and end it whatever happens."""
+    """Run a test on a simulation and end it in any case."""
 
     async def run() -> None:
         simulation = Simulation(prepared=stage, cwd=folder)
@@ -124,6 +124,5 @@ def simulate(stage: PreparedRun, folder: Path, act: Callable[[Simulation], Await
 
 
 def recorded_iterations(simulation: Simulation) -> list[IterationResult]:
-    """Every recorded moment."""
     moments = (simulation.recording.iteration(number) for number in range(1, len(simulation.recording) + 1))
     return [moment for moment in moments if moment is not None]

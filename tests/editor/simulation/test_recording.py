@@ -1,4 +1,4 @@
-"""The recorded past and what is drawn of it."""
+"""Recorded iterations and their plots."""
 
 import math
 from xml.etree import ElementTree as ET
@@ -23,7 +23,7 @@ def recorded(*states: str) -> Recording:
     return recording
 
 
-def test_moments_are_kept_whole() -> None:
+def test_iterations_are_stored_completely() -> None:
     recording = recorded("Dark", "Lit", "Lit")
     assert recording.iteration(2) == moment(2, "Lit", turns=2, lit=True, word="x")
     assert recording.iteration(0) is recording.iteration(4) is None
@@ -32,7 +32,7 @@ def test_moments_are_kept_whole() -> None:
     assert recording.latest_transition(1) == ""
 
 
-def test_the_way_is_told_as_runs_between_inputs() -> None:
+def test_the_past_is_split_into_segments_between_inputs() -> None:
     recording = recorded("Dark", "Dark", "Lit", "Lit")
     assert list(recording.input_segments(4)) == [({"Eye": {"light": 1}}, 2), ({"Eye": {"light": 3}}, 2)]
     assert list(recording.input_segments(3)) == [({"Eye": {"light": 1}}, 2), ({"Eye": {"light": 3}}, 1)]
@@ -40,7 +40,7 @@ def test_the_way_is_told_as_runs_between_inputs() -> None:
     assert recording.inputs_at(2) == {"Eye": {"light": 1}}
 
 
-def test_what_came_after_can_be_cut() -> None:
+def test_later_iterations_can_be_truncated() -> None:
     recording = recorded("Dark", "Dark", "Lit", "Lit")
     recording.truncate(2)
     assert len(recording) == 2
@@ -52,7 +52,7 @@ def test_what_came_after_can_be_cut() -> None:
     assert recording.names == ("Lamp.turns", "Lamp.lit", "Lamp.late")
 
 
-def test_a_plot_is_sound_xml_whatever_the_names() -> None:
+def test_a_plot_is_valid_xml_for_any_name() -> None:
     states = ["Dark", "<b>&\"'", "Dark"]
     drawing = render_plot([PlotSeries(name="</svg>", values=[1.0, math.nan, 3.0])], states, 2)
     root = ET.fromstring(drawing)
@@ -60,7 +60,7 @@ def test_a_plot_is_sound_xml_whatever_the_names() -> None:
     assert titles == ["Dark", "<b>&\"'", "Dark"]
 
 
-def test_a_plot_of_many_moments_is_thinned_and_keeps_its_peaks() -> None:
+def test_a_long_plot_is_downsampled_and_keeps_its_peaks() -> None:
     values = [0.0] * 20_000
     values[12_345] = 1.0
     drawing = render_plot([PlotSeries(name="x", values=values)], ["Dark"] * 20_000, 20_000)
@@ -68,7 +68,7 @@ def test_a_plot_of_many_moments_is_thinned_and_keeps_its_peaks() -> None:
     assert "18.0H" in drawing
 
 
-def test_states_are_drawn_as_runs() -> None:
+def test_states_are_drawn_as_spans() -> None:
     assert state_runs(["A", "A", "B", "A"]) == [("A", 0, 2), ("B", 2, 3), ("A", 3, 4)]
     assert band_labels(["A"] * 99 + ["B"]) == [("A", 0.0)]
     assert render_plot([], [], 0).startswith("<svg")

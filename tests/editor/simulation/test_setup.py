@@ -1,4 +1,4 @@
-"""What a person can set, and when a design means something else."""
+"""Inputs of a simulation, and edits that change its behavior."""
 
 from dataclasses import replace
 from pathlib import Path
@@ -17,7 +17,7 @@ def lamps(tmp_path: Path) -> Path:
     return write_lamps(tmp_path / "lamps")
 
 
-def test_inputs_are_known_from_the_declarations(lamps: Path) -> None:
+def test_inputs_come_from_the_declarations(lamps: Path) -> None:
     inputs = {each.key: each for each in prepare_lamp(lamps).inputs}
     assert list(inputs) == [
         ("", "patience"),
@@ -32,13 +32,13 @@ def test_inputs_are_known_from_the_declarations(lamps: Path) -> None:
     assert (patience.type, patience.initial, patience.range, patience.unit) == ("float", 0.06, (0, 2), "s")
     assert inputs["Eye", "seen"].initial is False
     assert inputs["Eye", "seen"].doc == "Somebody is there."
-    # Without a first value it is 0, or the nearest in the range.
+    # Without an initial value it is 0, or the nearest value in the range.
     assert (inputs["Eye", "count"].type, inputs["Eye", "count"].initial) == ("int", 2)
     assert inputs["Eye", "mood"].options == ("Mood.calm", "Mood.angry")
     assert inputs["Eye", "toward"].arguments == ("x",)
 
 
-def test_stood_in_designs_can_be_done(lamps: Path) -> None:
+def test_stubbed_designs_can_be_done(lamps: Path) -> None:
     inputs = prepare_lamp(lamps, stubbed=frozenset({"Timer"})).inputs
     assert [each.key for each in inputs] == [("", "patience"), ("Timer", "is_done")]
 
@@ -55,14 +55,14 @@ def test_stood_in_designs_can_be_done(lamps: Path) -> None:
         (("Eye", "mood"), ["Mood.angry"], None),
     ],
 )
-def test_values_from_a_browser_are_taken_by_type(
+def test_values_from_the_browser_are_converted_by_type(
     lamps: Path, key: tuple[str, str], given: object, taken: object
 ) -> None:
     each = next(each for each in prepare_lamp(lamps).inputs if each.key == key)
     assert each.accept(given) == taken
 
 
-def test_places_do_not_change_the_meaning(lamps: Path) -> None:
+def test_positions_do_not_change_the_behavior(lamps: Path) -> None:
     project = open_project(lamps).project
     design = project.design("Lamp")
     assert design is not None
@@ -76,14 +76,14 @@ def test_places_do_not_change_the_meaning(lamps: Path) -> None:
     assert behavior_key(other, design) != before
 
 
-def test_used_components_are_found_through_designs(lamps: Path) -> None:
+def test_used_components_include_indirect_ones(lamps: Path) -> None:
     project = open_project(lamps).project
     design = project.design("Lamp")
     assert design is not None
     assert used_components(project, design) == ("Eye", "Bulb", "Timer")
 
 
-def test_breakpoints_are_set_all_or_taken_away_all() -> None:
+def test_breakpoints_are_toggled_together() -> None:
     dark, first = ItemRef(kind="states", id="Dark"), ItemRef(kind="transitions", id="Dark/0")
     some = Breakpoints().toggled(dark)
     both = some.toggled(dark, first, ItemRef(kind="components", id="eye"))
@@ -92,7 +92,7 @@ def test_breakpoints_are_set_all_or_taken_away_all() -> None:
     assert both.stop_conditions(extra_state="Lit").states == ("Dark", "Lit")
 
 
-def test_breakpoints_go_with_their_things(lamps: Path) -> None:
+def test_breakpoints_are_removed_with_their_items(lamps: Path) -> None:
     design = open_project(lamps).project.design("Lamp")
     assert design is not None
     kept = ItemRef(kind="transitions", id="@common/0")

@@ -1,4 +1,4 @@
-"""A simulation steps, goes back and on, and tells what holds."""
+"""Steps of a simulation, its past, and its guards."""
 
 import asyncio
 import os
@@ -19,7 +19,7 @@ def lamps(tmp_path: Path) -> Path:
     return write_lamps(tmp_path / "lamps")
 
 
-def test_an_input_leads_to_another_state(lamps: Path) -> None:
+def test_an_input_changes_the_state(lamps: Path) -> None:
     async def act(simulation: Simulation) -> None:
         assert await simulation.step() == "count"
         assert simulation.shown_iteration is not None
@@ -42,7 +42,7 @@ def test_an_input_leads_to_another_state(lamps: Path) -> None:
     simulate(prepare_lamp(lamps), lamps, act)
 
 
-def test_code_is_never_run_to_look_at_it(lamps: Path) -> None:
+def test_evaluating_guards_runs_no_user_code(lamps: Path) -> None:
     async def act(simulation: Simulation) -> None:
         await simulation.set_input(SEEN, True)
         await simulation.step(2)
@@ -58,20 +58,20 @@ def test_code_is_never_run_to_look_at_it(lamps: Path) -> None:
     simulate(prepare_lamp(lamps), lamps, act)
 
 
-def test_functions_of_components_that_run_themselves_are_not_called_to_look(lamps: Path) -> None:
+def test_evaluating_guards_calls_no_functions_of_running_components(lamps: Path) -> None:
     async def act(simulation: Simulation) -> None:
         await simulation.step(30)
         assert simulation.shown_iteration is not None
         assert simulation.shown_iteration.state == "Lit"
         assert simulation.guards["Lit/2"]["reads"] == {"eye.toward(x=2.0)": 4.0}
-        # The design asked once, to test its guard; looking did not.
+        # The design called the function once to test its guard; evaluating guards did not.
         assert simulation.shown_iteration.prints == ["asked"]
 
     simulate(prepare_lamp(lamps, stubbed=frozenset({"Bulb"})), lamps, act)
 
 
 @pytest.mark.parametrize("back", [1, 7, 24])
-def test_going_back_and_on_gives_the_same_past(lamps: Path, back: int) -> None:
+def test_stepping_back_and_forward_gives_the_same_past(lamps: Path, back: int) -> None:
     async def act(simulation: Simulation) -> None:
         changes = {3: True, 9: False, 14: True}
         for number in range(1, 25):
@@ -87,7 +87,7 @@ def test_going_back_and_on_gives_the_same_past(lamps: Path, back: int) -> None:
                 await simulation.set_input(SEEN, changes[number])
             await simulation.step()
         assert recorded_iterations(simulation) == before
-        # The same once more by a new process, which repeats the way up to there.
+        # Again in a new process, which replays the inputs up to here.
         simulation.step_back(back)
         simulation.truncate()
         assert len(simulation.recording) == 24 - back
@@ -101,7 +101,7 @@ def test_going_back_and_on_gives_the_same_past(lamps: Path, back: int) -> None:
     simulate(prepare_lamp(lamps), lamps, act)
 
 
-def test_an_input_in_the_past_begins_another_future(lamps: Path) -> None:
+def test_an_input_in_the_past_discards_later_iterations(lamps: Path) -> None:
     async def act(simulation: Simulation) -> None:
         await simulation.step(10)
         before = recorded_iterations(simulation)
@@ -119,7 +119,7 @@ def test_an_input_in_the_past_begins_another_future(lamps: Path) -> None:
     simulate(prepare_lamp(lamps), lamps, act)
 
 
-def test_runs_rest_at_breakpoints_also_in_the_past(lamps: Path) -> None:
+def test_runs_stop_at_breakpoints_also_in_the_past(lamps: Path) -> None:
     async def act(simulation: Simulation) -> None:
         await simulation.set_input(SEEN, True)
         await simulation.set_input(("Eye", "light"), 50)
@@ -136,7 +136,7 @@ def test_runs_rest_at_breakpoints_also_in_the_past(lamps: Path) -> None:
     simulate(prepare_lamp(lamps), lamps, act)
 
 
-def test_a_final_state_is_told_once(lamps: Path) -> None:
+def test_a_final_state_stops_the_run_once(lamps: Path) -> None:
     async def act(simulation: Simulation) -> None:
         await simulation.set_input(("Eye", "mood"), "Mood.angry")
         assert await simulation.step(10) == "done"
@@ -146,7 +146,7 @@ def test_a_final_state_is_told_once(lamps: Path) -> None:
     simulate(prepare_lamp(lamps), lamps, act)
 
 
-def test_parameters_and_stood_in_designs_are_set(lamps: Path) -> None:
+def test_parameters_and_stubbed_designs_can_be_set(lamps: Path) -> None:
     async def act(simulation: Simulation) -> None:
         await simulation.set_input(SEEN, True)
         await simulation.set_input(("", "patience"), 1.5)
@@ -177,7 +177,7 @@ def test_a_function_has_values_for_some_arguments(lamps: Path) -> None:
     simulate(prepare_lamp(lamps), lamps, act)
 
 
-def test_values_that_are_none_are_refused(lamps: Path) -> None:
+def test_invalid_values_are_rejected(lamps: Path) -> None:
     async def act(simulation: Simulation) -> None:
         for key, value in [
             (SEEN, "yes"),
@@ -192,7 +192,7 @@ def test_values_that_are_none_are_refused(lamps: Path) -> None:
     simulate(prepare_lamp(lamps), lamps, act)
 
 
-def test_the_process_goes_with_the_simulation(lamps: Path) -> None:
+def test_the_process_ends_with_the_simulation(lamps: Path) -> None:
     async def act(simulation: Simulation) -> None:
         await simulation.start()
         runner = simulation._process

@@ -1,4 +1,4 @@
-"""A recorded trace is looked at, or drives the inputs."""
+"""A recorded trace is viewed, or provides the inputs."""
 
 import json
 from pathlib import Path
@@ -58,7 +58,7 @@ def test_a_trace_drives_the_inputs_to_the_same_states(lamps: Path) -> None:
     simulate(stage, lamps, drive)
 
 
-def test_a_trace_is_looked_at_without_a_process(lamps: Path) -> None:
+def test_viewing_a_trace_needs_no_process(lamps: Path) -> None:
     step = {"component": "Lamp", "state": "Lit", "changed_from": "Dark", "transition": None, "by": None}
     first = {"component": "Lamp", "state": "Dark", "changed_from": None, "by": None}
     text = "\n".join(
@@ -94,6 +94,6 @@ def test_a_trace_is_looked_at_without_a_process(lamps: Path) -> None:
         ),
     ],
 )
-def test_what_is_no_trace_is_refused_in_words(lamps: Path, text: str, words: str) -> None:
+def test_an_invalid_trace_is_rejected_with_a_reason(lamps: Path, text: str, words: str) -> None:
     with pytest.raises(TraceError, match=words):
         read_trace(text, lamp_of(lamps))

@@ -1,4 +1,4 @@
-"""User code that fails, hangs, floods or dies is told in words with its place, and nothing of it reaches the editor."""
+"""User code that fails, hangs, prints too much or exits is reported with its location and cannot affect the editor."""
 
 import subprocess
 import sys
@@ -42,7 +42,7 @@ def failure_words(simulation: Simulation) -> str:
     return code_error_view(simulation.prepared.design, failure.error).text
 
 
-def test_an_endless_loop_is_told_with_its_line(tmp_path: Path) -> None:
+def test_an_endless_loop_is_reported_with_its_line(tmp_path: Path) -> None:
     folder = lamp(tmp_path, "while True: pass")
 
     async def act(simulation: Simulation) -> None:
@@ -51,7 +51,7 @@ def test_an_endless_loop_is_told_with_its_line(tmp_path: Path) -> None:
         assert simulation.cursor == 1
         words = failure_words(simulation)
         assert words.startswith("Lamp, state Lit, Lit.actions, line 2: did not end within 1.5 s")
-        # The past is still there, and a step from it meets the same end.
+        # The past is still available, and a step from it fails in the same way.
         simulation.step_back()
         assert await simulation.step(5) == ""
         assert simulation.cursor == 1
@@ -80,7 +80,7 @@ def test_a_loop_that_catches_everything_is_killed(tmp_path: Path, monkeypatch: p
         ("os.kill(os.getpid(), 11)", "lamp, Lit.actions, line 2: was ended by SIGSEGV"),
     ],
 )
-def test_a_death_is_told(tmp_path: Path, code: str, words: str) -> None:
+def test_an_exit_of_the_process_is_reported(tmp_path: Path, code: str, words: str) -> None:
     folder = lamp(tmp_path, code)
 
     async def act(simulation: Simulation) -> None:
@@ -90,7 +90,7 @@ def test_a_death_is_told(tmp_path: Path, code: str, words: str) -> None:
     simulate(prepare_lamp(folder), folder, act)
 
 
-def test_an_exception_is_told_and_the_run_goes_on(tmp_path: Path) -> None:
+def test_an_exception_is_reported_and_the_run_continues(tmp_path: Path) -> None:
     folder = lamp(tmp_path, "1 / 0")
 
     async def act(simulation: Simulation) -> None:
@@ -105,7 +105,7 @@ def test_an_exception_is_told_and_the_run_goes_on(tmp_path: Path) -> None:
     simulate(prepare_lamp(folder), folder, act)
 
 
-def test_a_flood_of_prints_is_bounded(tmp_path: Path) -> None:
+def test_excessive_output_is_limited(tmp_path: Path) -> None:
     folder = lamp(tmp_path, "for n in range(50000): print('x' * 50)")
 
     async def act(simulation: Simulation) -> None:
@@ -126,7 +126,7 @@ def test_writing_past_python_does_not_reach_the_protocol(tmp_path: Path) -> None
     simulate(prepare_lamp(folder), folder, act)
 
 
-def test_memory_is_bounded(tmp_path: Path) -> None:
+def test_memory_is_limited(tmp_path: Path) -> None:
     folder = lamp(tmp_path, "self.much = bytearray(2 << 30)")
 
     async def act(simulation: Simulation) -> None:
@@ -137,7 +137,7 @@ def test_memory_is_bounded(tmp_path: Path) -> None:
     simulate(prepare_lamp(folder, memory_bytes=300 << 20), folder, act)
 
 
-def test_what_cannot_be_loaded_is_told(tmp_path: Path) -> None:
+def test_code_that_cannot_be_loaded_is_reported(tmp_path: Path) -> None:
     folder = write_lamps(tmp_path / "lamps")
     (folder / "hands.py").write_text("import nothing_of_this_name\n")
 
@@ -150,14 +150,14 @@ def test_what_cannot_be_loaded_is_told(tmp_path: Path) -> None:
     simulate(prepare_lamp(folder, stubbed=frozenset()), folder, act)
 
 
-def test_a_design_with_mistakes_is_not_started(tmp_path: Path) -> None:
+def test_a_design_with_errors_is_not_started(tmp_path: Path) -> None:
     states = "{Dark: {transitions: [{to: Dark, when: nobody}]}}"
     folder = write_lamps(tmp_path / "lamps", f"vicode: 1\ncomponent: Lamp\ninitial: Dark\nstates: {states}\n")
     with pytest.raises(NotReadyError, match=r"Lamp: .*nobody.* Fix it, then restart"):
         prepare_lamp(folder)
 
 
-def test_code_that_reads_the_real_time_is_noticed(tmp_path: Path) -> None:
+def test_code_that_reads_the_real_time_is_detected(tmp_path: Path) -> None:
     folder = lamp(tmp_path, "self.noise = time.time_ns()")
 
     async def act(simulation: Simulation) -> None:
@@ -218,7 +218,7 @@ asyncio.run(main())
 
 
 def state_of(pid: int) -> str:
-    """The letter of a process' state; Z is one that only waits to be forgotten."""
+    """The state letter of a process; Z is a zombie."""
     try:
         return Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0]
     except OSError:
