@@ -90,10 +90,10 @@ def test_files_are_laid_out_once(tmp_path: Path, capsys: pytest.CaptureFixture[s
 @pytest.mark.parametrize(
     ("name", "text", "told"),
     [
-        ("code", "0 0 1", "the code ends too early"),
-        ("symbols", "din", "line 1: words are missing"),
+        ("code", "0 0 1", "unexpected end of the code"),
+        ("symbols", "din", "line 1: missing words"),
         ("inputs", "time,nothing\n0,3\n", "no input symbol nothing"),
-        ("inputs", "time,amount_turned\n0,many\n", "many is no number"),
+        ("inputs", "time,amount_turned\n0,many\n", "many is not a number"),
         ("inputs", "time,amount_turned\n0,3,4\n", "line 2: more cells than columns"),
         ("symbols", "bb turn 1 d turn.speed\n", "decimal input symbol amount_turned is not registered"),
     ],

@@ -191,7 +191,7 @@ def test_an_editor_is_served(editor: LspClient) -> None:
     assert [each["newText"] for each in edit[editor.uri("options/play.xabsl")]] == ["foot.side.right"]
     taken = {**editor.at("symbols.xabsl", FILES["symbols.xabsl"], "speed"), "newName": "foot"}
     assert editor.request("textDocument/rename", taken) is None
-    assert editor.said == ["there is a decimal output foot already"]
+    assert editor.said == ["there is already a decimal output foot"]
 
 
 def test_mistakes_are_told_in_every_file_while_one_types(editor: LspClient) -> None:

@@ -1,1 +1,1 @@
-"""XABSL, the Extensible Agent Behavior Specification Language: read, checked, compiled, printed and run."""
+"""XABSL, the Extensible Agent Behavior Specification Language: compiler, formatter, engine, language server."""

@@ -1,4 +1,4 @@
-"""What the original never looked for: options that call themselves, states nobody reaches, words nobody uses."""
+"""Checks that the original compiler lacks: option cycles, unreachable states, unused symbols, double execution."""
 
 from collections import defaultdict
 from collections.abc import Iterator
@@ -14,27 +14,27 @@ CallsByOption = dict[str, list[tuple[tree.StateNode, list[tree.CallNode]]]]
 
 
 def check_semantics(source: ProgramSource, table: SymbolTable, report: CompileReport) -> None:
-    """Look at a program whose names are bound."""
+    """Check a program whose names are resolved."""
     calls: CallsByOption = {}
-    homes: dict[str, Tokens] = {}
+    tokens_by_option: dict[str, Tokens] = {}
     for parsed in source.files.values():
         for item in parsed.file.body:
             if isinstance(item, tree.OptionNode):
                 _check_unreachable_states(item, parsed.tokens, report)
                 calls[item.name.text] = [(state, _calls(item, state, table)) for state in item.states]
-                homes[item.name.text] = parsed.tokens
-    below = _check_option_cycles(calls, homes, report)
-    _check_double_execution(calls, below, homes, report)
+                tokens_by_option[item.name.text] = parsed.tokens
+    descendants = _check_option_cycles(calls, tokens_by_option, report)
+    _check_double_execution(calls, descendants, tokens_by_option, report)
     _check_unused(source, table, report)
 
 
 def _calls(option: tree.OptionNode, state: tree.StateNode, table: SymbolTable) -> list[tree.CallNode]:
-    """The options that a state calls, common actions first."""
+    """The calls of options in a state, common actions first."""
     actions = [*(option.common_actions.actions if option.common_actions else ()), *state.actions.actions]
     return [
-        each
-        for each in actions
-        if isinstance(each, tree.CallNode) and each.kind != "behavior" and each.name.text in table.options
+        action
+        for action in actions
+        if isinstance(action, tree.CallNode) and action.kind != "behavior" and action.name.text in table.options
     ]
 
 
@@ -48,86 +48,89 @@ def _targets(node: tree.DecisionTreeNode | None) -> Iterator[str]:
 
 
 def _check_unreachable_states(option: tree.OptionNode, tokens: Tokens, report: CompileReport) -> None:
-    ways = {state.name.text: set(_targets(state.decision.tree if state.decision else None)) for state in option.states}
-    common = set(_targets(option.common_decision))
-    waiting = [state.name.text for state in option.states if state.is_initial]
-    reached = set(waiting)
-    while waiting:
-        for target in (ways.get(waiting.pop(), set()) | common) - reached:
-            reached.add(target)
-            waiting.append(target)
-    for state in option.states if reached else ():
-        if state.name.text not in reached:
-            message = f"no decision leads to state {state.name.text} of option {option.name.text}"
-            report.add_finding(tokens, state.name.first_token, "X643", message, "lead to it or remove it")
+    targets = {
+        state.name.text: set(_targets(state.decision.tree if state.decision else None)) for state in option.states
+    }
+    common_targets = set(_targets(option.common_decision))
+    pending = [state.name.text for state in option.states if state.is_initial]
+    reachable = set(pending)
+    while pending:
+        for target in (targets.get(pending.pop(), set()) | common_targets) - reachable:
+            reachable.add(target)
+            pending.append(target)
+    for state in option.states if reachable else ():
+        if state.name.text not in reachable:
+            message = f"state {state.name.text} of option {option.name.text} is unreachable"
+            report.add_finding(tokens, state.name.first_token, "X643", message, "add a goto to it or remove it")
 
 
 def _check_option_cycles(
-    calls: CallsByOption, homes: dict[str, Tokens], report: CompileReport
+    calls: CallsByOption, tokens_by_option: dict[str, Tokens], report: CompileReport
 ) -> dict[str, frozenset[str]]:
-    """All options below each option; a call that leads back is told, and followed no further."""
-    below: dict[str, frozenset[str]] = {}
+    """Report calls that close a cycle; returns all direct and indirect callees of each option."""
+    descendants: dict[str, frozenset[str]] = {}
 
-    def look(name: str, path: tuple[str, ...]) -> frozenset[str]:
-        if name in below:
-            return below[name]
-        found: set[str] = set()
-        for _state, called in calls[name]:
-            for call in called:
+    def visit(name: str, callers: tuple[str, ...]) -> frozenset[str]:
+        if name in descendants:
+            return descendants[name]
+        path = (*callers, name)
+        callees: set[str] = set()
+        for _state, state_calls in calls[name]:
+            for call in state_calls:
                 callee = call.name.text
-                if callee in (*path, name):
-                    circle = " → ".join((*path, name)[(*path, name).index(callee) :]) + f" → {callee}"
-                    message = f"option {callee} leads back to itself: {circle}"
-                    report.add_finding(
-                        homes[name], call.name.first_token, "X636", message, "no engine runs it; break the circle"
-                    )
+                if callee in path:
+                    cycle = " → ".join((*path[path.index(callee) :], callee))
+                    message = f"option {callee} calls itself: {cycle}"
+                    fix = "no engine runs it; remove a call of the cycle"
+                    report.add_finding(tokens_by_option[name], call.name.first_token, "X636", message, fix)
                 elif callee in calls:
-                    found |= {callee} | look(callee, (*path, name))
-        below[name] = frozenset(found)
-        return below[name]
+                    callees |= {callee} | visit(callee, path)
+        descendants[name] = frozenset(callees)
+        return descendants[name]
 
     for name in calls:
-        look(name, ())
-    return below
+        visit(name, ())
+    return descendants
 
 
 def _check_double_execution(
-    calls: CallsByOption, below: dict[str, frozenset[str]], homes: dict[str, Tokens], report: CompileReport
+    calls: CallsByOption,
+    descendants: dict[str, frozenset[str]],
+    tokens_by_option: dict[str, Tokens],
+    report: CompileReport,
 ) -> None:
-    """What two calls of one state both lead to is executed twice in a cycle, if both get there."""
+    """Report options that two calls of one state may both execute in a cycle."""
     for name, states in calls.items():
-        for state, called in states:
-            seen: dict[str, tree.CallNode] = {}
-            for call in called:
-                reached = {call.name.text} | below.get(call.name.text, frozenset())
-                twins = sorted(reached & seen.keys())
-                if twins:
-                    other = seen[twins[0]]
-                    message = f"option {twins[0]} may be executed twice in a cycle of state {state.name.text}"
-                    note = Note(
-                        message="it may also be by this call", location=homes[name].location(other.name.first_token)
-                    )
-                    mend = "call it from one of them only"
-                    report.add_finding(homes[name], call.name.first_token, "X647", message, mend, note=note)
-                seen |= dict.fromkeys(reached - seen.keys(), call)
+        tokens = tokens_by_option[name]
+        for state, state_calls in states:
+            first_calls: dict[str, tree.CallNode] = {}
+            for call in state_calls:
+                executed = {call.name.text} | descendants.get(call.name.text, frozenset())
+                repeated = sorted(executed & first_calls.keys())
+                if repeated:
+                    message = f"option {repeated[0]} may be executed twice in a cycle of state {state.name.text}"
+                    first_call = tokens.location(first_calls[repeated[0]].name.first_token)
+                    note = Note(message="this call may execute it too", location=first_call)
+                    fix = "call it from one of them only"
+                    report.add_finding(tokens, call.name.first_token, "X647", message, fix, note=note)
+                first_calls |= dict.fromkeys(executed - first_calls.keys(), call)
 
 
 def _check_unused(source: ProgramSource, table: SymbolTable, report: CompileReport) -> None:
     uses: dict[int, int] = defaultdict(int)
-    for _tokens, _at, declared in report.references:
-        uses[id(declared)] += 1
-    sets = _assigned_symbols(source)
-    for declared in table.symbols("input", "output", "internal", "const"):
-        if not uses[id(declared)]:
-            _add_unused_finding(declared, report)
-        elif declared.role == "internal" and declared.name not in sets:
-            message = f"{declared.description} {declared.name} is read, but no action sets it"
-            report.add_finding(
-                declared.tokens, declared.name_node.first_token, "X645", message, "set it somewhere, or use a constant"
-            )
-    for declared in (*table.behaviors.values(), *table.options.values()):
-        if not uses[id(declared)]:
-            _add_unused_finding(declared, report)
+    for _tokens, _token, definition in report.references:
+        uses[id(definition)] += 1
+    assigned = _assigned_symbols(source)
+    for symbol in table.symbols("input", "output", "internal", "const"):
+        if not uses[id(symbol)]:
+            _add_unused_finding(symbol, report)
+        elif symbol.role == "internal" and symbol.name not in assigned:
+            message = f"{symbol.description} {symbol.name} is read, but no action sets it"
+            fix = "set it in an action, or use a constant"
+            report.add_finding(symbol.tokens, symbol.name_node.first_token, "X645", message, fix)
+    for definition in (*table.behaviors.values(), *table.options.values()):
+        if not uses[id(definition)]:
+            _add_unused_finding(definition, report)
 
 
 def _assigned_symbols(source: ProgramSource) -> set[str]:
@@ -137,9 +140,11 @@ def _assigned_symbols(source: ProgramSource) -> set[str]:
             if isinstance(item, tree.OptionNode):
                 blocks += [state.actions for state in item.states]
                 blocks += [item.common_actions] if item.common_actions else []
-    return {each.symbol.text for block in blocks for each in block.actions if isinstance(each, tree.AssignmentNode)}
+    return {
+        action.symbol.text for block in blocks for action in block.actions if isinstance(action, tree.AssignmentNode)
+    }
 
 
-def _add_unused_finding(declared: Definition, report: CompileReport) -> None:
-    message = f"nothing uses {declared.description} {declared.name}"
-    report.add_finding(declared.tokens, declared.name_node.first_token, "X644", message, "use it or remove it")
+def _add_unused_finding(definition: Definition, report: CompileReport) -> None:
+    message = f"{definition.description} {definition.name} is never used"
+    report.add_finding(definition.tokens, definition.name_node.first_token, "X644", message, "use it or remove it")

@@ -1,4 +1,4 @@
-"""Sources to a program: names bound, common decisions put before those of states, everything in its compiled order."""
+"""Compiles the sources of a program: resolves names and puts common decisions before the decisions of states."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass, field
@@ -20,7 +20,7 @@ _MODES = {"": "n", "capacity": "c", "synchronized": "s"}
 
 @dataclass(slots=True)
 class CompileResult:
-    """What came of it: no program where a finding is an error. `references` tell which word means which declaration."""
+    """Result of a compilation; `program` is None if a finding is an error. `references` are the resolved names."""
 
     program: Program | None
     table: SymbolTable
@@ -29,7 +29,6 @@ class CompileResult:
 
 
 def compile_source(source: ProgramSource) -> CompileResult:
-    """Compile a program that was loaded."""
     report = CompileReport()
     table = collect_symbols(source, report)
     options: list[CompiledOption] = []
@@ -54,7 +53,7 @@ def compile_source(source: ProgramSource) -> CompileResult:
 
 
 def declared_symbols(table: SymbolTable) -> SymbolList:
-    """What a robot program must have, as declared."""
+    """The symbols and basic behaviors that the robot program must provide, as declared."""
     enums = [
         (each, tuple(element.qualified_name for element in each.elements.values())) for each in table.enums.values()
     ]
@@ -104,22 +103,19 @@ def _slot(declared: Definition) -> TypedSlot:
 
 
 class _OptionCompiler:
-    """Compiles one option."""
-
     def __init__(self, table: SymbolTable, report: CompileReport, tokens: Tokens, option: tree.OptionNode) -> None:
         self.table, self.report, self.tokens, self.option = table, report, tokens, option
         self.definition = self._find_definition()
         self.expressions = ExpressionCompiler(table, report, tokens, self.definition.parameters)
 
     def _find_definition(self) -> Definition:
-        """The declaration of this option, which may be the second of its name."""
+        """The definition of this option, also if it is the second one of its name."""
         found = self.table.options[self.option.name.text]
         if found.node is self.option:
             return found
         return Definition("option", found.name, self.tokens, self.option.name, self.option, qualified_name=found.name)
 
     def compile(self) -> CompiledOption:
-        """The option as the engine has it."""
         common = self.option.common_decision
         before = self._open_tree(common) if common is not None else None
         actions = self._actions(self.option.common_actions)
@@ -132,11 +128,16 @@ class _OptionCompiler:
         if not initial:
             name = self.option.name
             message = f"option {name.text} has no initial state"
-            self.expressions.add_finding(name.first_token, "X628", message, "write initial before one of its states")
+            self.expressions.add_finding(name.first_token, "X628", message, "mark one of its states as initial")
             return ""
         for each in initial[1:]:
             message = f"a second initial state: {each.name.text}"
-            self.expressions.add_finding(each.name.first_token, "X629", message, f"the first is {initial[0].name.text}")
+            self.expressions.add_finding(
+                each.name.first_token,
+                "X629",
+                message,
+                f"the first one is {initial[0].name.text}: remove initial from one of them",
+            )
         return initial[0].name.text
 
     def _state(self, state: tree.StateNode, before: "_OpenTree | None", common: tuple[Term, ...]) -> CompiledState:
@@ -159,8 +160,8 @@ class _OptionCompiler:
 
     def _check_else(self, decision: tree.DecisionNode, *, has_common: bool) -> None:
         if has_common and not decision.begins_with_else:
-            message = "the decision goes on after the common one, and does not begin with else"
-            self.expressions.add_finding(decision.first_token, "X641", message, "write else before it")
+            message = "the decision follows the common decision, but does not begin with else"
+            self.expressions.add_finding(decision.first_token, "X641", message, "write else at its start")
         if decision.begins_with_else and not has_common:
             message = "the decision begins with else, but the option has no common decision"
             self.expressions.add_finding(decision.first_token, "X632", message, "remove else")
@@ -189,7 +190,7 @@ class _OptionCompiler:
         return name
 
     def _open_tree(self, node: tree.DecisionTreeNode) -> "_OpenTree":
-        """A common decision, which ends in what the state decides."""
+        """Compile a common decision, whose last branch is the decision of the state."""
         while isinstance(node, tree.BlockNode):
             node = node.inner
         branches: list[tuple[Term, Term]] = []
@@ -205,11 +206,11 @@ class _OptionCompiler:
         return _OpenTree(branches)
 
     def _check_no_stay(self, node: tree.DecisionTreeNode) -> None:
-        """In a common decision nobody knows which state it would be to stay in."""
+        """Report `stay` in a common decision, where the current state is not known."""
         match node:
             case tree.StayNode():
                 self.expressions.add_finding(
-                    node.first_token, "X633", "stay in a common decision", "write goto and the state's name"
+                    node.first_token, "X633", "stay in a common decision", "write goto with the name of a state"
                 )
             case tree.BlockNode():
                 self._check_no_stay(node.inner)
@@ -229,13 +230,15 @@ class _OptionCompiler:
         found = [each for each in self.table.callable.get(name, ()) if not action.kind or each.role == action.kind]
         if not found:
             what = action.kind or "option or basic behavior"
-            mend = did_you_mean(name, self.table.callable, f"declare behavior {name}, or include its option's file")
+            mend = did_you_mean(
+                name, self.table.callable, f"declare behavior {name}, or include the file of the option"
+            )
             self.expressions.add_finding(action.name.first_token, "X621", f"no {what} {name}", mend)
             return None
         if len(found) > 1:
             mend = f"write {name} option(…) or {name} behavior(…)"
             self.expressions.add_finding(
-                action.name.first_token, "X622", f"{name} is an option and a basic behavior", mend
+                action.name.first_token, "X622", f"{name} is both an option and a basic behavior", mend
             )
         self.report.references.append((self.tokens, action.name.first_token, found[0]))
         letter = "o" if found[0].role == "option" else "a"
@@ -258,7 +261,7 @@ class _OptionCompiler:
         if len(found) > 1:
             whats = " and ".join(each.description for each in found)
             self.expressions.add_finding(
-                action.symbol.first_token, "X622", f"{name} may mean {whats}", "rename one of them"
+                action.symbol.first_token, "X622", f"{name} is ambiguous: {whats}", "rename one of them"
             )
         symbol = found[0]
         self.report.references.append((self.tokens, action.symbol.first_token, symbol))
@@ -268,12 +271,12 @@ class _OptionCompiler:
 
 @dataclass(slots=True)
 class _OpenTree:
-    """Conditions with what follows from them; what follows from none is left open."""
+    """The branches of a common decision; the final branch is open."""
 
     branches: Iterable[tuple[Term, Term]]
 
     def close(self, last: Term) -> Term:
-        """The tree that ends in `last`."""
+        """Complete the tree with its final branch."""
         for condition, then in reversed(list(self.branches)):
             last = ("i", condition, then, last)
         return last

@@ -1,4 +1,4 @@
-"""A place among the tokens of a file, and what a parser does there: look, take, complain, go on after a mistake."""
+"""The token cursor of the parsers: lookahead, expected tokens, syntax errors and error recovery."""
 
 from collections.abc import Collection
 
@@ -8,17 +8,17 @@ from vicode.xabsl.tokens import DOC, END, HEADER, KEYWORDS, NAME
 from vicode.xabsl.tree import NameNode
 
 MAX_DEPTH = 120
-"""No behavior is nested deeper; what is read is walked by functions that call themselves."""
+"""Limit of nesting. The functions that read and traverse the tree are recursive."""
 
 _RESUME_KINDS = (KEYWORDS | {"}", DOC, END}) - {"true", "false"}
 
 
 class XabslSyntaxError(Exception):
-    """What was begun cannot be read on; it has been said why."""
+    """The current construct cannot be parsed. The finding is already recorded."""
 
 
 class TokenCursor:
-    """Reads tokens one by one; `kind` is the kind of the next, `at` its number."""
+    """Reads the tokens of a file in order. `kind` is the kind of the next token, `position` its number."""
 
     __slots__ = ("depth", "findings", "kind", "kinds", "position", "tokens")
 
@@ -31,7 +31,7 @@ class TokenCursor:
         self.findings: list[Finding] = []
 
     def advance(self) -> int:
-        """Take the next token, whatever it is; returns its number."""
+        """Consume the next token and return its number."""
         number = self.position
         if self.kind != END:
             self.position = number + 1
@@ -39,27 +39,27 @@ class TokenCursor:
         return number
 
     def accept(self, kind: str) -> bool:
-        """Take a token of this kind, if it is the next."""
+        """Consume the next token if it is of this kind."""
         if self.kind == kind:
             self.advance()
             return True
         return False
 
     def expect(self, kind: str, where: str = "") -> int:
-        """Take a token of this kind; returns its number.
+        """Consume a token of this kind and return its number.
 
         Raises:
-            SyntaxSlipError: Another stands there.
+            XabslSyntaxError: The next token is of another kind.
         """
         if self.kind != kind:
             raise self.syntax_error((kind,), where)
         return self.advance()
 
     def expect_semicolon(self, where: str) -> None:
-        """Take the `;` that ends something; where the next thing begins without it, it is only told to be missing.
+        """Consume a `;`. If it is missing before the start of the next construct, report it and continue.
 
         Raises:
-            SyntaxSlipError: Something else stands there.
+            XabslSyntaxError: The next token starts no construct.
         """
         if self.accept(";"):
             return
@@ -74,55 +74,60 @@ class TokenCursor:
         )
 
     def expect_text(self, kind: str, where: str = "") -> str:
-        """Take a token of this kind; returns its text."""
+        """Consume a token of this kind and return its text."""
         return self.tokens.texts[self.expect(kind, where)]
 
     def expect_name(self, where: str = "") -> NameNode:
-        """Take a name."""
         number = self.expect(NAME, where)
         return NameNode(self.tokens.texts[number], first_token=number, last_token=number)
 
     def accept_doc(self) -> str:
-        """Take a description, if one stands here; returns what is between its signs."""
+        """Consume a description if it is the next token, and return its text without the delimiters."""
         if self.kind != DOC:
             return ""
         return self.tokens.texts[self.advance()][3:-2].replace("\r", "").strip()
 
     def increase_depth(self) -> None:
-        """Go one deeper; `depth` is counted down by who went up again."""
+        """Count one more level of nesting; the caller decreases `depth`.
+
+        Raises:
+            XabslSyntaxError: The nesting is deeper than `MAX_DEPTH`.
+        """
         self.depth += 1
         if self.depth > MAX_DEPTH:
-            self.add_finding("X604", f"nested deeper than {MAX_DEPTH}", "take parts of it into options of their own")
+            self.add_finding("X604", f"nested deeper than {MAX_DEPTH} levels", "move parts of it into separate options")
             raise XabslSyntaxError
 
     def add_finding(self, code: str, message: str, fix: str = "", at: int = -1) -> None:
-        """Tell what is wrong with a token, the next one by default."""
+        """Report a problem with a token, by default the next one."""
         place = self.tokens.location(self.position if at < 0 else at)
         self.findings.append(Finding(rule=get_rule(code), message=message, fix=fix, location=place))
 
     def syntax_error(self, expected: Collection[str], where: str = "") -> XabslSyntaxError:
-        """Tell that something else was wanted; returns what is to be raised."""
+        """Report an unexpected token and return the exception to raise."""
         after = f" {where}" if where else ""
         if self.kind == END:
             if any(each.rule.code == "X605" for each in self.findings):
                 return XabslSyntaxError()
-            self.add_finding("X605", f"the file ends where {_format_expected(expected)} is wanted{after}")
+            self.add_finding("X605", f"unexpected end of file: expected {_format_expected(expected)}{after}")
             return XabslSyntaxError()
         shown = self.tokens.texts[self.position]
         mend = did_you_mean(shown, [each for each in expected if each in KEYWORDS]) if self.kind == NAME else ""
         if self.kind in (DOC, HEADER):
-            message, mend = "a description stands where none can", "write it as a comment: // …"
+            message, mend = "a description is not allowed here", "write it as a comment: // …"
         elif self.kind in KEYWORDS and NAME in expected:
-            message, mend = f"'{shown}' is a word of the language", "take another name"
+            message, mend = f"'{shown}' is a keyword", "choose another name"
         else:
-            message = f"{_format_expected(expected)} wanted{after} instead of '{shown[:40]}'"
+            message = f"expected {_format_expected(expected)}{after}, found '{shown[:40]}'"
         self.add_finding("X604", message, mend)
         return XabslSyntaxError()
 
     def skip_to(self, *wanted: str, open_braces: int) -> None:
-        """Go on after a mistake: to the next of these kinds that is not inside further braces; never past our own `}`.
+        """Skip to the next token of these kinds outside nested braces, and never past the `}` of the current block.
 
-        `open_braces` is how many braces are open since that of the block that is read; 0 where the mistake was in itself.
+        Args:
+            wanted: the kinds of tokens to stop at.
+            open_braces: number of braces opened since the start of the current block and not yet closed.
         """
         depth = open_braces
         while self.kind != END:
@@ -140,7 +145,7 @@ class TokenCursor:
             self.advance()
 
     def open_braces_since(self, start: int) -> int:
-        """How many braces opened since a token are still open here."""
+        """Number of braces opened since a token that are still open."""
         passed = self.kinds[start : self.position]
         return max(0, passed.count("{") - passed.count("}"))
 

@@ -1,4 +1,4 @@
-"""Agents, namespaces with their symbols and behaviors, and parameters."""
+"""Parses agents, namespaces with their symbols and basic behaviors, and parameters."""
 
 from collections.abc import Collection
 
@@ -22,36 +22,36 @@ _DECLARATION_STARTS = ("float", "bool", "enum", "const", "behavior", *_DIRECTION
 
 
 def parse_agent(cursor: TokenCursor, start: int, doc: str) -> AgentNode:
-    """The agent whose word begins here; its description began at `start`.
+    """Parse an agent from its keyword; `start` is its first token, which may be the description.
 
     Raises:
-        SyntaxSlipError: It cannot be read to its end.
+        XabslSyntaxError: The agent is malformed.
     """
     cursor.advance()
-    name = cursor.expect_name("of the agent")
+    name = cursor.expect_name("for the agent")
     cursor.expect("(", "after the agent's name")
-    title = cursor.expect_text(STRING, "with the agent's title")[1:-1]
+    title = cursor.expect_text(STRING, "for the agent's title")[1:-1]
     cursor.expect(",", "after the title")
-    root = cursor.expect_name("of the root option")
+    root = cursor.expect_name("for the root option")
     cursor.expect(")", "after the root option")
     cursor.expect_semicolon("after the agent")
     return AgentNode(name, title, root, doc, first_token=start, last_token=cursor.position - 1)
 
 
 def parse_namespace(cursor: TokenCursor, start: int, doc: str) -> NamespaceNode:
-    """The namespace whose word begins here; declarations that cannot be read are left out.
+    """Parse a namespace from its keyword. Malformed declarations are reported and omitted.
 
     Raises:
-        SyntaxSlipError: Its beginning or end is missing.
+        XabslSyntaxError: The head of the namespace is malformed.
     """
     cursor.advance()
-    name = cursor.expect_name("of the namespace")
+    name = cursor.expect_name("for the namespace")
     title = ""
     if cursor.kind == "{":
         cursor.add_finding("X604", f"namespace {name.text} has no title", f'write namespace {name.text}("Title")')
     else:
         cursor.expect("(", f"after namespace {name.text}")
-        title = cursor.expect_text(STRING, "with the namespace's title")[1:-1]
+        title = cursor.expect_text(STRING, "for the namespace's title")[1:-1]
         cursor.expect(")", "after the title")
     cursor.expect("{", f"after namespace {name.text}")
     declarations: list[DeclarationNode] = []
@@ -77,21 +77,23 @@ def _declaration(cursor: TokenCursor) -> DeclarationNode:
     start, doc = cursor.position, cursor.accept_doc()
     if cursor.kind == "behavior":
         return _behavior(cursor, start, doc)
-    of = _type(cursor)
-    if of is not None and of.enum is not None and cursor.kind in ("{", "internal"):
+    type_node = _type(cursor)
+    if type_node is not None and type_node.enum is not None and cursor.kind in ("{", "internal"):
         after = cursor.kinds[cursor.position + 1]
         if cursor.kind == "{" or after == "{":
-            return _enumeration(cursor, start, doc, of.enum)
-    if cursor.kind == "const" and (of is None or of.text == "float"):
-        return _constant(cursor, start, doc, says_float=of is not None)
+            return _enumeration(cursor, start, doc, type_node.enum)
+    if cursor.kind == "const" and (type_node is None or type_node.text == "float"):
+        return _constant(cursor, start, doc, has_float_keyword=type_node is not None)
     if cursor.kind in _DIRECTIONS:
-        return _symbol(cursor, start, doc, of)
-    if of is not None and cursor.kind == NAME:
+        return _symbol(cursor, start, doc, type_node)
+    if type_node is not None and cursor.kind == NAME:
         name = cursor.tokens.texts[cursor.position]
-        cursor.add_finding("X604", f"{name} is neither input, output nor internal", "say which")
-        return _symbol(cursor, start, doc, of, direction="input")
+        cursor.add_finding(
+            "X604", f"{name} is neither input, output nor internal", "write input, output or internal before the name"
+        )
+        return _symbol(cursor, start, doc, type_node, direction="input")
     raise cursor.syntax_error(
-        (*_DIRECTIONS, "const") if of else _DECLARATION_STARTS, "in a namespace" if of is None else ""
+        (*_DIRECTIONS, "const") if type_node else _DECLARATION_STARTS, "in a namespace" if type_node is None else ""
     )
 
 
@@ -100,19 +102,19 @@ def _type(cursor: TokenCursor) -> TypeNode | None:
     if cursor.kind in ("float", "bool"):
         return TypeNode(cursor.tokens.texts[cursor.advance()], first_token=start, last_token=start)
     if cursor.accept("enum"):
-        enum = cursor.expect_name("of an enumeration after enum")
+        enum = cursor.expect_name("for an enumeration after enum")
         return TypeNode("enum", enum, first_token=start, last_token=cursor.position - 1)
     return None
 
 
 def _behavior(cursor: TokenCursor, start: int, doc: str) -> BehaviorNode:
     cursor.advance()
-    name = cursor.expect_name("of the basic behavior")
+    name = cursor.expect_name("for the basic behavior")
     cursor.expect("{", f"after behavior {name.text}")
     parameters = parse_parameters(cursor, ())
     cursor.expect("}", f"at the end of behavior {name.text}")
     if cursor.kind == ";":
-        cursor.add_finding("X651", "a ; after a behavior's }", "remove it")
+        cursor.add_finding("X651", "a ; after the } of a behavior", "remove it")
         cursor.advance()
     return BehaviorNode(name, parameters, doc, first_token=start, last_token=cursor.position - 1)
 
@@ -120,34 +122,36 @@ def _behavior(cursor: TokenCursor, start: int, doc: str) -> BehaviorNode:
 def _enumeration(cursor: TokenCursor, start: int, doc: str, name: NameNode) -> EnumerationNode:
     is_internal = cursor.accept("internal")
     cursor.expect("{", f"after enum {name.text}")
-    elements = [cursor.expect_name("of an element")]
+    elements = [cursor.expect_name("for an element")]
     while cursor.accept(","):
         if cursor.kind == "}":
             cursor.add_finding("X651", "a comma after the last element", "remove it")
             break
-        elements.append(cursor.expect_name("of an element"))
+        elements.append(cursor.expect_name("for an element"))
     cursor.expect("}", "after the elements")
     cursor.expect_semicolon("after the enumeration")
     return EnumerationNode(name, elements, is_internal, doc, first_token=start, last_token=cursor.position - 1)
 
 
-def _constant(cursor: TokenCursor, start: int, doc: str, *, says_float: bool) -> ConstantNode:
+def _constant(cursor: TokenCursor, start: int, doc: str, *, has_float_keyword: bool) -> ConstantNode:
     cursor.advance()
-    name = cursor.expect_name("of the constant")
+    name = cursor.expect_name("for the constant")
     cursor.expect("=", "after the constant's name")
     sign = "-" if cursor.accept("-") else ""
-    number = sign + cursor.expect_text(NUMBER, "(a constant is a number)")
+    number = sign + cursor.expect_text(NUMBER, "for the value of the constant")
     unit = _unit(cursor)
     if cursor.kind in ("+", "-", "*", "/", "%"):
-        cursor.add_finding("X604", "a constant is a number, no expression", "write its value")
+        cursor.add_finding(
+            "X604", "the value of a constant is a number, not an expression", "write the resulting number"
+        )
         raise XabslSyntaxError
     cursor.expect_semicolon("after the constant")
-    return ConstantNode(name, number, unit, doc, says_float, first_token=start, last_token=cursor.position - 1)
+    return ConstantNode(name, number, unit, doc, has_float_keyword, first_token=start, last_token=cursor.position - 1)
 
 
-def _symbol(cursor: TokenCursor, start: int, doc: str, of: TypeNode | None, direction: str = "") -> SymbolNode:
+def _symbol(cursor: TokenCursor, start: int, doc: str, type_node: TypeNode | None, direction: str = "") -> SymbolNode:
     direction = direction or cursor.tokens.texts[cursor.advance()]
-    name = cursor.expect_name("of the symbol")
+    name = cursor.expect_name("for the symbol")
     range_, unit = _range(cursor), _unit(cursor)
     parameters = None
     if cursor.kind == "(":
@@ -158,12 +162,12 @@ def _symbol(cursor: TokenCursor, start: int, doc: str, of: TypeNode | None, dire
         cursor.expect(")", "after the parameters")
     cursor.expect_semicolon(f"after symbol {name.text}")
     return SymbolNode(
-        direction, name, of, range_, unit, parameters, doc, first_token=start, last_token=cursor.position - 1
+        direction, name, type_node, range_, unit, parameters, doc, first_token=start, last_token=cursor.position - 1
     )
 
 
 def parse_parameters(cursor: TokenCursor, until: Collection[str]) -> list[ParameterNode]:
-    """The declarations of parameters, up to one of these kinds or a closing brace."""
+    """Parse declarations of parameters up to a token of the kinds `until`, or a closing brace."""
     parameters: list[ParameterNode] = []
     while cursor.kind not in until and cursor.kind not in ("}", END):
         start = cursor.position
@@ -181,16 +185,16 @@ def parse_parameters(cursor: TokenCursor, until: Collection[str]) -> list[Parame
 
 def _parameter(cursor: TokenCursor) -> ParameterNode:
     start, doc = cursor.position, cursor.accept_doc()
-    of = _type(cursor)
-    if doc and of is None and cursor.kind in KEYWORDS:
-        cursor.add_finding("X604", "a description stands where none can", "write it as a comment: // …", at=start)
+    type_node = _type(cursor)
+    if doc and type_node is None and cursor.kind in KEYWORDS:
+        cursor.add_finding("X604", "a description is not allowed here", "write it as a comment: // …", at=start)
         raise XabslSyntaxError
-    if of is None and cursor.kind != NAME:
-        raise cursor.syntax_error((NAME, "float", "bool", "enum"), "of a parameter")
-    name = cursor.expect_name("of a parameter")
+    if type_node is None and cursor.kind != NAME:
+        raise cursor.syntax_error((NAME, "float", "bool", "enum"), "for a parameter")
+    name = cursor.expect_name("for a parameter")
     range_, unit = _range(cursor), _unit(cursor)
     cursor.expect_semicolon(f"after parameter {name.text}")
-    return ParameterNode(name, of, range_, unit, doc, first_token=start, last_token=cursor.position - 1)
+    return ParameterNode(name, type_node, range_, unit, doc, first_token=start, last_token=cursor.position - 1)
 
 
 def _range(cursor: TokenCursor) -> str:

@@ -1,4 +1,4 @@
-"""Pieces of XABSL that stand in another text: actions without their braces, an expression."""
+"""Parses XABSL embedded in other files: the content of an action block, or one expression."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -17,7 +17,7 @@ NodeT = TypeVar("NodeT")
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class EmbeddedDiagnostic:
-    """What is wrong with a piece, and which characters of it are meant."""
+    """A syntax error in embedded code; `span` is the range of characters concerned."""
 
     message: str
     fix: str
@@ -26,7 +26,7 @@ class EmbeddedDiagnostic:
 
 @dataclass(frozen=True, slots=True)
 class EmbeddedCode(Generic[NodeT]):
-    """What was read, None where nothing was; `comments` stand before its token of that number."""
+    """The parsed node, None after a syntax error. `comments` precede the token of the given number."""
 
     node: NodeT | None
     diagnostics: tuple[EmbeddedDiagnostic, ...]
@@ -34,12 +34,12 @@ class EmbeddedCode(Generic[NodeT]):
 
 
 def parse_embedded_actions(text: str) -> EmbeddedCode[ActionBlockNode]:
-    """Read what may stand between the braces of `action { }`; token 0 is the brace before it. Never raises."""
+    """Parse the content of an `action { }` block. Token 0 is the opening brace. Never raises."""
     return _parse_embedded("{", text, "\n}", parse_actions)
 
 
 def parse_embedded_expression(text: str) -> EmbeddedCode[ExpressionNode]:
-    """Read an expression. Never raises."""
+    """Parse one expression. Never raises."""
     return _parse_embedded("", text, "\n", parse_expression)
 
 
@@ -50,20 +50,20 @@ def _parse_embedded(before: str, text: str, after: str, parse: Callable[[TokenCu
     try:
         node = parse(cursor)
         if cursor.kind != END:
-            cursor.add_finding("X604", "something follows that does not belong to it", "remove it")
+            cursor.add_finding("X604", "unexpected text after the end of the code", "remove it")
     except XabslSyntaxError:
         node = None
     lines = f"{before}{text}{after}".split("\n")
     errors = [each for each in (*findings, *cursor.findings) if each.severity is Severity.ERROR]
-    mistakes = tuple(_to_diagnostic(each, lines, len(before), len(text)) for each in errors)
-    return EmbeddedCode(node, mistakes, tokens.comments)
+    diagnostics = tuple(_to_diagnostic(each, lines, len(before), len(text)) for each in errors)
+    return EmbeddedCode(node, diagnostics, tokens.comments)
 
 
 def _to_diagnostic(finding: Finding, lines: list[str], shift: int, length: int) -> EmbeddedDiagnostic:
     assert finding.location is not None
-    place = finding.location
-    start = sum(len(line) + 1 for line in lines[: place.line - 1]) + place.column - 1 - shift
+    location = finding.location
+    start = sum(len(line) + 1 for line in lines[: location.line - 1]) + location.column - 1 - shift
     first = max(0, min(start, length - 1))
     return EmbeddedDiagnostic(
-        message=finding.message, fix=finding.fix, span=(first, max(first + 1, min(start + place.length, length)))
+        message=finding.message, fix=finding.fix, span=(first, max(first + 1, min(start + location.length, length)))
     )

@@ -1,7 +1,7 @@
-"""Binds names to declarations, looks at types, and turns expressions into the terms of a program.
+"""Resolves names, checks types and compiles expressions to the terms of a program.
 
-An element of an enumeration means something only where that enumeration is wanted, so binding goes from what is
-wanted to what is written. After a mistake it goes on with a value that nobody will see.
+An element of an enumeration is known only where that enumeration is expected, so the expected type is passed down the
+expression. After an error, compilation continues with a placeholder value.
 """
 
 from collections.abc import Mapping
@@ -28,13 +28,13 @@ _KEYWORD_TERMS: dict[str, tuple[str, Term]] = {
     "option_time": (DECIMAL, ("t",)),
 }
 _ERROR_TERMS: dict[str, Term] = {DECIMAL: ("v", 0.0), BOOLEAN: ("v", False), ENUM: ("v", "")}
-# What may stand in a place for reading: in intermediate code inputs are "i", and all others that are set "o".
+# Letters of readable symbols in intermediate code: inputs are "i", all assignable symbols are "o".
 _READ_LETTERS = {"input": "i", "output": "o", "internal": "o", "parameter": "p"}
 
 
 @dataclass(slots=True)
 class ExpressionCompiler:
-    """Binds what stands in one file; `parameters` are those of the option that is read."""
+    """Compiles the expressions of one file; `parameters` are those of the current option."""
 
     table: SymbolTable
     report: CompileReport
@@ -43,7 +43,7 @@ class ExpressionCompiler:
     reads_conflict: bool = False
 
     def compile(self, expression: tree.ExpressionNode, kind: str, enum: str = "") -> Term:
-        """The term of an expression where a value of this kind is wanted."""
+        """Compile an expression where a value of this kind is expected."""
         match expression:
             case tree.ReferenceNode():
                 return self._ref(expression, kind, enum)
@@ -65,7 +65,7 @@ class ExpressionCompiler:
                 return self._conditional(expression, kind, enum)
 
     def compile_arguments(self, owner: Definition, arguments: tree.ArgumentListNode) -> tuple[Term, ...]:
-        """What a call gives to the parameters of what is called, in the order of the call."""
+        """Compile the arguments of a call to `owner`, in the order of the call."""
         given: list[Term] = []
         seen: set[str] = set()
         for argument in arguments.items:
@@ -79,12 +79,12 @@ class ExpressionCompiler:
                 continue
             self.report.references.append((self.tokens, argument.name.first_token, parameter))
             if name != parameter.name:
-                message = f"in a call parameters are written without @: {name}"
+                message = f"parameter names in a call are written without @: {name}"
                 self.add_finding(argument.name.first_token, "X621", message, f"write {parameter.name}")
             check_range(self.report, self.tokens, argument.value, parameter)
             if parameter.name in seen:
                 self.add_finding(
-                    argument.name.first_token, "X627", f"parameter {name} is given twice", "remove one of them"
+                    argument.name.first_token, "X627", f"parameter {name} has two values", "remove one of them"
                 )
             seen.add(parameter.name)
             value = self.compile(argument.value, parameter.kind, parameter.enum)
@@ -92,12 +92,12 @@ class ExpressionCompiler:
             given.append((*kind, parameter.qualified_name, value))
         missing = [name for name in owner.parameters if name not in seen]
         if missing:
-            message = f"{owner.name} is not given {', '.join(missing)}: 0, false or the first element"
-            self.add_finding(arguments.first_token, "X642", message, "give a value, also if it is 0")
+            message = f"the call of {owner.name} omits {', '.join(missing)}: 0, false or the first element is used"
+            self.add_finding(arguments.first_token, "X642", message, "give every parameter a value, even if it is 0")
         return tuple(given)
 
     def add_finding(self, at: int, code: str, message: str, fix: str = "") -> None:
-        """Tell what is wrong with a token of this file."""
+        """Report a problem with a token of this file."""
         self.report.add_finding(self.tokens, at, code, message, fix)
 
     def _ref(self, ref: tree.ReferenceNode, kind: str, enum: str) -> Term:
@@ -107,7 +107,7 @@ class ExpressionCompiler:
             return _ERROR_TERMS[kind]
         if len(found) > 1:
             whats = " and ".join(each.description for each in found)
-            self.add_finding(ref.first_token, "X622", f"{ref.name} may mean {whats}", "rename one of them")
+            self.add_finding(ref.first_token, "X622", f"{ref.name} is ambiguous: {whats}", "rename one of them")
         declared = found[0]
         self.report.references.append((self.tokens, ref.first_token, declared))
         if declared.kind != kind:
@@ -118,7 +118,7 @@ class ExpressionCompiler:
         return self._load_term(declared, ref.first_token)
 
     def _lookup(self, name: str, kind: str, enum: str) -> list[Definition]:
-        """What a name may mean here: the element of the wanted enumeration before symbols of another kind."""
+        """Find the candidates for a name; an element of the expected enumeration precedes symbols of other kinds."""
         if name[0] == "@":
             parameter = self.parameters.get(name[1:])
             return [parameter] if parameter else []
@@ -139,7 +139,10 @@ class ExpressionCompiler:
         if declared.role == "input":
             if declared.parameters:
                 self.add_finding(
-                    at, "X642", f"{declared.name} is not given its parameters", "give values in parentheses"
+                    at,
+                    "X642",
+                    f"{declared.name} is read without arguments",
+                    "give its parameters values in parentheses",
                 )
             return ("i", declared.qualified_name, ())
         return (_READ_LETTERS[declared.role], declared.qualified_name)
@@ -150,8 +153,8 @@ class ExpressionCompiler:
         if not found:
             others = self.table.readable.get(name)
             if others:
-                message = f"{others[0].description} {name} takes no parentheses"
-                self.add_finding(function.name.first_token, "X624", message, "remove them")
+                message = f"{others[0].description} {name} has no parameters"
+                self.add_finding(function.name.first_token, "X624", message, "remove the parentheses")
             else:
                 known = [each.name for each in self.table.symbols("input")]
                 mend = did_you_mean(name, known, "declare it as an input symbol")
@@ -202,7 +205,7 @@ class ExpressionCompiler:
         if kind == BOOLEAN:
             mend = "write a && b || !a && !b for a == b" if binary.operator == "==" else "write a && !b || !a && b"
             self.add_finding(
-                binary.operator_token, "X625", f"{binary.operator} compares decimals and enums, no bools", mend
+                binary.operator_token, "X625", f"{binary.operator} compares decimals and enums, not bools", mend
             )
             return _ERROR_TERMS[BOOLEAN]
         if kind == ENUM:
@@ -221,11 +224,13 @@ class ExpressionCompiler:
         yes, no = self.compile(expression.yes, kind, enum), self.compile(expression.no, kind, enum)
         if kind == BOOLEAN:
             at = expression.condition.last_token + 1
-            self.add_finding(at, "X652", "no original engine reads ? : between bools", "write c && a || !c && b")
+            self.add_finding(
+                at, "X652", "the original engines cannot read ? : between bools", "write c && a || !c && b"
+            )
         return ("q", condition, yes, no)
 
     def infer_kind(self, expression: tree.ExpressionNode) -> tuple[str, str]:
-        """Kind and enumeration that an expression has of itself; decimal where it has none."""
+        """Infer the kind and enumeration of an expression without context; decimal by default."""
         match expression:
             case tree.ReferenceNode():
                 found = self._lookup(expression.name, "", "")
@@ -248,26 +253,26 @@ class ExpressionCompiler:
 
     def _type_mismatch(self, expression: tree.ExpressionNode, kind: str, own: str, enum: str, at: int = -1) -> Term:
         wanted = f"{'an' if kind == ENUM else 'a'} {KIND_NAMES[kind]}{f' {enum}' if enum else ''}"
-        message = f"{'an' if own == ENUM else 'a'} {KIND_NAMES[own]} where {wanted} is wanted"
-        mend = "compare it: > 0 or != 0" if (kind, own) == (BOOLEAN, DECIMAL) else ""
+        message = f"{'an' if own == ENUM else 'a'} {KIND_NAMES[own]} where {wanted} is expected"
+        mend = "compare it, for example with > 0 or != 0" if (kind, own) == (BOOLEAN, DECIMAL) else ""
         self.add_finding(expression.first_token if at < 0 else at, "X625", message, mend)
         return _ERROR_TERMS[kind]
 
     def _add_unknown_name(self, name: str, at: int, kind: str, enum: str) -> None:
         if name[0] == "@":
-            mend = did_you_mean(name, [f"@{each}" for each in self.parameters], "declare it at the option's beginning")
+            mend = did_you_mean(name, [f"@{each}" for each in self.parameters], "declare it at the start of the option")
             self.add_finding(at, "X621", f"the option has no parameter {name}", mend)
             return
         known = [*self.table.readable, *(f"@{each}" for each in self.parameters)]
         if kind == ENUM and enum in self.table.enums:
             elements = self.table.enums[enum].elements
-            mend = did_you_mean(name, [*elements, *known], f"one of {', '.join([*elements][:8])}")
-            self.add_finding(at, "X621", f"enum {enum} has no element {name}, and no symbol is named so", mend)
+            mend = did_you_mean(name, [*elements, *known], f"use one of {', '.join([*elements][:8])}")
+            self.add_finding(at, "X621", f"{name} is neither an element of enum {enum} nor a symbol", mend)
             return
         owner = next((each for each in self.table.enums.values() if name in each.elements), None)
         otherwise = "declare it in a namespace of symbols"
         if owner is not None:
-            otherwise = f"write the element of {owner.name} to the right of a symbol of that enumeration"
+            otherwise = f"{name} is an element of {owner.name}: write it to the right of a symbol of that enumeration"
             self.add_finding(at, "X621", f"no symbol {name}", otherwise)
             return
         if name in self.parameters:

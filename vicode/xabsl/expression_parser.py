@@ -1,4 +1,4 @@
-"""Expressions, by the precedence that the original has: unary, * / %, + -, comparisons, &&, ||, ? :."""
+"""Parses expressions with the precedence of the original: unary, * / %, + -, comparisons, &&, ||, ? :."""
 
 from vicode.xabsl.cursor import TokenCursor, XabslSyntaxError
 from vicode.xabsl.tokens import NAME, NUMBER
@@ -33,10 +33,10 @@ _UNARY_OPERATORS = frozenset("-!")
 
 
 def parse_expression(cursor: TokenCursor) -> ExpressionNode:
-    """The expression that begins here.
+    """Parse an expression.
 
     Raises:
-        SyntaxSlipError: There is none, or it is not one to its end.
+        XabslSyntaxError: There is no expression, or it is malformed.
     """
     start = cursor.position
     cursor.increase_depth()
@@ -48,7 +48,7 @@ def parse_expression(cursor: TokenCursor) -> ExpressionNode:
         first = cursor.position
         no = parse_expression(cursor)
         if isinstance(no, ConditionalNode):
-            cursor.add_finding("X651", "a condition in the last branch of another", "put it in parentheses", at=first)
+            cursor.add_finding("X651", "a ? : in the last branch of another", "put it in parentheses", at=first)
         condition = ConditionalNode(condition, yes, no, first_token=start, last_token=cursor.position - 1)
     cursor.depth -= 1
     return condition
@@ -59,7 +59,7 @@ def _binary(cursor: TokenCursor, least: int) -> ExpressionNode:
     left = _unary(cursor)
     while (power := _PRECEDENCE.get(cursor.kind, 0)) >= least:
         operator, sign = cursor.kind, cursor.advance()
-        # A chain is nested to the left, as deep as it is long.
+        # A chain of operators is nested to the left, so its length counts as depth.
         cursor.increase_depth()
         left = BinaryNode(
             operator,
@@ -70,7 +70,7 @@ def _binary(cursor: TokenCursor, least: int) -> ExpressionNode:
             last_token=cursor.position - 1,
         )
         if power == _COMPARISON and _PRECEDENCE.get(cursor.kind) == _COMPARISON:
-            cursor.add_finding("X604", "comparisons cannot be chained", "join two of them by &&")
+            cursor.add_finding("X604", "comparisons cannot be chained", "join two comparisons with &&")
             raise XabslSyntaxError
     cursor.depth = depth
     return left
@@ -118,26 +118,26 @@ def _number(cursor: TokenCursor, start: int) -> NumberNode:
     text, next_text = cursor.tokens.texts[start], cursor.tokens.texts[cursor.position]
     is_joined = cursor.tokens.starts[start] + len(text) == cursor.tokens.starts[cursor.position]
     if cursor.kind == NAME and is_joined:
-        mend = "write it without exponent" if next_text[0] in "eE" else "write a blank or an operator between"
-        cursor.add_finding("X604", f"a number cannot go on with {next_text[:20]}", mend)
+        mend = "write it without an exponent" if next_text[0] in "eE" else "write a space or an operator between them"
+        cursor.add_finding("X604", f"a number is followed directly by {next_text[:20]}", mend)
         cursor.advance()
     return NumberNode(text, first_token=start, last_token=start)
 
 
 def parse_arguments(cursor: TokenCursor) -> ArgumentListNode:
-    """What is given in the parentheses that begin here, by name.
+    """Parse a list of named arguments in parentheses.
 
     Raises:
-        SyntaxSlipError: They are not closed, or hold something else.
+        XabslSyntaxError: The list is malformed.
     """
     start = cursor.expect("(")
     given: list[ArgumentNode] = []
     ends_with_comma = False
     while cursor.kind != ")":
-        name = cursor.expect_name("of a parameter")
+        name = cursor.expect_name("for a parameter")
         if cursor.kind != "=":
             cursor.add_finding(
-                "X604", f"a value without the name of its parameter: {name.text}", "write parameter = value"
+                "X604", f"an argument without the name of its parameter: {name.text}", "write parameter = value"
             )
             raise XabslSyntaxError
         cursor.advance()

@@ -1,4 +1,4 @@
-"""Puts tokens on lines, and comments back before the tokens that they stood before."""
+"""Writes tokens in lines, with each comment before the token that it preceded in the source."""
 
 from collections.abc import Collection, Mapping, Sequence
 
@@ -8,9 +8,11 @@ INDENT = "  "
 
 
 class TokenFormatter:
-    """A text that is written token by token. `depth` is how far lines are indented.
+    """Builds a text token by token; `depth` is the level of indentation.
 
-    Tokens are counted: comments are kept by the number of the token after them, and so are empty lines.
+    Args:
+        comments: comments by the number of the token that follows them.
+        blanks: numbers of the tokens that follow an empty line.
     """
 
     def __init__(self, comments: Mapping[int, Sequence[Comment]], blanks: Collection[int]) -> None:
@@ -24,7 +26,7 @@ class TokenFormatter:
         self.depth = 0
 
     def text(self) -> str:
-        """All that was written, with the comments at the end."""
+        """Finish the text and return it, with the comments at its end."""
         self._write_comments(self.depth)
         self._end_line()
         while self._lines and not self._lines[-1]:
@@ -33,11 +35,11 @@ class TokenFormatter:
 
     @property
     def column(self) -> int:
-        """How long the line is that is written."""
+        """Length of the current line."""
         return len(self._line) or len(INDENT) * self.depth
 
     def write(self, text: str, gap: str = " ") -> None:
-        """Write a token; `gap` stands between it and what is before it in its line."""
+        """Write a token; `gap` separates it from the previous token in its line."""
         self._write_comments(self.depth)
         if self._must_break:
             self._end_line()
@@ -49,25 +51,24 @@ class TokenFormatter:
         self._is_block_start = text == "{"
 
     def write_on_new_line(self, text: str) -> None:
-        """Write a token that begins a line."""
         self.end_line()
         self.write(text)
 
     def end_line(self) -> None:
-        """End a line after the comments that stand behind its last token."""
+        """End the line after the trailing comments of its last token."""
         waiting = self._comments.get(self._count, [])
         while waiting and self._line and not waiting[0].own_line:
             self._write_trailing_comment(waiting.pop(0))
         self._end_line()
 
     def blank_line(self) -> None:
-        """Leave a line empty, unless a block or the text just begins."""
+        """Write an empty line, except at the start of a block or of the text."""
         self.end_line()
         if self._lines and self._lines[-1] and not self._is_block_start:
             self._lines.append("")
 
     def close_block(self, text: str) -> None:
-        """Write the token that ends a block, on a line of its own and less indented."""
+        """Write the token that ends a block on a new line, one level less indented."""
         self.end_line()
         self._write_comments(self.depth)
         self._end_line()
@@ -77,7 +78,7 @@ class TokenFormatter:
         self._is_block_start = False
 
     def has_comments(self) -> bool:
-        """Whether comments stand before the next token."""
+        """Whether comments precede the next token."""
         return bool(self._comments.get(self._count))
 
     def _start_line(self, text: str) -> None:
@@ -93,7 +94,6 @@ class TokenFormatter:
         self._line, self._must_break = "", False
 
     def _write_comments(self, depth: int) -> None:
-        """Write the comments before the next token."""
         for comment in self._comments.pop(self._count, ()):
             if self._line and not comment.own_line:
                 self._write_trailing_comment(comment)
@@ -102,7 +102,7 @@ class TokenFormatter:
             if comment.after_blank_line and self._lines and self._lines[-1] and not self._is_block_start:
                 self._lines.append("")
             first, *others = comment.text.split("\n")
-            # What a comment holds is its author's; only where it begins is ours.
+            # Only the first line of a comment is indented; the other lines stay as written.
             self._lines += [INDENT * depth + first, *others]
             self._is_block_start = False
 

@@ -1,4 +1,4 @@
-"""Text to tokens. Comments that mean nothing are kept beside them, so that a printer can put them back."""
+"""Splits a text into tokens. Comments are kept apart, so that the printer can restore them."""
 
 import re
 from bisect import bisect_right
@@ -23,33 +23,36 @@ _COMMENTS = ("line", "block", "initial", "doc")
 
 _TOKEN_ERRORS = {
     "line": ("X651", "a comment at the end of a file without a line break", "end the line"),
-    "/**/": ("X651", "/**/ opens a description there", "write a blank into it: /* */"),
-    "initial": ("X651", "a comment that begins with /*** stands first in a file only", "begin it with /*"),
-    "name": ("X651", "{}- is read as one name", "write a blank: {} -"),
-    "close": ("X603", "*/ without the /* that it would end", "remove it"),
+    "/**/": (
+        "X651",
+        "the original compiler reads /**/ as the start of a description",
+        "write a space between the asterisks: /* */",
+    ),
+    "initial": ("X651", "a comment that begins with /*** is allowed only at the start of a file", "begin it with /*"),
+    "name": ("X651", "the original compiler reads {}- as one name", "write a space: {} -"),
+    "close": ("X603", "*/ without a matching /*", "remove it"),
     "/*": ("X602", "a comment that is never closed", "end it with */"),
     "open": ("X601", "a string that is never closed", 'end it with "'),
     "[": ("X601", "a range that is never closed", "end it with ]"),
-    "&": ("X601", "a single & means nothing", "write && for and"),
+    "&": ("X601", "a single & is not an operator", "write &&"),
 }
-"""What is told of odd tokens: the code of the rule, message and mend."""
+"""Findings about invalid tokens: code, message and fix."""
 
 
 @dataclass(slots=True)
 class Comment:
-    """A comment without meaning, with its signs; `own_line`: nothing stands before it in its line."""
+    """A comment with its delimiters, not a description. `own_line`: it is the first text in its line."""
 
     text: str
     own_line: bool
     after_blank_line: bool = field(default=False, compare=False)
-    """Whether an empty line stands before it."""
 
 
 @dataclass
 class Tokens:
-    """The tokens of a file as parallel lists, which Python walks fastest; the last is the end of the file.
+    """The tokens of a file in parallel lists, which are fastest to iterate over. The last token is the end of the file.
 
-    `kinds` are the texts themselves for keywords and signs. `comments` stand before the token of that number.
+    The kind of a keyword, operator or punctuation mark is its text. `comments` precede the token of the given number.
     """
 
     file: str
@@ -61,34 +64,33 @@ class Tokens:
 
     @cached_property
     def _line_starts(self) -> list[int]:
-        """Where each line begins."""
         return [0, *(match.end() for match in re.finditer("\n", self.text))]
 
     def location_at(self, start: int, length: int = 1) -> SourceLocation:
-        """The place of some characters."""
+        """The location of a range of characters."""
         line = self.line_at(start)
         end = self._line_starts[line] - 1 if line < len(self._line_starts) else len(self.text)
-        # What goes on in the next line is underlined to the end of the first.
+        # A range of several lines is cut at the end of its first line.
         length = max(1, min(length, end - start))
         return SourceLocation(file=self.file, line=line, column=start - self._line_starts[line - 1] + 1, length=length)
 
     @cached_property
     def after_blank_lines(self) -> frozenset[int]:
-        """The characters that are the first after an empty line."""
+        """Offsets of the first character after each empty line."""
         return frozenset(match.end() for match in _BLANK_LINE.finditer(self.text))
 
     def line_at(self, start: int) -> int:
-        """The line of a character, counted from 1."""
+        """The 1-based line of a character."""
         return bisect_right(self._line_starts, start)
 
     def location(self, number: int, last: int = -1) -> SourceLocation:
-        """The place of a token, or of all from it to `last`."""
+        """The location of a token, or of the tokens from `number` to `last`."""
         last = max(number, last)
         return self.location_at(self.starts[number], self.starts[last] + len(self.texts[last]) - self.starts[number])
 
 
 def tokenize(text: str, file: str) -> tuple[Tokens, list[Finding]]:
-    """The tokens of a text, and what is wrong with its characters."""
+    """Split a text into tokens; returns them with the findings about its characters."""
     tokens, odd = Tokens(file, text), list[tuple[str, str, int]]()
     kinds, texts, starts = tokens.kinds, tokens.texts, tokens.starts
     for match in TOKEN_PATTERN.finditer(text):
@@ -103,13 +105,13 @@ def tokenize(text: str, file: str) -> tuple[Tokens, list[Finding]]:
             if group in _COMMENTS:
                 _add_comment(tokens, word, start)
             elif text.startswith("/*", start):
-                # It goes on to the end.
+                # An unclosed comment extends to the end of the file.
                 break
             if word != "&":
                 continue
             kind = "&&"
         if kind == DOC and kinds and kinds[-1] == DOC:
-            # Of several descriptions the last is the one that stands at what it describes.
+            # Of several descriptions in a row the last one counts; the others become comments.
             between = tokens.comments.pop(len(kinds), [])
             kinds.pop()
             _add_comment(tokens, texts.pop(), starts.pop())
@@ -126,7 +128,7 @@ def tokenize(text: str, file: str) -> tuple[Tokens, list[Finding]]:
 
 
 def _add_comment(tokens: Tokens, word: str, start: int) -> None:
-    """Keep a comment, before the token that comes next."""
+    """Attach a comment to the next token."""
     line = tokens.text.rfind("\n", 0, start) + 1
     is_first = not tokens.text[line:start].strip()
     comment = Comment(word.rstrip().replace("\r", ""), is_first, start in tokens.after_blank_lines)
@@ -134,7 +136,7 @@ def _add_comment(tokens: Tokens, word: str, start: int) -> None:
 
 
 def _token_findings(tokens: Tokens, group: str, word: str, start: int) -> list[Finding]:
-    """What is wrong with a token, or would be for the original compiler."""
+    """Findings about a token that is invalid here or in the original compiler."""
     text = tokens.text
     if group == "line" and start + len(word) < len(text):
         return []
@@ -145,6 +147,6 @@ def _token_findings(tokens: Tokens, group: str, word: str, start: int) -> list[F
     if group not in _TOKEN_ERRORS and group.startswith("/*"):
         return []
     shown = word if word.isprintable() else f"U+{ord(word[0]):04X}"
-    code, message, mend = _TOKEN_ERRORS.get(group, ("X601", "a character that means nothing: {}", "remove it"))
+    code, message, mend = _TOKEN_ERRORS.get(group, ("X601", "unexpected character {}", "remove it"))
     place = tokens.location_at(start, len(word))
     return [Finding(rule=get_rule(code), message=message.format(shown), fix=mend.format(shown), location=place)]

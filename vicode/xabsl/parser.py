@@ -1,4 +1,4 @@
-"""Text to a syntax tree: recursive descent, which after a mistake goes on with the next action, state or item."""
+"""Recursive-descent parser from text to a syntax tree. After an error it resumes at the next action, state or item."""
 
 from dataclasses import dataclass
 
@@ -25,7 +25,7 @@ _STATE_STARTS = frozenset(("state", "initial", "target"))
 
 @dataclass(slots=True)
 class ParsedFile:
-    """A file that was read: what is in it, where, and what is wrong with it."""
+    """A parsed file: syntax tree, tokens and findings."""
 
     file: FileNode
     tokens: Tokens
@@ -33,7 +33,7 @@ class ParsedFile:
 
 
 def parse(text: str, file: str = "") -> ParsedFile:
-    """Read a file; `file` is its name in messages. Never raises: what cannot be read is left out and told."""
+    """Parse a file; `file` is its name in messages. Never raises: malformed parts are omitted and reported."""
     tokens, findings = tokenize(text, file)
     cursor = TokenCursor(tokens)
     result = FileNode(comments=tokens.comments)
@@ -53,7 +53,7 @@ def parse(text: str, file: str = "") -> ParsedFile:
 
 
 def _recover(cursor: TokenCursor, start: int) -> None:
-    """Go to the next word that begins something, on the level of the file if braces can be believed."""
+    """Skip to the next keyword that starts a top-level item."""
     if cursor.position == start:
         cursor.advance()
     cursor.skip_to(*_TOP_LEVEL_KEYWORDS, DOC, open_braces=cursor.open_braces_since(start))
@@ -68,7 +68,9 @@ def _item(cursor: TokenCursor, result: FileNode) -> None:
         case "include" if not doc:
             include = _include(cursor)
             if result.body:
-                cursor.add_finding("X604", "an include after what the file defines", "put it first", at=start)
+                cursor.add_finding(
+                    "X604", "an include after a definition", "move it to the start of the file", at=start
+                )
             result.includes.append(include)
         case "option":
             result.body.append(_option(cursor, start, doc))
@@ -87,20 +89,20 @@ def _check_single_definition(
     cursor: TokenCursor, body: list[OptionNode | NamespaceNode | AgentNode], start: int
 ) -> None:
     if len(body) > 1 and not all(isinstance(each, AgentNode) for each in body):
-        message = "a second thing in a file, which defines one option, one namespace, or agents"
-        cursor.add_finding("X610", message, "give it a file of its own", at=start)
+        message = "a second definition in this file: a file defines one option, one namespace, or agents"
+        cursor.add_finding("X610", message, "move it to a separate file", at=start)
 
 
 def _include(cursor: TokenCursor) -> IncludeNode:
     start = cursor.advance()
-    path = cursor.expect_text(STRING, "with a path after include")[1:-1]
+    path = cursor.expect_text(STRING, "for the path after include")[1:-1]
     cursor.expect_semicolon("after include")
     return IncludeNode(path, first_token=start, last_token=cursor.position - 1)
 
 
 def _option(cursor: TokenCursor, start: int, doc: str) -> OptionNode:
     cursor.advance()
-    name = cursor.expect_name("of the option")
+    name = cursor.expect_name("for the option")
     cursor.expect("{", f"after option {name.text}")
     parameters = parse_parameters(cursor, _STATE_STARTS | {"common"})
     decision, actions = _common(cursor)
@@ -118,9 +120,7 @@ def _option(cursor: TokenCursor, start: int, doc: str) -> OptionNode:
             cursor.skip_to(*_STATE_STARTS, "}", open_braces=cursor.open_braces_since(first))
     option = OptionNode(name, parameters, states, decision, actions, doc, first_token=start, last_token=cursor.position)
     if not states and cursor.kind == "}":
-        cursor.add_finding(
-            "X604", f"option {name.text} has no state", "an option has at least one", at=name.first_token
-        )
+        cursor.add_finding("X604", f"option {name.text} has no state", "add a state", at=name.first_token)
     if not cursor.accept("}"):
         cursor.syntax_error(("}",), f"at the end of option {name.text}")
     return option

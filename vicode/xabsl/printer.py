@@ -1,4 +1,4 @@
-"""A syntax tree as text, in the one layout of `vicode xabsl format`: the tokens of the tree, and all comments."""
+"""Prints a syntax tree with its comments in the canonical format of `vicode xabsl format`."""
 
 from collections.abc import Sequence
 
@@ -6,11 +6,11 @@ from vicode.xabsl import tree
 from vicode.xabsl.formatter import TokenFormatter
 
 MAX_WIDTH = 110
-"""Conditions and calls that make a line longer are broken."""
+"""Longer conditions and calls are broken into several lines."""
 
 
 def print_file(file: tree.FileNode) -> str:
-    """The text of a file; reading it gives the same tree."""
+    """Print a file; parsing the text gives the same tree."""
     layout = TokenFormatter(file.comments, file.after_blank_lines)
     if file.header:
         layout.write(f"/***\n{file.header}\n*/")
@@ -26,13 +26,12 @@ def print_file(file: tree.FileNode) -> str:
 
 
 class _Printer:
-    """Writes nodes; each method writes exactly the tokens of its node."""
+    """Prints syntax nodes; each method writes exactly the tokens of its node."""
 
     def __init__(self, layout: TokenFormatter) -> None:
         self.out = layout
 
     def item(self, item: tree.OptionNode | tree.NamespaceNode | tree.AgentNode) -> None:
-        """Write what a file is there for."""
         self._doc(item.doc)
         match item:
             case tree.OptionNode():
@@ -103,7 +102,7 @@ class _Printer:
         self.out.close_block("}")
 
     def _tree(self, node: tree.DecisionTreeNode) -> None:
-        """Write a tree from the beginning of a line."""
+        """Write a decision tree from the start of a line."""
         match node:
             case tree.GotoNode():
                 self.out.write_on_new_line("goto")
@@ -123,7 +122,7 @@ class _Printer:
                 self._if(node)
 
     def _if(self, node: tree.IfNode) -> None:
-        """Write what follows the word `if`, with all that follows by `else if`."""
+        """Write what follows the keyword `if`, including the chain of `else if`."""
         current: tree.IfNode | None = node
         while current is not None:
             self._condition(current.condition)
@@ -150,7 +149,7 @@ class _Printer:
             self._branch(node)
 
     def _branch(self, node: tree.DecisionTreeNode) -> None:
-        """Write what is done in one case: braces in the same line, or the next line indented."""
+        """Write one branch: braces in the same line, or the next line indented."""
         if isinstance(node, tree.BlockNode):
             self.out.write("{")
             self.out.depth += 1
@@ -204,7 +203,7 @@ class _Printer:
             self.out.write(")", "")
 
     def _expression(self, node: tree.ExpressionNode, gap: str, *, breaks: bool = False) -> None:
-        """Write an expression; `gap` goes before its first token. Broken ones have && and || at beginnings of lines."""
+        """Write an expression; `gap` precedes its first token. With `breaks`, lines start with && and ||."""
         match node:
             case tree.NumberNode(text=text) | tree.KeywordNode(text=text) | tree.ReferenceNode(name=text):
                 self.out.write(text, gap)
@@ -217,7 +216,7 @@ class _Printer:
                 self.out.write(")", "")
             case tree.UnaryNode():
                 self.out.write(node.operator, gap)
-                # Two signs in a row are two tokens.
+                # Two consecutive signs are two tokens.
                 self._expression(node.operand, "")
             case tree.BinaryNode():
                 self._binary(node, gap, breaks=breaks)
@@ -282,7 +281,7 @@ class _Printer:
             self.out.write("}")
 
     def _parameters(self, begin: str, parameters: Sequence[tree.ParameterNode], end: str) -> None:
-        """Write parameters in one line, or a line each where they have descriptions or are many."""
+        """Write parameters in one line, or in one line each if they have descriptions or exceed the width."""
         flat = sum(len(" ".join(_parameter_tokens(each))) + 2 for each in parameters)
         breaks = any(each.doc for each in parameters) or self.out.column + flat > MAX_WIDTH
         self.out.write(begin, " " if begin == "{" else "")
@@ -326,10 +325,10 @@ class _Printer:
             self.out.end_line()
 
 
-def _type(of: tree.TypeNode | None) -> list[str]:
-    if of is None:
+def _type(type_node: tree.TypeNode | None) -> list[str]:
+    if type_node is None:
         return []
-    return [of.text, of.enum.text] if of.enum else [of.text]
+    return [type_node.text, type_node.enum.text] if type_node.enum else [type_node.text]
 
 
 def _details(item: tree.SymbolNode | tree.ParameterNode) -> list[str]:
@@ -341,7 +340,7 @@ def _parameter_tokens(parameter: tree.ParameterNode) -> list[str]:
 
 
 def _flat(node: tree.ExpressionNode) -> str:
-    """An expression in one line, without comments."""
+    """Format an expression in one line, without comments."""
     layout = TokenFormatter({}, ())
     _Printer(layout)._expression(node, "")
     return layout.text().strip()

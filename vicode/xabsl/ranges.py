@@ -1,4 +1,4 @@
-"""Numbers outside the range that was declared; the original never looked at ranges."""
+"""Checks constants against declared ranges. The original compiler ignores ranges."""
 
 import re
 
@@ -11,19 +11,19 @@ _RANGE = re.compile(r"\s*(-?\d+(?:\.\d*)?)\s*\.\.\s*(-?\d+(?:\.\d*)?)\s*")
 
 
 def parse_range(text: str) -> tuple[float, float] | None:
-    """Both ends of a range; None for what else is written between brackets, often a unit."""
+    """Both ends of a range; None for other text between brackets, often a unit."""
     found = _RANGE.fullmatch(text)
     return (float(found[1]), float(found[2])) if found else None
 
 
 def check_range(report: CompileReport, tokens: Tokens, value: tree.ExpressionNode, declared: Definition) -> None:
-    """Tell of a number that is given to something outside its range."""
+    """Report a constant outside the range of the symbol or parameter that receives it."""
     assert isinstance(declared.node, tree.SymbolNode | tree.ParameterNode)
     number = _constant_value(value)
     ends = parse_range(declared.node.range) if number is not None else None
     if number is not None and ends is not None and not ends[0] <= number <= ends[1]:
-        message = f"{number:g} is outside [{declared.node.range}] of {declared.name}"
-        report.add_finding(tokens, value.first_token, "X646", message, "mend the number or the range")
+        message = f"{number:g} is outside the range [{declared.node.range}] of {declared.name}"
+        report.add_finding(tokens, value.first_token, "X646", message, "change the number or the range")
 
 
 def _constant_value(value: tree.ExpressionNode) -> float | None:

@@ -1,4 +1,4 @@
-"""The files of a program: found by their includes, each read once, however it is spelt."""
+"""Loads the files of a program by following its includes; each file is read once, by its real path."""
 
 import re
 from collections.abc import Callable, Iterator
@@ -20,7 +20,7 @@ _AGENT = re.compile(r"^[ \t]*agent\s+\w+\s*\(", re.MULTILINE)
 
 @dataclass(slots=True)
 class ProgramSource:
-    """All files of a program in the order in which they were first included, by their real paths."""
+    """All files of a program by their real paths, in the order of their first include."""
 
     main: Path
     files: dict[Path, ParsedFile] = field(default_factory=dict)
@@ -28,26 +28,25 @@ class ProgramSource:
 
     @property
     def title(self) -> str:
-        """The title that the first comment of the main file tells."""
+        """The title in the header of the main file."""
         return parse_header(self.files[self.main].file.header).get("Title", "") if self.main in self.files else ""
 
     @property
     def has_agents(self) -> bool:
-        """Whether any of its files has an agent."""
         return any(isinstance(each, AgentNode) for parsed in self.files.values() for each in parsed.file.body)
 
 
 def parse_header(header: str) -> dict[str, str]:
-    """What the first comment of a file says of "Title", "Platform" and "Software-Environment"."""
+    """Read the keys of a file header: "Title", "Platform" and "Software-Environment"."""
     lines = (line.partition(":") for line in header.splitlines())
     return {key.strip(): value.strip() for key, colon, value in lines if colon}
 
 
 def read_text(path: Path) -> str:
-    """The text of a file: UTF-8, with or without mark; else the one-byte encoding of western Europe, as teams had it.
+    """Read a file as UTF-8, with or without a byte order mark, or else as Windows-1252, which older behaviors use.
 
     Raises:
-        OSError: It cannot be read.
+        OSError: The file cannot be read.
     """
     data = path.read_bytes()
     try:
@@ -57,14 +56,14 @@ def read_text(path: Path) -> str:
 
 
 def find_agent_files(folder: Path, *, recursive: bool = True) -> Iterator[Path]:
-    """The files of a folder, and of those in it, that look as if they declared agents: a behavior begins there."""
+    """Yield the files of a folder that appear to declare agents: the main files of behaviors."""
     for path in sorted(folder.rglob("*") if recursive else folder.glob("*")):
         if path.suffix in _EXTENSIONS and path.is_file() and _AGENT.search(read_text(path)):
             yield path
 
 
 def load_source(main: Path, read: ReadText = read_text, parse_text: ParseText = parse) -> ProgramSource:
-    """Read a program from the file with its agents; what cannot be read is told in the findings."""
+    """Load a program from the file with its agents. Files that cannot be read are reported as findings."""
     source = ProgramSource(main.resolve())
     waiting: list[tuple[Path, SourceLocation | None, str]] = [(source.main, None, str(main))]
     while waiting:
@@ -75,7 +74,7 @@ def load_source(main: Path, read: ReadText = read_text, parse_text: ParseText = 
             continue
         source.files[path] = parsed
         source.findings += parsed.findings
-        # The stack gives them back in the order of the text.
+        # Reversed, because the stack returns the last entry first.
         waiting += reversed(_resolve_includes(source, path, parsed))
     _check_agents(source)
     return source
@@ -83,7 +82,7 @@ def load_source(main: Path, read: ReadText = read_text, parse_text: ParseText = 
 
 @dataclass(frozen=True, slots=True)
 class FormatResult:
-    """A file as it was and as it should be, or what cannot be read in it."""
+    """The original and the formatted text of a file, or its syntax errors."""
 
     original: str
     formatted: str
@@ -91,10 +90,10 @@ class FormatResult:
 
 
 def format_file(path: Path, read: ReadText = read_text) -> FormatResult:
-    """Lay a file out; line ends stay as most of them are.
+    """Format a file; the most frequent kind of line ending is kept.
 
     Raises:
-        OSError: It cannot be read.
+        OSError: The file cannot be read.
     """
     before = read(path)
     parsed = parse(before, str(path))
@@ -115,7 +114,7 @@ def _resolve_includes(
         target = (path.parent / written).resolve()
         place = parsed.tokens.location(include.first_token + 1)
         if target in found:
-            _add_finding(source, place, "X608", f"{include.path} is included twice", "remove one of them")
+            _add_finding(source, place, "X608", f"{include.path} is included twice", "remove one of the includes")
         else:
             found[target] = (target, place, include.path)
     return list(found.values())
@@ -125,12 +124,12 @@ def _read(source: ProgramSource, path: Path, place: SourceLocation | None, shown
     if path in source.files:
         return None
     if path.suffix.lower() not in _EXTENSIONS:
-        _add_finding(source, place, "X607", f"{shown} does not end in .xabsl", "rename it", shown=shown)
+        _add_finding(source, place, "X607", f"{shown} does not end in .xabsl", "rename the file", shown=shown)
         return None
     try:
         return read(path)
     except OSError as error:
-        mend = did_you_mean(path.name, _sibling_files(path), "check the path, which begins at the including file")
+        mend = did_you_mean(path.name, _sibling_files(path), "check the path, which is relative to the including file")
         reason = error.strerror or type(error).__name__
         _add_finding(source, place, "X606", f"{shown} cannot be read: {reason}", mend, shown=shown)
         return None
@@ -141,7 +140,7 @@ def _parse(source: ProgramSource, path: Path, text: str, parse_text: ParseText) 
     parsed = parse_text(text, name)
     if not parsed.file.body and not any(each.rule.code in ("X604", "X605") for each in parsed.findings):
         at = parsed.tokens.location(len(parsed.tokens.kinds) - 1)
-        _add_finding(source, at, "X609", "the file defines nothing", "write an option, a namespace or an agent into it")
+        _add_finding(source, at, "X609", "the file defines nothing", "add an option, a namespace or an agent")
     return parsed
 
 
@@ -159,9 +158,9 @@ def _check_agents(source: ProgramSource) -> None:
         if (first := next((each for each in parsed.file.body if isinstance(each, AgentNode)), None)) is not None
     ]
     for parsed, agent in with_agents[1:]:
-        message = f"agents in a second file: {agent.name.text}"
+        message = f"a second file declares agents: {agent.name.text}"
         _add_finding(
-            source, parsed.tokens.location(agent.first_token), "X610", message, f"put them into {source.main.name}"
+            source, parsed.tokens.location(agent.first_token), "X610", message, f"move them to {source.main.name}"
         )
     if source.files and not with_agents and not source.findings:
         place = SourceLocation(file=source.main.name, line=1, column=1)

@@ -1,4 +1,4 @@
-"""Decision trees and actions, and the states that hold them."""
+"""Parses states with their decision trees and actions."""
 
 from vicode.xabsl.cursor import TokenCursor, XabslSyntaxError
 from vicode.xabsl.expression_parser import parse_arguments, parse_expression
@@ -23,32 +23,32 @@ _STATE_STARTS = ("state", "initial", "target")
 
 
 def parse_state(cursor: TokenCursor) -> StateNode:
-    """The state that begins here.
+    """Parse a state.
 
     Raises:
-        SyntaxSlipError: It cannot be read so far that it has a name.
+        XabslSyntaxError: The head of the state is malformed.
     """
     start = cursor.position
     is_initial = cursor.accept("initial")
     is_target = cursor.accept("target")
     if not is_initial and cursor.kind == "initial":
-        cursor.add_finding("X651", "initial stands before target", "write initial target state")
+        cursor.add_finding("X651", "initial precedes target", "write initial target state")
         is_initial = cursor.accept("initial")
     cursor.expect("state")
-    name = cursor.expect_name("of the state")
+    name = cursor.expect_name("for the state")
     cooperation, robots = "", ""
     if cursor.kind in ("capacity", "synchronized"):
         cooperation = cursor.tokens.texts[cursor.advance()]
         if cooperation == "capacity" or cursor.kind == NUMBER:
-            robots = cursor.expect_text(NUMBER, f"of robots after {cooperation}")
+            robots = cursor.expect_text(NUMBER, f"for the robots after {cooperation}")
     cursor.expect("{", f"after state {name.text}")
     decision = _decision_with_recovery(cursor) if cursor.kind == "decision" else None
     actions = _actions_of_state(cursor, name)
     if cursor.kind == "decision" and decision is None:
-        cursor.add_finding("X604", "decision stands before action", "put it there")
+        cursor.add_finding("X604", "decision precedes action", "move it before action")
         decision = _decision_with_recovery(cursor)
     if cursor.kind not in ("}", END):
-        cursor.add_finding("X604", f"something after the actions of state {name.text}", "remove it")
+        cursor.add_finding("X604", f"unexpected text after the actions of state {name.text}", "remove it")
         cursor.skip_to(open_braces=0)
     _expect_closing_brace(cursor, f"at the end of state {name.text}")
     return StateNode(
@@ -59,7 +59,7 @@ def parse_state(cursor: TokenCursor) -> StateNode:
 
 
 def _expect_closing_brace(cursor: TokenCursor, where: str) -> None:
-    """Take the closing brace; a file that ends before it ends all that is open."""
+    """Consume the closing brace; at the end of the file, report it and continue."""
     if cursor.kind == END:
         cursor.syntax_error(("}",), where)
     else:
@@ -71,7 +71,7 @@ def _actions_of_state(cursor: TokenCursor, name: NameNode) -> ActionBlockNode:
         cursor.advance()
         return parse_actions(cursor)
     if cursor.kind == "}":
-        cursor.add_finding("X604", f"state {name.text} has no action", "write action { }, which may be empty")
+        cursor.add_finding("X604", f"state {name.text} has no action block", "add action { }, which may be empty")
     else:
         try:
             raise cursor.syntax_error(
@@ -108,17 +108,17 @@ def _decision(cursor: TokenCursor, start: int) -> DecisionNode:
 
 
 def parse_decision_tree(cursor: TokenCursor, *, is_open: bool) -> DecisionTreeNode:
-    """The decision tree that begins here; an open one ends without `else`.
+    """Parse a decision tree; an open one ends without `else`.
 
     Raises:
-        SyntaxSlipError: It cannot be read to its end.
+        XabslSyntaxError: The decision tree is malformed.
     """
     start, depth = cursor.position, cursor.depth
     cursor.increase_depth()
     tree: DecisionTreeNode
     if cursor.kind == "goto":
         cursor.advance()
-        tree = GotoNode(cursor.expect_name("of a state after goto"), first_token=start)
+        tree = GotoNode(cursor.expect_name("for a state after goto"), first_token=start)
         cursor.expect_semicolon("after goto")
     elif cursor.kind == "stay":
         cursor.advance()
@@ -127,7 +127,7 @@ def parse_decision_tree(cursor: TokenCursor, *, is_open: bool) -> DecisionTreeNo
     elif cursor.kind == "{":
         cursor.advance()
         tree = BlockNode(parse_decision_tree(cursor, is_open=is_open), first_token=start)
-        cursor.expect("}", "after one decision")
+        cursor.expect("}", "after the decision")
     else:
         tree = _if(cursor, is_open=is_open)
     tree.last_token = cursor.position - 1
@@ -136,7 +136,7 @@ def parse_decision_tree(cursor: TokenCursor, *, is_open: bool) -> DecisionTreeNo
 
 
 def _if(cursor: TokenCursor, *, is_open: bool) -> IfNode:
-    """An `if` with all that follow it by `else if`, read in a row: there may be many."""
+    """Parse a chain of `if` and `else if` iteratively: it may be long."""
     chain: list[IfNode] = []
     last: DecisionTreeNode | None = None
     while True:
@@ -153,7 +153,7 @@ def _if(cursor: TokenCursor, *, is_open: bool) -> IfNode:
         has_doc = cursor.kind == DOC
         if cursor.kinds[cursor.position + has_doc] != "else":
             if not is_open:
-                cursor.add_finding("X604", "an if without else", "say what happens else: else stay;")
+                cursor.add_finding("X604", "an if without else", "add else, for example: else stay;")
                 raise XabslSyntaxError
             break
         chain[-1].else_doc = cursor.accept_doc()
@@ -170,7 +170,7 @@ def _if(cursor: TokenCursor, *, is_open: bool) -> IfNode:
 def _final_else(cursor: TokenCursor, *, is_open: bool) -> DecisionTreeNode:
     if is_open and cursor.kind not in ("{", "if"):
         cursor.add_finding(
-            "X604", "the last else of a common decision stays open", "leave it out: the states go on there"
+            "X604", "a common decision cannot end in else", "remove the else: the decision of the state follows there"
         )
         raise XabslSyntaxError
     return parse_decision_tree(cursor, is_open=is_open)
@@ -184,10 +184,10 @@ def _condition(cursor: TokenCursor) -> ExpressionNode:
 
 
 def parse_actions(cursor: TokenCursor) -> ActionBlockNode:
-    """The actions in the braces that begin here; those that cannot be read are left out.
+    """Parse a block of actions. Malformed actions are reported and omitted.
 
     Raises:
-        SyntaxSlipError: There is no brace, or it is never closed.
+        XabslSyntaxError: The opening brace is missing, or unexpected text precedes the closing one.
     """
     start = cursor.expect("{", "after action")
     actions: list[ActionNode] = []
@@ -204,7 +204,7 @@ def parse_actions(cursor: TokenCursor) -> ActionBlockNode:
 
 
 def _action(cursor: TokenCursor) -> ActionNode:
-    name = cursor.expect_name("of a symbol, an option or a basic behavior")
+    name = cursor.expect_name("for a symbol, an option or a basic behavior")
     action: ActionNode
     if cursor.accept("="):
         action = AssignmentNode(name, parse_expression(cursor), first_token=name.first_token)

@@ -1,4 +1,4 @@
-"""Collects the declarations of all files into one table; where they stand makes no difference to what they mean."""
+"""Collects the declarations of all files into one symbol table. Their order has no effect."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass, field
@@ -14,7 +14,7 @@ _OUTPUTS = ("output", "internal")
 
 @dataclass(slots=True)
 class CompileReport:
-    """Gathers what is wrong, and which word means which declaration: (file, number of the token, declaration)."""
+    """Collects the findings and the resolved references: (tokens of the file, number of the token, definition)."""
 
     findings: list[Finding] = field(default_factory=list)
     references: list[tuple[Tokens, int, Definition]] = field(default_factory=list)
@@ -22,14 +22,14 @@ class CompileReport:
     def add_finding(
         self, tokens: Tokens, at: int, code: str, message: str, fix: str = "", *, note: Note | None = None
     ) -> None:
-        """Tell what is wrong with a token."""
+        """Report a problem with a token."""
         notes = (note,) if note else ()
         place = tokens.location(max(at, 0))
         self.findings.append(Finding(rule=get_rule(code), message=message, fix=fix, location=place, notes=notes))
 
 
 def collect_symbols(source: ProgramSource, report: CompileReport) -> SymbolTable:
-    """The table of a program."""
+    """Build the symbol table of a program."""
     table = SymbolTable()
     collector = _Collector(table, report)
     for parsed in source.files.values():
@@ -47,21 +47,18 @@ def collect_symbols(source: ProgramSource, report: CompileReport) -> SymbolTable
 
 
 class _Collector:
-    """Adds one declaration after the other."""
-
     def __init__(self, table: SymbolTable, report: CompileReport) -> None:
         self.table, self.report = table, report
         self.type_nodes: list[tuple[tree.TypeNode | None, Tokens]] = []
 
     def add(self, found: dict[str, Definition], new: Definition) -> bool:
-        """Add a declaration unless its name is taken; returns whether it was."""
+        """Add a definition unless its name is taken; returns whether it was added."""
         old = found.setdefault(new.name, new)
         if old is not new:
             self._add_duplicate_finding(old, new)
         return old is new
 
     def add_namespace(self, item: tree.NamespaceNode, tokens: Tokens) -> None:
-        """Add all that a namespace holds."""
         if not item.declarations and item.last_token >= 0:
             self.report.add_finding(
                 tokens, item.name.first_token, "X631", f"namespace {item.name.text} is empty", "remove it"
@@ -70,9 +67,9 @@ class _Collector:
         if len(kinds) == 2:
             first = isinstance(item.declarations[0], tree.BehaviorNode)
             other = next(each for each in item.declarations if isinstance(each, tree.BehaviorNode) != first)
-            message = f"namespace {item.name.text} holds symbols and basic behaviors: {other.name.text}"
+            message = f"namespace {item.name.text} mixes symbols and basic behaviors: {other.name.text}"
             self.report.add_finding(
-                tokens, other.name.first_token, "X630", message, "give the behaviors a namespace of their own"
+                tokens, other.name.first_token, "X630", message, "move the basic behaviors to a separate namespace"
             )
         for each in item.declarations:
             match each:
@@ -89,7 +86,6 @@ class _Collector:
                     self._collect_symbol(each, tokens)
 
     def add_option(self, item: tree.OptionNode, tokens: Tokens) -> None:
-        """Add an option with its parameters and states."""
         name = item.name.text
         option = Definition("option", name, tokens, item.name, item, qualified_name=name)
         self._add_parameters(option, item.parameters)
@@ -102,7 +98,7 @@ class _Collector:
             self.table.callable.setdefault(name, []).append(option)
 
     def check_types(self) -> None:
-        """Look whether all enumerations that types name are declared."""
+        """Check that all enumerations named in types are declared."""
         for of, tokens in self.type_nodes:
             if of is None or of.enum is None:
                 continue
@@ -145,7 +141,7 @@ class _Collector:
             self.type_nodes.append((each.type, owner.tokens))
             word = each.name.text
             if is_option and not word.startswith("@"):
-                message = f"a parameter that the option cannot refer to: {word}"
+                message = f"parameter {word} has no @, so the option cannot refer to it"
                 self.report.add_finding(owner.tokens, each.name.first_token, "X635", message, f"write @{word}")
             name = word.removeprefix("@") if is_option else word
             full = f"{owner.name}.{name}"
@@ -166,11 +162,11 @@ class _Collector:
     def _check_range_type(self, item: tree.SymbolNode | tree.ParameterNode, kind: str, tokens: Tokens) -> None:
         if kind != DECIMAL and (item.range or item.unit):
             words = "range or unit" if item.range and item.unit else "range" if item.range else "unit"
-            message = f"{item.name.text} is no decimal and has no {words}"
+            message = f"{item.name.text} is not a decimal and cannot have a {words}"
             self.report.add_finding(tokens, item.name.first_token, "X634", message, "remove it")
 
     def _add_duplicate_finding(self, old: Definition, new: Definition) -> None:
-        note = Note(message="it was declared here", location=old.tokens.location(old.name_node.first_token))
+        note = Note(message="the first declaration", location=old.tokens.location(old.name_node.first_token))
         message = f"a second {new.description} named {new.name}"
         self.report.add_finding(
             new.tokens, new.name_node.first_token, "X623", message, "rename or remove it", note=note

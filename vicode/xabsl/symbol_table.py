@@ -1,4 +1,4 @@
-"""What a program declares, by kind and name; declarations of one kind may not share a name, those of two may."""
+"""The symbol table of a program. Names are unique within one kind of declaration, not across kinds."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field
@@ -14,17 +14,16 @@ KIND_NAMES = {DECIMAL: "decimal", BOOLEAN: "bool", ENUM: "enum"}
 
 @dataclass(slots=True, eq=False)
 class Definition:
-    """One declaration. `role` is what it is: input, output, internal, const, parameter, option, behavior, enum, …
+    """A declared name. `role` is input, output, internal, const, parameter, option, behavior, enum, …
 
-    `kind` is "d", "b" or "e" for what has a value, `enum` the enumeration of "e". `qualified_name` is its name in intermediate
-    code. `parameters` are those of options, behaviors and input symbols by the names used in calls.
+    `kind` is the type of its value: "d" (decimal), "b" (bool) or "e" (element of the enumeration `enum`).
+    `qualified_name` is its name in intermediate code. `parameters` are keyed by the names that calls use.
     """
 
     role: str
     name: str
     tokens: Tokens
     name_node: tree.NameNode
-    """Where its name stands."""
     node: tree.SyntaxNode
     kind: str = ""
     enum: str = ""
@@ -35,13 +34,13 @@ class Definition:
 
     @property
     def description(self) -> str:
-        """What it is, in words: "bool input", "option"."""
+        """Kind and role for messages: "bool input", "option"."""
         return f"{KIND_NAMES[self.kind]} {self.role}" if self.kind else self.role
 
 
 @dataclass(slots=True)
 class SymbolTable:
-    """All declarations of a program; names lead to lists, since those of several kinds may share one."""
+    """All definitions of a program. Lists hold the definitions of several kinds that share a name."""
 
     readable: dict[str, list[Definition]] = field(default_factory=dict)
     assignable: dict[str, list[Definition]] = field(default_factory=dict)
@@ -52,13 +51,13 @@ class SymbolTable:
     agents: dict[str, Definition] = field(default_factory=dict)
 
     def symbols(self, *roles: str) -> Iterator[Definition]:
-        """Symbols and constants of these roles, in the order of their declaration."""
+        """Yield symbols and constants of these roles in the order of their declaration."""
         for found in self.readable.values():
             yield from (each for each in found if each.role in roles)
 
 
-def resolve_type(of: tree.TypeNode | None) -> tuple[str, str]:
-    """Letter and enumeration of a declared type; nothing said means decimal."""
-    if of is None:
+def resolve_type(type_node: tree.TypeNode | None) -> tuple[str, str]:
+    """Kind and enumeration of a declared type; decimal if there is none."""
+    if type_node is None:
         return DECIMAL, ""
-    return _KIND_LETTERS[of.text], of.enum.text if of.enum else ""
+    return _KIND_LETTERS[type_node.text], type_node.enum.text if type_node.enum else ""

@@ -1,4 +1,4 @@
-"""The words of XABSL: one table for lexer, completion and the syntax files of text editors."""
+"""Keywords, operators and token kinds of XABSL, used by the lexer, completion and the TextMate grammar."""
 
 import re
 
@@ -10,14 +10,14 @@ KEYWORDS = frozenset(
         "conflict",
     )
 )
-"""`function` is reserved and means nothing."""
+"""`function` is reserved and has no meaning."""
 
 OPERATORS = ("<=", ">=", "==", "!=", "&&", "||")
 PUNCTUATION = "%!<>{}();|+-*/=,?:"
 
 NAME, NUMBER, STRING, RANGE = "name", "number", "string", "range"
 DOC, HEADER, END = "description", "first comment", "end of file"
-"""Kinds of tokens that are not their own text; keywords, operators and punctuation are."""
+"""Kinds of tokens. The kind of a keyword, operator or punctuation mark is its text."""
 
 TOKEN_PATTERN = re.compile(
     r"""

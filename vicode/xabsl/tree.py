@@ -1,7 +1,7 @@
-"""The syntax tree of a file: all that was written but white space, so that printing it gives the same tokens again.
+"""The syntax tree of a file. It keeps everything except white space, so that printing gives the same tokens.
 
-Nodes know the numbers of their first and last token (`at`, `to`; -1 when they were not read from a text). Those, and
-only those, do not count when nodes are compared. The classes are not frozen: a file is read in half the time so.
+Nodes hold the numbers of their first and last token, or -1 if they were not parsed from a text. Comparison ignores
+token numbers. The classes are not frozen, which halves the time to parse a file.
 """
 
 from dataclasses import dataclass, field
@@ -11,7 +11,7 @@ from vicode.xabsl.lexer import Comment
 
 @dataclass(slots=True, kw_only=True)
 class SyntaxNode:
-    """Anything in a file."""
+    """Base class of all nodes."""
 
     first_token: int = field(default=-1, compare=False)
     last_token: int = field(default=-1, compare=False)
@@ -19,7 +19,7 @@ class SyntaxNode:
 
 @dataclass(slots=True)
 class NameNode(SyntaxNode):
-    """A word where it is declared or used; names of option parameters begin with @ in the option."""
+    """A declared or used name. Inside an option, the names of its parameters start with @."""
 
     text: str
 
@@ -29,7 +29,7 @@ class NameNode(SyntaxNode):
 
 @dataclass(slots=True)
 class NumberNode(SyntaxNode):
-    """A number without sign, as it was written."""
+    """A number without sign, as written."""
 
     text: str
 
@@ -50,7 +50,7 @@ class ReferenceNode(SyntaxNode):
 
 @dataclass(slots=True)
 class ArgumentNode(SyntaxNode):
-    """A parameter by its name, and what it is given."""
+    """The name of a parameter with its value in a call."""
 
     name: NameNode
     value: "ExpressionNode"
@@ -58,7 +58,7 @@ class ArgumentNode(SyntaxNode):
 
 @dataclass(slots=True)
 class ArgumentListNode(SyntaxNode):
-    """What stands between parentheses; a comma may follow the last."""
+    """The arguments of a call in parentheses."""
 
     items: list[ArgumentNode]
     has_trailing_comma: bool = False
@@ -66,7 +66,7 @@ class ArgumentListNode(SyntaxNode):
 
 @dataclass(slots=True)
 class FunctionCallNode(SyntaxNode):
-    """An input symbol with parentheses."""
+    """An input symbol with arguments."""
 
     name: NameNode
     arguments: ArgumentListNode
@@ -89,7 +89,7 @@ class UnaryNode(SyntaxNode):
 
 @dataclass(slots=True)
 class BinaryNode(SyntaxNode):
-    """Two operands; `operator_token` is the number of the operator's token."""
+    """An infix operator with two operands; `operator_token` is the number of its token."""
 
     operator: str
     left: "ExpressionNode"
@@ -134,9 +134,9 @@ class StayNode(SyntaxNode):
 
 @dataclass(slots=True)
 class IfNode(SyntaxNode):
-    """A condition with a tree for each answer; no `otherwise` at the open end of a common decision.
+    """A condition with two branches; `otherwise` is None at the open end of a common decision.
 
-    `doc` stood before `if`, `else_doc` before `else`.
+    `doc` is the description before `if`, `else_doc` the one before `else`.
     """
 
     condition: ExpressionNode
@@ -158,7 +158,7 @@ DecisionTreeNode = GotoNode | StayNode | IfNode | BlockNode
 
 @dataclass(slots=True)
 class DecisionNode(SyntaxNode):
-    """What stands in `decision { }`; `begins_with_else` where a common decision goes before it."""
+    """The content of `decision { }`; `begins_with_else` is set after a common decision."""
 
     tree: DecisionTreeNode
     begins_with_else: bool = False
@@ -187,7 +187,7 @@ ActionNode = AssignmentNode | CallNode
 
 @dataclass(slots=True)
 class ActionBlockNode(SyntaxNode):
-    """What stands in `action { }`."""
+    """The content of `action { }`."""
 
     actions: list[ActionNode]
 
@@ -216,7 +216,7 @@ class ParameterNode(SyntaxNode):
 
 @dataclass(slots=True)
 class ConstantNode(SyntaxNode):
-    """`float const name = 3 "m";`, the number with its sign; `float` may be missing."""
+    """`float const name = 3 "m";`. `number` includes the sign; `float` is optional."""
 
     name: NameNode
     number: str
@@ -227,7 +227,7 @@ class ConstantNode(SyntaxNode):
 
 @dataclass(slots=True)
 class EnumerationNode(SyntaxNode):
-    """`enum name { a, b };`, its values the engine's own where it is internal."""
+    """`enum name { a, b };`. The engine numbers the elements of an internal one."""
 
     name: NameNode
     elements: list[NameNode]
@@ -237,7 +237,7 @@ class EnumerationNode(SyntaxNode):
 
 @dataclass(slots=True)
 class SymbolNode(SyntaxNode):
-    """An input, output or internal symbol (`direction`); `parameters` is None without parentheses."""
+    """A symbol; `direction` is input, output or internal, `parameters` is None without parentheses."""
 
     direction: str
     name: NameNode
@@ -250,7 +250,7 @@ class SymbolNode(SyntaxNode):
 
 @dataclass(slots=True)
 class BehaviorNode(SyntaxNode):
-    """A basic behavior, which the robot program implements."""
+    """A basic behavior, implemented by the robot program."""
 
     name: NameNode
     parameters: list[ParameterNode]
@@ -262,7 +262,7 @@ DeclarationNode = ConstantNode | EnumerationNode | SymbolNode | BehaviorNode
 
 @dataclass(slots=True)
 class NamespaceNode(SyntaxNode):
-    """A page of symbols or of basic behaviors; it does not change their names."""
+    """A group of symbols or of basic behaviors; it does not change their names."""
 
     name: NameNode
     title: str
@@ -272,7 +272,7 @@ class NamespaceNode(SyntaxNode):
 
 @dataclass(slots=True)
 class StateNode(SyntaxNode):
-    """A state of an option; `cooperation` is "", "capacity" or "synchronized", `robots` the number behind it."""
+    """A state of an option; `cooperation` is "", "capacity" or "synchronized", `robots` the number after it."""
 
     name: NameNode
     actions: ActionBlockNode
@@ -297,7 +297,7 @@ class OptionNode(SyntaxNode):
 
 @dataclass(slots=True)
 class AgentNode(SyntaxNode):
-    """A name for a root option."""
+    """An agent with its root option."""
 
     name: NameNode
     title: str
@@ -307,16 +307,16 @@ class AgentNode(SyntaxNode):
 
 @dataclass(slots=True)
 class IncludeNode(SyntaxNode):
-    """Another file that belongs to the program; `path` as it was written."""
+    """An include; `path` as written."""
 
     path: str
 
 
 @dataclass(slots=True)
 class FileNode:
-    """All that a file holds. `header` is its first comment without signs; `comments` stand before tokens.
+    """The content of a file. `header` is the text of its first comment.
 
-    `after_blank_lines` are tokens with an empty line before them.
+    `comments` precede the token of the given number; `after_blank_lines` are the tokens that follow an empty line.
     """
 
     includes: list[IncludeNode] = field(default_factory=list)

@@ -1,4 +1,4 @@
-"""The engine: runs compiled XABSL programs. It stands alone: copied beside a robot program it runs without vicode."""
+"""Runs compiled XABSL programs. The folder is self-contained: a copy of it runs without vicode."""
 
 from importlib import import_module
 from typing import TYPE_CHECKING
@@ -39,7 +39,7 @@ __all__ = [
 
 
 def __getattr__(name: str) -> object:
-    """What is asked for, loaded then: a compiler needs programs, and no engine."""
+    """Import a name on first use: the compiler needs only the program format."""
     if name not in _MODULES:
         raise AttributeError(f"module {__name__} has no attribute {name}")
     return getattr(import_module(f".{_MODULES[name]}", __name__), name)

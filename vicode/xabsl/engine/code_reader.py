@@ -1,4 +1,4 @@
-"""A program from intermediate code. It may come from strangers: all of it is looked at, and nothing is believed."""
+"""Reads a program from intermediate code. The input is untrusted and fully validated."""
 
 from collections.abc import Iterator
 
@@ -10,11 +10,11 @@ _KINDS = ("d", "b", "e")
 
 
 class CodeError(ValueError):
-    """A text that is no intermediate code; says at which word."""
+    """A text is not intermediate code. The message contains the number of the word."""
 
 
 class _WordReader:
-    """The words of a text, one by one."""
+    """Reads the words of a text in order."""
 
     def __init__(self, text: str) -> None:
         lines = (line for line in text.splitlines() if not line.lstrip().startswith("//"))
@@ -25,19 +25,19 @@ class _WordReader:
         self.number += 1
         word = next(self.words, None)
         if word is None:
-            raise self.error("the code ends too early")
+            raise self.error("unexpected end of the code")
         return word
 
     def count(self) -> int:
         word = self.next()
         if not word.isdecimal():
-            raise self.error(f"a number is wanted instead of {word[:40]}")
+            raise self.error(f"expected a number, found {word[:40]}")
         return int(word)
 
     def kind(self) -> str:
         word = self.next()
         if word not in _KINDS:
-            raise self.error(f"d, b or e is wanted instead of {word[:40]}")
+            raise self.error(f"expected d, b or e, found {word[:40]}")
         return word
 
     def error(self, message: str) -> CodeError:
@@ -45,10 +45,10 @@ class _WordReader:
 
 
 def read_code(text: str) -> Program:
-    """The program that a text tells.
+    """Read a program from the text of its intermediate code.
 
     Raises:
-        CodeError: It is no intermediate code.
+        CodeError: The text is not valid intermediate code.
     """
     words = _WordReader(text)
     enums = tuple((words.next(), _names(words)) for _ in range(words.count()))
@@ -79,7 +79,7 @@ def _option(words: _WordReader, name: str, parameters: tuple[TypedSlot, ...]) ->
     for _ in range(words.count()):
         state, mode = words.next(), words.next()
         if mode not in ("n", "c", "s"):
-            raise words.error(f"n, c or s is wanted instead of {mode[:40]}")
+            raise words.error(f"expected n, c or s, found {mode[:40]}")
         heads.append((state, mode, words.count() if mode != "n" else 0))
     initial = words.next()
     states = []
@@ -93,19 +93,19 @@ def _option(words: _WordReader, name: str, parameters: tuple[TypedSlot, ...]) ->
 def _action(words: _WordReader) -> Term:
     letter, name = words.next(), words.next()
     if letter in ("o", "a"):
-        return (letter, name, _given(words, 0))
+        return (letter, name, _arguments(words, 0))
     if letter not in _KINDS:
-        raise words.error(f"an action is wanted instead of {letter[:40]}")
+        raise words.error(f"expected an action, found {letter[:40]}")
     return (letter, name, _value(words, letter, 0))
 
 
-def _given(words: _WordReader, depth: int) -> tuple[Term, ...]:
-    given: list[Term] = []
+def _arguments(words: _WordReader, depth: int) -> tuple[Term, ...]:
+    arguments: list[Term] = []
     for _ in range(words.count()):
         kind = words.kind()
         head = (kind, words.next(), words.next()) if kind == "e" else (kind, words.next())
-        given.append((*head, _value(words, kind, depth)))
-    return tuple(given)
+        arguments.append((*head, _value(words, kind, depth)))
+    return tuple(arguments)
 
 
 def _tree(words: _WordReader, depth: int) -> Term:
@@ -113,7 +113,7 @@ def _tree(words: _WordReader, depth: int) -> Term:
     if letter == "t":
         return ("t", words.next())
     if letter != "i" or depth > MAX_DEPTH:
-        raise words.error(f"a decision is wanted instead of {letter[:40]}" if letter != "i" else "nested too deeply")
+        raise words.error(f"expected a decision, found {letter[:40]}" if letter != "i" else "nested too deeply")
     return ("i", _value(words, "b", depth), _tree(words, depth + 1), _tree(words, depth + 1))
 
 
@@ -125,7 +125,7 @@ def _value(words: _WordReader, kind: str, depth: int) -> Term:
     if letter in "op" and len(letter) == 1:
         return (letter, words.next())
     if letter == "i":
-        return ("i", words.next(), _given(words, depth))
+        return ("i", words.next(), _arguments(words, depth))
     if letter == "v":
         return ("v", _literal(words, kind))
     if letter == "q":
@@ -134,7 +134,7 @@ def _value(words: _WordReader, kind: str, depth: int) -> Term:
         return _decimal(words, letter, depth)
     if kind == "b":
         return _boolean(words, letter, depth)
-    raise words.error(f"an enum is wanted instead of {letter[:40]}")
+    raise words.error(f"expected an enum, found {letter[:40]}")
 
 
 def _literal(words: _WordReader, kind: str) -> float | bool | str:
@@ -143,12 +143,12 @@ def _literal(words: _WordReader, kind: str) -> float | bool | str:
         return word
     if kind == "b":
         if word not in ("true", "false"):
-            raise words.error(f"true or false is wanted instead of {word[:40]}")
+            raise words.error(f"expected true or false, found {word[:40]}")
         return word == "true"
     try:
         return float(word)
     except ValueError:
-        raise words.error(f"a number is wanted instead of {word[:40]}") from None
+        raise words.error(f"expected a number, found {word[:40]}") from None
 
 
 def _decimal(words: _WordReader, letter: str, depth: int) -> Term:
@@ -157,12 +157,12 @@ def _decimal(words: _WordReader, letter: str, depth: int) -> Term:
         try:
             float(word)
         except ValueError:
-            raise words.error(f"a number is wanted instead of {word[:40]}") from None
+            raise words.error(f"expected a number, found {word[:40]}") from None
         return ("c", word)
     if letter in ("s", "t"):
         return (letter,)
     if letter not in _BINARY["d"]:
-        raise words.error(f"a decimal is wanted instead of {letter[:40]}")
+        raise words.error(f"expected a decimal, found {letter[:40]}")
     return (letter, _value(words, "d", depth), _value(words, "d", depth))
 
 
@@ -176,5 +176,5 @@ def _boolean(words: _WordReader, letter: str, depth: int) -> Term:
     if letter in ("&", "|"):
         return (letter, *(_value(words, "b", depth) for _ in range(words.count())))
     if letter not in _BINARY["b"]:
-        raise words.error(f"a bool is wanted instead of {letter[:40]}")
+        raise words.error(f"expected a bool, found {letter[:40]}")
     return (letter, _value(words, "d", depth), _value(words, "d", depth))

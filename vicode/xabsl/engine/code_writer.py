@@ -1,14 +1,14 @@
-"""Intermediate code from a program."""
+"""Writes a program as intermediate code."""
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 
 from .program import CompiledOption, Program, Term, TypedSlot
 
-_LETTERS = {"&", "|"}
+_LOGICAL_OPERATORS = {"&", "|"}
 
 
 def write_code(program: Program) -> str:
-    """The text of a program, as the original compiler breaks its lines; comments may stand before it only."""
+    """Write intermediate code with the line breaks of the original compiler. It starts with the only comment."""
     lines = [f"// Intermediate code for the agents of {program.title}", "", str(len(program.enums))]
     lines += [f"{name} {len(elements)} {' '.join(elements)}" for name, elements in program.enums]
     lines += [str(len(program.symbols)), *(_slot(each) for each in program.symbols), "", str(len(program.options))]
@@ -22,7 +22,7 @@ def write_code(program: Program) -> str:
 
 
 def format_number(number: float) -> str:
-    """A number without needless digits."""
+    """Format a number without a redundant fraction."""
     return str(int(number)) if number == int(number) else repr(number)
 
 
@@ -48,17 +48,16 @@ def _option(option: CompiledOption) -> Iterator[str]:
 def _action(action: Term, lines: list[str]) -> None:
     lines.append(f"{action[0]} {action[1]}")
     if action[0] in "oa":
-        _given(action[2], lines)
+        _arguments(action[2], lines)
     else:
         _term(action[2], lines)
 
 
-def _given(given: Iterable[Term], lines: list[str]) -> None:
-    given = tuple(given)
-    lines.append(str(len(given)))
-    for each in given:
-        lines.append(" ".join(each[:-1]))
-        _term(each[-1], lines)
+def _arguments(arguments: tuple[Term, ...], lines: list[str]) -> None:
+    lines.append(str(len(arguments)))
+    for argument in arguments:
+        lines.append(" ".join(argument[:-1]))
+        _term(argument[-1], lines)
 
 
 def _term(term: Term, lines: list[str]) -> None:
@@ -69,14 +68,14 @@ def _term(term: Term, lines: list[str]) -> None:
         lines.append(f"v {text or format_number(value)}")
     elif letter == "i" and isinstance(term[1], str):
         lines.append(f"i {term[1]}")
-        _given(term[2], lines)
-    elif letter in _LETTERS:
+        _arguments(term[2], lines)
+    elif letter in _LOGICAL_OPERATORS:
         lines.append(f"{letter} {len(term) - 1}")
-        for each in term[1:]:
-            _term(each, lines)
+        for operand in term[1:]:
+            _term(operand, lines)
     elif len(term) > 1 and isinstance(term[1], str):
         lines.append(f"{letter} {term[1]}")
     else:
         lines.append(letter)
-        for each in term[1:]:
-            _term(each, lines)
+        for operand in term[1:]:
+            _term(operand, lines)

@@ -1,6 +1,6 @@
-"""A program as Python source: a function a state, which decides, and acts in the state that it leads to.
+"""Emits a program as Python source, one function per state: it decides, then executes the actions of the new state.
 
-An option's record `o` holds which function of a state is to `run`, since when, and in which cycle it ran `last`.
+The record `o` of an option holds the function of its current state (`run`), times of activation and its last cycle.
 """
 
 from collections.abc import Iterable, Iterator, Mapping
@@ -10,12 +10,12 @@ from .expressions import TIME_MASK, InputAccess, TermEmitter
 from .program import CompiledOption, CompiledState, Program, Term, TypedSlot
 
 _MAX_DEPTH = 30
-"""Deeper decisions get a function of their own, as Python's lines can only be indented so far."""
+"""Deeper decisions are moved to separate functions, because Python limits the depth of indentation."""
 
 
 @dataclass(frozen=True, slots=True)
 class BehaviorBinding:
-    """A basic behavior: the name of the callable, of its record, and the keywords of its parameters."""
+    """Names of a basic behavior in the source: its callable, its record and the keywords of its parameters."""
 
     text: str
     record: str
@@ -25,7 +25,7 @@ class BehaviorBinding:
 
 @dataclass(slots=True, kw_only=True)
 class LinkedNames:
-    """How the Python source names what it gets from outside."""
+    """Names in the Python source of the symbols and basic behaviors of the robot."""
 
     inputs: Mapping[str, InputAccess]
     outputs: Mapping[str, str]
@@ -36,7 +36,7 @@ class LinkedNames:
 
 @dataclass(slots=True)
 class PythonEmitter:
-    """Writes the functions of all options. With `traced` they also note what they do; `strict`: see `Engine`."""
+    """Emits the functions of all options. With `traced`, they also record a trace; `strict`: see `Engine`."""
 
     program: Program
     names: LinkedNames
@@ -55,7 +55,7 @@ class PythonEmitter:
                     self.coop[option.name, state.name] = len(self.coop)
 
     def source(self) -> str:
-        """The source of all functions: `run3` executes option 3, `s3_1` its state 1."""
+        """Emit the source of all functions: `run3` executes option 3, `s3_1` its state 1."""
         lines: list[str] = []
         for option in self.program.options:
             lines += self._run(option)
@@ -64,19 +64,18 @@ class PythonEmitter:
         return "\n".join([*lines, ""])
 
     def number(self, option: str) -> int:
-        """The number of an option, which its record and functions have in their names."""
+        """The number of an option, part of the names of its record and functions."""
         return self._numbers[option]
 
     def slots(self, option: str) -> tuple[TypedSlot, ...]:
-        """The parameters of an option."""
         return self._options[option].parameters
 
     def parameters(self, option: CompiledOption) -> dict[str, str]:
-        """Where the parameters of an option are kept."""
+        """Names of the variables that hold the parameters of an option."""
         return {slot.name: f"o{self.number(option.name)}.p{at}" for at, slot in enumerate(option.parameters)}
 
     def _run(self, option: CompiledOption) -> Iterator[str]:
-        """What a call of an option does, once its parameters are stored."""
+        """Emit the function that executes an option after its parameters are stored."""
         number = self.number(option.name)
         initial = next(at for at, state in enumerate(option.states) if state.name == option.initial)
         target = option.states[initial].is_target
@@ -102,18 +101,18 @@ class PythonEmitter:
 
 
 class _StateEmitter:
-    """Writes the functions of one state: `s` decides and acts, `g` enters the state and acts."""
+    """Emits the functions of one state: `s` decides and acts, `g` enters the state and acts."""
 
-    def __init__(self, generator: PythonEmitter, option: CompiledOption, number: int) -> None:
-        self.emitter, self.option = generator, option
+    def __init__(self, emitter: PythonEmitter, option: CompiledOption, number: int) -> None:
+        self.emitter, self.option = emitter, option
         self.state: CompiledState = option.states[number]
-        self.option_number = generator.number(option.name)
+        self.option_number = emitter.number(option.name)
         self.name = f"{self.option_number}_{number}"
         self.states = {state.name: at for at, state in enumerate(option.states)}
         self.helpers: list[str] = []
         o = f"o{self.option_number}"
-        names = generator.names
-        common = (names.inputs, names.outputs, generator.parameters(option), names.elements.__getitem__)
+        names = emitter.names
+        common = (names.inputs, names.outputs, emitter.parameters(option), names.elements.__getitem__)
         option_time = f"((now - {o}.option_since) & {TIME_MASK})"
         self.deciding = TermEmitter(
             *common,
@@ -122,26 +121,26 @@ class _StateEmitter:
             self._action_done(),
             self._conflict(),
         )
-        # Just entered, a state is no time old; whether what it calls is done is asked of what it called before.
+        # On entry state_time is 0; action_done still refers to the last execution of the callees.
         self.entering = TermEmitter(*common, "0", option_time, self._action_done(), self._conflict())
 
     def lines(self) -> list[str]:
-        """Both functions, and those of decisions that are too deep for one."""
+        """Emit both functions, preceded by helper functions for deep decisions."""
         decision = list(self._tree(self.state.decision, 1, "return {}(now, cycle)"))
-        own = [f"    {line}" for line in self._actions(self.deciding)]
-        enter = [f"    {line}" for line in self._actions(self.entering)]
+        actions = [f"    {line}" for line in self._actions(self.deciding)]
+        entry_actions = [f"    {line}" for line in self._actions(self.entering)]
         o = f"o{self.option_number}"
         return [
             *self.helpers,
             f"def s{self.name}(now, cycle):",
             *self._update_conflict(),
-            *(decision if decision or own else ["    pass"]),
-            *own,
+            *(decision if decision or actions else ["    pass"]),
+            *actions,
             f"def g{self.name}(now, cycle):",
             f"    {o}.run = s{self.name}",
             f"    {o}.state_since = now",
             f"    {o}.is_target = {self.state.is_target}",
-            *enter,
+            *entry_actions,
         ]
 
     def _action_done(self) -> str:
@@ -158,27 +157,25 @@ class _StateEmitter:
         return f"c{coop}.conflict" if self.state.mode == "c" else "False"
 
     def _update_conflict(self) -> list[str]:
-        """A capacity state sees whether too many are in it before it decides."""
+        """Emit the update of the conflict flag, which a capacity state needs before its decision."""
         coop = self.emitter.coop.get((self.option.name, self.state.name))
         return [f"    c{coop}.conflict = c{coop}.is_full()"] if self.state.mode == "c" else []
 
     def _tree(self, tree: Term, depth: int, goto: str) -> Iterator[str]:
-        """The lines of a decision; where it says to stay they end without a return."""
+        """Emit a decision; a branch that stays in the state does not return."""
         pad = "    " * depth
         if tree[0] == "t":
-            line = self._goto(tree[1], goto)
-            if line:
-                yield from (f"{pad}{each}" for each in line)
+            yield from (f"{pad}{line}" for line in self._goto(tree[1], goto))
             return
         if depth > _MAX_DEPTH:
             yield from (f"{pad}{line}" for line in self._helper(tree, goto))
             return
-        word = "if"
+        keyword = "if"
         while tree[0] == "i":
             condition, then, last = tree[1], tree[2], tree[3]
-            yield f"{pad}{word} {_strip_parentheses(self.deciding.emit(condition, 'b'))}:"
+            yield f"{pad}{keyword} {_strip_parentheses(self.deciding.emit(condition, 'b'))}:"
             yield from self._branch(then, depth + 1, goto)
-            word, tree = "elif", last
+            keyword, tree = "elif", last
         rest = list(self._tree(tree, depth + 1, goto))
         if rest:
             yield f"{pad}else:"
@@ -191,7 +188,7 @@ class _StateEmitter:
     def _goto(self, target: str, goto: str) -> list[str]:
         coop = self.emitter.coop.get((self.option.name, target))
         if target == self.state.name:
-            # A cooperative state asks the others also for leave to stay; only what it tells them then counts.
+            # A cooperative state also calls may_enter to stay, for its side effect: it informs the other robots.
             return [f"c{coop}.may_enter()"] if coop is not None else []
         line = goto.format(f"g{self.option_number}_{self.states[target]}")
         return [line] if coop is None else [f"if c{coop}.may_enter():", f"    {line}"]
@@ -199,25 +196,25 @@ class _StateEmitter:
     def _helper(self, tree: Term, goto: str) -> list[str]:
         name = f"d{self.name}_{len(self.helpers)}"
         self.helpers.append("")
-        place = len(self.helpers) - 1
+        index = len(self.helpers) - 1
         body = list(self._tree(tree, 1, "return {}(now, cycle) or True"))
-        self.helpers[place] = "\n".join([f"def {name}(now, cycle):", *body])
+        self.helpers[index] = "\n".join([f"def {name}(now, cycle):", *body])
         is_inner = goto.endswith("True")
         return [f"if {name}(now, cycle):", "    return True" if is_inner else "    return"]
 
-    def _actions(self, speller: TermEmitter) -> Iterator[str]:
+    def _actions(self, terms: TermEmitter) -> Iterator[str]:
         for action in self.state.actions:
             match action[0]:
                 case "o":
-                    yield from self._call_option(action, speller)
+                    yield from self._call_option(action, terms)
                 case "a":
-                    yield from self._call_behavior(action, speller)
+                    yield from self._call_behavior(action, terms)
                 case _:
-                    yield from self._assign(action, speller)
+                    yield from self._assign(action, terms)
 
-    def _assign(self, action: Term, speller: TermEmitter) -> Iterable[str]:
+    def _assign(self, action: Term, terms: TermEmitter) -> Iterable[str]:
         kind, symbol, value = action
-        text = _strip_parentheses(speller.emit(value, kind))
+        text = _strip_parentheses(terms.emit(value, kind))
         if kind == "b" and value[0] != "v":
             text = f"bool({text})"
         elif kind == "d" and value[0] in "st" and len(value) == 1:
@@ -227,26 +224,26 @@ class _StateEmitter:
             return (f"{target} = {text}",)
         return (f"value = {text}", f"{target} = value", f"note({symbol!r}, value)")
 
-    def _call_option(self, action: Term, speller: TermEmitter) -> Iterator[str]:
+    def _call_option(self, action: Term, terms: TermEmitter) -> Iterator[str]:
         number = self.emitter.number(action[1])
         slots = self.emitter.slots(action[1])
-        places = {slot.name: at for at, slot in enumerate(slots)}
-        for slot, text in speller.emit_arguments(slots, action[2]):
-            yield f"o{number}.p{places[slot.name]} = {_strip_parentheses(text)}"
+        indices = {slot.name: index for index, slot in enumerate(slots)}
+        for slot, text in terms.emit_arguments(slots, action[2]):
+            yield f"o{number}.p{indices[slot.name]} = {_strip_parentheses(text)}"
         yield f"run{number}(now, cycle)"
 
-    def _call_behavior(self, action: Term, speller: TermEmitter) -> Iterator[str]:
-        called = self.emitter.names.behaviors[action[1]]
-        given = speller.emit_arguments(called.slots, action[2])
-        words = ", ".join(f"{called.keywords[slot.name]}={text}" for slot, text in given)
+    def _call_behavior(self, action: Term, terms: TermEmitter) -> Iterator[str]:
+        binding = self.emitter.names.behaviors[action[1]]
+        arguments = terms.emit_arguments(binding.slots, action[2])
+        keywords = ", ".join(f"{binding.keywords[slot.name]}={text}" for slot, text in arguments)
         if not self.emitter.traced:
-            yield f"{called.text}({words})"
+            yield f"{binding.text}({keywords})"
             return
-        yield f"play({called.record}, now, cycle, dict({words}))"
+        yield f"play({binding.record}, now, cycle, dict({keywords}))"
 
 
 def _strip_parentheses(text: str) -> str:
-    """A text without the parentheses around all of it."""
+    """Remove parentheses that enclose the entire text."""
     if not text.startswith("("):
         return text
     depth = 0

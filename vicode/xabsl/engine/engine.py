@@ -1,4 +1,4 @@
-"""Runs compiled programs. Standard library only; the folder can be copied to a robot."""
+"""The engine: executes compiled programs. Uses the standard library only."""
 
 import time
 from collections.abc import Callable, Iterable, Mapping
@@ -18,7 +18,7 @@ _MASK = 0xFFFFFFFF
 
 
 class OptionRecord:
-    """What an engine keeps of an option: the function of its state, when and in which cycles it ran, parameters."""
+    """Runtime data of an option: function of its state, times of activation, last cycle and parameters."""
 
     __slots__ = ("__dict__", "is_target", "last_cycle", "option_since", "run", "state_since", "was_active")
 
@@ -32,7 +32,7 @@ class OptionRecord:
 
 @dataclass(slots=True)
 class OptionView:
-    """An option as it is now. Times in milliseconds, since it and its state were activated."""
+    """Status of an option. Times in milliseconds since the activation of the option and its state."""
 
     name: str
     is_active: bool
@@ -44,14 +44,14 @@ class OptionView:
 
 @dataclass(slots=True)
 class Trace:
-    """What happened in a cycle: nodes as in `vicode.xabsl.engine.replay`, and the symbols that were set."""
+    """Trace of one cycle: nodes as described in `replay`, and the symbols that were set."""
 
     nodes: list[Any] = field(default_factory=list)
     values: dict[str, Any] = field(default_factory=dict)
 
 
 def monotonic_ms() -> int:
-    """The time of a clock that never goes back."""
+    """Milliseconds of a monotonic clock."""
     return time.monotonic_ns() // 1_000_000
 
 
@@ -59,18 +59,19 @@ class Engine:
     """Executes a program for one robot, cycle by cycle.
 
     Args:
-        program: what a compiler made, or `read_code` read.
-        world: gives and takes symbols by attributes named like them, dots as underscores. An input that is callable is
-            called; its parameters are keywords. Enumerations are texts: their elements' own names.
-        behaviors: basic behaviors by name, called with keywords; those not given are looked up in `world`.
-        symbols: all that the robot program has. Without them only what the program uses is known, and parameters that
-            no call gives are left to Python's defaults.
-        clock: tells milliseconds.
-        strict: what may be active twice in a cycle is refused when loading, as the original's second version does.
-        traced: note what happens in each cycle, in `trace`.
+        program: a compiled program, or the result of `read_code`.
+        world: object with the symbols as attributes; dots in names become underscores. A callable input is called with
+            its parameters as keywords. Values of enumerations are strings: the unqualified names of the elements.
+        behaviors: basic behaviors by name, called with keywords. Others are looked up in `world`.
+        symbols: all symbols of the robot program. Without them, only the symbols that the program uses are known, and
+            parameters omitted in all calls take the default values of the Python function.
+        clock: returns the time in milliseconds.
+        strict: reject programs in which an option or behavior may be active twice in a cycle, as the second version of
+            the original engine does.
+        traced: record each cycle in `trace`.
 
     Raises:
-        LoadError: The program cannot run here; the error says all reasons.
+        LoadError: The program cannot run with this world; the error lists all reasons.
     """
 
     def __init__(
@@ -87,12 +88,12 @@ class Engine:
         self.program, self.world, self.clock = program, world, clock
         self.symbols = select_used_symbols(symbols, program) if symbols is not None else used_symbols(program)
         self.errors: list[str] = []
-        """What went wrong in the last cycle."""
+        """Errors of the last cycle."""
         self.errors_occurred = False
-        """Whether something went wrong since the beginning, or since `reset`."""
+        """Whether an error occurred since the start or the last `reset`."""
         self.trace = Trace()
         self.messages: list[str] = []
-        """What robots that got in each other's way were told in the last cycle."""
+        """Conflicts between robots in the last cycle."""
         self.cycle = 0
         self.team = TeamSettings()
         self.memory = SimpleNamespace()
@@ -114,10 +115,10 @@ class Engine:
         if program.agents:
             self.select(self.agent)
 
-    # What a robot program does
+    # Execution
 
     def execute(self) -> None:
-        """Run one cycle: from each root action down, to all that is called there."""
+        """Run one cycle, starting from each root action."""
         now = self.clock() & _MASK
         self.cycle = cycle = self.cycle + 1
         if self.errors:
@@ -130,7 +131,7 @@ class Engine:
             run(now, cycle)
 
     def select(self, agent: str) -> bool:
-        """Go on as another agent; nothing is reset. Returns False, and changes nothing, if none is named so."""
+        """Switch to another agent without a reset. Returns False and changes nothing if there is no such agent."""
         root = next((root for name, root in self.program.agents if name == agent), None)
         if root is None:
             return False
@@ -139,15 +140,15 @@ class Engine:
         return True
 
     def set_root(self, name: str, **parameters: Any) -> None:
-        """Execute only one option or basic behavior from now on, with these parameters."""
+        """Replace all root actions by one option or basic behavior with these parameters."""
         self._roots = []
         self.add_root(name, **parameters)
 
     def add_root(self, name: str, **parameters: Any) -> None:
-        """Execute an option or basic behavior beside what is executed already.
+        """Add an option or basic behavior to the root actions.
 
         Raises:
-            KeyError: There is none of this name.
+            LoadError: There is no option or basic behavior of this name.
         """
         number = self._numbers.get(name)
         if number is None:
@@ -160,8 +161,11 @@ class Engine:
             return
         record, slots = self._records[number], self.program.options[number].parameters
         run = self._functions[f"run{number}"]
-        given = {f"{name}.{key}": value for key, value in parameters.items()}
-        values = [(f"p{at}", given.get(slot.name, self._linker.default_value(slot))) for at, slot in enumerate(slots)]
+        arguments = {f"{name}.{key}": value for key, value in parameters.items()}
+        values = [
+            (f"p{index}", arguments.get(slot.name, self._linker.default_value(slot)))
+            for index, slot in enumerate(slots)
+        ]
 
         def call(now: int, cycle: int) -> None:
             for key, value in values:
@@ -171,20 +175,20 @@ class Engine:
         self._roots.append((call if values else run, name))
 
     def reset(self) -> None:
-        """Begin anew in all initial states with the next cycle; symbols keep their values."""
-        # Two cycles that nobody ran in: what was active is not any more.
+        """Restart all options in their initial states with the next cycle; symbols keep their values."""
+        # Skip two cycles, so that no option counts as active in the previous cycle.
         self.cycle += 2
         self.errors_occurred = False
 
-    # What the others of a team hear and tell
+    # Team communication
 
     def prepare_incoming_messages(self) -> None:
-        """Forget what the others told; before their new messages are heard, once a cycle."""
-        for each in self._coop:
-            each.begin_cycle()
+        """Discard the messages of the previous cycle. Call it once per cycle, before `process_incoming_message`."""
+        for state in self._coop:
+            state.begin_cycle()
 
     def process_incoming_message(self, message: CoopMessage) -> None:
-        """Take in the message of another robot."""
+        """Process the message of another robot."""
         for number in message.executed:
             self._coop[number].executing += 1
         for number in message.entering:
@@ -197,30 +201,30 @@ class Engine:
             self._coop[number].in_option += 1
 
     def generate_outgoing_message(self) -> CoopMessage:
-        """What the others must hear after this cycle."""
-        executed, entering, near = [], [], []
+        """Create the message for the other robots after this cycle."""
+        executed, entering, option_executed = [], [], []
         for number, coop in enumerate(self._coop):
             record = self._records[self._numbers[coop.option]]
             if record.last_cycle != self.cycle:
                 continue
-            near.append(number)
+            option_executed.append(number)
             if self._states[record.run] == coop.state:
                 executed.append(number)
             elif coop.is_entering:
                 entering.append(number)
-        return CoopMessage(self.team.priority, tuple(executed), tuple(entering), tuple(near))
+        return CoopMessage(self.team.priority, tuple(executed), tuple(entering), tuple(option_executed))
 
-    # What a person wants to see
+    # Inspection
 
     @property
     def options(self) -> list[OptionView]:
-        """All options as they were left by the last cycle."""
+        """The status of all options after the last cycle."""
         now = self.clock() & _MASK
         return [self._view(number, now) for number in range(len(self._records))]
 
     @property
     def active_options(self) -> list[OptionView]:
-        """The options that the last cycle ran."""
+        """The options executed in the last cycle."""
         return [view for view in self.options if view.is_active]
 
     def _view(self, number: int, now: int) -> OptionView:
@@ -234,10 +238,10 @@ class Engine:
     # Loading
 
     def _load(self, *, strict: bool, traced: bool) -> None:
-        generator = PythonEmitter(self.program, self._linker.link(), traced=traced, strict=strict)
-        self.source = generator.source()
-        """The Python that runs; to be read where something is not understood."""
-        self._coop = self._coop_states(generator.coop, strict=strict)
+        emitter = PythonEmitter(self.program, self._linker.link(), traced=traced, strict=strict)
+        self.source = emitter.source()
+        """The generated Python source, for debugging."""
+        self._coop = self._coop_states(emitter.coop, strict=strict)
         functions = self._functions
         functions.update({f"o{number}": record for number, record in enumerate(self._records)})
         functions.update({f"c{number}": state for number, state in enumerate(self._coop)})
@@ -249,7 +253,7 @@ class Engine:
             note=self._trace_symbol,
             play=self._trace_behavior,
         )
-        # All names in it are ours; the program's words are in it as texts only, written by `repr`.
+        # Safe: all names in the source are generated; words of the program occur only as literals written by `repr`.
         exec(compile(self.source, "<behavior>", "exec"), functions)  # noqa: S102
         self._states = {
             functions[f"s{number}_{at}"]: state.name
@@ -262,7 +266,7 @@ class Engine:
         kinds = {"c": CapacityState, "s": StrictSynchronizedState if strict else SynchronizedState}
         return [kinds[states[key].mode](*key, states[key].robots, self.team, self.messages) for key in numbers]
 
-    # What traced functions call
+    # Callbacks of the generated functions
 
     def _report_double_execution(self, number: int) -> None:
         name = self.program.options[number].name

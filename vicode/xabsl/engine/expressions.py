@@ -1,11 +1,11 @@
-"""Terms of a program as Python's own expressions.
+"""Emits the terms of a program as Python expressions.
 
-The text is compiled by Python, so nothing of the program's words gets into it but numbers: symbols and parameters are
-looked up before, and named by us; elements of enumerations are written by `repr`.
+Python compiles the text, so it contains no word of the program except numbers: symbols and parameters get generated
+names, elements of enumerations are written by `repr`.
 """
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 from .program import Term, TypedSlot
 
@@ -24,17 +24,17 @@ _INFIX = {
     "|": "or",
 }
 TIME_MASK = "0xFFFFFFFF"
-"""Times are whole milliseconds that begin again after 32 bits, as the original's."""
+"""Times are integer milliseconds that wrap around after 32 bits, as in the original."""
 
 _DEFAULTS = {"d": "0.0", "b": "False"}
 
 
 @dataclass(frozen=True, slots=True)
 class InputAccess:
-    """How an input symbol is read: a Python expression, a call of it if `keywords` are its parameters' keywords.
+    """Access to an input symbol: a Python expression, or a callable if `keywords` is set (keyword by parameter).
 
-    `cells` is a list that holds its parameters where a call of it stands among them: those of the original are shared
-    by all calls, so that the inner one changes what the outer was given before.
+    `cells` names a list of the parameter values, set if a call is nested in the arguments of another call of the same
+    symbol. In the original all calls share the parameters, so that the inner call overwrites those of the outer one.
     """
 
     text: str
@@ -45,7 +45,7 @@ class InputAccess:
 
 @dataclass(slots=True)
 class TermEmitter:
-    """Spells the terms of one state. `action_done` and `conflict` are expressions for them."""
+    """Emits the terms of one state. `action_done`, `conflict` and the times are Python expressions."""
 
     inputs: Mapping[str, InputAccess]
     outputs: Mapping[str, str]
@@ -55,10 +55,9 @@ class TermEmitter:
     option_time: str = "0"
     action_done: str = "False"
     conflict: str = "False"
-    _inside: list[str] = field(default_factory=list)
 
     def emit(self, term: Term, kind: str) -> str:
-        """The expression of a term of this kind, in parentheses where it needs them."""
+        """Emit a term of this kind, in parentheses where necessary."""
         letter = term[0]
         match letter:
             case "v":
@@ -74,10 +73,10 @@ class TermEmitter:
                 return f"({self.emit(term[2], kind)} if {condition} else {self.emit(term[3], kind)})"
         return self._decimal(term) if kind == "d" else self._boolean(term)
 
-    def emit_arguments(self, order: tuple[TypedSlot, ...], given: tuple[Term, ...]) -> list[tuple[TypedSlot, str]]:
-        """What a call stores into the parameters, in the order of storing: decimals, then bools, then enums."""
-        terms = {each[-2]: each[-1] for each in given}
-        ordered = sorted(order, key=lambda slot: "dbe".index(slot.kind))
+    def emit_arguments(self, slots: tuple[TypedSlot, ...], arguments: tuple[Term, ...]) -> list[tuple[TypedSlot, str]]:
+        """Emit the values of all parameters in the order of evaluation: decimals, then bools, then enums."""
+        terms = {argument[-2]: argument[-1] for argument in arguments}
+        ordered = sorted(slots, key=lambda slot: "dbe".index(slot.kind))
         return [
             (slot, self.emit(terms[slot.name], slot.kind) if slot.name in terms else self._default(slot))
             for slot in ordered
@@ -87,18 +86,17 @@ class TermEmitter:
         return _DEFAULTS.get(slot.kind) or repr(self.first_element(slot.enum))
 
     def _input(self, term: Term) -> str:
-        known = self.inputs[term[1]]
-        if known.keywords is None:
-            return known.text
-        self._inside.append(term[1])
-        given = self.emit_arguments(known.parameters, term[2])
-        self._inside.pop()
-        if known.cells:
-            sets = "".join(f"{known.cells}.__setitem__({at}, {text}), " for at, (_slot, text) in enumerate(given))
-            words = ", ".join(f"{known.keywords[slot.name]}={known.cells}[{at}]" for at, (slot, _) in enumerate(given))
-            return f"({sets}{known.text}({words}))[-1]"
-        words = ", ".join(f"{known.keywords[slot.name]}={text}" for slot, text in given)
-        return f"{known.text}({words})"
+        access = self.inputs[term[1]]
+        if access.keywords is None:
+            return access.text
+        arguments = self.emit_arguments(access.parameters, term[2])
+        if not access.cells:
+            return f"{access.text}({', '.join(f'{access.keywords[slot.name]}={text}' for slot, text in arguments)})"
+        stores, reads = "", []
+        for index, (slot, text) in enumerate(arguments):
+            stores += f"{access.cells}.__setitem__({index}, {text}), "
+            reads.append(f"{access.keywords[slot.name]}={access.cells}[{index}]")
+        return f"({stores}{access.text}({', '.join(reads)}))[-1]"
 
     def _decimal(self, term: Term) -> str:
         match term[0]:
@@ -126,7 +124,7 @@ class TermEmitter:
             case "!":
                 return f"(not {self.emit(term[1], 'b')})"
             case "&" | "|":
-                return f"({f' {_INFIX[term[0]]} '.join(self.emit(each, 'b') for each in term[1:])})"
+                return f"({f' {_INFIX[term[0]]} '.join(self.emit(operand, 'b') for operand in term[1:])})"
         kind = "e" if term[0] == "c" else "d"
         return f"({self.emit(term[1], kind)} {_INFIX[term[0]]} {self.emit(term[2], kind)})"
 

@@ -1,4 +1,4 @@
-"""Joins a program to a robot's world: how its Python source names symbols and skills, and what those names are."""
+"""Links a program to the world of a robot: names of symbols and basic behaviors in the source, and their values."""
 
 import keyword
 from collections.abc import Callable, Iterable, Mapping
@@ -12,18 +12,18 @@ from .symbols import BasicBehavior, RobotSymbol, SymbolList
 from .validation import LoadError, find_nested_inputs
 
 NEVER = -2
-"""The cycle of what never ran."""
+"""Last cycle of options and behaviors that never ran."""
 
 
 def python_name(name: str) -> str:
-    """The Python name of a symbol or parameter: dots become underscores, Python's own words get one."""
+    """The Python name of a symbol or parameter: dots become underscores, keywords get a trailing underscore."""
     plain = name.replace(".", "_")
     return f"{plain}_" if keyword.iskeyword(plain) else plain
 
 
 @dataclass(slots=True)
 class BehaviorRecord:
-    """What a tracing engine keeps of a basic behavior."""
+    """Runtime data of a basic behavior for tracing."""
 
     name: str
     act: Callable[..., object]
@@ -36,7 +36,7 @@ class BehaviorRecord:
 
 @dataclass(slots=True)
 class WorldLinker:
-    """Finds what a program uses in a world; `functions` is what the names in its source stand for."""
+    """Looks up the symbols and behaviors of a program in a world; `functions` are the globals of its Python source."""
 
     program: Program
     symbols: SymbolList
@@ -51,10 +51,10 @@ class WorldLinker:
             self._elements[name] = elements[0].rpartition(".")[2] if elements else ""
 
     def link(self) -> LinkedNames:
-        """How the source names everything.
+        """Choose the names of all symbols and behaviors, and look up their values.
 
         Raises:
-            LoadError: The world has no such thing.
+            LoadError: The world lacks a symbol or a basic behavior.
         """
         nested = find_nested_inputs(self.program)
         inputs = [each for each in self.symbols.symbols if each.role == "input"]
@@ -68,31 +68,31 @@ class WorldLinker:
         )
 
     def default_value(self, slot: TypedSlot) -> object:
-        """What a parameter has that is not given, and an internal symbol at first."""
+        """Value of an omitted parameter, and initial value of an internal symbol."""
         if slot.kind == "e":
             return self._elements.get(slot.enum, "")
         return False if slot.kind == "b" else 0.0
 
     def find_behavior(self, name: str) -> Callable[..., object]:
-        """What a basic behavior does.
+        """Find the callable of a basic behavior.
 
         Raises:
-            LoadError: Nobody has it.
+            LoadError: Neither `behaviors` nor the world has it.
         """
         act = self.behaviors.get(name) or getattr(self.world, python_name(name), None)
         if not callable(act):
-            raise LoadError([f"basic behavior {name}: none is given, and the world has no {python_name(name)}"])
+            raise LoadError([f"basic behavior {name}: not in behaviors, and the world has no {python_name(name)}"])
         return act
 
     def _bind_input(self, number: int, symbol: RobotSymbol, nested: Iterable[str]) -> InputAccess:
         attribute = python_name(symbol.name)
         try:
-            given = getattr(self.world, attribute)
+            value = getattr(self.world, attribute)
         except AttributeError:
             raise LoadError([f"input symbol {symbol.name}: the world has no {attribute}"]) from None
-        if not callable(given):
+        if not callable(value):
             return InputAccess(f"w.{attribute}")
-        self.functions[f"i{number}"] = given
+        self.functions[f"i{number}"] = value
         cells = ""
         if symbol.name in nested:
             cells = f"cells{number}"

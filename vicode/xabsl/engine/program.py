@@ -1,13 +1,13 @@
-"""A compiled program, as intermediate code tells it; inside states it is nested tuples that begin with its letters.
+"""A compiled program. Decisions and actions are nested tuples that begin with a letter of the intermediate code.
 
-decimal   ("v", number) ("c", text of a constant) ("i", symbol, given) ("o", symbol) ("p", parameter)
+decimal   ("v", number) ("c", text of a constant) ("i", symbol, arguments) ("o", symbol) ("p", parameter)
           ("+", a, b) ("-", a, b) ("*", a, b) ("d", a, b) a / b ("%", a, b) ("s",) state_time ("t",) option_time
           ("q", condition, yes, no)
 boolean   ("v", True) ("i", …) ("o", …) ("p", …) ("t",) action_done ("x",) conflict ("c", enum, enum) equal
           ("&", a, b, …) ("|", a, b, …) ("!", a) ("=", a, b) ("n", a, b) unequal ("<" "l" ">" "g", a, b) ("q", …)
 enum      ("v", "enum.element") ("i", …) ("o", …) ("p", …) ("q", …)
-given     a tuple of ("d" | "b", parameter, value) and ("e", enum, parameter, value)
-action    ("o", option, given) ("a", behavior, given) ("d" | "b" | "e", symbol, value)
+arguments a tuple of ("d" | "b", parameter, value) and ("e", enum, parameter, value)
+action    ("o", option, arguments) ("a", behavior, arguments) ("d" | "b" | "e", symbol, value)
 tree      ("t", state) ("i", condition, then, otherwise)
 """
 
@@ -28,7 +28,7 @@ class TypedSlot:
 
 @dataclass(frozen=True, slots=True)
 class CompiledState:
-    """A state; `mode` is "n", "c" (capacity) or "s" (synchronized), `robots` the number behind it."""
+    """A state; `mode` is "n", "c" (capacity) or "s" (synchronized), `robots` the number after it."""
 
     name: str
     decision: Term
@@ -40,7 +40,7 @@ class CompiledState:
 
 @dataclass(frozen=True, slots=True)
 class CompiledOption:
-    """A state machine; parameters have the option's name before their own."""
+    """A state machine. Names of parameters are prefixed with the name of the option."""
 
     name: str
     initial: str
@@ -50,7 +50,7 @@ class CompiledOption:
 
 @dataclass(frozen=True, slots=True)
 class Program:
-    """Everything an engine needs but for the robot's own symbols. Agents are names with their root options."""
+    """A program for an engine. Agents are pairs of a name and a root option."""
 
     options: tuple[CompiledOption, ...]
     agents: tuple[tuple[str, str], ...]

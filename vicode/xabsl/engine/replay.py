@@ -1,4 +1,4 @@
-"""Runs a program on recorded inputs, and writes what it did as JSON lines.
+"""Runs a program on recorded inputs and writes a trace in JSON lines.
 
 A line is {"c": cycle, "t": ms, "agent", "tree": [node], "out": {symbol: value}, "err"?: [text], "r"?: robot}. Nodes are
 ["o", option, state, option_time, state_time, {parameter: value}, [node]], ["b", behavior, time, {parameter: value}] and
@@ -19,15 +19,16 @@ from .symbols import RobotSymbol, SymbolList
 
 
 class ReplayError(ValueError):
-    """Inputs that do not fit the symbols."""
+    """The inputs do not match the symbols."""
 
 
 class TableWorld:
-    """A robot whose senses are the columns of a table, and whose skills do nothing.
+    """A world whose inputs are the columns of a table, and whose basic behaviors do nothing.
 
-    An input with parameters is its column plus S, the sum of i × decimal i, 0.5 j × bool j and 0.25 k × number of
-    enum k: decimals get base + S, bools base XOR (floor |S| is odd), enums element (base + floor |S|) modulo their
-    number. An S that is not finite counts as 0 for bools and enums.
+    The value of an input with parameters is derived from its column (base) and S, the sum of i × decimal i,
+    0.5 j × bool j and 0.25 k × number of enum k: base + S for a decimal, base XOR (floor |S| is odd) for a bool, the
+    element number base + floor |S| modulo the number of elements for an enum. For bools and enums, an S that is not
+    finite counts as 0.
     """
 
     def __init__(self, symbols: SymbolList, program: Program) -> None:
@@ -51,10 +52,10 @@ class TableWorld:
             setattr(self, python_name(behavior.name), _do_nothing)
 
     def set_input(self, name: str, value: float) -> None:
-        """Give an input symbol a value: bools as 0 or 1, enums by number.
+        """Set an input symbol; bools are 0 or 1, enums the number of an element.
 
         Raises:
-            ReplayError: There is no such symbol.
+            ReplayError: There is no such input symbol.
         """
         symbol = self._inputs.get(name)
         if symbol is None:
@@ -71,10 +72,10 @@ class TableWorld:
             for at, (keyword, slot) in enumerate(pair for pair in order if pair[1].kind == kind)
         ]
 
-        def read(**given: Any) -> Any:
+        def read(**arguments: Any) -> Any:
             total = 0.0
             for keyword, slot, weight in weights:
-                total += weight * self._number(slot, given[keyword])
+                total += weight * self._number(slot, arguments[keyword])
             return self._value(symbol, total)
 
         return read
@@ -96,15 +97,15 @@ class TableWorld:
         return elements[number % len(elements)] if elements else ""
 
 
-def _do_nothing(**_given: object) -> None:
-    """What a basic behavior does here."""
+def _do_nothing(**_arguments: object) -> None:
+    pass
 
 
 def read_rows(lines: Iterable[str]) -> list[dict[str, str]]:
-    """The rows of a table of inputs: `time` in ms, perhaps `agent` and `reset`, and symbols; empty keeps the last.
+    """Read a table of inputs: `time` in ms, optionally `agent` and `reset`, and symbols. An empty cell keeps the value.
 
     Raises:
-        ReplayError: A row has more cells than the first names.
+        ReplayError: A row has more cells than the header.
     """
     rows = list(csv.DictReader(lines, restkey=""))
     for number, row in enumerate(rows, 2):
@@ -114,7 +115,7 @@ def read_rows(lines: Iterable[str]) -> list[dict[str, str]]:
 
 
 class ReplayRobot:
-    """An engine on a world that is fed row by row."""
+    """An engine with a world whose inputs are set row by row."""
 
     def __init__(self, program: Program, symbols: SymbolList, *, strict: bool = False, traced: bool = True) -> None:
         self.now = 0
@@ -127,10 +128,10 @@ class ReplayRobot:
         self._slots = {slot.name: slot for slot in slots}
 
     def apply_row(self, row: dict[str, str], prefix: str = "") -> None:
-        """Take in a row of inputs.
+        """Set the inputs from a row.
 
         Raises:
-            ReplayError: It has other columns than symbols, or a cell is no number.
+            ReplayError: A column is not an input symbol, or a cell is not a number.
         """
         for column, cell in row.items():
             name = column.removeprefix(prefix) if prefix and column.startswith(prefix) else column
@@ -148,16 +149,18 @@ class ReplayRobot:
                 self.world.set_input(name, _parse_number(name, cell))
 
     def trace_line(self, cycle: int, number: int | None = None) -> str:
-        """What the last cycle did, as a line of JSON."""
+        """Format the trace of the last cycle as a line of JSON."""
         engine = self.engine
-        said: dict[str, Any] = {"c": cycle, "t": self.now, "agent": engine.agent}
+        record: dict[str, Any] = {"c": cycle, "t": self.now, "agent": engine.agent}
         if number is not None:
-            said["r"] = number
-        said["tree"] = [self._node(node) for node in engine.trace.nodes]
-        said["out"] = {name: self._json_value(self._kinds[name], value) for name, value in engine.trace.values.items()}
+            record["r"] = number
+        record["tree"] = [self._node(node) for node in engine.trace.nodes]
+        record["out"] = {
+            name: self._json_value(self._kinds[name], value) for name, value in engine.trace.values.items()
+        }
         if engine.errors:
-            said["err"] = engine.errors
-        return json.dumps(said, separators=(",", ":"))
+            record["err"] = engine.errors
+        return json.dumps(record, separators=(",", ":"))
 
     def _node(self, node: list[Any]) -> list[Any]:
         match node[0]:
@@ -171,10 +174,10 @@ class ReplayRobot:
         order = sorted(values, key=lambda name: "dbe".index(self._slots[name].kind))
         return {name: self._json_value(self._slots[name], values[name]) for name in order}
 
-    def _json_value(self, of: TypedSlot | RobotSymbol, value: Any) -> Any:
-        if of.kind == "e":
-            return f"{of.enum}.{value}"
-        if of.kind == "b":
+    def _json_value(self, slot: TypedSlot | RobotSymbol, value: Any) -> Any:
+        if slot.kind == "e":
+            return f"{slot.enum}.{value}"
+        if slot.kind == "b":
             return bool(value)
         number = float(value)
         return int(number) if math.isfinite(number) and number == int(number) else number
@@ -184,15 +187,15 @@ def _parse_number(name: str, cell: str) -> float:
     try:
         return float(cell)
     except ValueError:
-        raise ReplayError(f"{name}: {cell[:40]} is no number") from None
+        raise ReplayError(f"{name}: {cell[:40]} is not a number") from None
 
 
 def replay(program: Program, symbols: SymbolList, rows: list[dict[str, str]], *, strict: bool = False) -> Iterator[str]:
-    """Run a program on inputs; a line of JSON a cycle.
+    """Run a program on inputs; yields one line of JSON per cycle.
 
     Raises:
-        LoadError: The program does not fit the symbols.
-        ReplayError: The inputs do not.
+        LoadError: The program does not match the symbols.
+        ReplayError: The inputs do not match the symbols.
     """
     robot = ReplayRobot(program, symbols, strict=strict)
     for cycle, row in enumerate(rows):
@@ -204,44 +207,46 @@ def replay(program: Program, symbols: SymbolList, rows: list[dict[str, str]], *,
 def replay_team(
     program: Program, symbols: SymbolList, rows: list[dict[str, str]], robots: int, ticks: int, *, strict: bool = False
 ) -> Iterator[str]:
-    """Run a program on several robots; columns begin with "0:", "1:", … but for `time`. Higher numbers go first.
+    """Run a program on several robots, with their numbers as priorities.
+
+    Columns other than `time` are prefixed with the number of the robot: "0:", "1:", …
 
     Raises:
-        LoadError: The program does not fit the symbols.
-        ReplayError: The inputs do not.
+        LoadError: The program does not match the symbols.
+        ReplayError: The inputs do not match the symbols.
     """
     team = [ReplayRobot(program, symbols, strict=strict) for _ in range(robots)]
     for number, robot in enumerate(team):
         robot.engine.team.priority, robot.engine.team.ticks = number, ticks
-    told = [robot.engine.generate_outgoing_message() for robot in team]
+    sent = [robot.engine.generate_outgoing_message() for robot in team]
     for cycle, row in enumerate(rows):
-        heard, told = told, []
+        received, sent = sent, []
         for number, robot in enumerate(team):
             robot.apply_row(row, f"{number}:")
             robot.engine.prepare_incoming_messages()
-            for other, message in enumerate(heard):
+            for other, message in enumerate(received):
                 if other != number:
                     robot.engine.process_incoming_message(message)
             robot.engine.execute()
-            told.append(robot.engine.generate_outgoing_message())
+            sent.append(robot.engine.generate_outgoing_message())
             yield robot.trace_line(cycle, number)
 
 
 def measure_cycles_per_second(
     program: Program, symbols: SymbolList, rows: list[dict[str, str]], times: int, *, strict: bool = False
 ) -> float:
-    """How many cycles a second of CPU an engine runs that traces nothing; reading the rows does not count.
+    """Measure the cycles per second of CPU time of an engine without a trace; setting the inputs is excluded.
 
     Raises:
-        LoadError: The program does not fit the symbols.
-        ReplayError: The inputs do not.
+        LoadError: The program does not match the symbols.
+        ReplayError: The inputs do not match the symbols.
     """
     robot, spent_s = ReplayRobot(program, symbols, strict=strict, traced=False), 0.0
     execute, clock = robot.engine.execute, time.process_time
     for _ in range(times):
         for row in rows:
             robot.apply_row(row)
-            begun_s = clock()
+            start_s = clock()
             execute()
-            spent_s += clock() - begun_s
+            spent_s += clock() - start_s
     return times * len(rows) / max(spent_s, 1e-9)

@@ -1,4 +1,4 @@
-"""The symbols that a robot program gives to an engine: read from a symbol list, or made from declarations."""
+"""The symbols and basic behaviors of a robot program, and their text format, the symbol list."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -8,7 +8,7 @@ from .program import TypedSlot
 
 @dataclass(frozen=True, slots=True)
 class RobotSymbol:
-    """An input or output symbol, or one that the engine keeps; `role` is "input", "output" or "internal"."""
+    """A symbol; `role` is "input", "output" or "internal"."""
 
     role: str
     kind: str
@@ -19,7 +19,7 @@ class RobotSymbol:
 
 @dataclass(frozen=True, slots=True)
 class BasicBehavior:
-    """A basic behavior; its parameters have its name before their own."""
+    """A basic behavior. Names of parameters are prefixed with its name."""
 
     name: str
     parameters: tuple[TypedSlot, ...] = ()
@@ -27,7 +27,7 @@ class BasicBehavior:
 
 @dataclass(frozen=True, slots=True)
 class SymbolList:
-    """All that a robot program has for behaviors. Enumerations are names with full names of their elements."""
+    """All symbols and basic behaviors of a robot program. Enumerations are names with qualified names of elements."""
 
     enums: tuple[tuple[str, tuple[str, ...]], ...] = ()
     internal_enums: tuple[tuple[str, tuple[str, ...]], ...] = ()
@@ -35,19 +35,19 @@ class SymbolList:
     behaviors: tuple[BasicBehavior, ...] = ()
 
     def elements(self, name: str) -> tuple[str, ...]:
-        """The elements of an enumeration, none if it is not known."""
+        """The elements of an enumeration; empty if it is unknown."""
         return next((elements for each, elements in (*self.enums, *self.internal_enums) if each == name), ())
 
 
 class SymbolListError(ValueError):
-    """A line that is no part of a symbol list."""
+    """A line of a symbol list is malformed."""
 
 
 _ROLES = {"in": "input", "out": "output", "i": "internal"}
 
 
 def write_symbols(symbols: SymbolList) -> str:
-    """A symbol list, a line each."""
+    """Format a symbol list, one line per entry."""
     lines = [f"enum {name} {len(elements)} {' '.join(elements)}" for name, elements in symbols.enums]
     lines += [f"ienum {name} {len(elements)} {' '.join(elements)}" for name, elements in symbols.internal_enums]
     for role in ("input", "output", "internal"):
@@ -70,10 +70,10 @@ def _slots(parameters: tuple[TypedSlot, ...]) -> str:
 
 
 def read_symbols(text: str) -> SymbolList:
-    """The symbols that a list tells.
+    """Read a symbol list.
 
     Raises:
-        SymbolListError: A line is none of a symbol list.
+        SymbolListError: A line is malformed.
     """
     enums: dict[str, list[tuple[str, tuple[str, ...]]]] = {"enum": [], "ienum": []}
     symbols: list[RobotSymbol] = []
@@ -89,11 +89,11 @@ def read_symbols(text: str) -> SymbolList:
             elif first and not first.startswith("//"):
                 symbols.append(_symbol(first, words))
         except (StopIteration, RuntimeError):
-            raise SymbolListError(f"line {number}: words are missing: {line[:80]}") from None
+            raise SymbolListError(f"line {number}: missing words: {line[:80]}") from None
         except ValueError as error:
             raise SymbolListError(f"line {number}: {error}: {line[:80]}") from None
         if not first.startswith("//") and next(words, None) is not None:
-            raise SymbolListError(f"line {number}: more words than wanted: {line[:80]}")
+            raise SymbolListError(f"line {number}: unexpected words at the end: {line[:80]}")
     return SymbolList(tuple(enums["enum"]), tuple(enums["ienum"]), tuple(symbols), tuple(behaviors))
 
 
@@ -101,7 +101,7 @@ def _enum(words: Iterator[str]) -> tuple[str, tuple[str, ...]]:
     name, count = next(words), int(next(words))
     elements = tuple(words)
     if len(elements) != count:
-        raise ValueError(f"{count} elements wanted")
+        raise ValueError(f"expected {count} elements, found {len(elements)}")
     return name, elements
 
 
@@ -109,7 +109,7 @@ def _symbol(first: str, words: Iterator[str]) -> RobotSymbol:
     is_internal = first.startswith("i") and first.endswith("out")
     kind, _, direction = first.removeprefix("i").partition("in" if first.endswith("in") else "out")
     if kind not in ("d", "b", "e") or direction:
-        raise ValueError(f"{first} is no kind of symbol")
+        raise ValueError(f"{first} is not a kind of symbol")
     name = next(words)
     enum = next(words) if kind == "e" else ""
     role = "internal" if is_internal else "input" if first.endswith("in") else "output"
@@ -121,6 +121,6 @@ def _read_slots(words: Iterator[str]) -> Iterator[TypedSlot]:
     for _ in range(int(next(words))):
         kind = next(words)
         if kind not in ("d", "b", "e"):
-            raise ValueError(f"{kind} is no kind of parameter")
+            raise ValueError(f"{kind} is not a kind of parameter")
         enum = next(words) if kind == "e" else ""
         yield TypedSlot(kind, next(words), enum)

@@ -1,11 +1,14 @@
-"""States that robots enter together, or only so many at once, by what they tell each other in every cycle."""
+"""Cooperative states: robots enter them together or up to a capacity, by exchanging messages in every cycle."""
 
 from dataclasses import dataclass
 
 
 @dataclass(frozen=True, slots=True)
 class CoopMessage:
-    """What a robot tells the others: numbers of cooperative states that it executes, enters, and is near of."""
+    """Message to the other robots: numbers of the cooperative states that the robot executes or wants to enter.
+
+    `option_executed` are those of all options that it executes.
+    """
 
     priority: int = 0
     executed: tuple[int, ...] = ()
@@ -15,7 +18,7 @@ class CoopMessage:
 
 @dataclass(slots=True)
 class TeamSettings:
-    """What a robot is among the others: ticks are the cycles until an answer of the others has come."""
+    """Settings of a robot in a team; `ticks` is the number of cycles until the others have answered."""
 
     priority: int = 0
     ticks: int = 0
@@ -23,7 +26,7 @@ class TeamSettings:
 
 @dataclass(slots=True)
 class CoopState:
-    """A cooperative state; counts are of other robots. `number` is its capacity, or how many must enter at once."""
+    """A cooperative state. Counts exclude this robot; `number` is the capacity or the required number of robots."""
 
     option: str
     state: str
@@ -39,31 +42,31 @@ class CoopState:
     conflict: bool = False
 
     def begin_cycle(self) -> None:
-        """Forget what the others told; count the cycles since this robot wants to enter."""
+        """Discard the messages of the other robots and count the cycles this robot has waited to enter."""
         self.executing = self.entering = self.in_option = 0
         self.waited_cycles = self.waited_cycles + 1 if self.is_entering else 0
         self.is_entering = False
 
     def is_full(self) -> bool:
-        """Whether as many others are in it as may be."""
+        """Whether the other robots use the whole capacity."""
         return self.executing >= self.number
 
 
 class CapacityState(CoopState):
-    """A state for at most `number` robots."""
+    """A state that at most `number` robots execute."""
 
     __slots__ = ()
 
     def may_enter(self) -> bool:
-        """Whether this robot may enter now; else the others are told that it wants to, unless it gives way."""
-        wanted = self.executing + self.entering >= self.number
-        if not self.is_full() and wanted and self.highest_priority == self.team.priority:
+        """Whether this robot may enter now. If not, it announces that it wants to enter, unless priorities conflict."""
+        is_contested = self.executing + self.entering >= self.number
+        if not self.is_full() and is_contested and self.highest_priority == self.team.priority:
             self.messages.append(
                 f"xabsl::CapacityState::coopCheck(): Conflict detected in capacity state {self.state!r}. Multiple "
                 f"agents with the same priority value {self.team.priority} are trying to execute the state."
             )
             return False
-        is_free = not self.is_full() and not (wanted and self.highest_priority > self.team.priority)
+        is_free = not self.is_full() and not (is_contested and self.highest_priority > self.team.priority)
         if is_free and self.waited_cycles >= self.team.ticks:
             return True
         self.is_entering = True
@@ -71,13 +74,13 @@ class CapacityState(CoopState):
 
 
 class SynchronizedState(CoopState):
-    """A state that at least `number` robots enter at once; `strict` engines do not count this one."""
+    """A state that at least `number` robots enter at the same time, including this one."""
 
     __slots__ = ()
     self_count = 1
 
     def may_enter(self) -> bool:
-        """Whether all who are near are ready; the others are told that this robot is."""
+        """Whether all robots that execute the option are ready; announces that this robot is."""
         self.is_entering = True
         are_enough = self.in_option + self.self_count >= self.number
         are_ready = self.executing + self.entering == self.in_option
@@ -85,7 +88,7 @@ class SynchronizedState(CoopState):
 
 
 class StrictSynchronizedState(SynchronizedState):
-    """The same where only others count."""
+    """A synchronized state of a strict engine: `number` excludes this robot."""
 
     __slots__ = ()
     self_count = 0

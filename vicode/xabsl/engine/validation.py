@@ -1,4 +1,4 @@
-"""What is looked at before a program runs: whether the robot has what it uses, and whether options call themselves."""
+"""Checks of a program before it runs: missing symbols, invalid references and cycles of options."""
 
 from collections.abc import Iterable, Iterator
 
@@ -9,7 +9,7 @@ _KIND_NAMES = {"d": "decimal", "b": "bool", "e": "enum"}
 
 
 class LoadError(ValueError):
-    """A program that cannot run on this robot. `problems` are all reasons."""
+    """A program cannot run on this robot. `problems` lists all reasons."""
 
     def __init__(self, problems: Iterable[str]) -> None:
         self.problems = tuple(dict.fromkeys(problems))
@@ -17,7 +17,7 @@ class LoadError(ValueError):
 
 
 def iter_values(program: Program) -> Iterator[tuple[str, Term]]:
-    """All values in a program with the kinds that are wanted of them, each before what is in it."""
+    """Yield all terms of a program with their expected kinds, outer terms before inner ones."""
     for option in program.options:
         for state in option.states:
             yield from _iter_tree_values(state.decision)
@@ -56,7 +56,7 @@ def _iter_term_values(kind: str, term: Term) -> Iterator[tuple[str, Term]]:
 
 
 def iter_actions(program: Program) -> Iterator[tuple[CompiledOption, CompiledState, Term]]:
-    """All actions of a program with where they stand."""
+    """Yield all actions of a program with their option and state."""
     for option in program.options:
         for state in option.states:
             for action in state.actions:
@@ -64,7 +64,7 @@ def iter_actions(program: Program) -> Iterator[tuple[CompiledOption, CompiledSta
 
 
 def find_nested_inputs(program: Program) -> set[str]:
-    """Input symbols that are read again to give themselves a parameter."""
+    """Find input symbols with a call nested in the arguments of another call of the same symbol."""
     nested: set[str] = set()
     for _kind, term in iter_values(program):
         if term[0] == "i" and any(
@@ -77,7 +77,7 @@ def find_nested_inputs(program: Program) -> set[str]:
 
 
 def used_symbols(program: Program) -> SymbolList:
-    """The symbols that a program uses, as far as it tells about them."""
+    """Derive the symbols and basic behaviors from their uses in a program. Enumerations are unknown."""
     internal = {slot.name for slot in program.symbols}
     found: dict[tuple[str, str], RobotSymbol] = {}
     slots: dict[tuple[str, str], dict[str, TypedSlot]] = {}
@@ -107,7 +107,7 @@ def _slots(given: Iterable[Term]) -> dict[str, TypedSlot]:
 
 
 def select_used_symbols(symbols: SymbolList, program: Program) -> SymbolList:
-    """Those of a robot's symbols that a program uses; the others may be missing in the world."""
+    """Select the symbols that a program uses; the world may lack the others."""
     names = {(each.role, each.name) for each in used_symbols(program).symbols}
     behaviors = {action[1] for _option, _state, action in iter_actions(program) if action[0] == "a"}
     return SymbolList(
@@ -119,7 +119,7 @@ def select_used_symbols(symbols: SymbolList, program: Program) -> SymbolList:
 
 
 def check_symbols(program: Program, symbols: SymbolList) -> list[str]:
-    """What a program uses and a robot does not have."""
+    """Find symbols and behaviors that a program uses and a robot does not have."""
     known = {(each.role, each.name): each for each in symbols.symbols}
     behaviors = {each.name: each for each in symbols.behaviors}
     elements = {each for _name, of in (*symbols.enums, *symbols.internal_enums, *program.enums) for each in of}
@@ -149,7 +149,7 @@ def _check_slots(what: str, used: Iterable[TypedSlot], own: Iterable[TypedSlot])
 
 
 def check_structure(program: Program) -> list[str]:
-    """States and options that are named and not there, and two of one name."""
+    """Find references to missing options, states and parameters, and duplicate options."""
     names = [option.name for option in program.options]
     problems = [f"two options {name}" for name in dict.fromkeys(names) if names.count(name) > 1]
     problems += [f"agent {agent}: there is no option {root}" for agent, root in program.agents if root not in names]
@@ -191,13 +191,13 @@ def _targets(tree: Term) -> Iterator[str]:
 
 
 def check_loops(program: Program, *, strict: bool) -> list[str]:
-    """Options that lead back to themselves; with `strict` also what may be active twice in a cycle."""
+    """Find cycles of options; with `strict`, also options and behaviors that may be active twice in a cycle."""
     options = {option.name: option for option in program.options}
     problems: list[str] = []
     reached: dict[str, frozenset[str]] = {}
 
     def look(option: CompiledOption, path: tuple[str, ...]) -> frozenset[str]:
-        """All that an option may activate; what leads back to the path is a problem."""
+        """Collect everything that an option may activate, and report calls of an option in the path."""
         if option.name in reached:
             return reached[option.name]
         path, found = (*path, option.name), set[str]()

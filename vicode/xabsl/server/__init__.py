@@ -1,1 +1,1 @@
-"""The language server: what text editors ask of a behavior while somebody writes it."""
+"""The language server for XABSL."""

@@ -1,4 +1,4 @@
-"""What can be written at a place: it depends on the block that the place is in, and on what is wanted there."""
+"""Completion: proposals depend on the enclosing block and on the expected value."""
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
@@ -33,7 +33,7 @@ SNIPPETS = {
 
 @dataclass(frozen=True, slots=True)
 class CompletionProposal:
-    """Something to write: `kind` is the role of a declaration or "word"; `snippet` has places to fill in."""
+    """A completion; `kind` is the role of a definition or "word", `snippet` the text with placeholders."""
 
     name: str
     kind: str
@@ -44,46 +44,46 @@ class CompletionProposal:
 
 @dataclass(slots=True)
 class _CompletionContext:
-    """Where something is to be written: the blocks around it, the option, and the last tokens before it."""
+    """The context of a position: enclosing blocks, option and preceding tokens."""
 
     blocks: list[str]
     option: str
     texts: list[str]
     kinds: list[str]
     call: str = ""
-    """What is called in the parentheses around it."""
+    """The callee of the enclosing parentheses."""
 
 
 def complete_at(behavior: OpenBehavior, tokens: Tokens, offset: int) -> list[CompletionProposal]:
-    """What can be written at a character; a word that ends there is being written."""
-    place, table = _context_at(tokens, offset), behavior.compiled.table
-    last = place.kinds[-1] if place.kinds else ""
-    block = place.blocks[-1] if place.blocks else ""
+    """Completions at a character; the word that ends there is the prefix."""
+    context, table = _context_at(tokens, offset), behavior.compiled.table
+    last = context.kinds[-1] if context.kinds else ""
+    block = context.blocks[-1] if context.blocks else ""
     if last == "goto":
-        option = table.options.get(place.option)
+        option = table.options.get(context.option)
         return [_definition_proposal(each) for each in option.states.values()] if option else []
     if last == "enum":
         return [_definition_proposal(each) for each in table.enums.values()]
-    if place.call:
-        return list(_argument_proposals(table, place))
+    if context.call:
+        return list(_argument_proposals(table, context))
     if block == "action" and last in ("{", ";"):
         return list(_action_proposals(table))
     if block in ("decision", "action") and last not in ("{", ";", "else", ")"):
-        return list(_value_proposals(table, place))
+        return list(_value_proposals(table, context))
     return [_keyword_proposal(each) for each in _BLOCK_KEYWORDS.get(block, ())]
 
 
-def _argument_proposals(table: SymbolTable, place: _CompletionContext) -> Iterator[CompletionProposal]:
-    """In parentheses: parameters of what is called, or values for one; the conditions of `if` are values, too."""
-    owner = _find_callee(table, place.call)
-    if place.kinds[-1] in ("(", ",") and owner is not None:
+def _argument_proposals(table: SymbolTable, context: _CompletionContext) -> Iterator[CompletionProposal]:
+    """Inside parentheses: parameters of the callee, or values for a parameter or a condition."""
+    owner = _find_callee(table, context.call)
+    if context.kinds[-1] in ("(", ",") and owner is not None:
         for each in owner.parameters.values():
             choice = _definition_proposal(each)
             yield CompletionProposal(choice.name, choice.kind, choice.detail, choice.doc, f"{each.name} = ${{1}}")
-    elif place.call == "agent":
+    elif context.call == "agent":
         yield from (_definition_proposal(each) for each in table.options.values())
     else:
-        yield from _value_proposals(table, place)
+        yield from _value_proposals(table, context)
 
 
 def _find_callee(table: SymbolTable, name: str) -> Definition | None:
@@ -92,7 +92,7 @@ def _find_callee(table: SymbolTable, name: str) -> Definition | None:
 
 
 def _action_proposals(table: SymbolTable) -> Iterator[CompletionProposal]:
-    """What an action begins with."""
+    """The start of an action."""
     for found in table.assignable.values():
         for each in found:
             choice = _definition_proposal(each)
@@ -103,10 +103,10 @@ def _action_proposals(table: SymbolTable) -> Iterator[CompletionProposal]:
         yield CompletionProposal(choice.name, choice.kind, choice.detail, choice.doc, f"{each.name}({given});")
 
 
-def _value_proposals(table: SymbolTable, place: _CompletionContext) -> Iterator[CompletionProposal]:
-    """What can be read: first the elements of the enumeration that is wanted."""
-    yield from (_definition_proposal(each) for each in _expected_elements(table, place))
-    option = table.options.get(place.option)
+def _value_proposals(table: SymbolTable, context: _CompletionContext) -> Iterator[CompletionProposal]:
+    """Readable values: first the elements of the expected enumeration."""
+    yield from (_definition_proposal(each) for each in _expected_elements(table, context))
+    option = table.options.get(context.option)
     for each in option.parameters.values() if option else ():
         yield CompletionProposal(f"@{each.name}", "parameter", signature(each), doc_comment(each))
     for each in table.symbols("input", "output", "internal", "const"):
@@ -118,14 +118,14 @@ def _value_proposals(table: SymbolTable, place: _CompletionContext) -> Iterator[
     yield from (_keyword_proposal(each) for each in _VALUES)
 
 
-def _expected_elements(table: SymbolTable, place: _CompletionContext) -> Iterable[Definition]:
+def _expected_elements(table: SymbolTable, context: _CompletionContext) -> Iterable[Definition]:
     """The elements of the enumeration to the left of `=`, `==` or `!=`."""
-    if len(place.texts) < 2 or place.kinds[-1] not in ("=", "==", "!="):
+    if len(context.texts) < 2 or context.kinds[-1] not in ("=", "==", "!="):
         return ()
-    name = place.texts[-2]
-    owner, option = _find_callee(table, place.call), table.options.get(place.option)
+    name = context.texts[-2]
+    owner, option = _find_callee(table, context.call), table.options.get(context.option)
     known = [*table.readable.get(name, ())]
-    if place.kinds[-1] == "=" and owner is not None:
+    if context.kinds[-1] == "=" and owner is not None:
         known = [owner.parameters[name]] if name in owner.parameters else []
     if name.startswith("@") and option is not None:
         known = [option.parameters[name[1:]]] if name[1:] in option.parameters else []
@@ -134,19 +134,19 @@ def _expected_elements(table: SymbolTable, place: _CompletionContext) -> Iterabl
 
 
 def _context_at(tokens: Tokens, offset: int) -> _CompletionContext:
-    place = _CompletionContext([], "", [], [])
+    context = _CompletionContext([], "", [], [])
     stack: list[str] = []
     calls: list[str] = []
     opening = ""
     for number, kind in enumerate(tokens.kinds):
         start, text = tokens.starts[number], tokens.texts[number]
-        # The word that ends here is what is to be completed.
+        # The word that ends here is the prefix of the completion.
         if start >= offset or (start + len(text) >= offset and (kind == NAME or text.isalpha())):
             break
         if kind in _BLOCKS:
             opening = kind
             if kind == "option" and not stack:
-                place.option = tokens.texts[number + 1] if number + 1 < len(tokens.texts) else ""
+                context.option = tokens.texts[number + 1] if number + 1 < len(tokens.texts) else ""
         elif kind == "{":
             stack.append(opening or (stack[-1] if stack else ""))
             opening = ""
@@ -158,14 +158,14 @@ def _context_at(tokens: Tokens, offset: int) -> _CompletionContext:
             calls.pop()
         elif kind == ";":
             calls.clear()
-        place.texts.append(text)
-        place.kinds.append(kind)
-    place.blocks, place.call = stack, calls[-1] if calls else ""
-    return place
+        context.texts.append(text)
+        context.kinds.append(kind)
+    context.blocks, context.call = stack, calls[-1] if calls else ""
+    return context
 
 
 def _callee_name(tokens: Tokens, number: int) -> str:
-    """What stands before an opening parenthesis: the name of what is called, `agent`, or `if`."""
+    """The name before an opening parenthesis: a callee, `agent` or `if`."""
     if number >= 2 and tokens.kinds[number - 2] == "agent":
         return "agent"
     before = number - 1

@@ -1,4 +1,4 @@
-"""A syntax file for VS Code and other editors that read TextMate grammars, from the table of the language's words."""
+"""A TextMate grammar for VS Code and other editors, generated from the keywords of the language."""
 
 import json
 from typing import Any
@@ -10,12 +10,12 @@ _VALUES = ("true", "false", "state_time", "option_time", "action_done", "conflic
 _TYPES = ("float", "bool", "enum", "const", "input", "output", "internal")
 
 
-def _words(words: tuple[str, ...]) -> str:
+def _word_pattern(words: tuple[str, ...]) -> str:
     return rf"\b(?:{'|'.join(sorted(words))})\b"
 
 
 def grammar() -> dict[str, Any]:
-    """The grammar, as JSON has it."""
+    """The grammar as JSON data."""
     others = tuple(KEYWORDS - {*_CONTROL, *_VALUES, *_TYPES})
     patterns = [
         {"name": "comment.block.documentation.xabsl", "begin": r"/\*\*(?![*/])", "end": r"\*/"},
@@ -24,10 +24,10 @@ def grammar() -> dict[str, Any]:
         {"name": "string.quoted.double.xabsl", "begin": '"', "end": '"'},
         {"name": "constant.other.range.xabsl", "match": r"\[[^\]]*\]"},
         {"name": "constant.numeric.xabsl", "match": r"\b[0-9]+(?:\.[0-9]*)?"},
-        {"name": "keyword.control.xabsl", "match": _words(_CONTROL)},
-        {"name": "constant.language.xabsl", "match": _words(_VALUES)},
-        {"name": "storage.type.xabsl", "match": _words(_TYPES)},
-        {"name": "keyword.other.xabsl", "match": _words(others)},
+        {"name": "keyword.control.xabsl", "match": _word_pattern(_CONTROL)},
+        {"name": "constant.language.xabsl", "match": _word_pattern(_VALUES)},
+        {"name": "storage.type.xabsl", "match": _word_pattern(_TYPES)},
+        {"name": "keyword.other.xabsl", "match": _word_pattern(others)},
         {"name": "variable.parameter.xabsl", "match": r"@[A-Za-z_][A-Za-z0-9_.]*"},
         {"name": "entity.name.function.xabsl", "match": r"[A-Za-z_][A-Za-z0-9_.]*(?=\s*\()"},
         {"name": "keyword.operator.xabsl", "match": "|".join((*OPERATORS, "[<>!+*/%=?:-]")).replace("||", r"\|\|")},
@@ -41,5 +41,5 @@ def grammar() -> dict[str, Any]:
 
 
 def grammar_text() -> str:
-    """The text of the syntax file."""
+    """The text of the grammar file."""
     return json.dumps(grammar(), indent=2) + "\n"

@@ -1,4 +1,4 @@
-"""What is told of a word under the pointer, and beside a completion: as Markdown, with what it is in one line first."""
+"""Documentation of a definition for hovers and completions, in Markdown with the signature first."""
 
 from vicode.xabsl import tree
 from vicode.xabsl.symbol_table import ENUM, KIND_NAMES, Definition
@@ -7,7 +7,7 @@ _FENCE = "```"
 
 
 def signature(declared: Definition) -> str:
-    """What something is, as one would declare it."""
+    """The declaration of a definition in one line."""
     of = _type(declared)
     match declared.role:
         case "option" | "behavior":
@@ -34,7 +34,7 @@ def signature(declared: Definition) -> str:
 
 
 def hover_text(declared: Definition) -> str:
-    """All that is known of something. What strangers wrote is shown as text."""
+    """Signature, description and location of a definition. Descriptions are escaped: they are untrusted."""
     doc = getattr(declared.node, "doc", "")
     lines = [f"{_FENCE}xabsl", signature(declared).replace(_FENCE, ""), _FENCE]
     if doc:
@@ -44,12 +44,11 @@ def hover_text(declared: Definition) -> str:
 
 
 def doc_comment(declared: Definition) -> str:
-    """The description that stands before a declaration."""
+    """The description of a definition."""
     return str(getattr(declared.node, "doc", ""))
 
 
 def _escape_markdown(text: str) -> str:
-    """A text in which Markdown finds nothing to do."""
     return "".join(f"\\{each}" if each in "\\`*_{}[]<>()#+!|~$" else each for each in text)
 
 

@@ -1,4 +1,4 @@
-"""A behavior that is being written: its files as the editor has them, what they declare, and where it is used."""
+"""A behavior open in a text editor: files with unsaved text, definitions and references."""
 
 import re
 from bisect import bisect_right
@@ -20,7 +20,7 @@ _NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_.]*")
 
 @dataclass(frozen=True, slots=True)
 class SymbolOccurrence:
-    """Some characters of a file, counted from 0, and a text for them."""
+    """A range of characters in a file, 0-based, with its text or its replacement."""
 
     path: Path
     start: int
@@ -29,12 +29,12 @@ class SymbolOccurrence:
 
 
 class RenameError(ValueError):
-    """A name that cannot be given; says why."""
+    """A new name is invalid or taken."""
 
 
 @dataclass(eq=False)
 class OpenBehavior:
-    """The program that begins in `main`. `open_texts` are files as an editor has them, saved or not."""
+    """The program with the main file `main`. `open_texts` are the texts of open files, saved or not."""
 
     main: Path
     open_texts: dict[Path, str] = field(default_factory=dict)
@@ -44,11 +44,10 @@ class OpenBehavior:
     _references: dict[int, list[tuple[int, Definition]]] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
-        """Read it for the first time."""
         self.refresh()
 
     def refresh(self) -> CompileResult:
-        """Read what has changed, and bind all of it anew."""
+        """Parse changed files and compile the program again."""
         self.source = load_source(self.main, self._read, self._parse)
         self.compiled = compile_source(self.source)
         self._references = {}
@@ -61,7 +60,7 @@ class OpenBehavior:
         return self.compiled
 
     def definition_at(self, path: Path, offset: int) -> Definition | None:
-        """What the word at a character means."""
+        """The definition that the name at a character refers to."""
         parsed = self.source.files.get(path)
         if parsed is None:
             return None
@@ -71,11 +70,10 @@ class OpenBehavior:
         return uses[at][1] if at >= 0 and uses[at][0] == number else None
 
     def declaration_occurrence(self, declared: Definition) -> SymbolOccurrence:
-        """Where something is declared."""
         return self._occurrence(declared.tokens, declared.name_node.first_token)
 
     def occurrences(self, declared: Definition) -> list[SymbolOccurrence]:
-        """Where something is declared and used, in the order of files and lines."""
+        """Declaration and uses of a definition, in the order of files and lines."""
         paths = {id(parsed.tokens): parsed.tokens for parsed in self.source.files.values()}
         return [
             self._occurrence(paths[key], at)
@@ -85,16 +83,16 @@ class OpenBehavior:
         ]
 
     def rename_edits(self, declared: Definition, name: str) -> list[SymbolOccurrence]:
-        """The spots that a new name changes, with what to write there.
+        """The text changes that rename a definition.
 
         Raises:
-            RenameError: It is no name, or something else has it.
+            RenameError: The name is invalid or taken.
         """
         name = name.removeprefix("@")
         if not _NAME.fullmatch(name) or name in KEYWORDS:
-            raise RenameError(f"{name} cannot be a name")
+            raise RenameError(f"{name} is not a valid name")
         if any(each.name == name and _share_scope(each, declared) for each in self._definitions()):
-            raise RenameError(f"there is a {declared.description} {name} already")
+            raise RenameError(f"there is already a {declared.description} {name}")
         spots = []
         for spot in self.occurrences(declared):
             sign = "@" if spot.text.startswith("@") else ""
@@ -105,7 +103,7 @@ class OpenBehavior:
         return spots
 
     def _qualified_element_edits(self, enum: str, name: str) -> Iterator[SymbolOccurrence]:
-        """Elements that are used with the name of their enumeration before them."""
+        """Changes of elements that are qualified with the name of their enumeration."""
         for tokens, at, declared in self.compiled.references:
             text = tokens.texts[at]
             if declared.role == "element" and declared.enum == enum and text.startswith(f"{enum}."):
@@ -140,14 +138,14 @@ _ROLES = ("input", "output", "internal", "const")
 
 
 def _share_scope(one: Definition, other: Definition) -> bool:
-    """Whether two declarations may not have the same name."""
+    """Whether two definitions must have different names."""
     if one.role in ("parameter", "state", "element"):
         return one.role == other.role and one.node.first_token != other.node.first_token and one.tokens is other.tokens
     return one.role == other.role
 
 
 def token_at(tokens: Tokens, offset: int) -> int:
-    """The number of the token at a character; of two that touch the later, unless it is a sign behind a word."""
+    """The number of the token at a character; between two tokens the later one if it is a name, else the earlier."""
     number = bisect_right(tokens.starts, offset) - 1
     ends_there = number > 0 and tokens.starts[number] == offset
     if ends_there and not _NAME.match(tokens.texts[number].lstrip("@")):
@@ -158,7 +156,7 @@ def token_at(tokens: Tokens, offset: int) -> int:
 
 
 def find_main_file(path: Path) -> Path:
-    """The file with the agents of the behavior that a file belongs to; the file itself if there is none."""
+    """Find the file with the agents of the behavior that includes a file; the file itself if there is none."""
     for folder in [path.parent, *path.parent.parents][:_MAX_FOLDERS]:
         found = [each for each in sorted(folder.glob("*.xabsl")) if _has_agents(each)]
         found.sort(key=lambda each: each.name != "agents.xabsl")

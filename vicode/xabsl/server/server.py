@@ -1,4 +1,4 @@
-"""The server itself: hands what a text editor asks to `Behavior`, and its answers back, in the protocol's own types."""
+"""The language server: converts between the Language Server Protocol and `OpenBehavior`."""
 
 from collections.abc import Sequence
 from importlib.metadata import version
@@ -44,7 +44,7 @@ _SYMBOL_KINDS = {
 
 
 class XabslLanguageServer(LanguageServer):
-    """Serves the behaviors that open files belong to."""
+    """Serves the behaviors of the open files."""
 
     def __init__(self) -> None:
         super().__init__("vicode-xabsl", version("vicode"), lsp.TextDocumentSyncKind.Full)
@@ -53,7 +53,7 @@ class XabslLanguageServer(LanguageServer):
         self._published: dict[Path, set[Path]] = {}
 
     def find_behavior(self, path: Path) -> OpenBehavior:
-        """The behavior that a file belongs to, read as it was last."""
+        """The behavior that includes a file, as last compiled."""
         main = self._main_files.get(path)
         if main is None:
             main = self._main_files[path] = find_main_file(path)
@@ -62,24 +62,24 @@ class XabslLanguageServer(LanguageServer):
         return self.behaviors[main]
 
     def on_change(self, path: Path) -> None:
-        """Read the behavior of a file anew, and tell what is wrong with all of its files."""
+        """Compile the behavior of a file again and publish the findings of all its files."""
         behavior = self.find_behavior(path)
         if path not in behavior.source.files and self._main_files[path] != path:
-            # It is included no more, or another file has it now.
+            # The file is no longer included, or another behavior includes it.
             del self._main_files[path]
             behavior = self.find_behavior(path)
         behavior.open_texts = self._texts()
         self.publish_findings(behavior)
 
     def publish_findings(self, behavior: OpenBehavior) -> None:
-        """Publish the findings of a behavior; files without any are told so once."""
+        """Publish the findings of a behavior, and clear those of files that have none any more."""
         found = behavior.refresh().findings
         folder = behavior.source.main.parent
         by_path: dict[Path, list[lsp.Diagnostic]] = {path: [] for path in self._published.get(behavior.main, ())}
         is_alone = not _has_agents(behavior)
         for finding in found:
             if finding.location is None or (is_alone and finding.rule.code in ("X609", "X621", "X644")):
-                # A file that no behavior includes is judged by itself.
+                # These findings are expected in a file that no behavior includes.
                 continue
             path = (folder / finding.location.file).resolve()
             by_path.setdefault(path, []).append(_diagnostic(finding, folder, self._text(behavior, path)))
@@ -90,19 +90,17 @@ class XabslLanguageServer(LanguageServer):
         self._published[behavior.main] = {path for path, diagnostics in by_path.items() if diagnostics}
 
     def resolve_position(self, uri: str, position: lsp.Position) -> tuple[OpenBehavior, Path, int]:
-        """The behavior and the character that a position means."""
+        """Resolve a position to the behavior, the file and the offset of the character."""
         path = _path(uri)
         behavior = self.find_behavior(path)
         text = self._text(behavior, path)
         return behavior, path, _offset(text, position)
 
     def location(self, behavior: OpenBehavior, spot: SymbolOccurrence) -> lsp.Location:
-        """Where a spot is, for a text editor."""
         text = self._text(behavior, spot.path)
         return lsp.Location(uri=_uri(spot.path), range=_range(text, spot.start, spot.end))
 
     def workspace_edit(self, behavior: OpenBehavior, spots: Sequence[SymbolOccurrence]) -> lsp.WorkspaceEdit:
-        """An edit of all spots."""
         changes: dict[str, list[lsp.TextEdit]] = {}
         for spot in spots:
             text = self._text(behavior, spot.path)
@@ -119,7 +117,7 @@ class XabslLanguageServer(LanguageServer):
 
 
 def create_server() -> XabslLanguageServer:
-    """A server with all that it can do."""
+    """Create a server with all features registered."""
     server = XabslLanguageServer()
     _register_document_sync(server)
     _register_queries(server)
@@ -161,12 +159,12 @@ def _register_queries(server: XabslLanguageServer) -> None:
         return lsp.Hover(contents=lsp.MarkupContent(kind=lsp.MarkupKind.Markdown, value=hover_text(declared)))
 
     @server.feature(lsp.TEXT_DOCUMENT_DEFINITION)
-    def define(params: lsp.DefinitionParams) -> lsp.Location | None:
+    def definition(params: lsp.DefinitionParams) -> lsp.Location | None:
         behavior, declared = _definition_at(server, params.text_document.uri, params.position)
         return server.location(behavior, behavior.declaration_occurrence(declared)) if declared else None
 
     @server.feature(lsp.TEXT_DOCUMENT_REFERENCES)
-    def refer(params: lsp.ReferenceParams) -> list[lsp.Location]:
+    def references(params: lsp.ReferenceParams) -> list[lsp.Location]:
         behavior, declared = _definition_at(server, params.text_document.uri, params.position)
         if declared is None:
             return []
@@ -189,13 +187,13 @@ def _register_edits(server: XabslLanguageServer) -> None:
             return None
 
     @server.feature(lsp.TEXT_DOCUMENT_DOCUMENT_SYMBOL)
-    def outline(params: lsp.DocumentSymbolParams) -> list[lsp.DocumentSymbol]:
+    def document_symbols(params: lsp.DocumentSymbolParams) -> list[lsp.DocumentSymbol]:
         path = _path(params.text_document.uri)
         parsed = server.find_behavior(path).source.files.get(path)
         return [_outline(parsed.tokens, item) for item in parsed.file.body] if parsed else []
 
     @server.feature(lsp.TEXT_DOCUMENT_FORMATTING)
-    def lay_out(params: lsp.DocumentFormattingParams) -> list[lsp.TextEdit] | None:
+    def format_document(params: lsp.DocumentFormattingParams) -> list[lsp.TextEdit] | None:
         path = _path(params.text_document.uri)
         parsed = server.find_behavior(path).source.files.get(path)
         if parsed is None or any(each.severity is Severity.ERROR for each in parsed.findings):
@@ -251,7 +249,7 @@ def _completion_item(choice: CompletionProposal, number: int) -> lsp.CompletionI
         documentation=choice.doc or None,
         insert_text=choice.snippet or choice.name,
         insert_text_format=snippet,
-        # What is wanted most stands first, whatever its letters.
+        # Keeps the order of relevance.
         sort_text=f"{number:05}",
     )
 
@@ -286,7 +284,7 @@ def _simple_range(line: int, column: int, length: int) -> lsp.Range:
 
 
 def _offset(text: str, position: lsp.Position) -> int:
-    """The character at a position, which counts in units of UTF-16."""
+    """The offset of a position, whose column counts UTF-16 code units."""
     start = 0
     for _ in range(position.line):
         found = text.find("\n", start)
