@@ -15,7 +15,10 @@ from vicode.diagram.edge_routing import route_edges
 from vicode.diagram.export import export_design
 from vicode.diagram.export_formats import ExportFormat, ExportOptions
 from vicode.diagram.palettes import DARK, LIGHT, ColorPalette
+from vicode.diagram.primitives import ShapeGroup, TextShape, VectorImage
 from vicode.diagram.spatial_index import Rect
+from vicode.diagram.svg import write_svg
+from vicode.diagram.text_metrics import Font
 from vicode.model.design import Code, CommonSection, DecisionGroup, Design, Guard, State, Transition, Use
 
 CANVAS_SHEET = Path(__file__).parents[2] / "vicode" / "editor" / "canvas" / "js" / "canvas.css"
@@ -269,3 +272,14 @@ def test_labels_do_not_overlap_in_dense_diagrams() -> None:
     labels = [Rect.from_center(route.label_position, route.label.size) for route in routes if route.label]
     assert len(labels) == 24
     assert not [(one, other) for one, other in combinations(labels, 2) if one.overlaps(other)]
+
+
+def test_svg_fixes_the_width_of_texts_with_known_glyphs() -> None:
+    texts = [
+        TextShape(x=0, y=0, text=text, fill="#000000", font=Font(size=10, bold=bold))
+        for text, bold in (("lamp", False), ("lamp", True), ("Läuft", False), ("Лампа", False))
+    ]
+    group = ShapeGroup(title="", css_class="state", shapes=tuple(texts))
+    image = VectorImage(title="", doc="", left=0, top=0, width=9, height=9, background="#ffffff", groups=(group,))
+    lengths = [text.get("textLength") for text in ElementTree.fromstring(write_svg(image)).iter(f"{SVG}text")]
+    assert lengths == ["21.7", "23.3", "22.2", None]

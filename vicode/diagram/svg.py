@@ -4,7 +4,7 @@ import re
 from xml.sax.saxutils import escape, quoteattr
 
 from vicode.diagram.primitives import PathShape, ShapeGroup, TextShape, VectorImage
-from vicode.diagram.text_metrics import FONT_FAMILIES
+from vicode.diagram.text_metrics import FONT_FAMILIES, has_exact_width, text_width
 
 # Characters that XML 1.0 cannot represent.
 _INVALID_XML = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
@@ -67,8 +67,18 @@ def _text_element(text: TextShape) -> str:
     anchor = ' text-anchor="middle"' if text.is_centered else ""
     strike = ' text-decoration="line-through"' if text.is_struck_through else ""
     look = f'font-size="{_number(letters.size)}"{weight}{anchor}{strike} fill={quoteattr(text.fill)}'
-    position = f'x="{_number(text.x)}" y="{_number(foot)}"'
+    position = f'x="{_number(text.x)}" y="{_number(foot)}"{_fixed_width(text)}'
     return f'<text {position} {look} xml:space="preserve">{_text(text.text)}</text>'
+
+
+def _fixed_width(text: TextShape) -> str:
+    """Scale the text to the width that its shape was sized for: not every font is as wide as Helvetica.
+
+    An estimated width would stretch or squeeze the text even in Helvetica, so such a text keeps its natural width.
+    """
+    if not text.text or not has_exact_width(text.text):
+        return ""
+    return f' textLength="{_number(text_width(text.text, text.font))}" lengthAdjust="spacingAndGlyphs"'
 
 
 def _text(text: str) -> str:
