@@ -67,7 +67,7 @@ def test_what_is_no_file_is_not_read(lamps: Path, capsys: pytest.CaptureFixture[
     try:
         assert vicode("check", "lamps/pipe.yaml") == 1
         assert "pipe.yaml:1:1: error Y110" in (out := capsys.readouterr().out)
-        assert "no regular file" in out
+        assert "not a regular file" in out
         assert vicode("check", "/dev/zero") in (1, 2)
         (lamps / "pipe.yaml").unlink()
         os.mkfifo(lamps / "sub.yaml")

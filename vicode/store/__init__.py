@@ -1,4 +1,4 @@
-"""The only room that knows YAML: reads designs and projects with all mistakes at once, and patches texts on save."""
+"""Reads designs and projects from YAML with all errors at once, and patches the text when a design is saved."""
 
 from vicode.store.comments import add_comments
 from vicode.store.documents import DesignReadResult, ProjectReadResult, read_design, read_project_file

@@ -1,4 +1,4 @@
-"""Puts remarks as YAML comments above the things of a file they are about."""
+"""Inserts YAML comments above nodes of a file."""
 
 from collections.abc import Iterable
 
@@ -9,38 +9,35 @@ from vicode.store.schema_types import RecordSchema
 from vicode.store.source_map import SourceMap
 
 PathComment = tuple[DesignPath, str]
-"""The path of a thing, and the words about it; an empty path means the whole file."""
+"""The path of a node, empty for the whole file, and the text of its comment."""
 
 
 def add_comments(text: str, comments: Iterable[PathComment], *, is_project_file: bool = False) -> str:
-    """The text of a design, or of a project.yaml, with comments above its things; it means the same.
+    """Insert comments into the text of a design or project file without changing its value.
 
-    What a path leads to may be missing; then the comment stands above the nearest thing around it.
+    If a path does not exist, the comment is inserted above the nearest existing ancestor.
     """
-    shape = PROJECT if is_project_file else DESIGN
-    report, root = read_record(text, "", shape)
+    schema = PROJECT if is_project_file else DESIGN
+    report, root = read_record(text, "", schema)
     source = SourceMap(file="", line_index=report.line_index, root=root)
     lines = text.split("\n")
     above: dict[int, list[str]] = {}
-    for path, words in comments:
-        at = source.locate(path, of_key=True).line - 1 if path else 0
-        above.setdefault(at, []).extend(_format_comment(words, lines[at] if path else ""))
-    made: list[str] = []
-    for at, line in enumerate(lines):
-        made += [*above.get(at, ()), line]
-    together = "\n".join(made)
-    if _read_value(together, shape) == _read_value(text, shape):
-        return together
-    # Inside brackets that go over lines, or in a text, a comment may mean something else.
+    for path, comment in comments:
+        index = source.locate(path, of_key=True).line - 1 if path else 0
+        above.setdefault(index, []).extend(_format_comment(comment, lines[index] if path else ""))
+    commented = "\n".join(line for index, old in enumerate(lines) for line in (*above.get(index, ()), old))
+    if _read_value(commented, schema) == _read_value(text, schema):
+        return commented
+    # In a multi-line text, the comment would be part of the value: write all comments at the start of the file.
     return "\n".join([*(line.strip() for comments in above.values() for line in comments), text])
 
 
-def _format_comment(words: str, line: str) -> list[str]:
-    indent = line[: len(line) - len(line.lstrip(" "))]
-    printable = ("".join(char if char.isprintable() else " " for char in each) for each in words.splitlines())
-    return [f"{indent}# {each}".rstrip() for each in printable]
+def _format_comment(comment: str, next_line: str) -> list[str]:
+    indent = next_line[: len(next_line) - len(next_line.lstrip(" "))]
+    printable = ("".join(char if char.isprintable() else " " for char in line) for line in comment.splitlines())
+    return [f"{indent}# {line}".rstrip() for line in printable]
 
 
-def _read_value(text: str, shape: RecordSchema) -> object:
-    report, root = read_record(text, "", shape)
+def _read_value(text: str, schema: RecordSchema) -> object:
+    report, root = read_record(text, "", schema)
     return (root.value if root else None, report.findings)

@@ -1,4 +1,4 @@
-"""Reads the text of a design file or of a project.yaml into the model."""
+"""Reads design files and project files into the model."""
 
 import re
 from dataclasses import dataclass, replace
@@ -21,7 +21,7 @@ PROJECT_FILES = ("project.yaml", "project.yml")
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class DesignReadResult:
-    """A design as read; None when nothing could be made of the text. `source_map` tells where its things stand."""
+    """The design of a file, None if it is unreadable, with the locations of its nodes and all findings."""
 
     design: Design | None
     source_map: SourceMap
@@ -30,7 +30,7 @@ class DesignReadResult:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ProjectReadResult:
-    """What a project.yaml declares, without designs; None when nothing could be made of the text."""
+    """The project of a project.yaml without designs, None if it is unreadable."""
 
     project: Project | None
     source_map: SourceMap
@@ -38,11 +38,11 @@ class ProjectReadResult:
 
 
 def read_design(text: str | bytes, file: str = "design.yaml") -> DesignReadResult:
-    """Read a design with all mistakes at once; what can be kept of a broken one is kept.
+    """Read a design and report all errors; valid parts of an invalid design are kept.
 
     Args:
         text: The content of the file.
-        file: How findings name the file; a design that does not name its component is called like its stem.
+        file: The file name for findings; its stem is the default name of the component.
     """
     report, root = read_record(text, file, DESIGN)
     design = None
@@ -54,7 +54,7 @@ def read_design(text: str | bytes, file: str = "design.yaml") -> DesignReadResul
 
 
 def read_project_file(text: str | bytes, file: str = "project.yaml") -> ProjectReadResult:
-    """Read a project.yaml with all mistakes at once; what can be kept of a broken one is kept."""
+    """Read a project.yaml and report all errors; valid parts of an invalid file are kept."""
     report, root = read_record(text, file, PROJECT)
     project = None
     if root is not None and root.value is not None:
@@ -64,13 +64,13 @@ def read_project_file(text: str | bytes, file: str = "project.yaml") -> ProjectR
 
 
 def default_project_name(folder: str) -> str:
-    """The name of a project that does not say it: that of its folder, made fit for a name."""
+    """The default name of a project: its folder's name, converted to an identifier."""
     name = re.sub(r"\W+", "_", folder, flags=re.ASCII).strip("_")
     return name if name[:1].isalpha() else f"project_{name}".rstrip("_")
 
 
-def read_record(text: str | bytes, file: str, shape: RecordSchema) -> tuple[ReadReport, TypedNode | None]:
-    """Read a whole text as one record; no record when the text is broken as a whole."""
+def read_record(text: str | bytes, file: str, schema: RecordSchema) -> tuple[ReadReport, TypedNode | None]:
+    """Read a text as a record; None if the text as a whole is unreadable."""
     if len(text) > MAX_BYTES:
         report = ReadReport(line_index=LineIndex("", file))
         report.add("Y108", f"the file is larger than {MAX_BYTES} bytes", (0, 1), fix="split the design")
@@ -83,44 +83,43 @@ def read_record(text: str | bytes, file: str, shape: RecordSchema) -> tuple[Read
     tree = parse_yaml(decoded, report)
     if tree.root is None:
         if not report.findings:
-            report.add("Y103", "the file is empty", (0, 1), fix="begin with 'vicode: 1'")
+            report.add("Y103", "the file is empty", (0, 1), fix="start with 'vicode: 1'")
         return report, None
-    root = SchemaReader(report).read(tree.root, shape)
+    root = SchemaReader(report).read(tree.root, schema)
     return report, _complete_root(root, tree, report)
 
 
 def _complete_root(root: TypedNode, tree: YamlTree, report: ReadReport) -> TypedNode | None:
     if not tree.is_complete:
-        # What is missing in the part that was read may well stand in the rest.
-        starts = {
-            (place.line, place.column) for place in (report.line_index.locate(each, each) for each in tree.unclosed)
-        }
-        report.findings[:] = [each for each in report.findings if _is_certain(each, starts)]
+        # Keys that are missing in the first part of the file may follow in the unread part.
+        locations = [report.line_index.locate(offset, offset) for offset in tree.unclosed]
+        unclosed = {(location.line, location.column) for location in locations}
+        report.findings[:] = [finding for finding in report.findings if _is_certain(finding, unclosed)]
         return None
     is_known_version = all(finding.rule.code != "Y109" for finding in report.findings)
     return root if root.value is not None and is_known_version else None
 
 
-def _is_certain(finding: Finding, unfinished: set[tuple[int, int]]) -> bool:
-    is_of_unfinished = finding.location is not None and (finding.location.line, finding.location.column) in unfinished
-    return finding.rule.code == "Y101" or not (finding.rule.code == "Y104" or is_of_unfinished)
+def _is_certain(finding: Finding, unclosed: set[tuple[int, int]]) -> bool:
+    is_unclosed = finding.location is not None and (finding.location.line, finding.location.column) in unclosed
+    return finding.rule.code == "Y101" or not (finding.rule.code == "Y104" or is_unclosed)
 
 
 def _not_utf8(error: UnicodeDecodeError, file: str) -> ReadReport:
-    """The report on a file in another encoding, at its first byte that is no UTF-8."""
+    """The report on a file in another encoding, located at its first invalid byte."""
     before = error.object[: error.start].decode("utf-8")
     report = ReadReport(line_index=LineIndex(before, file))
     is_utf16 = error.object.startswith((b"\xff\xfe", b"\xfe\xff"))
-    what = "the file is UTF-16" if is_utf16 else f"the byte 0x{error.object[error.start]:02x} is not UTF-8"
-    report.add("Y110", what, (len(before), len(before) + 1), fix="save the file as UTF-8")
+    message = "the file is UTF-16" if is_utf16 else f"the byte 0x{error.object[error.start]:02x} is not UTF-8"
+    report.add("Y110", message, (len(before), len(before) + 1), fix="save the file as UTF-8")
     return report
 
 
 def _with_component(findings: list[Finding], component: str) -> tuple[Finding, ...]:
     named = (
-        replace(each, subject=FindingSubject(component=component, path=each.subject.path))
-        if each.subject is not None
-        else each
-        for each in findings
+        replace(finding, subject=FindingSubject(component=component, path=finding.subject.path))
+        if finding.subject is not None
+        else finding
+        for finding in findings
     )
     return sort_findings(named)

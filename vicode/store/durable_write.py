@@ -1,4 +1,4 @@
-"""Writes the files of a project so that a crash leaves the old text or the new one, never a half."""
+"""Writes project files atomically and durably."""
 
 import errno
 import os
@@ -8,28 +8,28 @@ from vicode.output import write_atomically
 
 
 def write_text(path: Path, text: str) -> None:
-    """Replace a file in one step and see it safely on the disk; links are followed, the mode is kept.
+    """Replace a file atomically and flush it to the disk; follows symbolic links and keeps the file mode.
 
     Raises:
-        OSError: Its folder or the file is read-only, or the disk is full; the old file is as it was.
+        OSError: The file or its folder is read-only, or the disk is full; the old file is unchanged.
     """
     if is_read_only(path):
-        # It could be replaced all the same, as only the folder must be writable for that.
+        # Replacing the file would succeed if its folder is writable.
         raise PermissionError(errno.EACCES, "the file is read-only", str(path))
     if not _may_write(path.resolve().parent):
-        # A file is replaced by one that is written beside it.
+        # The new file is written to the same folder first.
         raise PermissionError(errno.EACCES, "its folder is read-only", str(path))
     write_atomically(path, text)
     folder = os.open(path.resolve().parent, os.O_RDONLY)
     try:
-        # The new name is safe only when the folder that holds it is.
+        # The rename is durable only after the folder is flushed.
         os.fsync(folder)
     finally:
         os.close(folder)
 
 
 def is_read_only(path: Path) -> bool:
-    """Whether there is a file that nobody is meant to change, or not this user."""
+    """Whether the file exists and this user must not write to it."""
     return path.is_file() and not (path.stat().st_mode & 0o222 and _may_write(path))
 
 

@@ -1,4 +1,4 @@
-"""The format as JSON Schema, so that editors complete and check YAML while it is typed."""
+"""The format as JSON Schema, with which text editors complete and check YAML."""
 
 from typing import cast
 
@@ -36,23 +36,23 @@ def _document(record: RecordSchema, title: str) -> JsonSchema:
     return {"$schema": _DIALECT, "title": title, **reference, "$defs": definitions}
 
 
-def _schema(shape: ValueSchema, definitions: JsonSchema) -> JsonSchema:
-    match shape:
+def _schema(schema: ValueSchema, definitions: JsonSchema) -> JsonSchema:
+    match schema:
         case ScalarSchema():
-            return _scalar_schema(shape)
+            return _scalar_schema(schema)
         case PairSchema():
             number = {"type": "number"}
-            return {"description": shape.description, "type": "array", "items": number, "minItems": 2, "maxItems": 2}
+            return {"description": schema.description, "type": "array", "items": number, "minItems": 2, "maxItems": 2}
         case ListSchema():
-            return _list_schema(shape, definitions)
+            return _list_schema(schema, definitions)
         case MapSchema():
-            return _map_schema(shape, definitions)
+            return _map_schema(schema, definitions)
         case RecordSchema():
-            return _reference(shape, definitions)
+            return _reference(schema, definitions)
 
 
-def _scalar_schema(shape: ScalarSchema) -> JsonSchema:
-    match shape.scalar_type:
+def _scalar_schema(schema: ScalarSchema) -> JsonSchema:
+    match schema.scalar_type:
         case ScalarType.NUMBER:
             return {"type": "number", "exclusiveMinimum": 0}
         case ScalarType.COUNT:
@@ -63,43 +63,43 @@ def _scalar_schema(shape: ScalarSchema) -> JsonSchema:
             return {"const": True}
         case ScalarType.VERSION:
             return {"const": int(VERSION)}
-    return {"enum": list(shape.choices)} if shape.choices else dict(_SCALAR)
+    return {"enum": list(schema.choices)} if schema.choices else dict(_SCALAR)
 
 
-def _list_schema(shape: ListSchema, definitions: JsonSchema) -> JsonSchema:
-    item = shape.item_schema()
+def _list_schema(schema: ListSchema, definitions: JsonSchema) -> JsonSchema:
+    item = schema.item_schema()
     items: JsonSchema = {"type": "array", "items": _schema(item, definitions)}
-    if not shape.single_item_key or not isinstance(item, RecordSchema):
+    if not schema.single_item_key or not isinstance(item, RecordSchema):
         return items
-    key = item.find_key(shape.single_item_key)
-    assert key is not None, "the table names a key that the item does not have"
-    return {"description": shape.description, "anyOf": [items, _schema(key.schema, definitions)]}
+    key = item.find_key(schema.single_item_key)
+    assert key is not None, "the item schema lacks the single_item_key of its list"
+    return {"description": schema.description, "anyOf": [items, _schema(key.schema, definitions)]}
 
 
-def _map_schema(shape: MapSchema, definitions: JsonSchema) -> JsonSchema:
-    value = _or_null(_schema(shape.value_schema, definitions))
+def _map_schema(schema: MapSchema, definitions: JsonSchema) -> JsonSchema:
+    value = _or_null(_schema(schema.value_schema, definitions))
     mapping: JsonSchema = {"type": ["object", "null"], "additionalProperties": value}
-    if shape.allowed_keys:
+    if schema.allowed_keys:
         mapping = {
             "type": ["object", "null"],
-            "properties": dict.fromkeys(shape.allowed_keys, value),
+            "properties": dict.fromkeys(schema.allowed_keys, value),
             "additionalProperties": False,
         }
     forms: list[JsonSchema] = [mapping]
-    if shape.allows_name_list:
+    if schema.allows_name_list:
         forms.append({"type": "array", "items": dict(_SCALAR), "uniqueItems": True})
-    if shape.shorthand_key:
+    if schema.shorthand_key:
         forms.append(dict(_SCALAR))
     return (
-        {"description": shape.description, **mapping}
+        {"description": schema.description, **mapping}
         if len(forms) == 1
-        else {"description": shape.description, "anyOf": forms}
+        else {"description": schema.description, "anyOf": forms}
     )
 
 
 def _reference(record: RecordSchema, definitions: JsonSchema) -> JsonSchema:
     if record.name not in definitions:
-        # The name is taken first: a transition holds transitions.
+        # Registered before its properties are built: transitions contain transitions.
         definitions[record.name] = {}
         definitions[record.name] = _record_schema(record, definitions)
     return {"$ref": f"#/$defs/{record.name}"}
@@ -118,7 +118,7 @@ def _record_schema(record: RecordSchema, definitions: JsonSchema) -> JsonSchema:
     if not record.shorthand_key:
         return {"description": record.description, **mapping}
     key = record.find_key(record.shorthand_key)
-    assert key is not None, "the table names a key that the record does not have"
+    assert key is not None, "the record lacks its shorthand_key"
     return {"description": record.description, "anyOf": [mapping, _schema(key.schema, definitions)]}
 
 
@@ -130,9 +130,9 @@ def _property(key: KeySchema, record: RecordSchema, definitions: JsonSchema) -> 
 
 
 def _or_null(schema: JsonSchema) -> JsonSchema:
-    """Also the empty value: a key with nothing behind it is left out."""
+    """Also allow null: a key without a value counts as missing."""
     types = schema.get("type")
     if types is None or "const" in schema or "enum" in schema:
         return {"anyOf": [schema, {"type": "null"}]}
-    known = cast("list[str]", [types] if isinstance(types, str) else types)
-    return {**schema, "type": [*known, *([] if "null" in known else ["null"])]}
+    type_list = cast("list[str]", [types] if isinstance(types, str) else types)
+    return {**schema, "type": [*type_list, *([] if "null" in type_list else ["null"])]}

@@ -1,4 +1,4 @@
-"""Which old members of a collection became which new ones."""
+"""Matches the members of a new collection to those of the old one."""
 
 from collections.abc import Iterable, Sequence
 from difflib import SequenceMatcher
@@ -11,9 +11,9 @@ _MAX_COMPARISONS = 20_000
 
 
 def match_names(old: Sequence[tuple[str, FormatValue]], new: Sequence[tuple[str, FormatValue]]) -> list[int | None]:
-    """For every new pair the number of the old one: the same name, else a renamed one of like content."""
-    numbers = {name: number for number, (name, _value) in enumerate(old)}
-    matches = [numbers.get(name) for name, _value in new]
+    """For each new pair the index of the old pair with the same name, or else with equal or similar content."""
+    indices = {name: index for index, (name, _value) in enumerate(old)}
+    matches = [indices.get(name) for name, _value in new]
     old_values, new_values = [value for _name, value in old], [value for _name, value in new]
     _match_equal(old_values, new_values, matches)
     _match_similar(old_values, new_values, matches)
@@ -21,11 +21,15 @@ def match_names(old: Sequence[tuple[str, FormatValue]], new: Sequence[tuple[str,
 
 
 def match_items(old: Sequence[FormatValue], new: Sequence[FormatValue]) -> list[int | None]:
-    """For every new item the number of the old one: equal in order, equal but moved, changed in its place, or alike."""
+    """For each new item the index of the matching old item, None if there is none.
+
+    Items match in this order: equal items of a common subsequence, equal items that moved, items with the same id,
+    changed items between matched neighbors, similar items.
+    """
     matches: list[int | None] = [None] * len(new)
     for block in SequenceMatcher(None, old, new, autojunk=False).get_matching_blocks():
-        for step in range(block.size):
-            matches[block.b + step] = block.a + step
+        for offset in range(block.size):
+            matches[block.b + offset] = block.a + offset
     _match_equal(old, new, matches)
     _match_ids(old, new, matches)
     _match_gaps(len(old), matches)
@@ -34,7 +38,7 @@ def match_items(old: Sequence[FormatValue], new: Sequence[FormatValue]) -> list[
 
 
 def longest_increasing_subsequence(numbers: Iterable[int]) -> set[int]:
-    """The longest rising selection of distinct numbers: those that can stay while the others move."""
+    """The members of a longest increasing subsequence of distinct numbers."""
     best: list[list[int]] = []
     for number in numbers:
         chain = next((chain for chain in reversed(best) if chain[-1] < number), [])
@@ -46,13 +50,13 @@ def longest_increasing_subsequence(numbers: Iterable[int]) -> set[int]:
 
 
 def similarity(old: FormatValue, new: FormatValue) -> float:
-    """How much of two values is the same, from 0 to 1."""
+    """The similarity of two values, from 0 to 1 (equal)."""
     if old == new:
         return 1.0
     if not isinstance(old, tuple) or not isinstance(new, tuple) or not old or not new:
         return 0.0
-    if all(isinstance(each, float | int) for each in (*old, *new)):
-        # Another position is hardly another thing.
+    if all(isinstance(item, float | int) for item in (*old, *new)):
+        # Positions often change without any other change.
         return 0.5
     if _is_pairs(old) and _is_pairs(new):
         before, after = _as_dict(old), _as_dict(new)
@@ -62,7 +66,7 @@ def similarity(old: FormatValue, new: FormatValue) -> float:
 
 
 def _is_pairs(value: tuple[FormatValue, ...]) -> bool:
-    return all(isinstance(each, tuple) and len(each) == 2 and isinstance(each[0], str) for each in value)
+    return all(isinstance(item, tuple) and len(item) == 2 and isinstance(item[0], str) for item in value)
 
 
 def _as_dict(value: FormatValue) -> dict[str, FormatValue]:
@@ -70,28 +74,28 @@ def _as_dict(value: FormatValue) -> dict[str, FormatValue]:
 
 
 def _unmatched(count: int, matches: list[int | None]) -> tuple[list[int], list[int]]:
-    taken = set(matches)
-    old_left = [number for number in range(count) if number not in taken]
-    return old_left, [number for number, match in enumerate(matches) if match is None]
+    matched = set(matches)
+    old_left = [index for index in range(count) if index not in matched]
+    return old_left, [index for index, match in enumerate(matches) if match is None]
 
 
 def _match_equal(old: Sequence[FormatValue], new: Sequence[FormatValue], matches: list[int | None]) -> None:
     old_left, new_left = _unmatched(len(old), matches)
-    waiting: dict[FormatValue, list[int]] = {}
-    for number in reversed(old_left):
-        waiting.setdefault(old[number], []).append(number)
-    for number in new_left:
-        if waiting.get(new[number]):
-            matches[number] = waiting[new[number]].pop()
+    by_value: dict[FormatValue, list[int]] = {}
+    for index in reversed(old_left):
+        by_value.setdefault(old[index], []).append(index)
+    for index in new_left:
+        if by_value.get(new[index]):
+            matches[index] = by_value[new[index]].pop()
 
 
 def _match_ids(old: Sequence[FormatValue], new: Sequence[FormatValue], matches: list[int | None]) -> None:
     old_left, new_left = _unmatched(len(old), matches)
-    by_id = {_get_id(old[number]): number for number in reversed(old_left)}
-    for number in new_left:
-        id_ = _get_id(new[number])
+    by_id = {_get_id(old[index]): index for index in reversed(old_left)}
+    for index in new_left:
+        id_ = _get_id(new[index])
         if id_ is not None and id_ in by_id:
-            matches[number] = by_id.pop(id_)
+            matches[index] = by_id.pop(id_)
 
 
 def _get_id(value: FormatValue) -> FormatValue | None:
@@ -99,29 +103,29 @@ def _get_id(value: FormatValue) -> FormatValue | None:
 
 
 def _match_gaps(old_count: int, matches: list[int | None]) -> None:
-    """Pair what stands between the same neighbours, when it is as many as before."""
-    taken = set(matches)
+    """Match unmatched items between the same neighbors if their number is unchanged."""
+    matched = set(matches)
     for first, last in _gaps(matches):
         before = matches[first - 1] if first else -1
         assert before is not None
         count = last - first
-        run = []
-        number = before + 1
-        while number < old_count and number not in taken:
-            run.append(number)
-            number += 1
-        if len(run) == count:
-            matches[first:last] = run
+        old_gap = []
+        index = before + 1
+        while index < old_count and index not in matched:
+            old_gap.append(index)
+            index += 1
+        if len(old_gap) == count:
+            matches[first:last] = old_gap
 
 
 def _gaps(matches: list[int | None]) -> list[tuple[int, int]]:
     gaps: list[tuple[int, int]] = []
     start: int | None = None
-    for number, match in enumerate([*matches, -1]):
+    for index, match in enumerate([*matches, -1]):
         if match is None and start is None:
-            start = number
+            start = index
         elif match is not None and start is not None:
-            gaps.append((start, number))
+            gaps.append((start, index))
             start = None
     return gaps
 
@@ -135,8 +139,8 @@ def _match_similar(old: Sequence[FormatValue], new: Sequence[FormatValue], match
         for before in old_left
         for after in new_left
     ]
-    taken: set[int] = set()
+    matched: set[int] = set()
     for score, _distance, before, after in sorted(scored):
-        if -score >= _MIN_SIMILARITY and before not in taken and matches[after] is None:
+        if -score >= _MIN_SIMILARITY and before not in matched and matches[after] is None:
             matches[after] = before
-            taken.add(before)
+            matched.add(before)

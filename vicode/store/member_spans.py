@@ -1,4 +1,4 @@
-"""Which lines of a text belong to which member of a block: its own, and the comments that go with it."""
+"""Finds the lines of each member of a block collection, including its comments."""
 
 from dataclasses import dataclass
 
@@ -7,9 +7,13 @@ from vicode.store.yaml_tree import YamlMapping, YamlNode, YamlSequence
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class MemberSpan:
-    """A member's characters from `start` (its comments above) to `end`, past its last line break.
+    """The span of a member.
 
-    `key_start` is where its key or dash stands, `is_inline` whether something else stands before it on that line.
+    Attributes:
+        start: Offset of the member or of the comments above it.
+        key_start: Offset of its key or dash.
+        end: Offset after its last line break.
+        is_inline: Whether its line starts with something else, such as the dash of a list.
     """
 
     start: int
@@ -19,52 +23,51 @@ class MemberSpan:
 
 
 def find_member_spans(text: str, node: YamlMapping | YamlSequence, floor: int | None, limit: int) -> list[MemberSpan]:
-    """The regions of a block's members.
+    """The spans of the members of a block collection.
 
     Args:
-        text: The file.
+        text: The text of the file.
         node: A mapping or list in block style.
-        floor: The colon or dash that the block follows; None for the document, whose head is nobody's comment.
-        limit: Where what belongs to the block ends.
+        floor: Offset of the colon or dash before the block; None for the document, whose head comment has no member.
+        limit: End offset of the block.
     """
-    firsts = _key_starts(text, node)
+    key_starts = _key_starts(text, node)
     values = [value for _key, value in node.pairs] if isinstance(node, YamlMapping) else list(node.items)
-    column = firsts[0] - line_start(text, firsts[0])
-    regions: list[MemberSpan] = []
-    free = line_start(text, firsts[0]) if floor is None else next_line_start(text, floor)
-    for number, value in enumerate(values):
-        first = firsts[number]
-        own_line = line_start(text, first)
-        until = line_start(text, firsts[number + 1]) if number + 1 < len(firsts) else limit
-        end = _end_of_deeper_comments(text, next_line_start(text, max(value.end, first)), until, column)
-        is_inline = bool(text[own_line:first].strip(" "))
-        start = first if is_inline else _first_attached_comment(text, own_line, free)
-        regions.append(MemberSpan(start=start, key_start=first, end=end, is_inline=is_inline))
+    column = key_starts[0] - line_start(text, key_starts[0])
+    spans: list[MemberSpan] = []
+    free = line_start(text, key_starts[0]) if floor is None else next_line_start(text, floor)
+    for index, value in enumerate(values):
+        key_start = key_starts[index]
+        own_line_start = line_start(text, key_start)
+        until = line_start(text, key_starts[index + 1]) if index + 1 < len(key_starts) else limit
+        end = _end_of_deeper_comments(text, next_line_start(text, max(value.end, key_start)), until, column)
+        is_inline = bool(text[own_line_start:key_start].strip(" "))
+        start = key_start if is_inline else _first_attached_comment(text, own_line_start, free)
+        spans.append(MemberSpan(start=start, key_start=key_start, end=end, is_inline=is_inline))
         free = end
-    return regions
+    return spans
 
 
 def line_start(text: str, offset: int) -> int:
-    """Where the line of an offset begins; a byte order mark is not part of it."""
+    """Start of the line of an offset, after a byte order mark."""
     start = text.rfind("\n", 0, offset) + 1
     return 1 if start == 0 and text.startswith("\ufeff") else start
 
 
 def line_end(text: str, offset: int) -> int:
-    """Where the line of an offset ends, before its line break."""
+    """End of the line of an offset, before its line break."""
     end = text.find("\n", offset)
     end = len(text) if end < 0 else end
     return end - 1 if end > offset and text[end - 1] == "\r" else end
 
 
 def next_line_start(text: str, offset: int) -> int:
-    """Where the next line begins."""
     end = text.find("\n", offset)
     return len(text) if end < 0 else end + 1
 
 
 def blank_lines_start(text: str, offset: int) -> int:
-    """Where the blank lines directly above a line begin."""
+    """Start of the blank lines directly above a line."""
     while offset > 0:
         above = text.rfind("\n", 0, offset - 1) + 1
         if text[above:offset].strip():
@@ -75,13 +78,13 @@ def blank_lines_start(text: str, offset: int) -> int:
 
 def _key_starts(text: str, node: YamlMapping | YamlSequence) -> list[int]:
     if isinstance(node, YamlMapping):
-        # An explicit key begins with its question mark.
+        # The question mark of an explicit key is part of the key.
         return [_explicit_key_start(text, key) for key, _value in node.pairs]
     column = node.start - line_start(text, node.start)
-    firsts = [node.start]
+    key_starts = [node.start]
     for before, item in zip(node.items, node.items[1:], strict=False):
-        firsts.append(_find_dash(text, before.end, item, column))
-    return firsts
+        key_starts.append(_find_dash(text, before.end, item, column))
+    return key_starts
 
 
 def _explicit_key_start(text: str, key: YamlNode) -> int:
@@ -90,7 +93,7 @@ def _explicit_key_start(text: str, key: YamlNode) -> int:
 
 
 def _find_dash(text: str, after: int, item: YamlNode, column: int) -> int:
-    """The dash of an item: the first line below the item before that has one in the list's column."""
+    """Offset of the dash of an item: the first dash in the column of the list after the previous item."""
     line = next_line_start(text, after)
     while line <= item.start:
         content = text[line : line_end(text, line)]
@@ -103,7 +106,7 @@ def _find_dash(text: str, after: int, item: YamlNode, column: int) -> int:
 
 
 def _end_of_deeper_comments(text: str, offset: int, until: int, column: int) -> int:
-    """Past the comments that are indented deeper than the block: they belong to what stands above."""
+    """End of the comments that are indented deeper than the block: they belong to the member above."""
     end = offset
     while offset < until:
         content = text[offset : line_end(text, offset)]
@@ -117,7 +120,7 @@ def _end_of_deeper_comments(text: str, offset: int, until: int, column: int) -> 
 
 
 def _first_attached_comment(text: str, line: int, free: int) -> int:
-    """Where the comments directly above a line begin; they do not reach above `free`."""
+    """Start of the comments directly above a line, but not before `free`."""
     while line > free:
         above = line_start(text, line - 1)
         if above < free or not text[above:line].strip().startswith("#"):

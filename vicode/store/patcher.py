@@ -1,4 +1,4 @@
-"""Makes a text say something else by replacing only what differs."""
+"""Changes a YAML text to a target value by replacing only the parts that differ."""
 
 import re
 from dataclasses import dataclass, field
@@ -31,12 +31,18 @@ _HEADER = re.compile(r"[|>][-+0-9]*")
 
 
 class CannotPatchError(Exception):
-    """The old text has a form that no replacement was thought of for; a larger piece must be written anew."""
+    """The text has a form that cannot be patched; a larger part must be replaced."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ValueSlot:
-    """Where a value stands: `after` its colon or dash, in the region of a member that begins in `column`."""
+    """The position of a value.
+
+    Attributes:
+        after: Offset after its colon or dash.
+        column: Column of its member.
+        end: End offset of the span of its member.
+    """
 
     after: int
     column: int
@@ -47,77 +53,75 @@ class ValueSlot:
 
 @dataclass(slots=True, kw_only=True)
 class Patcher:
-    """Collects the replacements of one text, which ends with a line break and has line feeds only."""
+    """Collects the edits of one text. The text must end with a line break and must not contain carriage returns."""
 
     text: str
     style: YamlStyle
     edits: list[tuple[int, int, str]] = field(default_factory=list)
 
     def patched_text(self, start: int = 0, end: int | None = None) -> str:
-        """The text between two offsets with all replacements made."""
-        pieces: list[str] = []
-        here = start
+        """The text between two offsets with all edits applied."""
+        parts: list[str] = []
+        offset = start
         for first, last, new in sorted(self.edits, key=lambda edit: edit[:2]):
-            if first < here:
+            if first < offset:
                 raise CannotPatchError
-            pieces += [self.text[here:first], new]
-            here = last
-        return "".join([*pieces, self.text[here : len(self.text) if end is None else end]])
+            parts += [self.text[offset:first], new]
+            offset = last
+        return "".join([*parts, self.text[offset : len(self.text) if end is None else end]])
 
-    def patch_value(self, node: YamlNode, wish: TargetNode, slot: ValueSlot) -> None:
-        """Make a node say what is wished."""
-        if isinstance(wish, TargetKeep):
+    def patch_value(self, node: YamlNode, target: TargetNode, slot: ValueSlot) -> None:
+        if isinstance(target, TargetKeep):
             return
-        if isinstance(wish, TargetScalar) and isinstance(node, YamlScalar) and not node.is_empty:
-            self._patch_scalar(node, wish, slot)
-        elif isinstance(wish, TargetCollection) and _is_same_kind(node, wish):
-            self._patch_collection(node, wish, slot)
+        if isinstance(target, TargetScalar) and isinstance(node, YamlScalar) and not node.is_empty:
+            self._patch_scalar(node, target, slot)
+        elif isinstance(target, TargetCollection) and _is_same_kind(node, target):
+            self._patch_collection(node, target, slot)
         else:
-            self._replace(node, wish, slot)
+            self._replace(node, target, slot)
 
-    def patch_document(self, node: YamlNode, wish: TargetNode) -> None:
-        """Make the whole document say what is wished."""
-        if not isinstance(wish, TargetCollection) or not _is_same_kind(node, wish):
+    def patch_document(self, node: YamlNode, target: TargetNode) -> None:
+        if not isinstance(target, TargetCollection) or not _is_same_kind(node, target):
             raise CannotPatchError
-        self._patch_collection(node, wish, None)
+        self._patch_collection(node, target, None)
 
     def _add_edit(self, start: int, end: int, new: str) -> None:
         if self.text[start:end] != new:
             self.edits.append((start, end, new))
 
-    def _patch_scalar(self, node: YamlScalar, wish: TargetScalar, slot: ValueSlot) -> None:
+    def _patch_scalar(self, node: YamlScalar, target: TargetScalar, slot: ValueSlot) -> None:
         is_block = node.style in ("|", ">")
-        if wish.is_plain or not (is_block or "\n" in wish.text):
-            quote = node.style if node.style in ("'", '"') and not wish.is_plain else ""
-            new = wish.text if wish.is_plain else format_inline_text(wish.text, in_flow=slot.in_flow, quote=quote)
-            self._replace(node, wish, slot) if is_block else self._replace_text(node, new, slot)
+        if target.is_plain or not (is_block or "\n" in target.text):
+            quote = node.style if node.style in ("'", '"') and not target.is_plain else ""
+            new = target.text if target.is_plain else format_inline_text(target.text, in_flow=slot.in_flow, quote=quote)
+            self._replace(node, target, slot) if is_block else self._replace_text(node, new, slot)
         elif slot.in_flow:
-            self._add_edit(node.start, node.end, format_inline_text(wish.text, in_flow=True, quote='"'))
+            self._add_edit(node.start, node.end, format_inline_text(target.text, in_flow=True, quote='"'))
         elif is_block:
-            self._patch_block_scalar(node, wish, slot)
+            self._patch_block_scalar(node, target, slot)
         else:
-            self._replace(node, wish, slot)
+            self._replace(node, target, slot)
 
     def _replace_text(self, node: YamlScalar, new: str, slot: ValueSlot) -> None:
-        """Another text in the same line; a comment beside it keeps its column where it can."""
-        blanks = _BEFORE_COMMENT.match(self.text, node.end)
+        """Replace a text in its line; a comment after it keeps its column if possible."""
+        spaces = _BEFORE_COMMENT.match(self.text, node.end)
         end, old = node.end, self.text[node.start : node.end]
-        if blanks and not slot.in_flow and "\n" not in old and new != old:
-            end = blanks.end()
+        if spaces and not slot.in_flow and "\n" not in old and new != old:
+            end = spaces.end()
             new += " " * max(min(2, end - node.end), end - node.start - len(new))
         self._add_edit(node.start, end, new)
 
-    def _patch_block_scalar(self, node: YamlScalar, wish: TargetScalar, slot: ValueSlot) -> None:
-        """Another text in the same block, as deep as the old one."""
+    def _patch_block_scalar(self, node: YamlScalar, target: TargetScalar, slot: ValueSlot) -> None:
+        """Replace the text of a block scalar and keep its indentation."""
         header_end = line_end(self.text, node.start)
         lines = self.text[next_line_start(self.text, node.start) : node.end].split("\n")
         first = next((line for line in lines if line.strip()), "")
         depth = len(first) - len(first.lstrip(" ")) - slot.column
         digit = re.match(r"[|>][-+]?(\d)", self.text[node.start : header_end])
         depth = int(digit.group(1)) if digit else depth
-        new = format_block_text(wish.text, depth, folded=node.style == ">") if 0 < depth < 10 else None
+        new = format_block_text(target.text, depth, folded=node.style == ">") if 0 < depth < 10 else None
         if new is None or self.text[slot.after : node.start].strip(" "):
-            self._replace(node, wish, slot)
+            self._replace(node, target, slot)
             return
         header, *body = new.split("\n")
         match = _HEADER.match(self.text, node.start, header_end)
@@ -129,13 +133,13 @@ class Patcher:
         else:
             self._add_edit(body_start, node.end, indented)
 
-    def _replace(self, node: YamlNode, wish: TargetNode, slot: ValueSlot) -> None:
-        """Write a value anew where an old one stands."""
+    def _replace(self, node: YamlNode, target: TargetNode, slot: ValueSlot) -> None:
+        """Replace the whole value."""
         if slot.in_flow:
-            self._replace_in_flow(node, wish)
+            self._replace_in_flow(node, target)
             return
         used = slot.after - line_start(self.text, slot.after) + 1
-        new = format_value(wish, slot.column, used, self.style, after_dash=slot.is_item)
+        new = format_value(target, slot.column, used, self.style, after_dash=slot.is_item)
         head, _, tail = new.partition("\n")
         is_block = (isinstance(node, YamlScalar) and node.style in ("|", ">")) or (
             not isinstance(node, YamlScalar) and not node.is_flow
@@ -150,8 +154,8 @@ class Patcher:
             rest = line_end(self.text, node.end)
             self.edits.append((rest, rest, "\n" + tail))
 
-    def _replace_in_flow(self, node: YamlNode, wish: TargetNode) -> None:
-        new = format_flow(wish)
+    def _replace_in_flow(self, node: YamlNode, target: TargetNode) -> None:
+        new = format_flow(target)
         if node.end > node.start:
             self._add_edit(node.start, node.end, new)
         else:
@@ -159,46 +163,46 @@ class Patcher:
             self.edits.append((node.start, node.start, f"{colon} {new}"))
 
     def _replace_block(self, node: YamlNode, head: str, tail: str, slot: ValueSlot) -> None:
-        """The old value has lines of its own; a comment beside the key stays there."""
+        """Replace a value on separate lines; a comment after the key is kept."""
         header_end = line_end(self.text, slot.after)
         header = self.text[slot.after : header_end]
-        hash_ = header.find(" #")
+        comment_start = header.find(" #")
         if slot.is_item and not (isinstance(node, YamlScalar)) and node.start < header_end:
-            hash_ = -1
-        comment = f"  {header[hash_:].strip()}" if hash_ >= 0 else ""
+            comment_start = -1
+        comment = f"  {header[comment_start:].strip()}" if comment_start >= 0 else ""
         new = head + comment + (f"\n{tail}" if tail else "")
         self._add_edit(slot.after, max(header_end, line_end(self.text, slot.end - 1)), new)
 
     def _patch_collection(
-        self, node: YamlMapping | YamlSequence, wish: TargetCollection, slot: ValueSlot | None
+        self, node: YamlMapping | YamlSequence, target: TargetCollection, slot: ValueSlot | None
     ) -> None:
         count = len(node.pairs) if isinstance(node, YamlMapping) else len(node.items)
-        order = [member.old_index for member in wish.members]
+        order = [member.old_index for member in target.members]
         is_restructured = order != list(range(count))
         if node.is_flow:
-            self._patch_flow(node, wish, is_restructured=is_restructured)
+            self._patch_flow(node, target, is_restructured=is_restructured)
             return
         limit = slot.end if slot is not None else len(self.text)
-        regions = find_member_spans(self.text, node, slot.after if slot is not None else None, limit)
+        spans = find_member_spans(self.text, node, slot.after if slot is not None else None, limit)
         if is_restructured:
-            self._restructure(node, wish, regions)
+            self._restructure(node, target, spans)
         else:
-            for member in wish.members:
-                self._patch_member(node, member, regions)
+            for member in target.members:
+                self._patch_member(node, member, spans)
 
-    def _patch_member(self, node: YamlMapping | YamlSequence, member: TargetMember, regions: list[MemberSpan]) -> None:
-        """What changes inside a member that stays."""
+    def _patch_member(self, node: YamlMapping | YamlSequence, member: TargetMember, spans: list[MemberSpan]) -> None:
+        """Patch a member in place."""
         assert member.old_index is not None
-        region = regions[member.old_index]
-        column = regions[0].key_start - line_start(self.text, regions[0].key_start)
+        span = spans[member.old_index]
+        column = spans[0].key_start - line_start(self.text, spans[0].key_start)
         if isinstance(node, YamlMapping):
             key, value = node.pairs[member.old_index]
             self._rename_key(key, member, in_flow=False)
             after = self._after_colon(key, value)
         else:
-            value, after = node.items[member.old_index], region.key_start + 1
+            value, after = node.items[member.old_index], span.key_start + 1
         is_item = isinstance(node, YamlSequence)
-        self.patch_value(value, member.value, ValueSlot(after=after, column=column, end=region.end, is_item=is_item))
+        self.patch_value(value, member.value, ValueSlot(after=after, column=column, end=span.end, is_item=is_item))
 
     def _after_colon(self, key: YamlNode, value: YamlNode) -> int:
         colon = self.text.find(":", key.end, max(value.start, key.end + 1) + 1)
@@ -212,86 +216,84 @@ class Patcher:
             new = format_inline_text(member.key, in_flow=in_flow, quote=quote)
             self._add_edit(key.start, key.end, new)
 
-    def _restructure(self, node: YamlMapping | YamlSequence, wish: TargetCollection, regions: list[MemberSpan]) -> None:
-        """Members come, go or move, with their lines."""
-        staying = longest_increasing_subsequence(
-            member.old_index for member in wish.members if member.old_index is not None
+    def _restructure(self, node: YamlMapping | YamlSequence, target: TargetCollection, spans: list[MemberSpan]) -> None:
+        """Add, remove and move members with their lines."""
+        unmoved = longest_increasing_subsequence(
+            member.old_index for member in target.members if member.old_index is not None
         )
-        wanted = {member.old_index for member in wish.members}
-        column = regions[0].key_start - line_start(self.text, regions[0].key_start)
-        spaced = self._is_spaced(regions)
-        anchor = self._first_anchor(regions, min(staying), wish)
-        for member in wish.members:
-            if member.old_index in staying:
-                self._patch_member(node, member, regions)
-                anchor = max(anchor, regions[member.old_index].end)
+        used_indices = {member.old_index for member in target.members}
+        column = spans[0].key_start - line_start(self.text, spans[0].key_start)
+        spaced = self._is_spaced(spans)
+        anchor = self._first_anchor(spans, min(unmoved), target)
+        for member in target.members:
+            if member.old_index in unmoved:
+                self._patch_member(node, member, spans)
+                anchor = max(anchor, spans[member.old_index].end)
                 continue
             if member.old_index is None:
                 new = format_member(member, column, self.style) + "\n"
             else:
-                new = self._moved_text(node, member, regions)
-            self.edits.append((anchor, anchor, self._with_blank_line(new, anchor, regions) if spaced else new))
-        for number in set(range(len(regions))) - staying:
-            is_last = not any(later in wanted for later in range(number, len(regions)))
-            self._remove(number, regions, is_last=is_last)
+                new = self._moved_text(node, member, spans)
+            self.edits.append((anchor, anchor, self._with_blank_line(new, anchor, spans) if spaced else new))
+        for index in set(range(len(spans))) - unmoved:
+            is_last = not any(later in used_indices for later in range(index, len(spans)))
+            self._remove(index, spans, is_last=is_last)
 
-    def _first_anchor(self, regions: list[MemberSpan], first: int, wish: TargetCollection) -> int:
-        """Where a member goes that comes before all that stay."""
-        region = regions[first]
-        if not region.is_inline:
-            return region.start
-        if wish.is_ordered:
+    def _first_anchor(self, spans: list[MemberSpan], first: int, target: TargetCollection) -> int:
+        """Offset of the members that precede all unmoved ones."""
+        span = spans[first]
+        if not span.is_inline:
+            return span.start
+        if target.is_ordered:
             raise CannotPatchError
-        return region.end
+        return span.end
 
-    def _moved_text(self, node: YamlMapping | YamlSequence, member: TargetMember, regions: list[MemberSpan]) -> str:
+    def _moved_text(self, node: YamlMapping | YamlSequence, member: TargetMember, spans: list[MemberSpan]) -> str:
         assert member.old_index is not None
-        region = regions[member.old_index]
-        if region.is_inline:
+        span = spans[member.old_index]
+        if span.is_inline:
             raise CannotPatchError
         inner = Patcher(text=self.text, style=self.style)
-        inner._patch_member(node, member, regions)
-        return inner.patched_text(region.start, region.end)
+        inner._patch_member(node, member, spans)
+        return inner.patched_text(span.start, span.end)
 
-    def _is_spaced(self, regions: list[MemberSpan]) -> bool:
-        gaps = [(left.end, right.start) for left, right in pairwise(regions)]
+    def _is_spaced(self, spans: list[MemberSpan]) -> bool:
+        gaps = [(left.end, right.start) for left, right in pairwise(spans)]
         return bool(gaps) and all(self._has_blank_line(start, end) for start, end in gaps)
 
     def _has_blank_line(self, start: int, end: int) -> bool:
         return any(not line.strip() for line in self.text[start:end].splitlines())
 
-    def _with_blank_line(self, new: str, anchor: int, regions: list[MemberSpan]) -> str:
-        return new + "\n" if anchor <= regions[0].start else "\n" + new
+    def _with_blank_line(self, new: str, anchor: int, spans: list[MemberSpan]) -> str:
+        return new + "\n" if anchor <= spans[0].start else "\n" + new
 
-    def _remove(self, number: int, regions: list[MemberSpan], *, is_last: bool) -> None:
-        region = regions[number]
-        if region.is_inline:
-            self._remove_inline(region, regions[number + 1])
+    def _remove(self, index: int, spans: list[MemberSpan], *, is_last: bool) -> None:
+        span = spans[index]
+        if span.is_inline:
+            self._remove_inline(span, spans[index + 1])
             return
-        start = region.start
-        is_blank_below = (
-            region.end >= len(self.text) or not self.text[region.end : line_end(self.text, region.end)].strip()
-        )
-        if number and (is_last or is_blank_below):
-            start = max(blank_lines_start(self.text, start), regions[number - 1].end)
-        self.edits.append((start, region.end, ""))
+        start = span.start
+        is_blank_below = span.end >= len(self.text) or not self.text[span.end : line_end(self.text, span.end)].strip()
+        if index and (is_last or is_blank_below):
+            start = max(blank_lines_start(self.text, start), spans[index - 1].end)
+        self.edits.append((start, span.end, ""))
 
-    def _remove_inline(self, region: MemberSpan, following: MemberSpan) -> None:
-        """The first of a mapping that begins beside a dash: the next one takes its place there."""
-        if self.text[region.end : following.key_start].strip():
-            self.edits.append((region.key_start, line_end(self.text, region.end - 1), ""))
+    def _remove_inline(self, span: MemberSpan, following: MemberSpan) -> None:
+        """Remove the first member of a mapping that starts after a dash: the next member moves there."""
+        if self.text[span.end : following.key_start].strip():
+            self.edits.append((span.key_start, line_end(self.text, span.end - 1), ""))
         else:
-            self.edits.append((region.key_start, following.key_start, ""))
+            self.edits.append((span.key_start, following.key_start, ""))
 
-    def _patch_flow(self, node: YamlMapping | YamlSequence, wish: TargetCollection, *, is_restructured: bool) -> None:
+    def _patch_flow(self, node: YamlMapping | YamlSequence, target: TargetCollection, *, is_restructured: bool) -> None:
         spans = _flow_spans(node)
-        staying = longest_increasing_subsequence(
-            member.old_index for member in wish.members if member.old_index is not None
+        unmoved = longest_increasing_subsequence(
+            member.old_index for member in target.members if member.old_index is not None
         )
-        first = min(staying)
+        first = min(unmoved)
         anchor: int | None = None
-        for member in wish.members:
-            if member.old_index in staying:
+        for member in target.members:
+            if member.old_index in unmoved:
                 self._patch_flow_member(node, member)
                 anchor = spans[member.old_index][1]
                 continue
@@ -301,7 +303,7 @@ class Patcher:
             else:
                 self.edits.append((anchor, anchor, f", {new}"))
         if is_restructured:
-            self._remove_in_flow(spans, staying)
+            self._remove_in_flow(spans, unmoved)
 
     def _patch_flow_member(self, node: YamlMapping | YamlSequence, member: TargetMember) -> None:
         assert member.old_index is not None
@@ -318,12 +320,12 @@ class Patcher:
         inner._patch_flow_member(node, member)
         return inner.patched_text(*spans[member.old_index])
 
-    def _remove_in_flow(self, spans: list[tuple[int, int]], staying: set[int]) -> None:
-        last = max(staying)
-        for number, (start, end) in enumerate(spans):
-            if number in staying or number > last:
+    def _remove_in_flow(self, spans: list[tuple[int, int]], unmoved: set[int]) -> None:
+        last = max(unmoved)
+        for index, (start, end) in enumerate(spans):
+            if index in unmoved or index > last:
                 continue
-            following = spans[number + 1][0]
+            following = spans[index + 1][0]
             gap = self.text[end:following]
             self.edits.append((start, end + gap.index("\n") if "#" in gap and "\n" in gap else following, ""))
         if last + 1 < len(spans):
@@ -332,10 +334,10 @@ class Patcher:
             self.edits.append((start, spans[-1][1], ""))
 
 
-def _is_same_kind(node: YamlNode, wish: TargetCollection) -> TypeGuard[YamlMapping | YamlSequence]:
-    if isinstance(node, YamlScalar) or isinstance(node, YamlMapping) != wish.is_mapping:
+def _is_same_kind(node: YamlNode, target: TargetCollection) -> TypeGuard[YamlMapping | YamlSequence]:
+    if isinstance(node, YamlScalar) or isinstance(node, YamlMapping) != target.is_mapping:
         return False
-    return any(member.old_index is not None for member in wish.members)
+    return any(member.old_index is not None for member in target.members)
 
 
 def _flow_spans(node: YamlMapping | YamlSequence) -> list[tuple[int, int]]:

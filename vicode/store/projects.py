@@ -1,4 +1,4 @@
-"""Opens folders: finds project.yaml and the designs that belong to it, and reads them all."""
+"""Opens projects: finds project.yaml and the design files of a folder, and reads them."""
 
 import errno
 import os
@@ -27,17 +27,19 @@ _LOOKS_LIKE_DESIGN = re.compile(rb"^(vicode|component|states)[ \t]*:", re.MULTIL
 _COMPONENT = re.compile(rb"^component[ \t]*:[ \t]*[\"']?([A-Za-z]\w*)", re.MULTILINE)
 _SKIPPED_FOLDERS = {"node_modules", "__pycache__", "site-packages"}
 _MAX_PARENT_FOLDERS = 8
-# What each file said when it was read last, by its content and the name that messages give it.
+# The last result for each file, with its content and display name.
 _MAX_CACHED = 4096
 _read_cache: dict[Path, tuple[bytes, str, DesignReadResult]] = {}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class OpenProject:
-    """A project as it stands on disk.
+    """A project as read from disk.
 
-    `files`, `sources` and `texts` are by component; "" stands for project.yaml, if there is one. `broken_files` are files
-    that are meant to be designs, but hold none that can be read. `findings` are mistakes of reading, with places.
+    Attributes:
+        files: Files by component, with "" for project.yaml; `sources` and `texts` have the same keys.
+        broken_files: Design files that cannot be read.
+        findings: Errors in the files, with locations.
     """
 
     project: Project
@@ -50,74 +52,72 @@ class OpenProject:
 
     @property
     def project_file(self) -> Path | None:
-        """The project.yaml, None when the project does without."""
         return self.files.get("")
 
     def find_component(self, path: Path) -> str | None:
-        """The component whose design a file holds, None when it holds none of this project."""
-        wanted = path.resolve()
-        return next((name for name, file in self.files.items() if name and file.resolve() == wanted), None)
+        """The component with this design file, None if the project has no such file."""
+        resolved = path.resolve()
+        return next((name for name, file in self.files.items() if name and file.resolve() == resolved), None)
 
 
 def open_project(path: Path | str) -> OpenProject:
-    """Open the project of a folder, or the one that a design file belongs to.
+    """Open the project of a folder or of a design file.
 
     Raises:
         OSError: The path does not exist or cannot be read.
     """
-    given = Path(path)
-    folder = given if given.is_dir() else _find_project_folder(given)
-    listed = list(find_design_files(folder))
-    if not given.is_dir() and given.name not in PROJECT_FILES:
-        given.stat()
-        listed += [given] if given.resolve() not in {file.resolve() for file in listed} else []
-    opening = _ProjectLoader(folder)
-    opening.read_project_file()
-    for file in listed:
-        opening.read_design(file, is_explicit=not given.is_dir() and file.resolve() == given.resolve())
-    return opening.result()
+    path = Path(path)
+    folder = path if path.is_dir() else _find_project_folder(path)
+    files = list(find_design_files(folder))
+    if not path.is_dir() and path.name not in PROJECT_FILES:
+        path.stat()
+        files += [path] if path.resolve() not in {file.resolve() for file in files} else []
+    loader = _ProjectLoader(folder)
+    loader.read_project_file()
+    for file in files:
+        loader.read_design(file, is_explicit=not path.is_dir() and file.resolve() == path.resolve())
+    return loader.result()
 
 
 def find_projects(folder: Path | str) -> tuple[Path, ...]:
-    """The folders of all projects in a folder, in order; of a design file the one it belongs to."""
+    """Find the folders of all projects in a folder, or the project folder of a design file."""
     top = Path(folder)
     if not top.is_dir():
         return (_find_project_folder(top),)
-    found = {Path(place) for place, _folders, names in _walk_visible_folders(top) if set(names) & set(PROJECT_FILES)}
-    loose = [
-        Path(place)
-        for place, _folders, names in _walk_visible_folders(top)
-        if not any(_is_inside(Path(place), project) for project in found)
-        and any(_is_design(Path(place) / name, top) for name in names)
+    projects = {Path(path) for path, _folders, names in _walk_visible_folders(top) if set(names) & set(PROJECT_FILES)}
+    design_folders = [
+        Path(path)
+        for path, _folders, names in _walk_visible_folders(top)
+        if not any(_is_inside(Path(path), project) for project in projects)
+        and any(_is_design(Path(path) / name, top) for name in names)
     ]
-    for place in loose:
-        if not any(_is_inside(place, project) for project in found):
-            found.add(place)
-    return tuple(sorted(found))
+    for design_folder in design_folders:
+        if not any(_is_inside(design_folder, project) for project in projects):
+            projects.add(design_folder)
+    return tuple(sorted(projects))
 
 
 def find_design_files(folder: Path) -> tuple[Path, ...]:
-    """The files of a folder's own designs, those of projects inside it left out."""
+    """Find the design files in and below a folder, except those of nested projects."""
     files: list[Path] = []
-    for place, folders, names in _walk_visible_folders(folder):
-        folders[:] = [name for name in folders if not _holds_project(Path(place) / name)]
-        files += [Path(place) / name for name in names if _is_candidate(Path(place) / name, folder)]
+    for path, folders, names in _walk_visible_folders(folder):
+        folders[:] = [name for name in folders if not _holds_project(Path(path) / name)]
+        files += [Path(path) / name for name in names if _is_candidate(Path(path) / name, folder)]
     return tuple(sorted(files))
 
 
 def find_project_file(folder: Path) -> Path | None:
-    """The project.yaml of a folder."""
     return next((folder / name for name in PROJECT_FILES if (folder / name).is_file()), None)
 
 
 def display_path(path: Path) -> str:
-    """A path as messages name it: relative where that is shorter to read."""
+    """The path for messages: relative if it is below the working directory."""
     relative = os.path.relpath(path)
     return str(path) if relative.startswith("..") else relative
 
 
 class _ProjectLoader:
-    """Reads file by file and collects."""
+    """Reads the files of a project and collects the results."""
 
     def __init__(self, folder: Path) -> None:
         self.folder = folder
@@ -131,7 +131,6 @@ class _ProjectLoader:
         self.findings: list[Finding] = []
 
     def read_project_file(self) -> None:
-        """Read project.yaml, if there is one."""
         file = find_project_file(self.folder)
         if file is None:
             return
@@ -141,7 +140,7 @@ class _ProjectLoader:
         self.files[""], self.sources[""], self.texts[""] = file, read.source_map, read.source_map.line_index.text
 
     def read_design(self, file: Path, *, is_explicit: bool) -> None:
-        """Read a design; a file that looks like something else counts only when it `is_explicit`."""
+        """Read a design file. A file that does not look like a design is skipped unless `is_explicit`."""
         try:
             content = _read_bytes(file)
         except OSError as error:
@@ -161,13 +160,12 @@ class _ProjectLoader:
             self.sources[name], self.texts[name] = read.source_map, read.source_map.line_index.text
 
     def _add_broken(self, file: Path, content: bytes) -> None:
-        said = _COMPONENT.search(content)
-        name = said[1].decode() if said else name_from_text(file.stem.replace("_", " "))
+        match = _COMPONENT.search(content)
+        name = match[1].decode() if match else name_from_text(file.stem.replace("_", " "))
         self.broken_files.append(file)
         self.unread.append((name, file.name))
 
     def result(self) -> OpenProject:
-        """All of it."""
         designs = tuple(read.design for read in self.reads.values() if read.design is not None)
         return OpenProject(
             project=replace(self.project, designs=designs, unreadable=tuple(self.unread)),
@@ -182,11 +180,11 @@ class _ProjectLoader:
     def _add_duplicate(self, file: Path, read: DesignReadResult) -> None:
         assert read.design is not None
         name = read.design.component
-        first = Note(message="first here", location=self.sources[name].locate(("component",)))
+        first = Note(message="first defined here", location=self.sources[name].locate(("component",)))
         finding = Finding(
             rule=get_rule("P201"),
-            message=f"there is another component '{name}'",
-            fix="rename one of them",
+            message=f"duplicate component '{name}'",
+            fix="rename one of the components",
             location=read.source_map.locate(("component",)),
             notes=(first,),
         )
@@ -201,54 +199,56 @@ class _ProjectLoader:
 
 
 def _read_cached(file: Path, content: bytes) -> DesignReadResult:
-    """Read a design; a file that says what it said before is not parsed anew: large projects open again at once."""
-    place, shown = file.absolute(), display_path(file)
-    known = _read_cache.get(place)
-    if known is not None and known[:2] == (content, shown):
-        return known[2]
+    """Read a design, or return the cached result if the file has not changed, so that large projects reopen fast."""
+    path, name = file.absolute(), display_path(file)
+    cached = _read_cache.get(path)
+    if cached is not None and cached[:2] == (content, name):
+        return cached[2]
     if len(_read_cache) >= _MAX_CACHED:
         _read_cache.clear()
-    read = read_design(content, shown)
-    _read_cache[place] = (content, shown, read)
-    return read
+    result = read_design(content, name)
+    _read_cache[path] = (content, name, result)
+    return result
 
 
 def _read_bytes(file: Path) -> bytes:
-    # A pipe would keep us waiting, and a device may never end.
+    # Reading a pipe blocks, and a device may be endless.
     if not stat.S_ISREG(file.stat().st_mode):
-        raise OSError(errno.EINVAL, "it is no regular file", str(file))
-    # One byte more than is allowed tells that it is too much.
+        raise OSError(errno.EINVAL, "it is not a regular file", str(file))
+    # One more byte shows that the file exceeds the limit.
     with file.open("rb") as stream:
         return stream.read(MAX_BYTES + 1)
 
 
 def _find_project_folder(file: Path) -> Path:
-    """The folder of the project that a design file belongs to."""
-    beside = file.parent
-    folder = beside.resolve()
+    """The project folder of a design file: its own folder, or a parent with a project.yaml."""
+    own_folder = file.parent
+    folder = own_folder.resolve()
     for _level in range(_MAX_PARENT_FOLDERS):
-        found = find_project_file(folder)
-        if found is not None and (folder == beside.resolve() or _looks_like_design(_read_bytes(found))):
-            return beside if folder == beside.resolve() else folder
+        project_file = find_project_file(folder)
+        if project_file is not None and (
+            folder == own_folder.resolve() or _looks_like_design(_read_bytes(project_file))
+        ):
+            return own_folder if folder == own_folder.resolve() else folder
         if folder.parent == folder or (folder / ".git").exists():
             break
         folder = folder.parent
-    return beside
+    return own_folder
 
 
 def _default_output(folder: Path) -> str:
-    """Where a project without project.yaml generates to: `generated` at the top of its repository, else beside it."""
-    inside = folder.resolve()
-    for place in (inside, *inside.parents):
-        if (place / ".git").exists():
-            return Path(os.path.relpath(place / "generated", inside)).as_posix()
+    """The default output folder: `generated` in the root of the repository, or else in the project folder."""
+    resolved = folder.resolve()
+    for ancestor in (resolved, *resolved.parents):
+        if (ancestor / ".git").exists():
+            return Path(os.path.relpath(ancestor / "generated", resolved)).as_posix()
     return "generated"
 
 
 def _walk_visible_folders(folder: Path) -> Iterator[tuple[str, list[str], list[str]]]:
-    for place, folders, names in os.walk(folder):
+    for path, folders, names in os.walk(folder):
         folders[:] = sorted(name for name in folders if not name.startswith(".") and name not in _SKIPPED_FOLDERS)
-        yield place, folders, sorted(names)
+        yield path, folders, sorted(names)
 
 
 def _holds_project(folder: Path) -> bool:
@@ -270,5 +270,5 @@ def _is_design(file: Path, folder: Path) -> bool:
 
 
 def _looks_like_design(content: bytes) -> bool:
-    # Without the zeros that other encodings put between the letters: such a file is told of, not passed over.
+    # Zero bytes are removed so that a UTF-16 file is recognized and reported.
     return bool(_LOOKS_LIKE_DESIGN.search(content.replace(b"\0", b"")))

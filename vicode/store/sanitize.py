@@ -1,4 +1,4 @@
-"""Texts of a design as a file can hold them: what forms and browsers may send is more than that."""
+"""Replaces texts that a design file cannot contain; forms and browsers may send such texts."""
 
 import re
 from dataclasses import fields, is_dataclass, replace
@@ -10,18 +10,18 @@ _LONE_SURROGATE = re.compile("[\ud800-\udfff]")
 
 
 def sanitize_design(design: Design) -> Design:
-    """The design with nothing where a text is blank, and a replacement sign for half a character."""
-    tidied: Design = _sanitize(design)
-    return tidied
+    """Empty all blank texts of a design and replace lone surrogates by U+FFFD."""
+    sanitized: Design = _sanitize(design)
+    return sanitized
 
 
 def _sanitize(value: Any) -> Any:
     if isinstance(value, str):
         return _LONE_SURROGATE.sub("\ufffd", value) if value.strip() else ""
     if isinstance(value, tuple):
-        return tuple(_sanitize(each) for each in value)
+        return tuple(_sanitize(item) for item in value)
     if is_dataclass(value) and not isinstance(value, type):
         return replace(
-            value, **{each.name: _sanitize(getattr(value, each.name)) for each in fields(value) if each.init}
+            value, **{field.name: _sanitize(getattr(value, field.name)) for field in fields(value) if field.init}
         )
     return value

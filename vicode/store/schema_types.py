@@ -1,15 +1,15 @@
-"""The kinds of shape a value in a file may have; the format is one table of them."""
+"""The types of schemas of which the format consists."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from enum import StrEnum
 
 FormatValue = str | float | bool | tuple["FormatValue", ...]
-"""A value as the format means it, short forms written out: pairs of a mapping are tuples (name, value)."""
+"""A value in full notation; a mapping is a tuple of pairs (name, value)."""
 
 
 class ScalarType(StrEnum):
-    """What a single text stands for."""
+    """The type of a scalar."""
 
     TEXT = "text"
     NAME = "name"
@@ -23,7 +23,7 @@ class ScalarType(StrEnum):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ScalarSchema:
-    """A single text; one of `choices` where there are some."""
+    """A scalar; if `choices` is not empty, it must be one of them."""
 
     scalar_type: ScalarType
     choices: tuple[str, ...] = ()
@@ -38,9 +38,12 @@ class PairSchema:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ListSchema:
-    """A list of items.
+    """A list.
 
-    `single_item_key` is a key of its items: a value that is no list stands for a list of one item with only this key.
+    Attributes:
+        item_schema: Function that returns the schema of the items, so that lists can be recursive.
+        single_item_key: A key of the items. A value that is not a list is the value of this key of a single item.
+        flow_width: Maximum line length for flow style, 0 for block style.
     """
 
     description: str
@@ -51,10 +54,13 @@ class ListSchema:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class MapSchema:
-    """A mapping from names that the user chooses to values.
+    """A mapping with names as keys.
 
-    `allows_name_list`: a list of names stands for a mapping with empty values. `shorthand_key`: a text stands for a mapping with only
-    this key. `allowed_keys`: the only names there are.
+    Attributes:
+        allows_name_list: Whether a list of names is a mapping of these names to empty values.
+        shorthand_key: A scalar is the value of this key.
+        allowed_keys: The valid names; empty if all names are valid.
+        flow_width: Maximum line length for flow style, 0 for block style.
     """
 
     description: str
@@ -69,8 +75,10 @@ class MapSchema:
 class KeySchema:
     """A key of a record.
 
-    `default` is the value that a missing key means; `keeps_empty`: an empty value differs from a missing key.
-    `shorthand_for`: this key is the lone form of that one.
+    Attributes:
+        default: The value of a missing key.
+        keeps_empty: Whether an empty value differs from a missing key.
+        shorthand_for: The key of which this one is the single-item form.
     """
 
     name: str
@@ -84,11 +92,16 @@ class KeySchema:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RecordSchema:
-    """A mapping with known keys.
+    """A mapping with a fixed set of keys.
 
-    `shorthand_key`: a value that is no mapping (for a table: no mapping with this key) stands for only this key.
-    `one_of`: exactly one of these must be given; `missing_message` says so. `dependent_keys`: a key and the one it goes with.
-    `synonyms`: words of other tools and the key they mean here. `flow_width`: written in braces up to this line length.
+    Attributes:
+        shorthand_key: A value that is not a mapping is the value of this key. If the value of this key is a mapping
+            itself, this also applies to mappings without this key.
+        one_of: Keys of which exactly one must be given.
+        missing_message: Message and fix if none of `one_of` is given.
+        dependent_keys: Pairs of a key and the key that it requires.
+        synonyms: Terms of other tools and the corresponding key.
+        flow_width: Maximum line length for flow style, 0 for block style.
     """
 
     name: str
@@ -103,7 +116,6 @@ class RecordSchema:
     is_item: bool = False
 
     def find_key(self, name: str) -> KeySchema | None:
-        """The key of this name."""
         return next((key for key in self.keys if key.name == name), None)
 
 
@@ -111,11 +123,11 @@ ValueSchema = ScalarSchema | PairSchema | ListSchema | MapSchema | RecordSchema
 
 
 def build_record_value(record: RecordSchema, values: Mapping[str, FormatValue | None]) -> tuple[FormatValue, ...]:
-    """A record's value: pairs in the order of its table, without what a missing key means anyway."""
+    """Build the value of a record: pairs in the order of the schema, without default values."""
     pairs: list[FormatValue] = []
     for key in record.keys:
         value = values.get(key.name)
-        is_said = value is not None and (value != key.default or value == ()) and not key.shorthand_for
-        if is_said and value is not None and (key.keeps_empty or value not in ("", (), False)):
+        is_given = value is not None and (value != key.default or value == ()) and not key.shorthand_for
+        if is_given and value is not None and (key.keeps_empty or value not in ("", (), False)):
             pairs.append((key.name, value))
     return tuple(pairs)

@@ -1,4 +1,4 @@
-"""From the path of a thing to its place in the text of its file."""
+"""Maps paths of a design to locations in its file."""
 
 from dataclasses import dataclass
 
@@ -12,19 +12,19 @@ _ESCAPE_LENGTHS = {"x": 4, "u": 6, "U": 10}
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SourceMap:
-    """Where the things of one file stand."""
+    """The locations of the nodes of one file."""
 
     file: str
     line_index: LineIndex
     root: TypedNode | None
 
     def locate(self, path: DesignPath = (), span: Span | None = None, *, of_key: bool = False) -> SourceLocation:
-        """The place of the thing a path leads to, or of the nearest thing around it.
+        """The location of a node or of its nearest existing ancestor.
 
         Args:
-            path: The words of the file that lead to it.
-            span: Characters inside the text it is, as the reader of the file sees that text.
-            of_key: Its key is meant.
+            path: Keys and indices that lead to the node.
+            span: Start and end offset in the text of the node.
+            of_key: Whether to locate the key of the node.
         """
         read, is_exact = self._find(path)
         if read is None:
@@ -42,21 +42,21 @@ class SourceMap:
         return self.line_index.locate(node.start, node.end)
 
     def contains(self, path: DesignPath) -> bool:
-        """Whether the path leads to something in the file."""
+        """Whether a node with this path exists."""
         return self._find(path)[1]
 
     def _find(self, path: DesignPath) -> tuple[TypedNode | None, bool]:
         read = self.root
         for step in path:
-            part = read.children.get(step) if read is not None else None
-            if part is None:
+            child = read.children.get(step) if read is not None else None
+            if child is None:
                 return read, False
-            read = part
+            read = child
         return read, read is not None
 
 
 def _text_node(read: TypedNode) -> YamlNode:
-    """The text meant: of code that is written in several languages the first."""
+    """The node that holds the text; for code in several languages, that of the first one."""
     while (
         read.notation in (YamlNotation.FULL, YamlNotation.SHORTHAND)
         and read.children
@@ -67,7 +67,7 @@ def _text_node(read: TypedNode) -> YamlNode:
 
 
 def _source_span(text: str, node: YamlScalar, span: Span) -> tuple[int, int]:
-    """The characters of a file that give these characters of a scalar's text."""
+    """Convert a span in the text of a scalar to a span in the file."""
     if not node.style and "\n" not in text[node.start : node.end]:
         return node.start + span[0], node.start + max(span[1], span[0] + 1)
     offsets = _offsets(text, node)
@@ -77,10 +77,10 @@ def _source_span(text: str, node: YamlScalar, span: Span) -> tuple[int, int]:
 
 
 def _offsets(text: str, node: YamlScalar) -> list[int]:
-    """For every character of a scalar's text its offset in the file, then the offset after the last.
+    """The offset in the file of each character of a scalar, followed by the end offset.
 
-    Between two visible characters the file has blanks, line breaks and escapes only, so that walking both side by
-    side finds every visible character exactly.
+    Between two visible characters, the file contains only whitespace and escapes, so a parallel scan of the text and
+    the file finds each visible character exactly.
     """
     source = node.start
     if node.style in ("|", ">"):
@@ -105,7 +105,7 @@ def _offsets(text: str, node: YamlScalar) -> list[int]:
 
 
 def _after_continuation(text: str, source: int, style: str) -> int:
-    """Past a backslash at the end of a line, which joins two lines of a text in double quotes."""
+    """Skip a backslash at the end of a line, which joins two lines of a double-quoted text."""
     is_continued = style == '"' and text[source : source + 1] == "\\" and text[source + 1 : source + 2] in ("\r", "\n")
     if not is_continued:
         return source
@@ -114,7 +114,7 @@ def _after_continuation(text: str, source: int, style: str) -> int:
 
 
 def _source_length(text: str, source: int, style: str) -> int:
-    """How many characters of the file stand for the one at `source`."""
+    """Length in the file of the character at offset `source`."""
     if style == "'" and text[source : source + 2] == "''":
         return 2
     if style == '"' and text[source : source + 1] == "\\":

@@ -1,16 +1,16 @@
-"""What a text should come to say: the new value in the forms of the old text, kept where nothing changes."""
+"""The target of a patch: the new value in the notation of the old text, with references to unchanged nodes."""
 
 from dataclasses import dataclass
 
 
 @dataclass(frozen=True, slots=True)
 class TargetKeep:
-    """Leave the old node as it is."""
+    """Keep the old node."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TargetScalar:
-    """A single text; a `is_plain` one (number, truth) means another thing in quotes."""
+    """A scalar; `is_plain` if it must not be quoted, such as a number or boolean."""
 
     text: str
     is_plain: bool = False
@@ -18,7 +18,7 @@ class TargetScalar:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TargetMember:
-    """An item, or with a `key` a pair; `old` is its number in the old node, None for a new one."""
+    """An item, or a pair if it has a `key`; `old_index` is its index in the old node, None if it is new."""
 
     value: "TargetNode"
     key: str | None = None
@@ -27,9 +27,11 @@ class TargetMember:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TargetCollection:
-    """A mapping or a list; written in brackets when it fits into `flow_width` columns.
+    """A mapping or list.
 
-    `is_ordered`: the order of the members means something.
+    Attributes:
+        flow_width: Maximum line length for flow style, 0 for block style.
+        is_ordered: Whether the order of the members is significant.
     """
 
     members: tuple[TargetMember, ...]
@@ -41,8 +43,7 @@ class TargetCollection:
 TargetNode = TargetKeep | TargetScalar | TargetCollection
 
 
-def has_multiline_text(wish: TargetNode) -> bool:
-    """Whether it holds a text of several lines."""
-    if isinstance(wish, TargetScalar):
-        return "\n" in wish.text
-    return isinstance(wish, TargetCollection) and any(has_multiline_text(member.value) for member in wish.members)
+def has_multiline_text(target: TargetNode) -> bool:
+    if isinstance(target, TargetScalar):
+        return "\n" in target.text
+    return isinstance(target, TargetCollection) and any(has_multiline_text(member.value) for member in target.members)

@@ -1,49 +1,49 @@
-"""What a YAML parser complains about, in the user's words."""
+"""Translates errors of the YAML parser into messages and fixes."""
 
 import yaml
 
-# (part of the parser's message, message, mend, whether the place where it began helps)
+# Part of the parser message, message, fix, and whether to report the start of the construct.
 _EXPLANATIONS = (
-    ("tab character that violates", "a tab where blanks must indent", "indent with blanks", False),
-    ("mapping values are not allowed", "a ':' where none can stand",
-     "put a text that holds ': ' in quotes, or check the indentation", False),
-    ("block sequence entries are not allowed", "a list cannot begin here", "begin '- ' on a line of its own", False),
-    ("could not find expected ':'", "a key without ':'", "write 'key: value'", True),
-    ("expected ',' or ']'", "the list in '[…]' is not closed, or a ',' is missing", "add ',' or ']'", True),
-    ("expected ',' or '}'", "the mapping in '{…}' is not closed, or a ',' is missing",
-     "add ',' or '}'; put a text that holds one of , [ ] { } in quotes", True),
-    ("unexpected end of stream", "a quoted text is not closed", "add the closing quote", True),
-    ("unexpected document", "a quoted text is not closed", "add the closing quote", True),
-    ("unknown escape", "an escape that YAML does not know",
-     "write '\\\\' for one backslash, or use single quotes", False),
-    ("expected '-' indicator", "a line that does not belong to the list above", "check the indentation", True),
-    ("expected <block end>", "the indentation does not fit the lines above",
-     "indent keys of one mapping equally, and close every bracket and quote", True),
-    ("did not find expected key", "the indentation does not fit the lines above",
-     "indent keys of one mapping equally, and close every bracket and quote", True),
-    ("node content", "a value is missing", "write one, or take the ',' away", False),
-    ("undefined tag handle", "a tag; only plain values are read",
-     "take the tag away, or put the text in quotes", False),
-    ("undefined alias", "an alias to nothing", "put a text that begins with '*' in quotes", False),
-    ("alphabetic or numeric", "a text cannot begin with '*' or '&'", "put it in quotes", False),
-    ("incompatible YAML document", "a YAML version that is not known", "take the line '%YAML' away", False),
-    ("block scalar", "the line that begins a text with '|' or '>' holds more than that",
-     "begin the text on the next line", False),
+    ("tab character that violates", "tab used for indentation", "indent with spaces", False),
+    ("mapping values are not allowed", "unexpected ':'",
+     "quote a text that contains ': ', or check the indentation", False),
+    ("block sequence entries are not allowed", "a list cannot start here", "put '- ' on a separate line", False),
+    ("could not find expected ':'", "missing ':' after a key", "write 'key: value'", True),
+    ("expected ',' or ']'", "unclosed list '[…]', or missing ','", "add ',' or ']'", True),
+    ("expected ',' or '}'", "unclosed mapping '{…}', or missing ','",
+     "add ',' or '}'; quote a text that contains one of , [ ] { }", True),
+    ("unexpected end of stream", "unclosed quoted text", "add the closing quote", True),
+    ("unexpected document", "unclosed quoted text", "add the closing quote", True),
+    ("unknown escape", "invalid escape sequence",
+     "write '\\\\' for a backslash, or use single quotes", False),
+    ("expected '-' indicator", "unexpected line after a list", "check the indentation", True),
+    ("expected <block end>", "the indentation does not match the lines above",
+     "indent all keys of a mapping equally, and close all brackets and quotes", True),
+    ("did not find expected key", "the indentation does not match the lines above",
+     "indent all keys of a mapping equally, and close all brackets and quotes", True),
+    ("node content", "a value is missing", "add the value, or remove the ','", False),
+    ("undefined tag handle", "YAML tags are not supported",
+     "remove the tag, or quote the text", False),
+    ("undefined alias", "undefined YAML alias", "quote a text that starts with '*'", False),
+    ("alphabetic or numeric", "a text cannot start with '*' or '&'", "quote the text", False),
+    ("incompatible YAML document", "unsupported YAML version", "remove the line '%YAML'", False),
+    ("block scalar", "unexpected text after '|' or '>'",
+     "start the text on the next line", False),
 )  # fmt: skip
 
 
 def explain_yaml_error(error: yaml.YAMLError, char: str) -> tuple[str, str, bool]:
-    """Message, mend, and whether the place where the broken thing began helps; `char` stands at the error."""
+    """Return message, fix, and whether to report the start of the construct; `char` is the character at the error."""
     problem = f"{getattr(error, 'context', None) or ''} {getattr(error, 'problem', None) or ''}"
     if "cannot start any token" in problem:
         return _explain_character(char)
-    for part, message, mend, tells_opening in _EXPLANATIONS:
+    for part, message, fix, tells_opening in _EXPLANATIONS:
         if part in problem:
-            return message, mend, tells_opening
+            return message, fix, tells_opening
     return problem.strip() or "the text is not YAML", "", False
 
 
 def _explain_character(char: str) -> tuple[str, str, bool]:
     if char == "\t":
-        return "a tab where blanks must indent", "indent with blanks", False
-    return f"a value cannot begin with '{char}'", "put it in quotes", False
+        return "tab used for indentation", "indent with spaces", False
+    return f"a value cannot start with '{char}'", "quote the value", False

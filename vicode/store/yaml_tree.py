@@ -1,6 +1,6 @@
-"""YAML text as a small tree with offsets. Nothing is typed, constructed or run: scalars stay text.
+"""Parses YAML into a tree of nodes with offsets, in which scalars are untyped texts.
 
-Built from parser events without recursion; what could hang or surprise (aliases, tags, depth, size) is refused.
+The tree is built from parser events without recursion. Aliases, tags, deep nesting and large files are rejected.
 """
 
 import re
@@ -22,7 +22,7 @@ _INVALID_CHARACTER = re.compile("[^\t\n\r -~\x85\xa0-\ud7ff\ue000-\ufefe\uff00-\
 
 @dataclass(frozen=True, slots=True)
 class YamlScalar:
-    """A text; `style` is empty for plain, else its indicator: ' " | or >. `is_rejected` stands for an alias."""
+    """A scalar; `style` is empty (plain) or the indicator ' " | >. An alias becomes a scalar with `is_rejected`."""
 
     text: str
     style: str
@@ -32,13 +32,12 @@ class YamlScalar:
 
     @property
     def is_empty(self) -> bool:
-        """Nothing was written here."""
         return not self.text and not self.style
 
 
 @dataclass(frozen=True, slots=True)
 class YamlMapping:
-    """Pairs of key and value in the order they are written."""
+    """A mapping; the pairs are in file order."""
 
     pairs: "tuple[tuple[YamlNode, YamlNode], ...]"
     is_flow: bool
@@ -48,7 +47,7 @@ class YamlMapping:
 
 @dataclass(frozen=True, slots=True)
 class YamlSequence:
-    """Items in the order they are written."""
+    """A list."""
 
     items: "tuple[YamlNode, ...]"
     is_flow: bool
@@ -62,9 +61,12 @@ _NodeEvent = yaml.ScalarEvent | yaml.MappingStartEvent | yaml.SequenceStartEvent
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class YamlTree:
-    """The root, None when there is none; not `is_complete` when the parser gave up on the way.
+    """The result of parsing.
 
-    `unclosed` is where the collections begin whose ends were not met.
+    Attributes:
+        root: None if the text is empty or was rejected.
+        is_complete: Whether the whole text was parsed.
+        unclosed: Start offsets of the collections that were open at a syntax error.
     """
 
     root: YamlNode | None
@@ -74,7 +76,7 @@ class YamlTree:
 
 @dataclass(slots=True)
 class _OpenCollection:
-    """A collection whose end has not been met."""
+    """A collection whose end was not parsed yet."""
 
     is_mapping: bool
     is_flow: bool
@@ -82,13 +84,13 @@ class _OpenCollection:
     children: list[YamlNode]
 
 
-class _ParseAborted(Exception):  # noqa: N818 - control flow, not an error of its own
-    """Reading further makes no sense."""
+class _ParseAborted(Exception):  # noqa: N818 - control flow, not an error
+    """Stops parsing after a finding that makes the rest useless."""
 
 
 def parse_yaml(text: str, report: ReadReport) -> YamlTree:
-    """The tree of a text; mistakes go to the report."""
-    # A byte order mark is skipped here, not by the parser: its offsets would differ from build to build.
+    """Parse a text and add syntax errors to the report."""
+    # The byte order mark is removed here because builds of libyaml count it differently in offsets.
     skipped = 1 if text.startswith("\ufeff") else 0
     if not _has_valid_characters(text, skipped, report):
         return YamlTree(root=None, is_complete=False)
@@ -98,8 +100,8 @@ def parse_yaml(text: str, report: ReadReport) -> YamlTree:
             builder.handle_event(event)
     except yaml.YAMLError as error:
         _report_syntax(error, skipped, report)
-        unfinished = tuple(each.start for each in builder.open)
-        return YamlTree(root=builder.close_all(), is_complete=False, unclosed=unfinished)
+        unclosed = tuple(collection.start for collection in builder.open)
+        return YamlTree(root=builder.close_all(), is_complete=False, unclosed=unclosed)
     except _ParseAborted:
         return YamlTree(root=None, is_complete=False)
     return YamlTree(root=builder.root, is_complete=True)
@@ -108,9 +110,9 @@ def parse_yaml(text: str, report: ReadReport) -> YamlTree:
 def _has_valid_characters(text: str, skipped: int, report: ReadReport) -> bool:
     match = _INVALID_CHARACTER.search(text, skipped)
     if match:
-        message = f"the character U+{ord(match.group()):04X} cannot stand in a text file"
-        mend = f'take it away, or write "\\u{ord(match.group()):04X}" in double quotes'
-        report.add("Y110", message, match.span(), fix=mend)
+        message = f"invalid character U+{ord(match.group()):04X}"
+        fix = f'remove it, or write "\\u{ord(match.group()):04X}" in double quotes'
+        report.add("Y110", message, match.span(), fix=fix)
     return match is None
 
 
@@ -118,18 +120,18 @@ def _report_syntax(error: yaml.YAMLError, skipped: int, report: ReadReport) -> N
     text = report.line_index.text
     problem = getattr(error, "problem_mark", None)
     offset = min(skipped + problem.index, max(0, len(text) - 1)) if problem else 0
-    message, mend, tells_opening = explain_yaml_error(error, text[offset : offset + 1])
+    message, fix, tells_opening = explain_yaml_error(error, text[offset : offset + 1])
     opening = getattr(error, "context_mark", None)
     if opening and tells_opening and not text[offset:].strip():
-        # At the end of the file there is nothing to look at.
+        # At the end of the file, there is no text to show.
         offset = skipped + opening.index
     is_elsewhere = opening and tells_opening and skipped + opening.index != offset
-    note = ("it begins here", skipped + opening.index) if opening and is_elsewhere else None
-    report.add("Y101", message, (offset, offset + 1), fix=mend, note=note)
+    note = ("starts here", skipped + opening.index) if opening and is_elsewhere else None
+    report.add("Y101", message, (offset, offset + 1), fix=fix, note=note)
 
 
 class _TreeBuilder:
-    """Takes events one by one."""
+    """Builds the tree from parser events."""
 
     def __init__(self, text: str, skipped: int, report: ReadReport) -> None:
         self.text = text
@@ -141,7 +143,6 @@ class _TreeBuilder:
         self.open: list[_OpenCollection] = []
 
     def handle_event(self, event: yaml.Event) -> None:
-        """Add what an event says."""
         match event:
             case yaml.ScalarEvent():
                 self._reject_anchor_and_tag(event)
@@ -153,13 +154,13 @@ class _TreeBuilder:
                 self._close_collection(self._span(event)[1])
             case yaml.AliasEvent():
                 span = self._span(event)
-                self._report("Y107", "an alias is not read", span, "write the value out")
+                self._report("Y107", "YAML aliases are not supported", span, "repeat the value instead")
                 self._add(YamlScalar("", "", *span, is_rejected=True))
             case yaml.DocumentStartEvent():
                 self._check_single_document(event)
 
     def close_all(self) -> YamlNode | None:
-        """What was read before the parser gave up."""
+        """Close all open collections after a syntax error and return the root."""
         while self.open:
             self._close_collection(len(self.text))
         return self.root
@@ -168,8 +169,8 @@ class _TreeBuilder:
         self.documents += 1
         if self.documents > 1:
             start = self._span(event)[0]
-            message = "a second document begins here"
-            self.report.add("Y112", message, (start, start + 3), fix="one file holds one design: take '---' away")
+            message = "a second YAML document starts here"
+            self.report.add("Y112", message, (start, start + 3), fix="remove '---': a file contains one design")
             raise _ParseAborted
 
     def _span(self, event: yaml.Event) -> tuple[int, int]:
@@ -181,39 +182,39 @@ class _TreeBuilder:
         start, end = self._span(event)
         if event.anchor is not None:
             end = min(end, start + len(event.anchor) + 1)
-            self._report("Y107", f"the anchor '&{event.anchor}' is not read", (start, end), "take it away")
+            self._report("Y107", f"YAML anchors such as '&{event.anchor}' are not supported", (start, end), "remove it")
         if event.tag is not None:
-            found = self.text.find("!", start)
-            start = found if found >= 0 else start
+            tag_start = self.text.find("!", start)
+            start = tag_start if tag_start >= 0 else start
             tag = self.text[start : start + 60].split(maxsplit=1)[0]
-            message = f"the tag '{tag}' is refused: only plain values are read"
-            self._report("Y106", message, (start, start + len(tag)), "take the tag away")
+            message = f"YAML tags such as '{tag}' are not supported"
+            self._report("Y106", message, (start, start + len(tag)), "remove the tag")
 
-    def _report(self, code: str, message: str, span: tuple[int, int], mend: str) -> None:
-        self.report.add(code, message, span, fix=mend)
+    def _report(self, code: str, message: str, span: tuple[int, int], fix: str) -> None:
+        self.report.add(code, message, span, fix=fix)
         if self.report.is_full:
             raise _ParseAborted
 
     def _open_collection(self, event: yaml.MappingStartEvent | yaml.SequenceStartEvent) -> None:
         start = self._span(event)[0]
         if len(self.open) >= MAX_DEPTH:
-            message = f"more than {MAX_DEPTH} levels inside each other"
+            message = f"more than {MAX_DEPTH} nested levels"
             self.report.add("Y108", message, (start, start + 1), fix="split the design")
             raise _ParseAborted
         is_mapping = isinstance(event, yaml.MappingStartEvent)
         self.open.append(_OpenCollection(is_mapping, bool(event.flow_style), start, []))
 
     def _close_collection(self, end: int) -> None:
-        ended = self.open.pop()
-        children = tuple(ended.children)
-        if not ended.is_flow:
-            # The parser ends a block where the next token begins; it ends with its last child.
-            end = children[-1].end if children else ended.start
-        if ended.is_mapping:
+        closed = self.open.pop()
+        children = tuple(closed.children)
+        if not closed.is_flow:
+            # The parser reports the start of the next token as the end of a block.
+            end = children[-1].end if children else closed.start
+        if closed.is_mapping:
             pairs = tuple(zip(children[::2], children[1::2], strict=False))
-            self._add(YamlMapping(pairs, ended.is_flow, ended.start, end))
+            self._add(YamlMapping(pairs, closed.is_flow, closed.start, end))
         else:
-            self._add(YamlSequence(children, ended.is_flow, ended.start, end))
+            self._add(YamlSequence(children, closed.is_flow, closed.start, end))
 
     def _add(self, node: YamlNode) -> None:
         self.nodes += 1
@@ -235,7 +236,7 @@ class _TreeBuilder:
         return YamlScalar(event.value, style, start, end)
 
     def _block_end(self, start: int, end: int) -> int:
-        """The end of the last line of a block scalar, its line break left out."""
+        """The end of the last line of a block scalar, without its line break."""
         raw = self.text[start:end]
         header = raw.splitlines()[0].split("#")[0] if raw else ""
         if "+" in header:

@@ -1,4 +1,4 @@
-"""Writes wishes as YAML: texts with as few quotes as can be, collections in brackets where they fit into a line."""
+"""Writes target trees as YAML, with as few quotes as possible and in flow style where a collection fits on a line."""
 
 import re
 from dataclasses import dataclass
@@ -15,14 +15,14 @@ _FOLD_WIDTH = 100
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class YamlStyle:
-    """How a file is indented: `indent_width` columns a mapping, `dash_indent` columns the dashes under a key."""
+    """The indentation of a file in columns; `dash_indent` is that of list items below their key."""
 
     indent_width: int = 2
     dash_indent: int = 2
 
 
 def detect_style(root: YamlNode | None, text: str) -> YamlStyle:
-    """The layout of an old text, from its first mapping in a mapping and its first list."""
+    """Detect the style from the first nested mapping and the first list."""
     step, dash = 0, -1
     stack: list[tuple[YamlNode, int]] = [(root, 0)] if isinstance(root, YamlMapping) else []
     while stack and (not step or dash < 0):
@@ -43,7 +43,7 @@ def detect_style(root: YamlNode | None, text: str) -> YamlStyle:
 
 
 def format_inline_text(text: str, *, in_flow: bool = False, quote: str = "") -> str:
-    """A text in one line; `quote` is the one to use if it must or should have quotes."""
+    """Format a text on one line; `quote` is the preferred quote, empty for a plain scalar if possible."""
     if not quote and _is_plain(text, in_flow=in_flow):
         return text
     if _UNPRINTABLE.search(text):
@@ -54,7 +54,7 @@ def format_inline_text(text: str, *, in_flow: bool = False, quote: str = "") -> 
 
 
 def format_block_text(text: str, indent: int, *, folded: bool = False) -> str | None:
-    """A text as a block: '|' and its lines, or '>' if it can be folded; None when no block can hold it."""
+    """Format a text as a block scalar, `folded` if possible; None if a block scalar cannot represent it."""
     body = text.rstrip("\n")
     ends = len(text) - len(body)
     if not body.strip() or _NOT_IN_BLOCK.search(text) or not body.split("\n")[-1].strip():
@@ -64,89 +64,90 @@ def format_block_text(text: str, indent: int, *, folded: bool = False) -> str | 
     chomping = "-" if ends == 0 else "" if ends == 1 else "+"
     lines = _folded_lines(body, indent) if folded and ends < 2 else None
     style = "|" if lines is None else ">"
-    # The first line would say how far the block is indented; when it begins with blanks, a number must.
+    # The parser detects the indentation from the first line; if that starts with spaces, an indicator is needed.
     number = str(indent) if text[0] == " " else ""
     lines = body.split("\n") if lines is None else lines
     written = [" " * indent + line if line else "" for line in lines]
     return "\n".join([f"{style}{number}{chomping}", *written, *[""] * max(0, ends - 1)])
 
 
-def format_value(wish: TargetNode, column: int, used: int, layout: YamlStyle, *, after_dash: bool = False) -> str:
-    """What follows 'key:' or '-', without the last line break.
+def format_value(target: TargetNode, column: int, used: int, style: YamlStyle, *, after_dash: bool = False) -> str:
+    """Format a value after 'key:' or '-', without the final line break.
 
     Args:
-        wish: A value without anything kept.
-        column: Where the key or dash begins.
-        used: Columns of the line that are taken.
-        layout: How the file is indented.
-        after_dash: It follows a dash, not a key.
+        target: The value, without `TargetKeep`.
+        column: Column of the key or dash.
+        used: Number of used columns in the line.
+        style: The indentation of the file.
+        after_dash: Whether the value follows a dash.
     """
-    if isinstance(wish, TargetScalar):
-        return " " + _format_scalar(wish, column, layout)
-    assert isinstance(wish, TargetCollection), "what is kept is not written"
-    if _fits_line(wish, used):
-        return " " + format_flow(wish)
-    if wish.is_mapping and after_dash:
-        return " " + "\n".join(_pair_lines(wish, column + 2, layout)).lstrip()
-    if wish.is_mapping:
-        return "\n" + "\n".join(_pair_lines(wish, column + layout.indent_width, layout))
-    dash = column + (2 if after_dash else layout.dash_indent)
-    return "\n" + "\n".join(format_member(member, dash, layout) for member in wish.members)
+    if isinstance(target, TargetScalar):
+        return " " + _format_scalar(target, column, style)
+    assert isinstance(target, TargetCollection), "TargetKeep cannot be formatted"
+    if _fits_line(target, used):
+        return " " + format_flow(target)
+    if target.is_mapping and after_dash:
+        return " " + "\n".join(_pair_lines(target, column + 2, style)).lstrip()
+    if target.is_mapping:
+        return "\n" + "\n".join(_pair_lines(target, column + style.indent_width, style))
+    dash = column + (2 if after_dash else style.dash_indent)
+    return "\n" + "\n".join(format_member(member, dash, style) for member in target.members)
 
 
-def format_member(member: TargetMember, column: int, layout: YamlStyle) -> str:
-    """A whole pair or item from its first column, without the last line break."""
+def format_member(member: TargetMember, column: int, style: YamlStyle) -> str:
+    """Format a pair or item including its indentation, without the final line break."""
     lead = " " * column
     if member.key is None:
-        return lead + "-" + format_value(member.value, column, column + 2, layout, after_dash=True)
+        return lead + "-" + format_value(member.value, column, column + 2, style, after_dash=True)
     key = format_inline_text(member.key)
-    return f"{lead}{key}:" + format_value(member.value, column, column + len(key) + 2, layout)
+    return f"{lead}{key}:" + format_value(member.value, column, column + len(key) + 2, style)
 
 
-def format_document(wish: TargetNode, layout: YamlStyle) -> str:
-    """A whole file."""
-    assert isinstance(wish, TargetCollection)
-    return "\n".join(_pair_lines(wish, 0, layout)) + "\n"
+def format_document(target: TargetNode, style: YamlStyle) -> str:
+    assert isinstance(target, TargetCollection)
+    return "\n".join(_pair_lines(target, 0, style)) + "\n"
 
 
-def format_flow(wish: TargetNode) -> str:
-    """A value in one line, collections in brackets."""
-    if isinstance(wish, TargetScalar):
-        return wish.text if wish.is_plain else format_inline_text(wish.text, in_flow=True)
-    assert isinstance(wish, TargetCollection), "what is kept is not written"
-    parts = [format_flow_member(member) for member in wish.members]
-    return "{" + ", ".join(parts) + "}" if wish.is_mapping else "[" + ", ".join(parts) + "]"
+def format_flow(target: TargetNode) -> str:
+    """Format a value in flow style."""
+    if isinstance(target, TargetScalar):
+        return target.text if target.is_plain else format_inline_text(target.text, in_flow=True)
+    assert isinstance(target, TargetCollection), "TargetKeep cannot be formatted"
+    parts = [format_flow_member(member) for member in target.members]
+    return "{" + ", ".join(parts) + "}" if target.is_mapping else "[" + ", ".join(parts) + "]"
 
 
 def format_flow_member(member: TargetMember) -> str:
-    """A pair or item inside brackets."""
+    """Format a pair or item of a flow collection."""
     value = format_flow(member.value)
     return value if member.key is None else f"{format_inline_text(member.key, in_flow=True)}: {value}"
 
 
-def _pair_lines(wish: TargetCollection, column: int, layout: YamlStyle) -> list[str]:
-    return [format_member(member, column, layout) for member in wish.members]
+def _pair_lines(target: TargetCollection, column: int, style: YamlStyle) -> list[str]:
+    return [format_member(member, column, style) for member in target.members]
 
 
-def _fits_line(wish: TargetCollection, used: int) -> bool:
-    if not wish.members:
+def _fits_line(target: TargetCollection, used: int) -> bool:
+    if not target.members:
         return True
-    return _may_be_flow(wish) and not has_multiline_text(wish) and used + len(format_flow(wish)) <= wish.flow_width
-
-
-def _may_be_flow(wish: TargetCollection) -> bool:
-    inner = (
-        member.value for member in wish.members if isinstance(member.value, TargetCollection) and member.value.members
+    return (
+        _may_be_flow(target) and not has_multiline_text(target) and used + len(format_flow(target)) <= target.flow_width
     )
-    return wish.flow_width > 0 and all(_may_be_flow(each) for each in inner)
 
 
-def _format_scalar(word: TargetScalar, column: int, layout: YamlStyle) -> str:
-    if word.is_plain:
-        return word.text
-    block = format_block_text(word.text, layout.indent_width, folded=False) if "\n" in word.text else None
+def _may_be_flow(target: TargetCollection) -> bool:
+    inner = (
+        member.value for member in target.members if isinstance(member.value, TargetCollection) and member.value.members
+    )
+    return target.flow_width > 0 and all(_may_be_flow(child) for child in inner)
+
+
+def _format_scalar(scalar: TargetScalar, column: int, style: YamlStyle) -> str:
+    if scalar.is_plain:
+        return scalar.text
+    block = format_block_text(scalar.text, style.indent_width, folded=False) if "\n" in scalar.text else None
     if block is None:
-        return format_inline_text(word.text)
+        return format_inline_text(scalar.text)
     head, *lines = block.split("\n")
     return "\n".join([head, *(" " * column + line if line else "" for line in lines)])
 
@@ -173,7 +174,7 @@ def _escaped(char: str) -> str:
 
 
 def _folded_lines(body: str, indent: int) -> list[str] | None:
-    """Words in lines of readable length, None when folding would not give the same text again."""
+    """Fold a text into lines; None if reading them back would not give the same text."""
     words = body.split(" ")
     if "\n" in body or "\t" in body or not all(words) or len(words) < 2:
         return None

@@ -50,7 +50,7 @@ def test_a_change_of_the_project_is_written_and_taken_back(workspace: Workspace,
     (folder / "project.yaml").write_text("vicode: [")
     assert edit_project_file(workspace, change).error.startswith("project.yaml cannot be read: a value is missing")
     (folder / "project.yaml").write_text("# later\n")
-    empty = "project.yaml cannot be read: the file is empty; begin with 'vicode: 1'"
+    empty = "project.yaml cannot be read: the file is empty; start with 'vicode: 1'"
     assert edit_project_file(workspace, change).error == empty
     latin_1 = 'vicode: 1\ndoc: "für"\n'.encode("latin-1")
     (folder / "project.yaml").write_bytes(latin_1)
