@@ -141,5 +141,5 @@ def test_brackets_open_when_code_of_several_lines_comes_in() -> None:
 
 def test_two_states_of_one_name_are_not_saved() -> None:
     design = Design(component="Player", states=(State(name="A"), State(name="A")))
-    with pytest.raises(ValueError, match="named A"):
+    with pytest.raises(ValueError, match="duplicate names cannot be saved: A"):
         save_design(design)
