@@ -1,4 +1,4 @@
-"""Internals of libraries that vicode relies on: they are listed here with a reason, and exist in the installed version."""
+"""Library internals that vicode relies on: listed here with a reason, and present in the installed version."""
 
 import ast
 from pathlib import Path
