@@ -212,7 +212,7 @@ def serving(scene: dict[str, object]) -> Iterator[str]:
         command = [sys.executable, str(SERVER), str(port), str(scene_file), "light"]
         process = subprocess.Popen(command, env=environment, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         try:
-            wait_until_served(f"http://127.0.0.1:{port}/heard", process)
+            wait_until_served(f"http://127.0.0.1:{port}/gestures", process)
             yield f"http://127.0.0.1:{port}/"
         finally:
             process.kill()

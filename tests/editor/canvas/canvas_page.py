@@ -1,7 +1,7 @@
-"""A page with nothing but the canvas, for browser tests and the benchmark: `python canvas_page.py PORT SCENE.json`.
+"""A page that contains only the canvas, for browser tests and the benchmark: `python canvas_page.py PORT SCENE.json`.
 
-It behaves like a small editor: moves are echoed, deletions and renames applied. /heard tells the gestures, /call/METHOD
-calls the element.
+It behaves like a small editor: it applies moves, deletions and renames. GET /gestures returns the reported gestures,
+POST /clear deletes them, and POST /call/METHOD calls a method of the element.
 """
 
 import json
@@ -15,17 +15,17 @@ from vicode.editor.canvas import Canvas
 
 
 def main(port: int, scene_file: Path, theme: str) -> None:
-    """Serve the scene until the process is ended."""
-    heard: list[dict[str, Any]] = []
+    """Serve the scene until the process is killed."""
+    gestures: list[dict[str, Any]] = []
     canvases: list[Canvas] = []
 
-    @app.get("/heard")
-    def tell() -> list[dict[str, Any]]:
-        return heard
+    @app.get("/gestures")
+    def list_gestures() -> list[dict[str, Any]]:
+        return gestures
 
-    @app.post("/forget")
-    def forget() -> None:
-        heard.clear()
+    @app.post("/clear")
+    def clear() -> None:
+        gestures.clear()
 
     @app.post("/call/{method}")
     def call(method: str, arguments: list[Any]) -> None:
@@ -37,18 +37,18 @@ def main(port: int, scene_file: Path, theme: str) -> None:
         ui.dark_mode({"dark": True, "light": False}.get(theme))
         ui.context.client.content.style("padding: 0")
 
-        def hear(gesture: Any) -> None:
-            heard.append(gesture)
-            changes = answer_to(gesture, canvas._scene or {})
+        def on_gesture(gesture: Any) -> None:
+            gestures.append(gesture)
+            changes = changes_after(gesture, canvas._scene or {})
             if changes:
                 canvas.apply({"rev": gesture["rev"] + 1, **changes})
 
-        canvas = Canvas(on_gesture=hear)
+        canvas = Canvas(on_gesture=on_gesture)
         canvas.style("width: 100vw; height: 100vh")
         canvases.append(canvas)
         canvas.load(json.loads(scene_file.read_text(encoding="utf-8")))
 
-    # Nothing is packed and no styles are made up by a script, as in the editor.
+    # No compression and no generated styles, as in the editor.
     ui.run(
         host="127.0.0.1",
         port=port,
@@ -62,8 +62,8 @@ def main(port: int, scene_file: Path, theme: str) -> None:
     )
 
 
-def answer_to(gesture: dict[str, Any], scene: dict[str, Any]) -> dict[str, Any]:
-    """What an editor would change after a gesture."""
+def changes_after(gesture: dict[str, Any], scene: dict[str, Any]) -> dict[str, Any]:
+    """Return the scene changes that an editor would make after a gesture."""
     if gesture["kind"] == "move":
         moved: dict[str, list[Any]] = {}
         for item in gesture["items"]:
@@ -73,10 +73,10 @@ def answer_to(gesture: dict[str, Any], scene: dict[str, Any]) -> dict[str, Any]:
                 )
         return {"upsert": moved}
     if gesture["kind"] == "delete":
-        gone: dict[str, list[str]] = {}
+        removed: dict[str, list[str]] = {}
         for item in gesture["items"]:
-            gone.setdefault(item["of"], []).append(item["id"])
-        return {"remove": gone}
+            removed.setdefault(item["of"], []).append(item["id"])
+        return {"remove": removed}
     if gesture["kind"] == "rename":
         return {"upsert": {gesture["of"]: [{**scene[gesture["of"]][gesture["id"]], "name": gesture["name"]}]}}
     return {}

@@ -1,4 +1,4 @@
-"""The canvas in a real browser: a server with nothing but the canvas, and a hand that works on it."""
+"""Fixtures for the canvas in a real browser: a server with a page that contains only the canvas, and a driver."""
 
 import json
 import os
@@ -22,14 +22,14 @@ Point = tuple[float, float]
 
 
 class CanvasDriver:
-    """A person at the canvas: points, drags and types, and can ask what Python heard."""
+    """Simulates a user of the canvas, and reads the gestures that Python received."""
 
     def __init__(self, page: Page, address: str) -> None:
         self.page = page
         self.address = address
 
     def show(self, scene: Mapping[str, Any]) -> None:
-        """Begin anew with a scene, all of it in sight and the mouse out of the way."""
+        """Load a scene, fit it into the view and reset selection, mouse and gestures."""
         self.page.mouse.move(1, 1)
         self.press("Escape")
         self.call("show_links", True)
@@ -43,17 +43,17 @@ class CanvasDriver:
         self.clear_gestures()
 
     def clear_gestures(self) -> None:
-        """Let go of all gestures so far; those on their way are waited for, as one comes after the other."""
-        self._ask("/forget", b"")
+        """Delete the received gestures; a marker gesture makes sure that no earlier one is still on its way."""
         canvas = "getElement(document.querySelector('.vicode-canvas').id.slice(1))"
+        self._request("/clear", b"")
         self.page.evaluate(f"{canvas}.$emit('gesture', {{kind: 'redo', rev: 0}})")
         self.wait_for_gesture("redo")
-        self._ask("/forget", b"")
+        self._request("/clear", b"")
 
     def at(self, of: str, identity: str, right: float = 0, down: float = 0) -> Point:
-        """Where the middle of a thing is on the screen, or a point beside it."""
-        spot = self.evaluate(f"screen({json.dumps(of)}, {json.dumps(identity)})")
-        return spot["x"] + right, spot["y"] + down
+        """Screen position of the center of an element, plus an offset."""
+        position = self.evaluate(f"screen({json.dumps(of)}, {json.dumps(identity)})")
+        return position["x"] + right, position["y"] + down
 
     def drag(self, start: Point, end: Point, button: Any = "left") -> None:
         self.page.mouse.move(*start)
@@ -63,7 +63,7 @@ class CanvasDriver:
         self.page.mouse.up(button=button)
 
     def drag_handle(self, of: str, identity: str, end: Point) -> None:
-        """Hover a node until its handles show, and drag the one at its lower side."""
+        """Hover a node and drag the handle at its lower side."""
         self.page.mouse.move(*self.at(of, identity))
         handle = self.page.locator("circle.handle-hit[data-handle]").nth(2)
         handle.wait_for()
@@ -71,37 +71,37 @@ class CanvasDriver:
         assert box is not None
         self.drag((box["x"] + box["width"] / 2, box["y"] + box["height"] / 2), end)
 
-    def click(self, spot: Point, *, double: bool = False) -> None:
-        self.page.mouse.click(*spot, click_count=2 if double else 1)
+    def click(self, position: Point, *, double: bool = False) -> None:
+        self.page.mouse.click(*position, click_count=2 if double else 1)
 
     def press(self, *keys: str) -> None:
         for key in keys:
             self.page.keyboard.press(key)
 
-    def wait_for_gesture(self, kind: str, **words: Any) -> dict[str, Any]:
-        """The newest gesture of a kind, waited for until it says these words; it comes without its revision."""
+    def wait_for_gesture(self, kind: str, **fields: Any) -> dict[str, Any]:
+        """Wait until the newest gesture of a kind has these fields; return it without its kind and revision."""
         end = time.monotonic() + 10
         while time.monotonic() < end:
             if found := self.gestures(kind):
                 newest = {name: value for name, value in found[-1].items() if name not in {"kind", "rev"}}
-                if newest.items() >= words.items():
+                if newest.items() >= fields.items():
                     return newest
             time.sleep(0.02)
-        raise AssertionError(f"no gesture {kind!r} with {words} was heard, only {self.gestures()}")
+        raise AssertionError(f"no gesture {kind!r} with {fields} was received, only {self.gestures()}")
 
     def gestures(self, kind: str = "") -> list[dict[str, Any]]:
-        gestures: list[dict[str, Any]] = json.loads(self._ask("/heard"))
+        gestures: list[dict[str, Any]] = json.loads(self._request("/gestures"))
         return [gesture for gesture in gestures if gesture["kind"] == kind or not kind]
 
     def call(self, method: str, *arguments: object) -> None:
         """Call a method of the Python element."""
-        self._ask(f"/call/{method}", json.dumps(arguments).encode())
+        self._request(f"/call/{method}", json.dumps(arguments).encode())
 
     def evaluate(self, call: str) -> Any:
         return self.page.evaluate(f"document.querySelector('.vicode-canvas').vicode.{call}")
 
     def position(self, name: str) -> Point:
-        """Where a node is in the scene: `place("states/FollowBall")`."""
+        """Position of a node in the scene: `position("states/FollowBall")`."""
         node = self.evaluate("positions()")[name]
         return node["x"], node["y"]
 
@@ -114,13 +114,13 @@ class CanvasDriver:
     def wait_until_idle(self) -> None:
         self.page.wait_for_function("document.querySelector('.vicode-canvas').vicode.view().resting")
 
-    def wait_for(self, claim: str) -> None:
-        """Wait until something holds, said with the canvas' test interface as `evaluate`."""
+    def wait_for(self, condition: str) -> None:
+        """Wait for a JavaScript condition on `vicode`, the test interface of the canvas."""
         self.page.wait_for_function(
-            f"() => {{ const {{vicode}} = document.querySelector('.vicode-canvas'); return {claim}; }}"
+            f"() => {{ const {{vicode}} = document.querySelector('.vicode-canvas'); return {condition}; }}"
         )
 
-    def _ask(self, path: str, body: bytes | None = None) -> str:
+    def _request(self, path: str, body: bytes | None = None) -> str:
         request = Request(self.address + path, data=body, headers={"Content-Type": "application/json"})
         with urlopen(request, timeout=60) as answer:
             return str(answer.read().decode())
@@ -135,7 +135,7 @@ def canvas_address(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
     with socket.socket() as free:
         free.bind(("127.0.0.1", 0))
         port = free.getsockname()[1]
-    # NiceGUI behaves differently when it believes to be under test.
+    # NiceGUI changes its behavior if these variables are set.
     kept = {name: value for name, value in os.environ.items() if not name.startswith(("PYTEST_", "NICEGUI_"))}
     environment = {**kept, "NICEGUI_STORAGE_PATH": str(folder), "PYTHONPATH": str(ROOT)}
     command = [sys.executable, str(SERVER), str(port), str(scene_file), "light"]
@@ -161,7 +161,7 @@ def canvas_page(chromium: Browser, canvas_address: str) -> Iterator[Page]:
 
 @pytest.fixture
 def show(canvas_page: Page, canvas_address: str) -> Iterator[Callable[[Mapping[str, Any]], CanvasDriver]]:
-    """Shows a scene and answers the hand that works on it; errors in the console fail the test."""
+    """Returns a function that loads a scene; errors in the console fail the test."""
     errors: list[str] = []
 
     def on_console(message: ConsoleMessage) -> None:
@@ -172,9 +172,9 @@ def show(canvas_page: Page, canvas_address: str) -> Iterator[Callable[[Mapping[s
         errors.append(str(error))
 
     def show_scene(scene: Mapping[str, Any]) -> CanvasDriver:
-        hand = CanvasDriver(canvas_page, canvas_address)
-        hand.show(scene)
-        return hand
+        driver = CanvasDriver(canvas_page, canvas_address)
+        driver.show(scene)
+        return driver
 
     canvas_page.on("console", on_console)
     canvas_page.on("pageerror", on_page_error)
@@ -185,8 +185,8 @@ def show(canvas_page: Page, canvas_address: str) -> Iterator[Callable[[Mapping[s
 
 
 @pytest.fixture
-def hand(show: Callable[[Mapping[str, Any]], CanvasDriver]) -> CanvasDriver:
-    """A hand at the player's scene."""
+def canvas(show: Callable[[Mapping[str, Any]], CanvasDriver]) -> CanvasDriver:
+    """The canvas with the player's scene."""
     return show(player())
 
 
@@ -194,9 +194,9 @@ def _wait_until_served(address: str, process: subprocess.Popen[bytes], log: Path
     end = time.monotonic() + 60
     while time.monotonic() < end and process.poll() is None:
         try:
-            urlopen(f"{address}/heard", timeout=60).close()
+            urlopen(f"{address}/gestures", timeout=60).close()
         except OSError:
             time.sleep(0.05)
         else:
             return
-    pytest.fail(f"the canvas server did not come up:\n{log.read_text(errors='replace')}")
+    pytest.fail(f"the canvas server did not start:\n{log.read_text(errors='replace')}")

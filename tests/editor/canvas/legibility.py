@@ -1,4 +1,4 @@
-"""How well a drawing reads: what is counted in the browser, and the designs it is counted on."""
+"""Legibility of a diagram: metrics measured in the browser, and the designs that they are measured on."""
 
 import random
 from dataclasses import dataclass, replace
@@ -15,7 +15,7 @@ from vicode.model.project import Project
 
 GUARDS = ("seen", "ball.near and not lost", "x > 0", "tries >= 3", "ball_distance < 400 and net_seen", "done", "left")
 
-# A box that is touched by a hair is not hidden: everything is made smaller by a pixel first.
+# All rectangles are shrunk by a pixel, so that touching ones do not count as overlapping.
 COUNT = """() => {
     const root = document.querySelector('.vicode-canvas').shadowRoot;
     const {k} = document.querySelector('.vicode-canvas').vicode.view();
@@ -61,7 +61,7 @@ COUNT = """() => {
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Legibility:
-    """What stands in the way of reading a drawing."""
+    """Number of overlaps that make a diagram hard to read."""
 
     boxes: int
     labels: int
@@ -73,19 +73,19 @@ class Legibility:
 
 
 def measure_legibility(page: Page) -> Legibility:
-    """Count on what is drawn now."""
+    """Measure the current diagram."""
     return Legibility(**page.evaluate(COUNT))
 
 
 def forward_scenes() -> dict[str, dict[str, Any]]:
-    """The shipped designs as they are, by component."""
+    """Scenes of the shipped designs, by component."""
     designs = shipped_designs()
     project = Project(name="forward", designs=tuple(designs))
     return {design.component: make_scene(project, design, (), 1) for design in designs}
 
 
 def random_scenes(count: int) -> dict[str, dict[str, Any]]:
-    """Random designs of 10 to 60 states, laid out."""
+    """Scenes of random designs with 10 to 60 states and a computed layout."""
     scenes = {}
     with LayoutService() as service:
         for seed in range(count):
@@ -97,12 +97,13 @@ def random_scenes(count: int) -> dict[str, dict[str, Any]]:
 
 
 def random_design(seed: int) -> Design:
-    """Mostly to a state near by; some back, some to itself, some twice."""
+    """Transitions lead mostly to nearby states; some back, some to the same state, some are parallel."""
     chance = random.Random(seed)
     size = chance.randrange(10, 61)
     states = tuple(
         State(
-            name=_name(index), transitions=tuple(_lead(index, size, chance) for _ in range(chance.choice((1, 2, 2, 3))))
+            name=_name(index),
+            transitions=tuple(_transition(index, size, chance) for _ in range(chance.choice((1, 2, 2, 3)))),
         )
         for index in range(size)
     )
@@ -114,7 +115,7 @@ def random_design(seed: int) -> Design:
     return replace(Design(component=f"Random{seed}x{size}", initial=_name(0), states=states), common=common)
 
 
-def _lead(index: int, size: int, chance: random.Random) -> Transition:
+def _transition(index: int, size: int, chance: random.Random) -> Transition:
     far = chance.random() < 0.15
     to = chance.randrange(size) if far else (index + chance.choice((0, 1, 1, 1, 2, 3, -1, -1))) % size
     guard = Guard(after="5") if chance.random() < 0.2 else Guard(when=chance.choice(GUARDS))

@@ -1,4 +1,4 @@
-"""Scenes to draw: a player with everything the canvas knows, and large made-up machines."""
+"""Test scenes: a player with every kind of element, and large generated machines."""
 
 from typing import Any
 
@@ -14,7 +14,7 @@ def player() -> dict[str, Any]:
 
 
 def machine(count: int) -> dict[str, Any]:
-    """A made-up machine: `count` states on a grid with three transitions each, self loops and parallels among them."""
+    """Generated machine: `count` states on a grid with three transitions each, some self loops and parallel edges."""
     columns = max(2, round((count * 0.6) ** 0.5 * 1.3))
     states = [
         _state(

@@ -1,4 +1,4 @@
-"""Labels lie on their edges and hide nothing, however the scene came about."""
+"""Label positions and edge curves after changes equal those of a fresh scene."""
 
 from collections.abc import Callable, Mapping
 from typing import Any
@@ -14,43 +14,43 @@ Scene = dict[str, Any]
 
 
 @pytest.mark.parametrize("new_name", ["Chase", "Zigzag"])
-def test_labels_after_a_rename_lie_where_a_fresh_scene_has_them(show: Show, new_name: str) -> None:
+def test_label_positions_after_a_rename_equal_those_of_a_fresh_scene(show: Show, new_name: str) -> None:
     before, after = _pair("Approach"), _pair(new_name)
-    hand = show(before)
-    hand.call("apply", _difference(before, after))
-    expect(hand.group("transition", f"{new_name}/1")).to_have_count(1)
-    renamed = _drawn(hand)
+    canvas = show(before)
+    canvas.call("apply", _difference(before, after))
+    expect(canvas.group("transition", f"{new_name}/1")).to_have_count(1)
+    renamed = _drawn(canvas)
     assert renamed == _drawn(show(after))
 
 
-def test_labels_after_a_transition_went_lie_where_a_fresh_scene_has_them(show: Show) -> None:
+def test_label_positions_after_a_removed_transition_equal_those_of_a_fresh_scene(show: Show) -> None:
     before = _pair("Approach")
     after = {**before, "rev": 2, "transitions": before["transitions"][1:]}
-    hand = show(before)
-    hand.call("apply", _difference(before, after))
-    expect(hand.page.locator("g.edge")).to_have_count(2)
-    left = _drawn(hand)
+    canvas = show(before)
+    canvas.call("apply", _difference(before, after))
+    expect(canvas.page.locator("g.edge")).to_have_count(2)
+    left = _drawn(canvas)
     assert left == _drawn(show(after))
 
 
-def test_edges_straighten_when_the_box_in_their_way_is_gone(show: Show) -> None:
+def test_edges_straighten_when_a_node_in_their_way_is_removed(show: Show) -> None:
     free = _pair("Approach")
     states = [*free["states"], {"id": "Between", "name": "Between", "x": 200, "y": 0}]
-    hand = show({**free, "states": states})
-    bowed = _drawn(hand)
-    hand.call("apply", {"rev": 2, "remove": {"states": ["Between"]}})
-    expect(hand.page.locator("g.node")).to_have_count(2)
-    straight = _drawn(hand)
+    canvas = show({**free, "states": states})
+    bowed = _drawn(canvas)
+    canvas.call("apply", {"rev": 2, "remove": {"states": ["Between"]}})
+    expect(canvas.page.locator("g.node")).to_have_count(2)
+    straight = _drawn(canvas)
     assert straight != bowed
     assert straight == _drawn(show(free))
 
 
-def test_the_mark_of_findings_stands_beside_the_label(show: Show) -> None:
+def test_the_badge_with_findings_does_not_cover_the_label(show: Show) -> None:
     scene = player()
     for transition in scene["transitions"]:
         transition.update(severity="warning", messages=["doubtful"])
-    hand = show(scene)
-    chips = hand.page.locator("g.chip:has(.label)").evaluate_all(
+    canvas = show(scene)
+    chips = canvas.page.locator("g.chip:has(.label)").evaluate_all(
         """chips => chips.map(chip => {
           const [text, mark] = [".label", ".badge"].map(part => chip.querySelector(part).getBoundingClientRect());
           return [chip.dataset.id, text.right, mark.left];
@@ -61,31 +61,31 @@ def test_the_mark_of_findings_stands_beside_the_label(show: Show) -> None:
 
 
 def _pair(name: str) -> Scene:
-    """Two transitions from a state to another and one back."""
+    """Two transitions from a state to another, and one back."""
     other, leads = "Base", [("near", 0), ("seen", 1)]
     transitions = [
         {"id": f"{name}/{n}", "source": name, "target": other, "label": label, "order": n + 1, "of": 2, "kind": "guard"}
         for label, n in leads
     ]
     back = {"id": "Base/0", "source": other, "target": name, "label": "lost", "order": 1, "of": 1, "kind": "guard"}
-    states = [{"id": each, "name": each, "x": x, "y": 0} for each, x in ((name, 0), (other, 400))]
+    states = [{"id": state, "name": state, "x": x, "y": 0} for state, x in ((name, 0), (other, 400))]
     return {**machine(2), "component": "Pair", "states": states, "transitions": [*transitions, back]}
 
 
 def _difference(old: Scene, new: Scene) -> dict[str, Any]:
     kinds = ("states", "transitions")
-    ids = {kind: {thing["id"] for thing in new[kind]} for kind in kinds}
+    ids = {kind: {item["id"] for item in new[kind]} for kind in kinds}
     return {
         "rev": 2,
-        "upsert": {kind: [thing for thing in new[kind] if thing not in old[kind]] for kind in kinds},
-        "remove": {kind: [thing["id"] for thing in old[kind] if thing["id"] not in ids[kind]] for kind in kinds},
+        "upsert": {kind: [item for item in new[kind] if item not in old[kind]] for kind in kinds},
+        "remove": {kind: [item["id"] for item in old[kind] if item["id"] not in ids[kind]] for kind in kinds},
     }
 
 
-def _drawn(hand: CanvasDriver) -> dict[str, list[str]]:
-    """The curve and the place of the label of every transition."""
-    hand.page.wait_for_timeout(50)
-    drawn: dict[str, list[str]] = hand.page.evaluate(
+def _drawn(canvas: CanvasDriver) -> dict[str, list[str]]:
+    """Curve and label position of every transition."""
+    canvas.page.wait_for_timeout(50)
+    drawn: dict[str, list[str]] = canvas.page.evaluate(
         """() => {
           const root = document.querySelector('.vicode-canvas').shadowRoot;
           const of = (id, part) => root.querySelector(`g.${part}[data-id="${id}"]`);

@@ -1,4 +1,4 @@
-"""Drawings read well: labels hide neither boxes nor each other where there is room, lines go around boxes."""
+"""Legibility of diagrams: labels overlap neither nodes nor each other, edges avoid nodes."""
 
 from collections.abc import Callable, Mapping
 from typing import Any
@@ -9,23 +9,23 @@ from tests.editor.canvas.legibility import forward_scenes, measure_legibility, r
 Show = Callable[[Mapping[str, Any]], CanvasDriver]
 
 
-def test_nothing_is_hidden_in_the_shipped_designs(show: Show) -> None:
+def test_shipped_designs_have_no_overlaps(show: Show) -> None:
     for name, scene in forward_scenes().items():
         counted = measure_legibility(show(scene).page)
         hidden = (counted.labels_on_boxes, counted.labels_on_labels, counted.labels_off_their_lines)
         assert (name, *hidden, counted.lines_over_boxes) == (name, 0, 0, 0, 0)
 
 
-def test_little_is_hidden_in_random_designs(show: Show) -> None:
+def test_random_designs_have_few_overlaps(show: Show) -> None:
     counts = [measure_legibility(show(scene).page) for scene in random_scenes(8).values()]
-    labels = sum(each.labels for each in counts)
-    hidden = sum(each.labels_on_boxes + each.labels_on_labels + each.labels_off_their_lines for each in counts)
+    labels = sum(count.labels for count in counts)
+    hidden = sum(count.labels_on_boxes + count.labels_on_labels + count.labels_off_their_lines for count in counts)
     assert labels > 400
     assert hidden / labels < 0.015
-    assert sum(each.labels_on_labels for each in counts) == 0
+    assert sum(count.labels_on_labels for count in counts) == 0
 
 
-def test_lanes_are_read_from_above_in_the_order_of_the_design(show: Show) -> None:
-    hand = show(forward_scenes()["SearchNet"])
-    (first, second) = (hand.at("transitions", f"OtherSide/{index}") for index in range(2))
+def test_parallel_edges_are_ordered_by_priority_from_top_to_bottom(show: Show) -> None:
+    canvas = show(forward_scenes()["SearchNet"])
+    (first, second) = (canvas.at("transitions", f"OtherSide/{index}") for index in range(2))
     assert first[1] < second[1]

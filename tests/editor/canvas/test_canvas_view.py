@@ -1,4 +1,4 @@
-"""What is drawn, what is seen of it, and what Python can make it do."""
+"""Drawing, view and the methods that Python calls."""
 
 import re
 import time
@@ -16,18 +16,18 @@ Show = Callable[[Mapping[str, Any]], CanvasDriver]
 HOSTILE = '<img src=x onerror="document.body.dataset.hacked=1"> \u202e "\'&lt;'
 
 
-def test_everything_is_there_with_a_role_and_a_name(hand: CanvasDriver) -> None:
-    expect(hand.page.locator("g.node")).to_have_count(8 + 3 + 1)
-    expect(hand.page.locator("g.edge")).to_have_count(12 + 5)
-    expect(hand.page.get_by_role("button", name="State LookForBall, initial")).to_have_count(1)
+def test_every_element_has_a_role_and_an_accessible_name(canvas: CanvasDriver) -> None:
+    expect(canvas.page.locator("g.node")).to_have_count(8 + 3 + 1)
+    expect(canvas.page.locator("g.edge")).to_have_count(12 + 5)
+    expect(canvas.page.get_by_role("button", name="State LookForBall, initial")).to_have_count(1)
     expect(
-        hand.page.get_by_role("button", name="Transition 2 of 3 from LookForBall to LookForBall: 5 s")
+        canvas.page.get_by_role("button", name="Transition 2 of 3 from LookForBall to LookForBall: 5 s")
     ).to_have_count(1)
-    assert hand.page.locator(".vicode-canvas").get_attribute("data-rev") == "1"
+    assert canvas.page.locator(".vicode-canvas").get_attribute("data-rev") == "1"
 
 
-def test_labels_cover_neither_boxes_nor_each_other(hand: CanvasDriver) -> None:
-    boxes = hand.page.locator("g.node .box, g.chip .plate").evaluate_all(
+def test_labels_overlap_neither_nodes_nor_each_other(canvas: CanvasDriver) -> None:
+    boxes = canvas.page.locator("g.node .box, g.chip .plate").evaluate_all(
         "all => all.map(each => each.getBoundingClientRect()).map(({x, y, width, height}) => [x, y, width, height])"
     )
     overlapping = [(a, b) for n, a in enumerate(boxes) for b in boxes[n + 1 :] if _overlap(a, b)]
@@ -42,20 +42,20 @@ def test_user_text_stays_text(show: Show) -> None:
         transition.update(label=HOSTILE, doc=HOSTILE)
     scene["components"][0].update(id=HOSTILE, name=HOSTILE)
     scene["component"] = HOSTILE
-    hand = show(scene)
-    page = hand.page
+    canvas = show(scene)
+    page = canvas.page
     expect(page.locator("g.node.component").first).to_be_visible()
-    hand.click(hand.at("states", "GiveUp"), double=True)
+    canvas.click(canvas.at("states", "GiveUp"), double=True)
     expect(page.locator("input.rename")).to_have_value(HOSTILE)
-    hand.press("Escape")
+    canvas.press("Escape")
     for kind, identity in (("states", "GetUp"), ("transitions", "LookForBall/1"), ("components", HOSTILE)):
-        page.mouse.move(*hand.at(kind, identity))
+        page.mouse.move(*canvas.at(kind, identity))
         expect(page.locator(".tooltip")).to_contain_text(HOSTILE[:20])
     assert page.locator(".vicode-canvas img").count() == 0
     assert page.locator("body").get_attribute("data-hacked") is None
 
 
-def test_apply_changes_only_what_it_names(hand: CanvasDriver) -> None:
+def test_apply_changes_only_the_listed_elements(canvas: CanvasDriver) -> None:
     lost, added = {"id": "Lost", "name": "Lost", "x": 240, "y": 420}, "LookForBall/3"
     edge = {
         "id": added,
@@ -67,153 +67,153 @@ def test_apply_changes_only_what_it_names(hand: CanvasDriver) -> None:
         "kind": "guard",
     }
     follow = {**player()["states"][1], "name": "Chase"}
-    hand.call(
+    canvas.call(
         "apply",
         {"rev": 2, "upsert": {"states": [lost, follow], "transitions": [edge]}, "remove": {"states": ["GiveUp"]}},
     )
-    expect(hand.page.locator(".vicode-canvas")).to_have_attribute("data-rev", "2")
-    expect(hand.group("state", "Lost")).to_be_visible()
-    expect(hand.group("state", "FollowBall").locator(".name")).to_have_text("Chase")
-    expect(hand.group("transition", added)).to_have_count(1)
-    expect(hand.group("state", "GiveUp")).to_have_count(0)
-    expect(hand.page.locator("g.node")).to_have_count(12)
+    expect(canvas.page.locator(".vicode-canvas")).to_have_attribute("data-rev", "2")
+    expect(canvas.group("state", "Lost")).to_be_visible()
+    expect(canvas.group("state", "FollowBall").locator(".name")).to_have_text("Chase")
+    expect(canvas.group("transition", added)).to_have_count(1)
+    expect(canvas.group("state", "GiveUp")).to_have_count(0)
+    expect(canvas.page.locator("g.node")).to_have_count(12)
 
 
-def test_a_page_that_comes_later_sees_all_changes(hand: CanvasDriver) -> None:
-    hand.click(hand.at("states", "GiveUp"))
-    hand.press("ArrowRight")
-    hand.wait_for_gesture("move")
-    hand.call("apply", {"rev": 9, "remove": {"states": ["KickLeft"]}, "common": None})
-    expect(hand.page.locator(".vicode-canvas")).to_have_attribute("data-rev", "9")
-    # What NiceGUI does when the element is mounted anew.
-    hand.page.evaluate(
+def test_a_remounted_element_shows_all_changes(canvas: CanvasDriver) -> None:
+    canvas.click(canvas.at("states", "GiveUp"))
+    canvas.press("ArrowRight")
+    canvas.wait_for_gesture("move")
+    canvas.call("apply", {"rev": 9, "remove": {"states": ["KickLeft"]}, "common": None})
+    expect(canvas.page.locator(".vicode-canvas")).to_have_attribute("data-rev", "9")
+    # NiceGUI does the same when it remounts the element.
+    canvas.page.evaluate(
         """() => {
           const canvas = document.querySelector('.vicode-canvas');
           canvas.removeAttribute('data-ready');
           getElement(canvas.id.slice(1)).$emit('ready', {});
         }"""
     )
-    hand.page.wait_for_selector(".vicode-canvas[data-ready]")
-    assert hand.position("states/GiveUp") == (90, 330)
-    assert "common/@common" not in hand.evaluate("positions()")
-    assert "states/KickLeft" not in hand.evaluate("positions()")
+    canvas.page.wait_for_selector(".vicode-canvas[data-ready]")
+    assert canvas.position("states/GiveUp") == (90, 330)
+    assert "common/@common" not in canvas.evaluate("positions()")
+    assert "states/KickLeft" not in canvas.evaluate("positions()")
 
 
-def test_select_from_python_reports_nothing_back(hand: CanvasDriver) -> None:
-    hand.call("select", [{"of": "transitions", "id": "Fixmove/0"}])
-    hand.wait_for("vicode.selection().length === 1")
-    assert hand.selection() == {"transitions/Fixmove/0"}
-    assert not hand.gestures("select")
+def test_select_from_python_reports_no_gesture(canvas: CanvasDriver) -> None:
+    canvas.call("select", [{"of": "transitions", "id": "Fixmove/0"}])
+    canvas.wait_for("vicode.selection().length === 1")
+    assert canvas.selection() == {"transitions/Fixmove/0"}
+    assert not canvas.gestures("select")
 
 
-def test_the_newest_active_states_win(hand: CanvasDriver) -> None:
-    # The page outlives the test, and its numbers only grow.
+def test_the_newest_active_states_win(canvas: CanvasDriver) -> None:
+    # The page is shared by all tests, and sequence numbers must increase.
     start = time.monotonic_ns() // 1000
     for number in range(7):
-        hand.call("highlight_active", [["LookForBall", "FollowBall"][number % 2]], start + number)
-    hand.call("highlight_active", ["GetUp"], start + 2)
-    expect(hand.page.locator("g.node.active")).to_have_attribute("data-id", "LookForBall")
-    hand.call("highlight_active", [], start + 7)
-    expect(hand.page.locator("g.node.active")).to_have_count(0)
+        canvas.call("highlight_active", [["LookForBall", "FollowBall"][number % 2]], start + number)
+    canvas.call("highlight_active", ["GetUp"], start + 2)
+    expect(canvas.page.locator("g.node.active")).to_have_attribute("data-id", "LookForBall")
+    canvas.call("highlight_active", [], start + 7)
+    expect(canvas.page.locator("g.node.active")).to_have_count(0)
 
 
-def test_links_can_be_hidden(hand: CanvasDriver) -> None:
-    hand.call("show_links", False)
-    expect(hand.page.locator("g.edge.link")).to_have_count(0)
-    hand.call("show_links", True)
-    expect(hand.page.locator("g.edge.link")).to_have_count(5)
+def test_links_can_be_hidden(canvas: CanvasDriver) -> None:
+    canvas.call("show_links", False)
+    expect(canvas.page.locator("g.edge.link")).to_have_count(0)
+    canvas.call("show_links", True)
+    expect(canvas.page.locator("g.edge.link")).to_have_count(5)
 
 
-def test_a_new_state_is_named_in_place(hand: CanvasDriver) -> None:
-    hand.call("rename_in_place", "GiveUp")
-    expect(hand.page.locator("input.rename")).to_be_focused()
+def test_rename_in_place_focuses_the_field(canvas: CanvasDriver) -> None:
+    canvas.call("rename_in_place", "GiveUp")
+    expect(canvas.page.locator("input.rename")).to_be_focused()
 
 
-def test_the_wheel_zooms_at_the_pointer_and_the_middle_button_pans(hand: CanvasDriver) -> None:
-    spot = hand.at("states", "KickLeft")
-    hand.page.mouse.move(*spot)
-    before = hand.evaluate("view()")["k"]
-    hand.page.mouse.wheel(0, -300)
-    hand.wait_for(f"vicode.view().k > {before}")
-    assert hand.at("states", "KickLeft") == pytest.approx(spot, abs=1)
-    hand.drag(spot, (spot[0] - 120, spot[1] + 40), button="middle")
-    assert hand.at("states", "KickLeft") == pytest.approx((spot[0] - 120, spot[1] + 40), abs=1)
-    assert not hand.gestures("move")
+def test_the_wheel_zooms_at_the_pointer_and_the_middle_button_pans(canvas: CanvasDriver) -> None:
+    spot = canvas.at("states", "KickLeft")
+    canvas.page.mouse.move(*spot)
+    before = canvas.evaluate("view()")["k"]
+    canvas.page.mouse.wheel(0, -300)
+    canvas.wait_for(f"vicode.view().k > {before}")
+    assert canvas.at("states", "KickLeft") == pytest.approx(spot, abs=1)
+    canvas.drag(spot, (spot[0] - 120, spot[1] + 40), button="middle")
+    assert canvas.at("states", "KickLeft") == pytest.approx((spot[0] - 120, spot[1] + 40), abs=1)
+    assert not canvas.gestures("move")
 
 
-def test_two_fingers_on_a_touchpad_pan(hand: CanvasDriver) -> None:
-    spot = hand.at("states", "KickLeft")
-    hand.page.mouse.move(*spot)
-    hand.page.mouse.wheel(7, 13)
-    hand.wait_for(f"Math.abs(vicode.screen('states', 'KickLeft').x - {spot[0] - 7}) < 1")
-    assert hand.at("states", "KickLeft") == pytest.approx((spot[0] - 7, spot[1] - 13), abs=1)
+def test_two_fingers_on_a_touchpad_pan(canvas: CanvasDriver) -> None:
+    spot = canvas.at("states", "KickLeft")
+    canvas.page.mouse.move(*spot)
+    canvas.page.mouse.wheel(7, 13)
+    canvas.wait_for(f"Math.abs(vicode.screen('states', 'KickLeft').x - {spot[0] - 7}) < 1")
+    assert canvas.at("states", "KickLeft") == pytest.approx((spot[0] - 7, spot[1] - 13), abs=1)
 
 
-def test_one_finger_pans_and_two_zoom(hand: CanvasDriver) -> None:
-    cdp = hand.page.context.new_cdp_session(hand.page)
+def test_one_finger_pans_and_two_zoom(canvas: CanvasDriver) -> None:
+    cdp = canvas.page.context.new_cdp_session(canvas.page)
 
     def touch(kind: str, *points: tuple[float, float]) -> None:
         fingers = [{"x": x, "y": y, "id": number} for number, (x, y) in enumerate(points)]
         cdp.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": fingers})
 
-    spot = hand.at("states", "KickLeft")
+    spot = canvas.at("states", "KickLeft")
     touch("touchStart", (620, 650))
     touch("touchMove", (620, 600))
     touch("touchMove", (640, 560))
     touch("touchEnd")
-    hand.wait_for(f"vicode.screen('states', 'KickLeft').y < {spot[1] - 80}")
-    before = hand.evaluate("view()")["k"]
+    canvas.wait_for(f"vicode.screen('states', 'KickLeft').y < {spot[1] - 80}")
+    before = canvas.evaluate("view()")["k"]
     touch("touchStart", (600, 500), (700, 500))
     touch("touchMove", (560, 500), (740, 500))
     touch("touchMove", (520, 500), (780, 500))
     touch("touchEnd")
-    hand.wait_for(f"vicode.view().k > {before} * 1.5")
-    assert not hand.gestures("move")
-    hand.drag((620, 330), (660, 330))
-    assert not hand.gestures("create")
+    canvas.wait_for(f"vicode.view().k > {before} * 1.5")
+    assert not canvas.gestures("move")
+    canvas.drag((620, 330), (660, 330))
+    assert not canvas.gestures("create")
 
 
-def test_a_press_on_the_minimap_goes_there(hand: CanvasDriver) -> None:
-    minimap = hand.page.locator(".minimap")
+def test_a_press_on_the_minimap_centers_the_view_there(canvas: CanvasDriver) -> None:
+    minimap = canvas.page.locator(".minimap")
     expect(minimap).to_be_hidden()
-    hand.call("centre", "states", "LookForBall")
-    hand.page.locator(".stage").focus()
-    hand.press("+", "+", "+", "+")
+    canvas.call("centre", "states", "LookForBall")
+    canvas.page.locator(".stage").focus()
+    canvas.press("+", "+", "+", "+")
     expect(minimap).to_be_visible()
-    before = hand.evaluate("view()")["x"]
+    before = canvas.evaluate("view()")["x"]
     minimap.click(position={"x": 160, "y": 90})
-    hand.wait_for(f"vicode.view().x < {before} - 100")
+    canvas.wait_for(f"vicode.view().x < {before} - 100")
 
 
-def test_a_large_machine_is_a_picture_from_far_and_boxes_from_near(show: Show) -> None:
-    hand = show(machine(400))
-    assert hand.evaluate("view()")["far"]
-    assert hand.evaluate("mounted()") == 0
-    hand.click(hand.at("states", "State210"))
-    expect(hand.group("state", "State210")).to_have_class(re.compile("selected"))
-    x, y = hand.at("states", "State210")
-    before = hand.position("states/State210")
-    hand.drag((x, y), (x + 60, y + 30))
-    assert hand.wait_for_gesture("move")["items"][0]["id"] == "State210"
-    assert hand.position("states/State210") != before
-    hand.call("centre", "states", "State0")
-    hand.wait_for("!vicode.view().far")
-    expect(hand.group("state", "State0")).to_be_visible()
-    assert hand.evaluate("mounted()") < 700
+def test_a_large_machine_is_a_bitmap_when_zoomed_out_and_svg_when_zoomed_in(show: Show) -> None:
+    canvas = show(machine(400))
+    assert canvas.evaluate("view()")["far"]
+    assert canvas.evaluate("mounted()") == 0
+    canvas.click(canvas.at("states", "State210"))
+    expect(canvas.group("state", "State210")).to_have_class(re.compile("selected"))
+    x, y = canvas.at("states", "State210")
+    before = canvas.position("states/State210")
+    canvas.drag((x, y), (x + 60, y + 30))
+    assert canvas.wait_for_gesture("move")["items"][0]["id"] == "State210"
+    assert canvas.position("states/State210") != before
+    canvas.call("centre", "states", "State0")
+    canvas.wait_for("!vicode.view().far")
+    expect(canvas.group("state", "State0")).to_be_visible()
+    assert canvas.evaluate("mounted()") < 700
 
 
-def test_a_crowd_zooms_as_a_picture_and_is_there_again_for_a_hand(show: Show) -> None:
-    hand = show(machine(400))
-    hand.call("centre", "states", "State210")
-    hand.wait_for("!vicode.view().far")
-    hand.wait_until_idle()
-    hand.wait_for("vicode.mounted() > 250")
-    # The coarse bitmap must be there, which has time to be drawn.
-    hand.page.wait_for_timeout(700)
-    spot = hand.at("states", "State210")
-    hand.page.mouse.move(*spot)
-    frozen = hand.page.locator(".stage.frozen")
-    hand.page.evaluate(
+def test_many_elements_zoom_as_a_snapshot_and_react_to_a_click(show: Show) -> None:
+    canvas = show(machine(400))
+    canvas.call("centre", "states", "State210")
+    canvas.wait_for("!vicode.view().far")
+    canvas.wait_until_idle()
+    canvas.wait_for("vicode.mounted() > 250")
+    # Wait for the coarse bitmap, which is drawn in idle time.
+    canvas.page.wait_for_timeout(700)
+    spot = canvas.at("states", "State210")
+    canvas.page.mouse.move(*spot)
+    frozen = canvas.page.locator(".stage.frozen")
+    canvas.page.evaluate(
         """() => {
           const stage = document.querySelector('.vicode-canvas').shadowRoot.querySelector('.stage');
           window.wasFrozen = false;
@@ -221,30 +221,30 @@ def test_a_crowd_zooms_as_a_picture_and_is_there_again_for_a_hand(show: Show) ->
             .observe(stage, {attributes: true});
         }"""
     )
-    hand.page.mouse.wheel(0, -60)
-    hand.page.mouse.wheel(0, -60)
-    hand.wait_for("window.wasFrozen")
-    hand.click(spot)
+    canvas.page.mouse.wheel(0, -60)
+    canvas.page.mouse.wheel(0, -60)
+    canvas.wait_for("window.wasFrozen")
+    canvas.click(spot)
     expect(frozen).to_have_count(0)
-    assert hand.selection() == {"states/State210"}
-    hand.wait_until_idle()
-    box = hand.group("state", "State210").locator("rect.box").bounding_box()
+    assert canvas.selection() == {"states/State210"}
+    canvas.wait_until_idle()
+    box = canvas.group("state", "State210").locator("rect.box").bounding_box()
     assert box is not None
     assert (box["x"] + box["width"] / 2, box["y"] + box["height"] / 2) == pytest.approx(spot, abs=1)
 
 
-@pytest.mark.parametrize(("wish", "theme"), [("dark", "dark"), ("light", "light"), ("auto", "light")])
-def test_the_view_or_the_page_decide_between_light_and_dark(show: Show, wish: str, theme: str) -> None:
-    page = show({**player(), "theme": wish}).page
+@pytest.mark.parametrize(("preference", "theme"), [("dark", "dark"), ("light", "light"), ("auto", "light")])
+def test_the_theme_of_the_scene_overrides_the_theme_of_the_page(show: Show, preference: str, theme: str) -> None:
+    page = show({**player(), "theme": preference}).page
     expect(page.locator(".stage")).to_have_attribute("data-theme", theme)
     page.evaluate("Quasar.Dark.set(true)")
-    expect(page.locator(".stage")).to_have_attribute("data-theme", "dark" if wish == "auto" else theme)
+    expect(page.locator(".stage")).to_have_attribute("data-theme", "dark" if preference == "auto" else theme)
     page.evaluate("Quasar.Dark.set(false)")
 
 
-def test_an_empty_design_says_how_to_begin(show: Show) -> None:
-    hand = show({**machine(2), "states": [], "transitions": []})
-    expect(hand.page.locator(".empty")).to_be_visible()
+def test_an_empty_design_shows_how_to_start(show: Show) -> None:
+    canvas = show({**machine(2), "states": [], "transitions": []})
+    expect(canvas.page.locator(".empty")).to_be_visible()
 
 
 def _overlap(a: list[Any], b: list[Any]) -> bool:

@@ -1,4 +1,4 @@
-"""What is exported is what was seen: Python leads arrows and places labels as the canvas does."""
+"""Exported diagrams match the canvas: Python routes edges and places labels as JavaScript does."""
 
 import math
 import re
@@ -14,7 +14,7 @@ from vicode.editor.view import make_scene
 from vicode.model.project import Project
 
 Show = Callable[[Mapping[str, Any]], CanvasDriver]
-# A browser measures texts by its fonts, Python by a table: the widths of boxes and labels differ by a step of the grid.
+# A browser measures texts with its fonts, Python with a table: widths of nodes and labels differ by up to a grid step.
 STEP = 20.0
 DRAWN = """() => {
   const root = document.querySelector('.vicode-canvas').shadowRoot;
@@ -27,20 +27,20 @@ DRAWN = """() => {
 }"""
 
 
-def test_arrows_and_labels_of_shipped_designs_are_where_the_canvas_has_them(show: Show) -> None:
+def test_exported_edges_and_labels_of_shipped_designs_match_the_canvas(show: Show) -> None:
     labels: list[float] = []
     for design in shipped_designs():
-        hand = show(make_scene(Project(name="P", designs=(design,)), design, (), 1))
-        drawn = {name: (numbers(path), numbers(at)) for name, path, at in hand.page.evaluate(DRAWN)}
+        canvas = show(make_scene(Project(name="P", designs=(design,)), design, (), 1))
+        drawn = {name: (numbers(path), numbers(at)) for name, path, at in canvas.page.evaluate(DRAWN)}
         for route in route_edges(build_diagram(design)):
             curve, at = drawn[name_of(route.edge.key)]
             assert math.dist(middle(curve), middle(route.curve)) < STEP / 2, route.edge.key
-            assert max(abs(there - here) for there, here in zip(curve, route.curve, strict=True)) <= STEP, (
-                route.edge.key
-            )
+            assert (
+                max(abs(canvas_value - value) for canvas_value, value in zip(curve, route.curve, strict=True)) <= STEP
+            ), route.edge.key
             assert bool(at) == (route.label is not None), route.edge.key
             labels += [math.dist(at, route.label_position)] if at else []
-    # A label as wide as a gap is may find its place in one of them alone.
+    # A label that is about as wide as a gap may fit in only one of them.
     assert sum(distance < STEP for distance in labels) >= 0.9 * len(labels)
 
 
@@ -53,10 +53,10 @@ def middle(curve: Any) -> Point:
 
 
 def name_of(key: str) -> str:
-    """How the canvas calls an arrow of Python's."""
-    kind, colon, way = key.partition(":")
+    """Kind and id that the canvas gives to an edge of Python's diagram."""
+    kind, colon, rest = key.partition(":")
     if not colon:
         return f"link:{key}"
-    path = way.split("/")
+    path = rest.split("/")
     assert kind == "t"
     return "transition:" + "/".join(path[1:2] + path[3:] if path[0] == "states" else ["@common", *path[2:]])

@@ -1,4 +1,4 @@
-"""A hand at the real page of the editor, each test on a small design of its own."""
+"""Fixtures for gestures on the real page of the editor, on a small design."""
 
 import json
 import shutil
@@ -31,7 +31,7 @@ states:
   Rest: {at: [120, 320]}
 """
 
-# What things are called in the drawing, where they stand, and where the labels of arrows lie.
+# Accessible names and positions of all elements, including labels.
 DRAWN = """() => {
   const canvas = document.querySelector('.vicode-canvas');
   const places = canvas.vicode.positions();
@@ -42,12 +42,12 @@ DRAWN = """() => {
   ]);
 }"""
 
-# A busy machine takes its time; what never comes still fails.
+# Long enough for a busy machine.
 expect.set_options(timeout=WAIT_MS)
 
 
 class EditorDriver:
-    """One page on one small design, and what a person does there with mouse and keys."""
+    """Simulates a user of the design page with mouse and keyboard."""
 
     def __init__(self, page: Page, address: str) -> None:
         self.page, self.address = page, address
@@ -56,21 +56,21 @@ class EditorDriver:
         self.undo_all()
         expect(page.get_by_text("Saved", exact=True)).to_be_visible()
         self.wait_for("vicode.view().resting && Object.keys(vicode.positions()).length === 5")
-        # The panel below is filled: nothing moves the drawing any more.
+        # The findings panel is filled, so the size of the canvas is final.
         expect(page.get_by_text("4 warnings")).to_be_visible()
         self.start = page.evaluate(DRAWN)
         page.mouse.move(1000, 20)
 
     def at(self, of: str, identity: str, right: float = 0, down: float = 0) -> Point:
-        """Where the middle of a thing is on the screen, or a point beside it."""
-        spot = self.evaluate(f"screen({json.dumps(of)}, {json.dumps(identity)})")
-        return spot["x"] + right, spot["y"] + down
+        """Screen position of the center of an element, plus an offset."""
+        position = self.evaluate(f"screen({json.dumps(of)}, {json.dumps(identity)})")
+        return position["x"] + right, position["y"] + down
 
     def state(self, name: str, right: float = 0, down: float = 0) -> Point:
         return self.at("states", name, right, down)
 
     def empty(self) -> Point:
-        """A point where nothing is."""
+        """Screen position of an empty point."""
         (x1, y), (x2, _y) = self.state("Rest"), self.state("Stop")
         return (x1 + x2) / 2, y + 20
 
@@ -82,7 +82,7 @@ class EditorDriver:
             self.page.keyboard.up(key)
 
     def press_and_move(self, start: Point, *on: Point, button: Any = "left") -> None:
-        """Press and move, without letting go."""
+        """Press and move without releasing the button."""
         self.page.mouse.move(*start)
         self.page.mouse.down(button=button)
         for spot in on:
@@ -93,7 +93,7 @@ class EditorDriver:
         self.page.mouse.up(button=button)
 
     def handle(self, name: str, index: int) -> Point:
-        """Where a disc at the border of a hovered state is: 0 above, then clockwise."""
+        """Screen position of a handle of a state: 0 is the top one, then clockwise."""
         self.page.mouse.move(*self.state(name))
         return middle(self.page.locator(f'circle.handle-hit[data-handle="s:{name}"]').nth(index))
 
@@ -108,36 +108,36 @@ class EditorDriver:
             self.click(self.state(name), *(["Shift"] if index else []))
         self.expect_selection(*(f"states/{name}" for name in names))
 
-    def expect_selection(self, *things: str) -> None:
-        """Wait until exactly these are selected."""
-        wanted = json.dumps(sorted(things), separators=(",", ":"))
+    def expect_selection(self, *items: str) -> None:
+        """Wait until exactly these elements are selected."""
+        wanted = json.dumps(sorted(items), separators=(",", ":"))
         self.wait_for(f"JSON.stringify(vicode.selection().map(i => i.of + '/' + i.id).sort()) === {json.dumps(wanted)}")
 
     def selection(self) -> set[str]:
         return {f"{item['of']}/{item['id']}" for item in self.evaluate("selection()")}
 
     def position(self, name: str) -> Point:
-        """Where a node is in the design: `place("states/Go")`."""
+        """Position of a node in the design: `position("states/Go")`."""
         node = self.evaluate("positions()")[name]
         return node["x"], node["y"]
 
     def expect_position(self, name: str, x: float, y: float) -> None:
-        """Wait until a node is there, also in the design."""
+        """Wait until a node has a position."""
         self.wait_for(f"vicode.positions()['{name}']?.x === {x} && vicode.positions()['{name}'].y === {y}")
 
     def view(self) -> dict[str, Any]:
         self.wait_for("vicode.view().resting")
         return dict(self.evaluate("view()"))
 
-    def thing(self, kind: str, identity: str) -> Locator:
+    def element(self, kind: str, identity: str) -> Locator:
         return self.page.locator(f'g.item:not(.chip)[data-kind="{kind}"][data-id={json.dumps(identity)}]')
 
-    def arrow(self, identity: str) -> Locator:
-        return self.thing("transition", identity)
+    def transition(self, identity: str) -> Locator:
+        return self.element("transition", identity)
 
-    def expect_message(self, words: str) -> None:
-        """Wait for words of the page."""
-        expect(self.page.get_by_text(words).first).to_be_visible()
+    def expect_message(self, text: str) -> None:
+        """Wait for a text on the page."""
+        expect(self.page.get_by_text(text).first).to_be_visible()
 
     def menu(self) -> Locator:
         return self.page.get_by_role("menu", name="Menu")
@@ -150,10 +150,10 @@ class EditorDriver:
         expect(field).to_be_focused()
         field.fill(name)
         field.press("Enter")
-        expect(self.thing("state", name)).to_be_visible()
+        expect(self.element("state", name)).to_be_visible()
 
     def expect_undone(self, steps: int = 1) -> None:
-        """Take edits back; the design is then what is in the file, and not one step earlier."""
+        """Undo edits, and check that exactly this many steps lead back to the saved design."""
         expect(self.page.get_by_text("Unsaved changes")).to_be_visible()
         self.press("Escape", "Escape")
         for step in range(steps):
@@ -161,11 +161,11 @@ class EditorDriver:
             if step < steps - 1:
                 expect(self.page.get_by_text("Unsaved changes")).to_be_visible()
         expect(self.page.get_by_text("Saved", exact=True)).to_be_visible()
-        # The drawing may follow a moment later than the words.
+        # The canvas may be updated later than the text.
         self.page.wait_for_function(f"start => ({DRAWN})() === start", arg=self.start, timeout=WAIT_MS)
 
     def undo_all(self) -> None:
-        """Take back what an earlier test left."""
+        """Undo the edits of an earlier test that failed."""
         canvas = self.page.locator(".vicode-canvas")
         while self.page.locator(".saved").inner_text() != "Saved":
             rev = canvas.get_attribute("data-rev") or ""
@@ -175,14 +175,15 @@ class EditorDriver:
     def evaluate(self, call: str) -> Any:
         return self.page.evaluate(f"document.querySelector('.vicode-canvas').vicode.{call}")
 
-    def wait_for(self, claim: str) -> None:
+    def wait_for(self, condition: str) -> None:
         self.page.wait_for_function(
-            f"() => {{ const {{vicode}} = document.querySelector('.vicode-canvas'); return {claim}; }}", timeout=WAIT_MS
+            f"() => {{ const {{vicode}} = document.querySelector('.vicode-canvas'); return {condition}; }}",
+            timeout=WAIT_MS,
         )
 
 
 def box_of(locator: Locator) -> FloatRect:
-    """Where a thing is on the screen; it may be drawn anew between two questions."""
+    """Bounding box of an element; repeats the request if it was redrawn between two requests."""
     locator.wait_for()
     return locator.bounding_box() or box_of(locator)
 
@@ -194,7 +195,7 @@ def middle(locator: Locator) -> Point:
 
 @pytest.fixture(scope="session")
 def sketches(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
-    """An editor on a small design, and on empty ones."""
+    """An editor with a small design and with empty ones."""
     folder = tmp_path_factory.mktemp("sketches")
     shutil.copytree(ROOT / "designs" / "forward", folder / "designs" / "forward")
     (folder / "designs" / "forward" / "blank.yaml").write_text("vicode: 1\ncomponent: Blank\n", encoding="utf-8")
@@ -206,13 +207,13 @@ def sketches(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
 
 @pytest.fixture(scope="session")
 def person() -> StorageState:
-    """By what the editor knows one person from module to module, as nobody can take back what another one left."""
+    """Cookies that identify the same user in all modules, as only the same user can undo earlier edits."""
     return {"cookies": []}
 
 
 @pytest.fixture(scope="module")
 def window(chromium: Browser, person: StorageState) -> Iterator[BrowserContext]:
-    """A window with a clipboard; one for the module, as opening it anew for each test would take most of the time."""
+    """A window with clipboard access; opening it for each test would take most of the time."""
     clipboard = ["clipboard-read", "clipboard-write"]
     with opened_window(chromium, person, viewport={"width": 1366, "height": 768}, permissions=clipboard) as context:
         yield context
@@ -220,7 +221,7 @@ def window(chromium: Browser, person: StorageState) -> Iterator[BrowserContext]:
 
 @contextmanager
 def opened_window(chromium: Browser, person: StorageState, **how: Any) -> Iterator[BrowserContext]:
-    """A window of the one person."""
+    """A window of the common user."""
     context = chromium.new_context(storage_state=person, **how)
     context.set_default_timeout(WAIT_MS)
     yield context
@@ -235,7 +236,7 @@ def first_page(window: BrowserContext) -> Page:
 
 @pytest.fixture
 def sketch(sketches: str, first_page: Page) -> Iterator[EditorDriver]:
-    """A hand at the design as it is on disk; errors in the console fail the test."""
+    """The page of the design as it is on disk; errors in the console fail the test."""
     errors: list[str] = []
 
     def on_console(message: Any) -> None:

@@ -1,4 +1,4 @@
-"""Boxes: selected together, lined up, spread out, nudged, guided while they are dragged; each as one edit."""
+"""Selecting, aligning, distributing, nudging and dragging nodes with guides; each is one edit."""
 
 import pytest
 from playwright.sync_api import expect
@@ -8,7 +8,7 @@ from tests.editor.gestures.conftest import EditorDriver
 ALL = ("Start", "Go", "Stop", "Rest")
 
 
-def test_a_frame_selects_and_clicks_add_or_take_away(sketch: EditorDriver) -> None:
+def test_a_marquee_selects_and_clicks_add_or_remove(sketch: EditorDriver) -> None:
     sketch.drag(sketch.state("Start", -90, -50), sketch.state("Go", 70, 40))
     assert {"states/Start", "states/Go"} <= sketch.selection()
     assert "states/Stop" not in sketch.selection()
@@ -32,20 +32,20 @@ def test_a_selection_is_moved_and_deleted_in_one_edit(sketch: EditorDriver) -> N
     sketch.expect_undone()
     sketch.select("Go", "Stop")
     sketch.press("Delete")
-    expect(sketch.thing("state", "Stop")).to_have_count(0)
+    expect(sketch.element("state", "Stop")).to_have_count(0)
     sketch.expect_undone()
-    expect(sketch.thing("state", "Stop")).to_be_visible()
+    expect(sketch.element("state", "Stop")).to_be_visible()
 
 
 @pytest.mark.parametrize(
     ("button", "keys", "places"),
     [
-        ("Align left sides", "Alt+a", {"Go": (120, 100), "Stop": (120, 320)}),
+        ("Align left edges", "Alt+a", {"Go": (120, 100), "Stop": (120, 320)}),
         ("Align centres", "Alt+h", {"Start": (280, 100), "Stop": (280, 320)}),
-        ("Align right sides", "Alt+d", {"Start": (440, 100), "Stop": (440, 320)}),
-        ("Align tops", "Alt+w", {"Start": (120, 100), "Stop": (440, 100)}),
+        ("Align right edges", "Alt+d", {"Start": (440, 100), "Stop": (440, 320)}),
+        ("Align top edges", "Alt+w", {"Start": (120, 100), "Stop": (440, 100)}),
         ("Align middles", "Alt+v", {"Start": (120, 210), "Stop": (440, 210)}),
-        ("Align bottoms", "Alt+s", {"Start": (120, 320), "Go": (440, 320)}),
+        ("Align bottom edges", "Alt+s", {"Start": (120, 320), "Go": (440, 320)}),
     ],
 )
 def test_lining_up_by_keys_and_by_buttons(
@@ -57,7 +57,7 @@ def test_lining_up_by_keys_and_by_buttons(
         sketch.expect_position(f"states/{name}", x, y)
     sketch.expect_undone()
     sketch.select("Start", "Go", "Stop")
-    # The buttons for two of them are replaced by those for all three.
+    # Wait until the panel shows the buttons for three states.
     expect(sketch.page.get_by_text("3 states selected")).to_be_visible()
     sketch.page.get_by_role("button", name=button).click()
     for name, (x, y) in places.items():
@@ -65,15 +65,15 @@ def test_lining_up_by_keys_and_by_buttons(
     sketch.expect_undone()
 
 
-def test_three_are_needed_to_be_spread_out(sketch: EditorDriver) -> None:
+def test_distributing_requires_three_nodes(sketch: EditorDriver) -> None:
     start = sketch.state("Go")
     sketch.drag(start, (start[0] - 120, start[1] + 33))
     sketch.wait_for("vicode.positions()['states/Go'].x < 400")
     expect(sketch.page.get_by_text("Unsaved changes")).to_be_visible()
     sketch.select("Start", "Stop")
     sketch.click(sketch.state("Stop"), right=True)
-    expect(sketch.menu().get_by_role("menuitem", name="Align tops")).to_be_visible()
-    expect(sketch.menu().get_by_role("menuitem", name="Equal gaps across")).to_have_count(0)
+    expect(sketch.menu().get_by_role("menuitem", name="Align top edges")).to_be_visible()
+    expect(sketch.menu().get_by_role("menuitem", name="Distribute horizontally")).to_have_count(0)
     sketch.press("Escape")
     sketch.select("Start", "Go", "Stop")
     sketch.press("Alt+Shift+H")
@@ -83,10 +83,10 @@ def test_three_are_needed_to_be_spread_out(sketch: EditorDriver) -> None:
     sketch.expect_undone(3)
 
 
-def test_a_dragged_box_lines_up_with_others_and_shows_it(sketch: EditorDriver) -> None:
+def test_a_dragged_node_snaps_to_other_nodes_and_shows_guides(sketch: EditorDriver) -> None:
     k = sketch.view()["k"]
     x, y = sketch.state("Rest")
-    # Freely to a place off the grid, so that lining up can be told from it.
+    # Off the grid, so that snapping to the node differs from snapping to the grid.
     sketch.page.keyboard.down("Alt")
     sketch.drag((x, y), (x + 23 * k, y + 41 * k))
     sketch.page.keyboard.up("Alt")
@@ -103,10 +103,10 @@ def test_a_dragged_box_lines_up_with_others_and_shows_it(sketch: EditorDriver) -
     sketch.expect_undone(2)
 
 
-def test_a_dragged_box_takes_equal_gaps_and_shows_them(sketch: EditorDriver) -> None:
+def test_a_dragged_node_snaps_to_equal_gaps_and_shows_them(sketch: EditorDriver) -> None:
     k = sketch.view()["k"]
     x, y = sketch.state("Rest")
-    # Off the grid, so that a place of equal gaps is none of the grid's.
+    # Off the grid, so that equal gaps differ from the grid.
     sketch.page.keyboard.down("Alt")
     sketch.drag((x, y), (x + 14 * k, y))
     sketch.page.keyboard.up("Alt")
@@ -135,8 +135,8 @@ def test_arrow_keys_nudge_as_one_edit(sketch: EditorDriver) -> None:
     sketch.expect_position("states/Go", 440, 100)
 
 
-def test_arrows_follow_while_a_box_is_dragged(sketch: EditorDriver) -> None:
-    line = sketch.arrow("Start/0").locator("path.line")
+def test_edges_follow_a_dragged_node(sketch: EditorDriver) -> None:
+    line = sketch.transition("Start/0").locator("path.line")
     before = line.get_attribute("d")
     assert before
     x, y = sketch.state("Go")
@@ -147,7 +147,7 @@ def test_arrows_follow_while_a_box_is_dragged(sketch: EditorDriver) -> None:
     expect(line).to_have_attribute("d", before)
 
 
-def test_the_view_pans_and_zooms_by_every_way(sketch: EditorDriver) -> None:
+def test_all_ways_to_pan_and_zoom(sketch: EditorDriver) -> None:
     before, spot = sketch.view(), sketch.state("Go")
     sketch.page.keyboard.down(" ")
     sketch.drag(sketch.empty(), (sketch.empty()[0] + 50, sketch.empty()[1] - 40))
@@ -158,7 +158,7 @@ def test_the_view_pans_and_zooms_by_every_way(sketch: EditorDriver) -> None:
     assert sketch.state("Go") == pytest.approx((spot[0] + 87, spot[1] - 43), abs=2)
     spot = sketch.state("Stop")
     sketch.page.mouse.move(*spot)
-    # What turns at once after a touchpad is taken for the touchpad.
+    # Wheel events in quick succession are attributed to the same device.
     sketch.page.wait_for_timeout(300)
     sketch.page.mouse.wheel(0, -200)
     sketch.wait_for(f"vicode.view().k > {before['k']}")

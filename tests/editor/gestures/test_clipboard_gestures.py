@@ -1,4 +1,4 @@
-"""Copy, cut, paste and duplicate through the clipboard of the system, within a design, between designs and windows."""
+"""Copy, cut, paste and duplicate through the system clipboard, within a design and between designs and windows."""
 
 from playwright.sync_api import expect
 
@@ -10,7 +10,7 @@ def clipboard(sketch: EditorDriver) -> str:
     return str(sketch.page.evaluate("navigator.clipboard.readText()"))
 
 
-def put_on_clipboard(sketch: EditorDriver, text: str) -> None:
+def set_clipboard(sketch: EditorDriver, text: str) -> None:
     sketch.page.evaluate("text => navigator.clipboard.writeText(text)", text)
 
 
@@ -19,7 +19,7 @@ def copy(sketch: EditorDriver, keys: str = "Control+c") -> None:
     expect(sketch.page.locator(".message")).to_have_text("Cut" if keys == "Control+x" else "Copied")
 
 
-def test_copied_states_are_readable_text_and_paste_under_the_hand(sketch: EditorDriver) -> None:
+def test_copied_states_are_readable_text_and_paste_at_the_pointer(sketch: EditorDriver) -> None:
     sketch.select("Start", "Go")
     copy(sketch)
     text = clipboard(sketch)
@@ -30,43 +30,43 @@ def test_copied_states_are_readable_text_and_paste_under_the_hand(sketch: Editor
     sketch.page.mouse.move(*spot)
     sketch.press("Control+v")
     sketch.expect_selection("states/Start2", "states/Go2")
-    expect(sketch.arrow("Start2/0")).to_have_attribute(
+    expect(sketch.transition("Start2/0")).to_have_attribute(
         "aria-label", "Transition 1 of 3 from Start2 to Go2: state_time > 1"
     )
-    expect(sketch.arrow("Start2/1")).to_have_attribute("aria-label", "Transition 2 of 3 from Start2 to Stop: 3 s")
+    expect(sketch.transition("Start2/1")).to_have_attribute("aria-label", "Transition 2 of 3 from Start2 to Stop: 3 s")
     (left, y), (right, _y) = sketch.state("Start2"), sketch.state("Go2")
     assert abs((left + right) / 2 - spot[0]) < 12
     assert abs(y - spot[1]) < 12
     sketch.expect_undone()
 
 
-def test_cut_takes_away_what_paste_brings_back(sketch: EditorDriver) -> None:
+def test_cut_states_can_be_pasted(sketch: EditorDriver) -> None:
     sketch.select("Go")
     copy(sketch, "Control+x")
-    expect(sketch.thing("state", "Go")).to_have_count(0)
+    expect(sketch.element("state", "Go")).to_have_count(0)
     assert "Go:" in clipboard(sketch)
     sketch.press("Control+v")
-    expect(sketch.thing("state", "Go")).to_be_visible()
+    expect(sketch.element("state", "Go")).to_be_visible()
     sketch.expect_undone(2)
 
 
-def test_duplicate_keeps_what_leads_between_and_out(sketch: EditorDriver) -> None:
+def test_duplicates_keep_inner_and_outgoing_transitions(sketch: EditorDriver) -> None:
     sketch.select("Start", "Go")
     sketch.press("Control+d")
     sketch.expect_selection("states/Start2", "states/Go2")
     sketch.expect_position("states/Start2", 160, 190)
-    expect(sketch.arrow("Start2/2")).to_have_attribute(
+    expect(sketch.transition("Start2/2")).to_have_attribute(
         "aria-label", "Transition 3 of 3 from Start2 to Rest: state_time > 9"
     )
     sketch.expect_undone()
     sketch.click(sketch.at("transitions", "Start/1"))
     sketch.press("Control+d")
     sketch.expect_selection("transitions/Start/2")
-    expect(sketch.arrow("Start/2")).to_have_attribute("aria-label", "Transition 3 of 4 from Start to Stop: 3 s")
+    expect(sketch.transition("Start/2")).to_have_attribute("aria-label", "Transition 3 of 4 from Start to Stop: 3 s")
     sketch.expect_undone()
 
 
-def test_parts_travel_between_designs_and_windows_with_what_they_use(sketch: EditorDriver) -> None:
+def test_states_are_pasted_into_another_design_with_their_components(sketch: EditorDriver) -> None:
     page = sketch.page.context.new_page()
     open_player(page, sketch.address)
     state(page, "LookForBall").click()
@@ -77,15 +77,15 @@ def test_parts_travel_between_designs_and_windows_with_what_they_use(sketch: Edi
     sketch.press("Control+v")
     sketch.expect_selection("states/LookForBall")
     for alias in ("perception", "search_ball"):
-        expect(sketch.thing("component", alias)).to_be_visible()
-    expect(sketch.thing("link", "requires/LookForBall/perception")).to_have_count(1)
-    # It led to a state that this design does not have.
-    expect(sketch.arrow("LookForBall/0")).to_have_count(0)
+        expect(sketch.element("component", alias)).to_be_visible()
+    expect(sketch.element("link", "requires/LookForBall/perception")).to_have_count(1)
+    # Its target does not exist in this design.
+    expect(sketch.transition("LookForBall/0")).to_have_count(0)
     sketch.expect_undone()
     page.close()
 
 
-def test_transitions_go_to_the_selected_states(sketch: EditorDriver) -> None:
+def test_transitions_are_pasted_into_the_selected_states(sketch: EditorDriver) -> None:
     sketch.click(sketch.at("transitions", "Start/1"))
     copy(sketch)
     sketch.press("Escape", "Control+v")
@@ -93,27 +93,29 @@ def test_transitions_go_to_the_selected_states(sketch: EditorDriver) -> None:
     sketch.select("Go", "Rest")
     sketch.press("Control+v")
     for name in ("Go", "Rest"):
-        expect(sketch.arrow(f"{name}/0")).to_have_attribute("aria-label", f"Transition 1 of 1 from {name} to Stop: 3 s")
+        expect(sketch.transition(f"{name}/0")).to_have_attribute(
+            "aria-label", f"Transition 1 of 1 from {name} to Stop: 3 s"
+        )
     sketch.expect_undone()
 
 
-def test_any_text_gets_words_and_changes_nothing(sketch: EditorDriver) -> None:
-    for text, words in (
+def test_invalid_clipboard_text_shows_a_message_and_changes_nothing(sketch: EditorDriver) -> None:
+    for text, message in (
         ("just a letter", "the clipboard holds no part of a design"),
         ("states: {A: !!python/object/apply:os.system [ls]}", "the clipboard holds no part of a design: "),
         ("states: {'<img src=x onerror=alert(1)>': {}}", "is no name"),
-        ("states: {}\n" + "# much\n" * 80_000, "too much text"),
-        ("   ", "The clipboard holds no text"),
+        ("states: {}\n" + "# much\n" * 80_000, "The text on the clipboard is too large"),
+        ("   ", "The clipboard contains no text"),
     ):
-        put_on_clipboard(sketch, text)
+        set_clipboard(sketch, text)
         sketch.page.locator(".stage").last.focus()
         sketch.press("Control+v")
-        sketch.expect_message(words)
+        sketch.expect_message(message)
     expect(sketch.page.get_by_text("Saved", exact=True)).to_be_visible()
     assert sketch.page.locator("img[src=x]").count() == 0
 
 
-def test_menus_copy_and_paste_as_well(sketch: EditorDriver) -> None:
+def test_copy_and_paste_by_menu(sketch: EditorDriver) -> None:
     sketch.click(sketch.state("Rest"), right=True)
     sketch.choose("Copy")
     expect(sketch.page.locator(".message")).to_have_text("Copied")

@@ -1,4 +1,4 @@
-"""A newcomer's first machine: four states, a timer, a used component; by mouse (names are typed), and by keys alone."""
+"""Creating a first design with four states, a timer and a component, by mouse and by keyboard."""
 
 import re
 
@@ -8,7 +8,7 @@ from tests.editor.gestures.conftest import Point, middle
 
 
 class FirstDesignDriver:
-    """Draws on an empty design."""
+    """Simulates a user who starts with an empty design."""
 
     def __init__(self, page: Page, url: str) -> None:
         self.page = page
@@ -22,18 +22,18 @@ class FirstDesignDriver:
         )
         return spot["x"] + right, spot["y"] + down
 
-    def names_it(self, name: str) -> None:
+    def type_name(self, name: str) -> None:
         expect(self.page.locator("input.rename")).to_be_focused()
         self.page.keyboard.type(name)
         self.page.keyboard.press("Enter")
-        self.has_selected(name)
+        self.expect_selected(name)
 
-    def has_selected(self, identity: str) -> None:
+    def expect_selected(self, identity: str) -> None:
         self.page.wait_for_function(
             "id => document.querySelector('.vicode-canvas').vicode.selection()[0]?.id === id", arg=identity
         )
 
-    def drags_from(self, name: str, side: int, end: Point) -> None:
+    def drag_from(self, name: str, side: int, end: Point) -> None:
         self.page.mouse.move(*self.at("states", name))
         start = middle(self.page.locator(f'circle.handle-hit[data-handle="s:{name}"]').nth(side))
         self.page.mouse.move(*start)
@@ -41,15 +41,15 @@ class FirstDesignDriver:
         self.page.mouse.move(*end, steps=6)
         self.page.mouse.up()
 
-    def has_built_it(self) -> None:
-        for key, words in (
+    def expect_complete(self) -> None:
+        for key, description in (
             ("Idle/0", "from Idle to Search"),
             ("Search/0", "from Search to Found"),
             ("Found/0", "from Found to Rest"),
             ("Rest/0", "from Rest to Idle: 3 s"),
         ):
-            arrow = self.page.locator(f'g.item:not(.chip)[data-kind="transition"][data-id="{key}"]')
-            expect(arrow).to_have_attribute("aria-label", re.compile(words))
+            transition = self.page.locator(f'g.item:not(.chip)[data-kind="transition"][data-id="{key}"]')
+            expect(transition).to_have_attribute("aria-label", re.compile(description))
         expect(self.page.locator('g.item[data-kind="link"][data-id$="/Search/search_ball"]')).to_have_count(1)
         expect(self.page.get_by_label("Findings", exact=True).get_by_text("the design is sound")).to_be_visible()
 
@@ -58,24 +58,24 @@ def test_by_mouse(sketches: str, first_page: Page) -> None:
     page = first_page
     user = FirstDesignDriver(page, f"{sketches}design/forward/Blank")
     page.mouse.dblclick(330, 250)
-    user.names_it("Idle")
-    user.drags_from("Idle", 1, user.at("states", "Idle", right=220))
-    user.names_it("Search")
-    user.drags_from("Search", 2, user.at("states", "Search", down=180))
-    user.names_it("Found")
-    user.drags_from("Found", 3, user.at("states", "Found", right=-220))
-    user.names_it("Rest")
-    user.drags_from("Rest", 0, user.at("states", "Idle"))
-    user.has_selected("Rest/0")
+    user.type_name("Idle")
+    user.drag_from("Idle", 1, user.at("states", "Idle", right=220))
+    user.type_name("Search")
+    user.drag_from("Search", 2, user.at("states", "Search", down=180))
+    user.type_name("Found")
+    user.drag_from("Found", 3, user.at("states", "Found", right=-220))
+    user.type_name("Rest")
+    user.drag_from("Rest", 0, user.at("states", "Idle"))
+    user.expect_selected("Rest/0")
     page.get_by_label("After, seconds in this state").click()
     page.keyboard.type("3")
     expect(page.locator('g.item[data-id="Rest/0"][aria-label*="3 s"]')).to_have_count(1)
     page.get_by_role("link", name="SearchBall").drag_to(
         page.locator(".vicode-canvas"), target_position={"x": 560, "y": 110}
     )
-    user.has_selected("search_ball")
-    user.drags_from("Search", 0, user.at("components", "search_ball"))
-    user.has_built_it()
+    user.expect_selected("search_ball")
+    user.drag_from("Search", 0, user.at("components", "search_ball"))
+    user.expect_complete()
 
 
 def test_by_keys_alone(sketches: str, first_page: Page) -> None:
@@ -83,14 +83,14 @@ def test_by_keys_alone(sketches: str, first_page: Page) -> None:
     user = FirstDesignDriver(page, f"{sketches}design/forward/Empty")
     press = page.keyboard.press
     press("s")
-    user.names_it("Idle")
+    user.type_name("Idle")
     for name in ("Search", "Found", "Rest"):
         press("n")
-        user.names_it(name)
+        user.type_name(name)
     press("t")
     page.keyboard.type("idle")
     press("Enter")
-    user.has_selected("Rest/0")
+    user.expect_selected("Rest/0")
     press("Enter")
     expect(page.get_by_label("When", exact=True)).to_be_focused()
     press("Tab")
@@ -102,9 +102,9 @@ def test_by_keys_alone(sketches: str, first_page: Page) -> None:
     page.keyboard.type("searchb")
     expect(page.locator(".choice")).to_have_count(1)
     press("Enter")
-    user.has_selected("search_ball")
+    user.expect_selected("search_ball")
     expect(page.locator(".stage").last).to_be_focused()
     press("t")
     page.keyboard.type("sear")
     press("Enter")
-    user.has_built_it()
+    user.expect_complete()

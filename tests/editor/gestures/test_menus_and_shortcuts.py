@@ -1,4 +1,4 @@
-"""Menus, the help, and what keys alone can do."""
+"""Context menus, the help, and keyboard shortcuts."""
 
 import re
 
@@ -7,25 +7,25 @@ from playwright.sync_api import expect
 from tests.editor.gestures.conftest import EditorDriver, middle
 
 
-def test_a_right_click_shows_what_can_be_done_with_its_keys(sketch: EditorDriver) -> None:
+def test_the_context_menu_shows_commands_with_their_shortcuts(sketch: EditorDriver) -> None:
     sketch.click(sketch.state("Go"), right=True)
     sketch.expect_selection("states/Go")
     entries = sketch.menu().get_by_role("menuitem")
     expect(entries.first).to_be_focused()
     expect(sketch.menu().get_by_role("menuitem", name="Duplicate")).to_contain_text("Ctrl+D")
-    sketch.choose("Start here")
-    expect(sketch.thing("state", "Go")).to_have_attribute("aria-label", re.compile("initial"))
+    sketch.choose("Set as initial state")
+    expect(sketch.element("state", "Go")).to_have_attribute("aria-label", re.compile("initial"))
     sketch.expect_undone()
     sketch.click(sketch.state("Go"), right=True)
-    sketch.choose("Final")
-    expect(sketch.thing("state", "Go")).to_have_attribute("aria-label", re.compile("final"))
+    sketch.choose("Toggle final")
+    expect(sketch.element("state", "Go")).to_have_attribute("aria-label", re.compile("final"))
     sketch.expect_undone()
 
 
-def test_each_kind_of_thing_has_its_menu(sketch: EditorDriver) -> None:
+def test_each_kind_of_element_has_its_menu(sketch: EditorDriver) -> None:
     for spot, entry in (
-        (middle(sketch.page.locator('g.chip[data-id="Start/1"]')), "Edit the guard"),
-        (sketch.at("components", "walk"), "Open its design"),
+        (middle(sketch.page.locator('g.chip[data-id="Start/1"]')), "Edit guard"),
+        (sketch.at("components", "walk"), "Open design"),
         (sketch.empty(), "New state"),
     ):
         sketch.click(spot, right=True)
@@ -36,7 +36,7 @@ def test_each_kind_of_thing_has_its_menu(sketch: EditorDriver) -> None:
     sketch.click(sketch.state("Stop"), right=True)
     sketch.expect_selection("states/Go", "states/Stop")
     sketch.choose("Delete")
-    expect(sketch.thing("state", "Stop")).to_have_count(0)
+    expect(sketch.element("state", "Stop")).to_have_count(0)
     sketch.expect_undone()
 
 
@@ -57,7 +57,7 @@ def test_a_menu_works_by_keys_alone(sketch: EditorDriver) -> None:
     sketch.expect_undone()
 
 
-def test_what_was_made_by_the_menu_stands_where_it_was_opened(sketch: EditorDriver) -> None:
+def test_a_state_created_by_the_menu_is_where_the_menu_was_opened(sketch: EditorDriver) -> None:
     spot = sketch.empty()
     sketch.click(spot, right=True)
     sketch.choose("New state")
@@ -71,13 +71,13 @@ def test_the_help_lists_every_key(sketch: EditorDriver) -> None:
     sketch.page.locator(".stage").last.focus()
     sketch.press("?")
     help_ = sketch.page.locator(".help")
-    for words in ("Ctrl+D", "Duplicate", "Ctrl+S", "Drag a label", "Shift+F10"):
-        expect(help_.get_by_text(words, exact=True).first).to_be_visible()
+    for text in ("Ctrl+D", "Duplicate", "Ctrl+S", "Drag a label", "Shift+F10"):
+        expect(help_.get_by_text(text, exact=True).first).to_be_visible()
     sketch.press("Escape")
     expect(help_).to_have_count(0)
 
 
-def test_keys_work_from_the_first_moment_and_when_nothing_has_the_focus(sketch: EditorDriver) -> None:
+def test_keys_work_initially_and_when_nothing_has_the_focus(sketch: EditorDriver) -> None:
     expect(sketch.page.locator(".stage").last).to_be_focused()
     sketch.press("Tab")
     sketch.expect_selection("states/Start")
@@ -87,11 +87,11 @@ def test_keys_work_from_the_first_moment_and_when_nothing_has_the_focus(sketch: 
     sketch.press("Control+Shift+ArrowDown")
     sketch.expect_selection("states/Go", "states/Stop")
     sketch.press("d")
-    expect(sketch.thing("state", "Stop")).to_have_class(re.compile("disabled"))
+    expect(sketch.element("state", "Stop")).to_have_class(re.compile("disabled"))
     sketch.expect_undone()
 
 
-def test_new_states_by_keys_find_a_free_place(sketch: EditorDriver) -> None:
+def test_new_states_by_keys_are_at_free_positions(sketch: EditorDriver) -> None:
     for name in ("One", "Two"):
         sketch.press("s")
         sketch.rename_to(name)
@@ -107,24 +107,24 @@ def test_a_component_is_used_by_keys_and_by_dragging_its_design(sketch: EditorDr
     field.fill("searchb")
     expect(sketch.page.locator(".choice")).to_have_count(1)
     field.press("Enter")
-    expect(sketch.thing("component", "search_ball")).to_be_visible()
+    expect(sketch.element("component", "search_ball")).to_be_visible()
     sketch.expect_selection("components/search_ball")
     expect(sketch.page.locator(".stage").last).to_be_focused()
     sketch.expect_undone()
     link = sketch.page.get_by_role("link", name="SearchNet")
     link.drag_to(sketch.page.locator(".vicode-canvas"), target_position={"x": 500, "y": 80})
-    expect(sketch.thing("component", "search_net")).to_be_visible()
+    expect(sketch.element("component", "search_net")).to_be_visible()
     sketch.expect_selection("components/search_net")
     sketch.expect_undone()
 
 
-def test_escape_leads_from_a_field_back_to_the_drawing(sketch: EditorDriver) -> None:
+def test_escape_moves_the_focus_from_a_field_to_the_canvas(sketch: EditorDriver) -> None:
     sketch.click(middle(sketch.page.locator('g.chip[data-id="Start/1"]')))
     sketch.press("Enter")
     expect(sketch.page.get_by_label("When", exact=True)).to_be_focused()
     after = sketch.page.get_by_label("After, seconds in this state")
     after.fill("5")
-    expect(sketch.arrow("Start/1")).to_have_attribute("aria-label", re.compile("5 s"))
+    expect(sketch.transition("Start/1")).to_have_attribute("aria-label", re.compile("5 s"))
     sketch.press("Escape")
     expect(sketch.page.locator(".stage").last).to_be_focused()
     sketch.expect_selection("transitions/Start/1")

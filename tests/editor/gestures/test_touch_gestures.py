@@ -1,4 +1,4 @@
-"""Fingers on a tablet: tap, drag, hold, pinch; targets large enough."""
+"""Touch gestures: tap, drag, long press and pinch; touch targets are large enough."""
 
 from collections.abc import Iterator
 
@@ -9,7 +9,7 @@ from tests.editor.gestures.conftest import EditorDriver, Point, box_of, middle, 
 
 
 class TouchInput:
-    """Touches as the screen sends them."""
+    """Sends touch events."""
 
     def __init__(self, page: Page) -> None:
         self.session: CDPSession = page.context.new_cdp_session(page)
@@ -54,7 +54,7 @@ def test_one_finger_selects_and_drags_and_pans(sketch: EditorDriver, fingers: To
     expect(sketch.page.get_by_text("Saved", exact=True)).to_be_visible()
 
 
-def test_a_finger_held_still_opens_the_menu(sketch: EditorDriver, fingers: TouchInput) -> None:
+def test_a_long_press_opens_the_menu(sketch: EditorDriver, fingers: TouchInput) -> None:
     fingers.send("touchStart", sketch.state("Rest"))
     expect(sketch.menu()).to_be_visible()
     fingers.send("touchEnd")
@@ -86,11 +86,11 @@ def test_two_fingers_zoom_and_a_finger_drags_a_transition_from_a_state(
     box = box_of(disc)
     assert min(box["width"], box["height"]) >= 40 * min(1, before)
     fingers.drag(middle(disc), sketch.state("Stop"))
-    expect(sketch.arrow("Rest/0")).to_have_count(1)
+    expect(sketch.transition("Rest/0")).to_have_count(1)
     sketch.expect_undone()
 
 
-def test_several_are_selected_without_a_key(sketch: EditorDriver, fingers: TouchInput) -> None:
+def test_several_elements_are_selected_by_touch(sketch: EditorDriver, fingers: TouchInput) -> None:
     fingers.tap(sketch.state("Go"))
     several = sketch.page.get_by_role("button", name="Select several")
     several.click()

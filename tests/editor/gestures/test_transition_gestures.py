@@ -1,4 +1,4 @@
-"""Transitions: connected, led elsewhere, put in order, their labels moved; by mouse and by keys, each undone."""
+"""Connecting, reconnecting and reordering transitions and moving labels, by mouse and by keys."""
 
 import re
 
@@ -11,66 +11,68 @@ def label(sketch: EditorDriver, identity: str) -> tuple[float, float]:
     return middle(sketch.page.locator(f'g.chip[data-id="{identity}"]'))
 
 
-def leads(sketch: EditorDriver, identity: str, words: str) -> None:
-    expect(sketch.arrow(identity)).to_have_attribute("aria-label", re.compile(words))
+def expect_transition(sketch: EditorDriver, identity: str, description: str) -> None:
+    expect(sketch.transition(identity)).to_have_attribute("aria-label", re.compile(description))
 
 
-def test_both_ends_are_taken_elsewhere_by_mouse(sketch: EditorDriver) -> None:
+def test_both_ends_are_reconnected_by_mouse(sketch: EditorDriver) -> None:
     sketch.click(label(sketch, "Start/1"))
     sketch.drag(middle(sketch.page.locator('circle[data-end="target"]')), sketch.state("Go"))
-    leads(sketch, "Start/1", "from Start to Go: 3 s")
+    expect_transition(sketch, "Start/1", "from Start to Go: 3 s")
     sketch.expect_undone()
     sketch.click(label(sketch, "Start/1"))
     sketch.drag(middle(sketch.page.locator('circle[data-end="source"]')), sketch.state("Rest"))
-    leads(sketch, "Rest/0", "from Rest to Stop: 3 s")
+    expect_transition(sketch, "Rest/0", "from Rest to Stop: 3 s")
     sketch.expect_selection("transitions/Rest/0")
     sketch.expect_undone()
 
 
-def test_both_ends_are_taken_elsewhere_by_keys(sketch: EditorDriver) -> None:
+def test_both_ends_are_reconnected_by_keys(sketch: EditorDriver) -> None:
     sketch.click(label(sketch, "Start/1"))
     sketch.press("r", "g", "o", "Enter")
-    leads(sketch, "Start/1", "from Start to Go: 3 s")
+    expect_transition(sketch, "Start/1", "from Start to Go: 3 s")
     sketch.expect_undone()
     sketch.click(label(sketch, "Start/1"))
     sketch.press("Shift+R", "ArrowDown", "Enter")
-    leads(sketch, "Rest/0", "from Rest to Stop: 3 s")
+    expect_transition(sketch, "Rest/0", "from Rest to Stop: 3 s")
     sketch.expect_undone()
 
 
 def test_states_are_connected_by_mouse_and_by_keys(sketch: EditorDriver) -> None:
     sketch.drag(sketch.handle("Rest", 1), sketch.state("Stop"))
-    leads(sketch, "Rest/0", "from Rest to Stop")
+    expect_transition(sketch, "Rest/0", "from Rest to Stop")
     sketch.expect_undone()
     sketch.select("Rest")
     sketch.press("t", "Tab", "Tab", "Enter")
-    leads(sketch, "Rest/0", "from Rest to Start")
+    expect_transition(sketch, "Rest/0", "from Rest to Start")
     sketch.expect_undone()
     sketch.select("Rest")
     sketch.press("t", "ArrowRight")
-    expect(sketch.page.locator(".message")).to_contain_text("Stop: Enter")
+    expect(sketch.page.locator(".message")).to_contain_text("Stop: press Enter")
     sketch.press("Enter")
-    leads(sketch, "Rest/0", "from Rest to Stop")
+    expect_transition(sketch, "Rest/0", "from Rest to Stop")
     sketch.expect_undone()
     sketch.select("Rest")
     sketch.press("t", "w", "a", "l", "Enter")
-    expect(sketch.thing("link", "requires/Rest/walk").or_(sketch.thing("link", "modulates/Rest/walk"))).to_have_count(1)
+    expect(
+        sketch.element("link", "requires/Rest/walk").or_(sketch.element("link", "modulates/Rest/walk"))
+    ).to_have_count(1)
     sketch.expect_undone()
 
 
-def test_a_connection_to_nothing_brings_a_new_state(sketch: EditorDriver) -> None:
+def test_a_connection_to_empty_space_creates_a_state(sketch: EditorDriver) -> None:
     sketch.drag(sketch.handle("Rest", 2), sketch.state("Rest", 0, 150))
     sketch.rename_to("Sleep")
-    leads(sketch, "Rest/0", "from Rest to Sleep")
+    expect_transition(sketch, "Rest/0", "from Rest to Sleep")
     sketch.expect_undone(2)
     sketch.select("Rest")
     sketch.press("n")
     sketch.rename_to("Doze")
-    leads(sketch, "Rest/0", "from Rest to Doze")
+    expect_transition(sketch, "Rest/0", "from Rest to Doze")
     sketch.expect_undone(2)
 
 
-def test_a_label_is_moved_along_and_off_its_arrow_and_put_back(sketch: EditorDriver) -> None:
+def test_a_label_is_moved_and_reset(sketch: EditorDriver) -> None:
     x, y = label(sketch, "Start/0")
     sketch.drag((x, y), (x - 20, y - 40))
     sketch.wait_for(f"Math.abs(vicode.screen('transitions', 'Start/0').y - {y - 40}) < 4")
@@ -80,7 +82,7 @@ def test_a_label_is_moved_along_and_off_its_arrow_and_put_back(sketch: EditorDri
     sketch.drag((x, y), (x, y - 40))
     expect(sketch.page.get_by_text("Unsaved changes")).to_be_visible()
     sketch.click(label(sketch, "Start/0"), right=True)
-    sketch.choose("Put the label back")
+    sketch.choose("Reset label position")
     expect(sketch.page.get_by_text("Saved", exact=True)).to_be_visible()
 
 
@@ -94,19 +96,19 @@ def test_a_label_is_nudged_by_keys(sketch: EditorDriver) -> None:
     sketch.expect_undone()
 
 
-def test_a_label_dropped_on_another_is_tested_there(sketch: EditorDriver) -> None:
+def test_a_label_dropped_on_another_changes_the_priority(sketch: EditorDriver) -> None:
     sketch.drag(label(sketch, "Start/2"), label(sketch, "Start/0"))
-    leads(sketch, "Start/0", "1 of 3 from Start to Rest")
-    leads(sketch, "Start/1", "2 of 3 from Start to Go")
+    expect_transition(sketch, "Start/0", "1 of 3 from Start to Rest")
+    expect_transition(sketch, "Start/1", "2 of 3 from Start to Go")
     sketch.expect_selection("transitions/Start/0")
     sketch.expect_undone()
 
 
-def test_brackets_put_in_order(sketch: EditorDriver) -> None:
+def test_brackets_change_the_priority(sketch: EditorDriver) -> None:
     sketch.click(label(sketch, "Start/0"))
     sketch.press("]")
     sketch.expect_selection("transitions/Start/1")
-    leads(sketch, "Start/1", "2 of 3 from Start to Go")
+    expect_transition(sketch, "Start/1", "2 of 3 from Start to Go")
     sketch.press("]")
     sketch.expect_selection("transitions/Start/2")
     sketch.press("[")
@@ -114,18 +116,18 @@ def test_brackets_put_in_order(sketch: EditorDriver) -> None:
     sketch.expect_undone(3)
 
 
-def test_rows_of_the_list_are_dragged_into_another_order(sketch: EditorDriver) -> None:
+def test_rows_of_the_inspector_are_reordered_by_dragging(sketch: EditorDriver) -> None:
     sketch.select("Start")
     rows = sketch.page.get_by_label("Inspector").locator(".decision-row")
     expect(rows).to_have_count(3)
     rows.nth(2).drag_to(rows.nth(0))
-    leads(sketch, "Start/0", "1 of 3 from Start to Rest")
+    expect_transition(sketch, "Start/0", "1 of 3 from Start to Rest")
     expect(rows.nth(0)).to_contain_text("Rest")
     sketch.page.locator(".stage").last.focus()
     sketch.expect_undone()
 
 
-def test_escape_leaves_every_half_done_gesture(sketch: EditorDriver) -> None:
+def test_escape_cancels_every_gesture(sketch: EditorDriver) -> None:
     x, y = sketch.state("Go")
     sketch.press_and_move((x, y), (x + 80, y + 50))
     sketch.wait_for("vicode.positions()['states/Go'].x > 450")

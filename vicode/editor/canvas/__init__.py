@@ -1,4 +1,4 @@
-"""The canvas: our own NiceGUI element that draws a state machine and reports gestures; the design stays in Python."""
+"""A NiceGUI element that draws a state machine and reports the user's gestures; the design stays in Python."""
 
 from vicode.editor.canvas.element import Canvas
 

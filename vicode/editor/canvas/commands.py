@@ -1,4 +1,4 @@
-"""What can be asked of the canvas, in one table: its keys, its menus, the palette and the help all read it."""
+"""The table of canvas commands; keyboard, context menu, command palette and help read it."""
 
 from dataclasses import KW_ONLY, dataclass
 from enum import StrEnum
@@ -6,23 +6,25 @@ from typing import Any
 
 
 class CommandGroup(StrEnum):
-    """What belongs together in menus and in the help."""
+    """Section of the context menu and of the help."""
 
-    CREATE = "Make"
-    MODIFY = "Change"
+    CREATE = "Create"
+    MODIFY = "Modify"
     EDIT = "Edit"
     ARRANGE = "Arrange"
-    VIEW = "See"
+    VIEW = "View"
     RUN = "Simulate"
-    NAVIGATE = "Get about"
+    NAVIGATE = "Navigate"
 
 
 @dataclass(frozen=True, slots=True)
 class CanvasCommand:
-    """A command of the canvas; `keys` are spelt "Ctrl+Shift+Z", several are several ways.
+    """A command of the canvas.
 
-    `on` names what its menu entry belongs to: a kind of thing, "several" of them, or "nothing". Keys that only mean
-    something together with a direction or a pointer are told by `keys_label`; such a command is in no menu.
+    Attributes:
+        keys: alternative shortcuts, written as "Ctrl+Shift+Z".
+        menus: the selections whose context menu contains the command: an element kind, "several" or "nothing".
+        keys_label: text for the help instead of `keys`; such a command is not listed in the command palette.
     """
 
     name: str
@@ -43,90 +45,101 @@ def _with_arrows(*held: str) -> tuple[str, ...]:
     return tuple(f"{keys}{arrow}" for keys in held for arrow in _ARROWS)
 
 
+_CREATE, _MODIFY, _EDIT, _ARRANGE, _VIEW, _RUN, _NAVIGATE = CommandGroup
+
 CANVAS_COMMANDS = (
-    CanvasCommand("new-state", "New state", CommandGroup.CREATE, ("S",), menus=("nothing",)),
-    CanvasCommand("use", "Use a component…", CommandGroup.CREATE, ("U",), menus=("nothing",)),
-    CanvasCommand("new-target", "Transition to a new state", CommandGroup.CREATE, ("N",), menus=("states", "common")),
-    CanvasCommand("connect", "Connect to…", CommandGroup.CREATE, ("T",), menus=("states", "components", "common")),
-    CanvasCommand("finish-connection", "End a connection at the target", CommandGroup.CREATE, ("Enter",)),
-    CanvasCommand("open-guard", "Edit the guard", CommandGroup.MODIFY, ("Enter",), menus=("transitions",)),
-    CanvasCommand("open-design", "Open its design", CommandGroup.MODIFY, ("Enter",), menus=("components",)),
-    CanvasCommand("open-common", "Edit what is common", CommandGroup.MODIFY, ("Enter",), menus=("common",)),
-    CanvasCommand("rename", "Rename", CommandGroup.MODIFY, ("F2", "Enter"), menus=("states", "components")),
-    CanvasCommand("initial", "Start here", CommandGroup.MODIFY, ("I",), menus=("states",)),
-    CanvasCommand("final", "Final, or no longer", CommandGroup.MODIFY, ("F",), menus=("states",)),
-    CanvasCommand("disable", "Disable, or enable again", CommandGroup.MODIFY, ("D",), menus=_STATES_AND_TRANSITIONS),
-    CanvasCommand("reconnect-target", "Lead to another state…", CommandGroup.MODIFY, ("R",), menus=("transitions",)),
-    CanvasCommand("reconnect-source", "Start from another state…", CommandGroup.MODIFY, ("Shift+R",), menus=("transitions",)),
-    CanvasCommand("move-up", "Test earlier", CommandGroup.MODIFY, ("[",), menus=("transitions",)),
-    CanvasCommand("move-down", "Test later", CommandGroup.MODIFY, ("]",), menus=("transitions",)),
-    CanvasCommand("reset-label", "Put the label back", CommandGroup.MODIFY, menus=("transitions",)),
-    CanvasCommand("undo", "Undo", CommandGroup.EDIT, ("Ctrl+Z",)),
-    CanvasCommand("redo", "Redo", CommandGroup.EDIT, ("Ctrl+Shift+Z", "Ctrl+Y")),
-    CanvasCommand("cut", "Cut", CommandGroup.EDIT, ("Ctrl+X",), menus=_STATES_AND_TRANSITIONS),
-    CanvasCommand("copy", "Copy", CommandGroup.EDIT, ("Ctrl+C",), menus=(*_STATES_AND_TRANSITIONS, "common")),
-    CanvasCommand("paste", "Paste", CommandGroup.EDIT, ("Ctrl+V",), menus=(*_STATES_AND_TRANSITIONS, "common", "nothing")),
-    CanvasCommand("duplicate", "Duplicate", CommandGroup.EDIT, ("Ctrl+D",), menus=_STATES_AND_TRANSITIONS),
-    CanvasCommand("delete", "Delete", CommandGroup.EDIT, ("Delete", "Backspace"), menus=(*_STATES_AND_TRANSITIONS, "components", "links")),
-    CanvasCommand("select-all", "Select all", CommandGroup.EDIT, ("Ctrl+A",), menus=("nothing",)),
-    CanvasCommand("align-left", "Align left sides", CommandGroup.ARRANGE, ("Alt+A",), menus=("several",)),
-    CanvasCommand("align-centre", "Align centres", CommandGroup.ARRANGE, ("Alt+H",), menus=("several",)),
-    CanvasCommand("align-right", "Align right sides", CommandGroup.ARRANGE, ("Alt+D",), menus=("several",)),
-    CanvasCommand("align-top", "Align tops", CommandGroup.ARRANGE, ("Alt+W",), menus=("several",)),
-    CanvasCommand("align-middle", "Align middles", CommandGroup.ARRANGE, ("Alt+V",), menus=("several",)),
-    CanvasCommand("align-bottom", "Align bottoms", CommandGroup.ARRANGE, ("Alt+S",), menus=("several",)),
-    CanvasCommand("distribute-across", "Equal gaps across", CommandGroup.ARRANGE, ("Alt+Shift+H",), menus=("several",)),
-    CanvasCommand("distribute-down", "Equal gaps downwards", CommandGroup.ARRANGE, ("Alt+Shift+V",), menus=("several",)),
+    CanvasCommand("new-state", "New state", _CREATE, ("S",), menus=("nothing",)),
+    CanvasCommand("use", "Add component…", _CREATE, ("U",), menus=("nothing",)),
+    CanvasCommand("new-target", "Add transition to new state", _CREATE, ("N",), menus=("states", "common")),
+    CanvasCommand("connect", "Connect to…", _CREATE, ("T",), menus=("states", "components", "common")),
+    CanvasCommand("finish-connection", "Finish connection at the target", _CREATE, ("Enter",)),
+    CanvasCommand("open-guard", "Edit guard", _MODIFY, ("Enter",), menus=("transitions",)),
+    CanvasCommand("open-design", "Open design", _MODIFY, ("Enter",), menus=("components",)),
+    CanvasCommand("open-common", "Edit common transitions and actions", _MODIFY, ("Enter",), menus=("common",)),
+    CanvasCommand("rename", "Rename", _MODIFY, ("F2", "Enter"), menus=("states", "components")),
+    CanvasCommand("initial", "Set as initial state", _MODIFY, ("I",), menus=("states",)),
+    CanvasCommand("final", "Toggle final", _MODIFY, ("F",), menus=("states",)),
+    CanvasCommand("disable", "Disable or enable", _MODIFY, ("D",), menus=_STATES_AND_TRANSITIONS),
+    CanvasCommand("reconnect-target", "Change target…", _MODIFY, ("R",), menus=("transitions",)),
+    CanvasCommand("reconnect-source", "Change source…", _MODIFY, ("Shift+R",), menus=("transitions",)),
+    CanvasCommand("move-up", "Move up", _MODIFY, ("[",), menus=("transitions",)),
+    CanvasCommand("move-down", "Move down", _MODIFY, ("]",), menus=("transitions",)),
+    CanvasCommand("reset-label", "Reset label position", _MODIFY, menus=("transitions",)),
+    CanvasCommand("undo", "Undo", _EDIT, ("Ctrl+Z",)),
+    CanvasCommand("redo", "Redo", _EDIT, ("Ctrl+Shift+Z", "Ctrl+Y")),
+    CanvasCommand("cut", "Cut", _EDIT, ("Ctrl+X",), menus=_STATES_AND_TRANSITIONS),
+    CanvasCommand("copy", "Copy", _EDIT, ("Ctrl+C",), menus=(*_STATES_AND_TRANSITIONS, "common")),
+    CanvasCommand("paste", "Paste", _EDIT, ("Ctrl+V",), menus=(*_STATES_AND_TRANSITIONS, "common", "nothing")),
+    CanvasCommand("duplicate", "Duplicate", _EDIT, ("Ctrl+D",), menus=_STATES_AND_TRANSITIONS),
     CanvasCommand(
-        "nudge", "Move by a step (a pixel with Shift)", CommandGroup.ARRANGE, _with_arrows("", "Shift+"), keys_label="Arrow keys"
+        "delete", "Delete", _EDIT, ("Delete", "Backspace"), menus=(*_STATES_AND_TRANSITIONS, "components", "links")
     ),
-    CanvasCommand("lay-out", "Lay out", CommandGroup.ARRANGE, menus=("several", "nothing")),
-    CanvasCommand("fit", "Zoom to everything", CommandGroup.VIEW, ("1",), menus=("nothing",)),
-    CanvasCommand("zoom-selection", "Zoom to the selection", CommandGroup.VIEW, ("2",), menus=_NODES),
-    CanvasCommand("actual-size", "Zoom to life size", CommandGroup.VIEW, ("0",), menus=("nothing",)),
-    CanvasCommand("zoom-in", "Zoom in", CommandGroup.VIEW, ("+", "=")),
-    CanvasCommand("zoom-out", "Zoom out", CommandGroup.VIEW, ("-",)),
-    CanvasCommand("links", "Show or hide links to components", CommandGroup.VIEW, menus=("nothing",)),
-    CanvasCommand("breakpoint", "Breakpoint, or none", CommandGroup.RUN, menus=_STATES_AND_TRANSITIONS),
-    CanvasCommand("simulate-here", "Run to here", CommandGroup.RUN, menus=("states",)),
-    CanvasCommand("menu", "Menu of what is selected", CommandGroup.NAVIGATE, ("Shift+F10", "ContextMenu"), keys_label="Shift+F10"),
-    CanvasCommand("help", "Keys and gestures", CommandGroup.NAVIGATE, ("?",), menus=("nothing",)),
-    CanvasCommand("next", "Next thing, in the order of the design", CommandGroup.NAVIGATE, ("Tab",), keys_label="Tab"),
-    CanvasCommand("previous", "Previous thing", CommandGroup.NAVIGATE, ("Shift+Tab",), keys_label="Shift+Tab"),
-    CanvasCommand("select-nearest", "Nearest box in a direction", CommandGroup.NAVIGATE, _with_arrows("Ctrl+"), keys_label="Ctrl+Arrow keys"),
+    CanvasCommand("select-all", "Select all", _EDIT, ("Ctrl+A",), menus=("nothing",)),
+    CanvasCommand("align-left", "Align left edges", _ARRANGE, ("Alt+A",), menus=("several",)),
+    CanvasCommand("align-centre", "Align centres", _ARRANGE, ("Alt+H",), menus=("several",)),
+    CanvasCommand("align-right", "Align right edges", _ARRANGE, ("Alt+D",), menus=("several",)),
+    CanvasCommand("align-top", "Align top edges", _ARRANGE, ("Alt+W",), menus=("several",)),
+    CanvasCommand("align-middle", "Align middles", _ARRANGE, ("Alt+V",), menus=("several",)),
+    CanvasCommand("align-bottom", "Align bottom edges", _ARRANGE, ("Alt+S",), menus=("several",)),
+    CanvasCommand("distribute-across", "Distribute horizontally", _ARRANGE, ("Alt+Shift+H",), menus=("several",)),
+    CanvasCommand("distribute-down", "Distribute vertically", _ARRANGE, ("Alt+Shift+V",), menus=("several",)),
     CanvasCommand(
-        "add-nearest", "The same, and keep what is selected", CommandGroup.NAVIGATE, _with_arrows("Ctrl+Shift+"),
+        "nudge", "Move by one grid step (Shift: one pixel)", _ARRANGE, _with_arrows("", "Shift+"),
+        keys_label="Arrow keys",
+    ),
+    CanvasCommand("lay-out", "Auto layout", _ARRANGE, menus=("several", "nothing")),
+    CanvasCommand("fit", "Zoom to fit", _VIEW, ("1",), menus=("nothing",)),
+    CanvasCommand("zoom-selection", "Zoom to selection", _VIEW, ("2",), menus=_NODES),
+    CanvasCommand("actual-size", "Zoom to 100%", _VIEW, ("0",), menus=("nothing",)),
+    CanvasCommand("zoom-in", "Zoom in", _VIEW, ("+", "=")),
+    CanvasCommand("zoom-out", "Zoom out", _VIEW, ("-",)),
+    CanvasCommand("links", "Show or hide links to components", _VIEW, menus=("nothing",)),
+    CanvasCommand("breakpoint", "Toggle breakpoint", _RUN, menus=_STATES_AND_TRANSITIONS),
+    CanvasCommand("simulate-here", "Run to here", _RUN, menus=("states",)),
+    CanvasCommand("menu", "Open context menu", _NAVIGATE, ("Shift+F10", "ContextMenu"), keys_label="Shift+F10"),
+    CanvasCommand("help", "Keyboard shortcuts and gestures", _NAVIGATE, ("?",), menus=("nothing",)),
+    CanvasCommand("next", "Select next element", _NAVIGATE, ("Tab",), keys_label="Tab"),
+    CanvasCommand("previous", "Select previous element", _NAVIGATE, ("Shift+Tab",), keys_label="Shift+Tab"),
+    CanvasCommand(
+        "select-nearest", "Select nearest node in that direction", _NAVIGATE, _with_arrows("Ctrl+"),
+        keys_label="Ctrl+Arrow keys",
+    ),
+    CanvasCommand(
+        "add-nearest", "Add nearest node to the selection", _NAVIGATE, _with_arrows("Ctrl+Shift+"),
         keys_label="Ctrl+Shift+Arrow keys",
     ),
-    CanvasCommand("cancel", "Leave what is half done; then select nothing", CommandGroup.NAVIGATE, ("Escape",), keys_label="Escape"),
+    CanvasCommand("cancel", "Cancel gesture, else clear selection", _NAVIGATE, ("Escape",), keys_label="Escape"),
 )  # fmt: skip
 
 GESTURE_HELP = (
-    ("Double click", "a new state; on a state its name, on an arrow its guard, on a component its design"),
-    ("Drag from the edge of a state", "a transition, to nothing with a new state; to a component a link"),
-    ("Drag an end of a selected arrow", "leads elsewhere"),
-    ("Drag a label", "along or off its arrow; on another label of the state: tested there"),
-    ("Drag", "moves; near others it lines up, with Alt it does not"),
-    ("Drag over nothing", "selects; with Shift or Ctrl adds"),
-    ("Shift or Ctrl and click", "adds or takes away"),
-    ("Right click", "menu"),
-    ("Space, or middle button, and drag", "pans"),
-    ("Wheel", "zooms at the pointer; two fingers pan, a pinch zooms"),
-    ("Drag a design from the list", "uses it here"),
-    ("Touch", "one finger selects and drags, over nothing pans; held it opens the menu; two fingers zoom"),
+    ("Double-click", "new state; on a state: rename; on a transition: edit guard; on a component: open design"),
+    (
+        "Drag from the edge of a state",
+        "new transition; dropped on empty space: also a new state; dropped on a component: link",
+    ),
+    ("Drag an end of a selected transition", "change source or target"),
+    ("Drag a label", "move the label; dropped on another label of the same state: change priority"),
+    ("Drag a node", "move; snaps to other nodes unless Alt is held"),
+    ("Drag on empty space", "select; Shift or Ctrl adds to the selection"),
+    ("Shift+click or Ctrl+click", "add to or remove from the selection"),
+    ("Right-click", "context menu"),
+    ("Space+drag or middle-button drag", "pan"),
+    ("Wheel", "zoom at the pointer; on a touchpad two fingers pan and a pinch zooms"),
+    ("Drag a design from the list", "add it as a component"),
+    ("Touch", "one finger selects and drags, or pans on empty space; long press opens the menu; two fingers zoom"),
 )
-"""What a hand does, for the help: gesture and meaning."""
+"""Pointer gestures for the help: gesture and effect."""
 
 
 def commands_json() -> list[dict[str, Any]]:
-    """The table as the browser takes it."""
+    """Return the table in the form that the browser receives."""
     return [
         {
-            "name": each.name,
-            "label": each.label,
-            "group": str(each.group),
-            "keys": list(each.keys),
-            "on": list(each.menus),
+            "name": command.name,
+            "label": command.label,
+            "group": str(command.group),
+            "keys": list(command.keys),
+            "menus": list(command.menus),
         }
-        for each in CANVAS_COMMANDS
+        for command in CANVAS_COMMANDS
     ]

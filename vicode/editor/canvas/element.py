@@ -1,4 +1,4 @@
-"""The Python side of the canvas: keeps what is shown, so that a page that mounts late or again gets it all."""
+"""Python side of the canvas. It keeps the displayed scene, so that an element that mounts late or again receives it."""
 
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
@@ -26,16 +26,16 @@ _KINDS = ("states", "transitions", "components", "links")
 
 
 class Canvas(ui.element, component=CANVAS_JS / "vicode_canvas.js"):
-    """A state machine to look at and to work on.
+    """Interactive diagram of a state machine.
 
     Args:
-        on_gesture: called with every gesture (see `vicode.editor.canvas.protocol`); it may be a coroutine function.
-        on_pointer: called with where the pointer is (None: not here), while other people are shown.
+        on_gesture: called with every gesture (see `vicode.editor.canvas.protocol`); may be a coroutine function.
+        on_pointer: called with the pointer position (None: outside the canvas) while other users are shown.
     """
 
-    def __init__(self, on_gesture: OnGesture, on_pointer: OnPointer = lambda _at: None) -> None:
+    def __init__(self, on_gesture: OnGesture, on_pointer: OnPointer = lambda _position: None) -> None:
         super().__init__()
-        # Not by a call after mounting: no key shall come too early.
+        # Passed as a property and not by a call after mounting, so that the first key press finds the commands.
         self._props["commands"] = commands_json()
         self._on_gesture, self._on_pointer = on_gesture, on_pointer
         self._presence: list[RemoteUser] = []
@@ -54,7 +54,7 @@ class Canvas(ui.element, component=CANVAS_JS / "vicode_canvas.js"):
         self._breakpoints: list[SceneItem] = []
         self._acknowledged = -1
         self._sent = -1
-        # Handlers added after the first rendering would make NiceGUI mount the element anew.
+        # NiceGUI remounts an element when handlers are added after its first rendering.
         self.on("gesture", self._handle_gesture)
         self.on("ready", self._handle_ready)
         self.on("ack", self._handle_ack)
@@ -62,90 +62,90 @@ class Canvas(ui.element, component=CANVAS_JS / "vicode_canvas.js"):
         self.on("presence-painted", self._handle_presence_painted)
 
     def load(self, view: Scene) -> None:
-        """Show a whole scene; the view is kept when it is the same component as before, else all is fitted in."""
-        self._scene = {**view, **{kind: {thing["id"]: thing for thing in view.get(kind, ())} for kind in _KINDS}}
+        """Replace the scene. The view is kept if the component is the same as before; otherwise the scene is fitted."""
+        self._scene = {**view, **{kind: {item["id"]: item for item in view.get(kind, ())} for kind in _KINDS}}
         if not self._is_mounted:
             self._embed_scene()
         self._call("load", self._full_scene())
 
     def apply(self, changes: SceneChanges) -> None:
-        """Bring the shown scene up to date by a difference."""
+        """Apply a difference to the scene."""
         if self._scene is None:
-            raise RuntimeError("apply() needs a scene: call load() first")
+            raise RuntimeError("apply() requires a scene: call load() first")
         self._scene["rev"], self._embedded_rev = changes["rev"], None
         for kind, ids in changes.get("remove", {}).items():
             for identity in ids:
                 self._scene[kind].pop(identity, None)
-        for kind, things in changes.get("upsert", {}).items():
-            self._scene[kind].update({thing["id"]: thing for thing in things})
+        for kind, items in changes.get("upsert", {}).items():
+            self._scene[kind].update({item["id"]: item for item in items})
         if "common" in changes:
             self._scene["common"] = changes["common"]
         self._call("apply", dict(changes))
 
     def select(self, items: Iterable[SceneItem]) -> None:
-        """Select exactly these things; no gesture is reported for it."""
-        wanted = list(items)
-        if wanted == self._selected:
-            # The hand may be a selection ahead by now: what it told is not told back to it.
+        """Set the selection; no gesture is reported for it."""
+        selected = list(items)
+        if selected == self._selected:
+            # The browser may already have a newer selection: do not echo the one that it reported.
             return
-        self._selected = wanted
+        self._selected = selected
         self._call("select", self._selected, self._acked_seq)
 
     def centre(self, of: ElementKind, identity: str) -> None:
-        """Bring one thing to the middle, large enough to be read."""
+        """Center one element at a readable zoom."""
         self._call("centre", of, identity)
 
     def scroll_to_initial(self, of: ElementKind, identity: str) -> None:
-        """Bring one thing into view once the page is there; where the view was kept by the browser, it stays."""
+        """Center one element once the page is mounted; a view restored from the browser's history only reveals it."""
         self._initial_target = (of, identity)
         self._call("scrollToInitial", of, identity)
 
     def fit(self) -> None:
-        """Show everything."""
+        """Fit the whole scene into the view."""
         self._call("fit")
 
     def rename_in_place(self, state: str) -> None:
-        """Open the name of a state for typing, as after creating it."""
+        """Open the inline rename field of a state."""
         self._pending_rename = state
         if self._is_mounted:
             self._send_renaming()
 
     def state_renamed(self, old: str, new: str) -> None:
-        """Tell that a drawn state is the same under another name, so that a name being typed there goes on."""
+        """Report that another user renamed a state, so that an open rename field stays open."""
         self._call("stateRenamed", old, new)
 
     def run_command(self, command: str) -> None:
-        """Do what a command of the canvas does, as if its key had been pressed."""
+        """Run a canvas command, as if its shortcut had been pressed."""
         self._call("runCommand", command)
 
     def focus(self) -> None:
-        """Let the keys work on the canvas."""
+        """Move the keyboard focus to the canvas."""
         self._call("focus")
 
     def write_clipboard(self, text: str | None) -> None:
-        """Answer a `Copy`: with its text, or None when there is nothing to copy."""
+        """Answer a copy gesture with its text; None if there is nothing to copy."""
         self._call("writeClipboard", text)
 
     def show_tooltip(self, of: str, identity: str, sections: Sequence[Mapping[str, str]]) -> None:
-        """Answer a `Peek`: sections of a name and a text, shown if the card is still there."""
+        """Answer a tooltip gesture with sections of a name and a text; ignored if the tooltip was closed."""
         self._call("showTooltip", {"of": of, "id": identity, "sections": list(sections)})
 
     def show_preview(self, positions: Sequence[NodePosition]) -> None:
-        """Show things at other places without taking them; Enter and Escape are reported. None of them ends it."""
+        """Preview node positions; Enter and Escape are reported. An empty sequence ends the preview."""
         self._call("showPreview", list(positions), False)
 
     def end_preview(self) -> None:
-        """End a preview and keep the view, as its places were taken."""
+        """End a preview whose positions were applied; the view stays."""
         self._call("showPreview", [], True)
 
     def highlight_active(self, ids: Sequence[str], seq: int, transitions: Sequence[str] = ()) -> None:
-        """Highlight the states that are active in a running component, and the transitions that led there.
+        """Highlight the active states of a running component and the transitions taken last.
 
-        Only the newest is shown: while a browser has not painted one, later ones wait and replace each other.
+        Until the browser has painted a call, only the newest later call is kept.
 
         Args:
             ids: the active states.
-            seq: a number that grows with every call; an older one is ignored.
+            seq: increases with every call; calls with a smaller number are ignored.
             transitions: the transitions taken last.
         """
         if seq <= self._active[1]:
@@ -155,36 +155,36 @@ class Canvas(ui.element, component=CANVAS_JS / "vicode_canvas.js"):
             self._send_active()
 
     def set_breakpoints(self, items: Iterable[SceneItem]) -> None:
-        """Show signs at exactly these things, where a run is to rest."""
+        """Set the elements that show a breakpoint sign."""
         self._breakpoints = list(items)
         self._call("setBreakpoints", self._breakpoints)
 
     def show_presence(self, others: Sequence[RemoteUser]) -> None:
-        """Show what other people have selected, and their pointers; only the newest, once the last was painted."""
+        """Show selections and pointers of other users; only the newest call is sent once the last one was painted."""
         self._presence, self._presence_pending = list(others), True
         if self._presence_painted:
             self._send_presence()
 
     def show_links(self, flag: bool) -> None:
-        """Show or hide what states require and modulate."""
+        """Show or hide the links between states and components."""
         self._links_shown = flag
         self._call("showLinks", flag)
 
     def _call(self, method: str, *arguments: object) -> None:
-        # Before the element is mounted a call would be lost; `_handle_ready` sends everything then.
+        # A call before mounting would be lost; `_handle_ready` sends everything.
         if self._is_mounted:
             self.run_method(method, *arguments)
 
     def _embed_scene(self) -> None:
-        """Let the scene travel with the page, so that it is drawn before the page's socket is open.
+        """Embed the scene in the page, so that it is drawn before the page's socket is open.
 
-        As a text beside NiceGUI's elements: what is among them is escaped sign by sign, which took longest of all.
+        The scene is a separate script element: NiceGUI escapes its own elements character by character, which is slow.
         """
         self._remove_embedded_scene()
         scene, client = self._full_scene(), self.client
         if client._response_built:
             return
-        # With no such sign nothing in it can end the script, or begin a comment.
+        # Without "<" the text can neither end the script nor start a comment.
         text = json.dumps(scene).replace("<", "\\u003c")
         name = f"scene-{self.id}"
         self._embedded_script = f'<script type="application/json" id="{name}">{text}</script>'
@@ -192,7 +192,7 @@ class Canvas(ui.element, component=CANVAS_JS / "vicode_canvas.js"):
         self._props["scene"], self._embedded_rev = name, scene["rev"]
 
     def _remove_embedded_scene(self) -> None:
-        """Forget the text, which NiceGUI would keep as long as the page is open."""
+        """Drop the embedded scene; NiceGUI would keep it as long as the page is open."""
         if self._embedded_script:
             self.client._body_html = self.client._body_html.replace(self._embedded_script, "")
         self._embedded_script, self._embedded_rev = "", None
@@ -216,8 +216,8 @@ class Canvas(ui.element, component=CANVAS_JS / "vicode_canvas.js"):
             self._call("showPresence", self._presence)
 
     def _handle_pointer(self, event: GenericEventArguments) -> None:
-        at = event.args["at"]
-        point = (float(at["x"]), float(at["y"])) if at else None
+        position = event.args["at"]
+        point = (float(position["x"]), float(position["y"])) if position else None
         if point is None or all(math.isfinite(number) for number in point):
             self._on_pointer(point)
 
@@ -236,7 +236,7 @@ class Canvas(ui.element, component=CANVAS_JS / "vicode_canvas.js"):
 
     def _handle_ready(self, event: GenericEventArguments) -> None:
         self._is_mounted = True
-        # A page that is new shows what came with it, and somebody may have begun to work on that.
+        # A new page already shows the embedded scene, and the user may have started to edit it.
         is_new = self._embedded_rev is not None and event.args.get("rev") == self._embedded_rev
         self._remove_embedded_scene()
         if self._scene is not None and not is_new:
@@ -249,7 +249,7 @@ class Canvas(ui.element, component=CANVAS_JS / "vicode_canvas.js"):
         if self._initial_target:
             self._call("scrollToInitial", *self._initial_target)
             self._initial_target = None
-        # A state made before this was heard, as what a page says while it opens comes in any order.
+        # The events of an opening page arrive in any order: a state may have been created before "ready".
         self._send_renaming()
         self._call("setBreakpoints", self._breakpoints)
         self._send_presence()

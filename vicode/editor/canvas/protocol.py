@@ -1,26 +1,24 @@
-"""The shapes that cross the border between Python and the canvas: scenes and changes down, gestures up."""
+"""Data exchanged with the canvas in the browser: scenes and scene changes to it, gestures from it."""
 
 from collections.abc import Awaitable, Callable, Mapping
 from typing import Any, Literal, NotRequired, TypedDict
 
-Scene = Mapping[
-    str, Any
-]  # {"rev", "component", "states", "transitions", "components", "links", "common", …}, built by the editor's view
-SceneChanges = Mapping[
-    str, Any
-]  # {"rev", "upsert": {kind: [things]}, "remove": {kind: [ids]}, "common" only if it changed}
+# {"rev", "component", "states", "transitions", "components", "links", "common", …}, built by `vicode.editor.view`.
+Scene = Mapping[str, Any]
+# {"rev", "upsert": {kind: [items]}, "remove": {kind: [ids]}, "common" only if it changed}
+SceneChanges = Mapping[str, Any]
 ElementKind = Literal["states", "transitions", "components", "links", "common"]
 
 
 class SceneItem(TypedDict):
-    """A thing in the scene."""
+    """Reference to an element of the scene."""
 
     of: ElementKind
     id: str
 
 
 class RemoteUser(TypedDict):
-    """Another person: the number of a colour, what is selected there, where the pointer is (None: nowhere here)."""
+    """Another user: color number, selection, and pointer position (None: outside the canvas)."""
 
     name: str
     colour: int
@@ -29,7 +27,7 @@ class RemoteUser(TypedDict):
 
 
 class NodePosition(TypedDict):
-    """A node and the centre it was moved to, in world units."""
+    """A node and its center, in world units."""
 
     of: ElementKind
     id: str
@@ -38,27 +36,27 @@ class NodePosition(TypedDict):
 
 
 class SelectGesture(TypedDict):
-    """The selection changed by hand; empty when nothing is selected any more."""
+    """The user changed the selection; `items` may be empty."""
 
     kind: Literal["select"]
     rev: int
     items: list[SceneItem]
     client_seq: int
-    """How many selections by hand were told, this one included."""
+    """Number of selections reported so far, including this one."""
 
 
 class MoveGesture(TypedDict):
-    """Nodes were moved; the canvas already shows them there and accepts the echo (or a correction)."""
+    """The user moved nodes. The canvas already shows the new positions and accepts an echo or a correction."""
 
     kind: Literal["move"]
     rev: int
     items: list[NodePosition]
     how: str
-    """By which command: "drag", "nudge", "align-left" …"""
+    """Command that moved them: "drag", "nudge", "align-left", …"""
 
 
 class DeleteGesture(TypedDict):
-    """The selected things are to go."""
+    """Delete elements."""
 
     kind: Literal["delete"]
     rev: int
@@ -66,7 +64,7 @@ class DeleteGesture(TypedDict):
 
 
 class ConnectGesture(TypedDict):
-    """A new transition; without a target, a new state is wanted at (x, y) first. The source may be `@common`."""
+    """Add a transition. Without a target, create a state at (x, y) first. The source may be `@common`."""
 
     kind: Literal["connect"]
     rev: int
@@ -77,7 +75,7 @@ class ConnectGesture(TypedDict):
 
 
 class ReconnectGesture(TypedDict):
-    """One end of a transition was taken to another state (or, the source only, to `@common`)."""
+    """Move one end of a transition to another state; the source may also become `@common`."""
 
     kind: Literal["reconnect"]
     rev: int
@@ -87,10 +85,10 @@ class ReconnectGesture(TypedDict):
 
 
 class LinkGesture(TypedDict):
-    """A state is to require or to modulate a component.
+    """Let a state require or modulate a component.
 
-    Drawn from the component it means `requires`. Drawn from the state it means `modulates`, but `requires` where the
-    scene's component says `"parameters": 0`; without that key its parameters are unknown.
+    A link drawn from the component is `requires`. A link drawn from the state is `modulates`, or `requires` if the
+    component has `"parameters": 0` in the scene; without that key its parameters are unknown.
     """
 
     kind: Literal["link"]
@@ -101,7 +99,7 @@ class LinkGesture(TypedDict):
 
 
 class CreateGesture(TypedDict):
-    """A new state is wanted with its centre at (x, y)."""
+    """Create a state with its center at (x, y)."""
 
     kind: Literal["create"]
     rev: int
@@ -110,7 +108,7 @@ class CreateGesture(TypedDict):
 
 
 class RenameGesture(TypedDict):
-    """A state (or a component's alias) got another name; it is never empty, but may be taken or no name at all."""
+    """Rename a state or a component's alias. The name is not empty, but may be taken or invalid."""
 
     kind: Literal["rename"]
     rev: int
@@ -120,7 +118,7 @@ class RenameGesture(TypedDict):
 
 
 class OpenGesture(TypedDict):
-    """A double click (or Enter) on something that is not renamed: show it, its design or its code."""
+    """Open an element that is not renamed in place (double-click or Enter): its guard, design or code."""
 
     kind: Literal["open"]
     rev: int
@@ -129,7 +127,7 @@ class OpenGesture(TypedDict):
 
 
 class DisableGesture(TypedDict):
-    """States and transitions are to be disabled, or enabled when all of them are disabled."""
+    """Disable states and transitions; enable them if all of them are disabled."""
 
     kind: Literal["disable"]
     rev: int
@@ -137,7 +135,7 @@ class DisableGesture(TypedDict):
 
 
 class CopyGesture(TypedDict):
-    """The text of these things is wanted for the clipboard; `write_clipboard` answers."""
+    """Request the elements as text for the clipboard; `write_clipboard` answers."""
 
     kind: Literal["copy"]
     rev: int
@@ -145,7 +143,7 @@ class CopyGesture(TypedDict):
 
 
 class PasteGesture(TypedDict):
-    """A text from the clipboard is to become part of the design, its middle at (x, y)."""
+    """Insert a text from the clipboard into the design, centered at (x, y)."""
 
     kind: Literal["paste"]
     rev: int
@@ -155,7 +153,7 @@ class PasteGesture(TypedDict):
 
 
 class DuplicateGesture(TypedDict):
-    """The selected things are wanted once more, a little beside."""
+    """Duplicate elements at a small offset."""
 
     kind: Literal["duplicate"]
     rev: int
@@ -163,7 +161,7 @@ class DuplicateGesture(TypedDict):
 
 
 class ReorderGesture(TypedDict):
-    """A transition is to be tested earlier or later: `by` -1 or 1, or where the transition `onto` is tested now."""
+    """Change the priority of a transition: by -1 or 1 (`by`), or to the priority of the transition `onto`."""
 
     kind: Literal["reorder"]
     rev: int
@@ -173,7 +171,7 @@ class ReorderGesture(TypedDict):
 
 
 class LabelGesture(TypedDict):
-    """A label was put on a part of the way (0 to 1) and pixels beside it; None: wherever there is room."""
+    """Position a label: fraction along the curve (0 to 1) and offset from it in pixels; None: automatic."""
 
     kind: Literal["label"]
     rev: int
@@ -182,7 +180,7 @@ class LabelGesture(TypedDict):
 
 
 class StateFlagGesture(TypedDict):
-    """A state is to be the initial one, or final or no longer so."""
+    """Make a state the initial state, or toggle whether it is final."""
 
     kind: Literal["mark"]
     rev: int
@@ -191,7 +189,7 @@ class StateFlagGesture(TypedDict):
 
 
 class UseGesture(TypedDict):
-    """A component is to be used at (x, y): the one a dropped link leads to, else one to be chosen."""
+    """Add a component at (x, y): the one at the address of a dropped link, or one that the user chooses."""
 
     kind: Literal["use"]
     rev: int
@@ -201,7 +199,7 @@ class UseGesture(TypedDict):
 
 
 class CommandGesture(TypedDict):
-    """A command of the page is wanted, by its name."""
+    """Run a command of the page."""
 
     kind: Literal["command"]
     rev: int
@@ -209,7 +207,7 @@ class CommandGesture(TypedDict):
 
 
 class TooltipGesture(TypedDict):
-    """The pointer or the keys rest on a thing: its card is shown, and `show_tooltip` may tell more of it."""
+    """A tooltip opened for an element; `show_tooltip` may add sections to it."""
 
     kind: Literal["tooltip"]
     rev: int
@@ -218,7 +216,7 @@ class TooltipGesture(TypedDict):
 
 
 class PreviewGesture(TypedDict):
-    """Enter or Escape was pressed while other places are shown: they are wanted, or not."""
+    """The user accepted (Enter) or rejected (Escape) a layout preview."""
 
     kind: Literal["preview"]
     rev: int
@@ -226,7 +224,7 @@ class PreviewGesture(TypedDict):
 
 
 class HistoryGesture(TypedDict):
-    """Ctrl+Z, Ctrl+Shift+Z or Ctrl+Y were pressed on the canvas."""
+    """Ctrl+Z, Ctrl+Shift+Z or Ctrl+Y was pressed on the canvas."""
 
     kind: Literal["undo", "redo"]
     rev: int

@@ -1,4 +1,4 @@
-"""What our code editors add to NiceGUI's: completion asked of the server, marks under characters, ways by keyboard."""
+"""Extensions of NiceGUI's code editor: completion by the server, marks under the text, keyboard access."""
 
 from vicode.editor.code.element import CodeAssist
 

@@ -1,4 +1,4 @@
-"""The Python side of a code editor's aid: answers what may be written, and sends the marks to show."""
+"""Python side of the code editor extensions: answers completion requests and sends marks."""
 
 from collections.abc import Callable, Iterable
 from dataclasses import asdict
@@ -15,19 +15,19 @@ _MAX_TEXT_LENGTH = 200_000
 
 
 Complete = Callable[[str, int], CompletionResult]
-"""What may be written in a text at a character."""
+"""Computes the completions of a text at a character offset."""
 
 
 class CodeAssist(ui.element, component=CODE_JS / "vicode_code.js"):
-    """Stands beside a code editor and helps who writes in it; it shows nothing itself.
+    """Invisible element that extends a code editor with completion, marks and line styles.
 
     Args:
         editor: the code editor.
-        label: its name for screen readers.
-        complete: answers what may be written; None for an editor that asks nobody.
-        is_expression: coloured as an expression, and left by Tab like any field.
-        hint: shown while it is empty.
-        on_line_selected: called with the line that was clicked or reached by keyboard in it; None if nobody wants to know.
+        label: its accessible name.
+        complete: computes completions; None for an editor without completion.
+        is_expression: highlight the text as an expression, and let Tab leave the editor.
+        hint: placeholder of the empty editor.
+        on_line_selected: called with the line number when the user moves the cursor.
     """
 
     def __init__(
@@ -53,32 +53,32 @@ class CodeAssist(ui.element, component=CODE_JS / "vicode_code.js"):
             "hint": hint,
             "reportsLine": on_line_selected is not None,
         }
-        # Handlers added after the first rendering would make NiceGUI mount the element anew.
+        # NiceGUI remounts an element when handlers are added after its first rendering.
         self.on("ready", self._on_ready)
         self.on("complete", self._on_complete)
         self.on("line", self._on_line_event)
 
     def show_marks(self, text: str, marks: Iterable[CodeMark]) -> None:
-        """Underline characters of a text; nothing is shown if something else stands in the editor by then."""
+        """Underline characters of a text; ignored if the editor's text differs from `text`."""
         rows = [asdict(mark) for mark in marks]
         if (text, rows) != self._sent_marks:
             self._sent_marks = (text, rows)
             self._call("showMarks", text, rows)
 
     def highlight_lines(self, first: int, last: int, *, reveal: bool = True) -> None:
-        """Bring lines forward, counted from 1, and scroll to them; none for 0."""
+        """Highlight lines, counted from 1, and scroll to them; `first=0` removes the highlight."""
         self._call("highlightLines", first, last, reveal)
 
     def set_line_styles(self, lines: Iterable[tuple[int, str]]) -> None:
-        """Give lines a style class and take it from all others: pairs of a line and a class."""
-        self._call("setLineStyles", [list(each) for each in lines])
+        """Replace all line styles; `lines` are pairs of a line number and a CSS class."""
+        self._call("setLineStyles", [list(line) for line in lines])
 
     def go_to(self, start: int) -> None:
-        """Put the cursor to a character, and the focus into the editor."""
+        """Move the cursor to a character offset and focus the editor."""
         self._call("goTo", start)
 
     def _call(self, method: str, *arguments: object) -> None:
-        # Before it is mounted a call would be lost; only the newest of its kind counts.
+        # A call before mounting would be lost; only the latest call of each method counts.
         if self._is_mounted:
             self.run_method(method, *arguments)
         else:
@@ -93,8 +93,8 @@ class CodeAssist(ui.element, component=CODE_JS / "vicode_code.js"):
         number, text, offset = _parse_request(event.args)
         answer: dict[str, Any] = {"start": offset, "options": []}
         if self._complete is not None and len(text) <= _MAX_TEXT_LENGTH:
-            found = self._complete(text, offset)
-            answer = {"start": found.start, "options": [asdict(option) for option in found.options]}
+            result = self._complete(text, offset)
+            answer = {"start": result.start, "options": [asdict(option) for option in result.options]}
         self.run_method("answer", number, answer)
 
     def _on_line_event(self, event: GenericEventArguments) -> None:
@@ -103,9 +103,10 @@ class CodeAssist(ui.element, component=CODE_JS / "vicode_code.js"):
 
 
 def _parse_request(payload: Any) -> tuple[int, str, int]:
-    """A question of a browser, in which nothing is trusted."""
-    wanted = payload if isinstance(payload, dict) else {}
-    number, text, offset = wanted.get("number"), wanted.get("text"), wanted.get("offset")
-    whole = text if isinstance(text, str) else ""
-    at = offset if isinstance(offset, int) else 0
-    return (number if isinstance(number, int) else 0, whole, max(0, min(at, len(whole))))
+    """Decode a completion request; every field is validated, since it comes from a browser."""
+    request = payload if isinstance(payload, dict) else {}
+    number, text, offset = request.get("number"), request.get("text"), request.get("offset")
+    number = number if isinstance(number, int) else 0
+    text = text if isinstance(text, str) else ""
+    offset = offset if isinstance(offset, int) else 0
+    return (number, text, max(0, min(offset, len(text))))

@@ -16,21 +16,21 @@ _WORDS = {
     "common": ("common part", "common parts"),
 }
 _ALIGN = (
-    ("align-left", "align_horizontal_left", "Align left sides (Alt+A)"),
+    ("align-left", "align_horizontal_left", "Align left edges (Alt+A)"),
     ("align-centre", "align_horizontal_center", "Align centres (Alt+H)"),
-    ("align-right", "align_horizontal_right", "Align right sides (Alt+D)"),
-    ("align-top", "align_vertical_top", "Align tops (Alt+W)"),
+    ("align-right", "align_horizontal_right", "Align right edges (Alt+D)"),
+    ("align-top", "align_vertical_top", "Align top edges (Alt+W)"),
     ("align-middle", "align_vertical_center", "Align middles (Alt+V)"),
-    ("align-bottom", "align_vertical_bottom", "Align bottoms (Alt+S)"),
+    ("align-bottom", "align_vertical_bottom", "Align bottom edges (Alt+S)"),
 )
 _SPREAD = (
-    ("distribute-across", "horizontal_distribute", "Equal gaps across (Alt+Shift+H)"),
-    ("distribute-down", "vertical_distribute", "Equal gaps downwards (Alt+Shift+V)"),
+    ("distribute-across", "horizontal_distribute", "Distribute horizontally (Alt+Shift+H)"),
+    ("distribute-down", "vertical_distribute", "Distribute vertically (Alt+Shift+V)"),
 )
 _EDIT = (
     ("duplicate", "content_copy", "Duplicate (Ctrl+D)"),
-    ("disable", "block", "Disable, or enable again (D)"),
-    ("zoom-selection", "zoom_in_map", "Zoom to the selection (2)"),
+    ("disable", "block", "Disable or enable (D)"),
+    ("zoom-selection", "zoom_in_map", "Zoom to selection (2)"),
     ("delete", "delete", "Delete (Delete)"),
 )
 

@@ -1,4 +1,4 @@
-"""The table: our own NiceGUI element that shows a design as rows and cells; the design stays in Python."""
+"""A NiceGUI element that shows a design as an editable table; the design stays in Python."""
 
 from vicode.editor.table.element import TableGrid
 

@@ -1,4 +1,4 @@
-"""The Python side of the table: keeps what is shown, so that a page that mounts late or again gets it all."""
+"""Python side of the table. It keeps the displayed rows, so that an element that mounts late or again receives them."""
 
 from collections.abc import Callable, Iterable, Mapping
 from typing import Any
@@ -12,11 +12,11 @@ Payload = Mapping[str, Any]
 
 
 class TableGrid(ui.element, component=TABLE_JS / "vicode_table.js"):
-    """The rows of a design (see `vicode.editor.view.table`), as a tree grid that keys alone can steer.
+    """Tree grid with the rows of a design (see `vicode.editor.view.table`), fully usable by keyboard.
 
     Args:
-        on_edit: called with every wish to change something (see `vicode.editor.session.table_edits`).
-        on_select: called with the id of the row that is worked on.
+        on_edit: called with every edit that the user requests (see `vicode.editor.session.table_edits`).
+        on_select: called with the id of the current row.
     """
 
     def __init__(self, on_edit: Callable[[Payload], None], on_select: Callable[[str], None]) -> None:
@@ -26,45 +26,45 @@ class TableGrid(ui.element, component=TABLE_JS / "vicode_table.js"):
         self._selected: list[str] = []
         self._is_mounted = False
         self._is_focus_pending = False
-        # Handlers added after the first rendering would make NiceGUI mount the element anew.
+        # NiceGUI remounts an element when handlers are added after its first rendering.
         self.on("edit", self._on_edit_event)
         self.on("select", self._on_select_event)
         self.on("ready", self._on_ready)
 
     def load(self, table: Mapping[str, Any]) -> None:
-        """Show a whole table."""
+        """Replace the table."""
         self._table = dict(table)
         self._call("load", self._table)
 
     def apply(self, table: Mapping[str, Any], changes: Mapping[str, Any]) -> None:
-        """Show another table, that differs by `changes` from the one shown."""
+        """Show `table`, which differs from the current one by `changes`."""
         self._table = dict(table)
         self._call("apply", dict(changes))
 
     def select(self, rows: Iterable[str]) -> None:
-        """Mark exactly these rows, and bring the first of them into sight."""
-        wanted = list(rows)
-        if wanted == self._selected:
-            # The hand may be some rows ahead by now: what it told is not told back to it.
+        """Set the selected rows and scroll to the first of them."""
+        selected = list(rows)
+        if selected == self._selected:
+            # The browser may already have a newer selection: do not echo the one that it reported.
             return
-        self._selected = wanted
+        self._selected = selected
         self._call("select", self._selected)
 
     def edit_cell(self, row: str, column: str) -> None:
-        """Open a cell for typing."""
+        """Open the editor of a cell."""
         self._call("editCell", row, column)
 
-    def show_error(self, payload: Payload, words: str) -> None:
-        """Tell why an edit was not done; what was typed stays to be mended."""
-        self._call("showError", dict(payload), words)
+    def show_error(self, payload: Payload, message: str) -> None:
+        """Show why an edit was refused; the cell is opened again with the typed text."""
+        self._call("showError", dict(payload), message)
 
     def focus_grid(self) -> None:
-        """Let the keys work here."""
+        """Move the keyboard focus to the table."""
         self._is_focus_pending = not self._is_mounted
         self._call("focusGrid")
 
     def _call(self, method: str, *arguments: object) -> None:
-        # Before the element is mounted a call would be lost; `_on_ready` sends everything then.
+        # A call before mounting would be lost; `_on_ready` sends everything.
         if self._is_mounted:
             self.run_method(method, *arguments)
 

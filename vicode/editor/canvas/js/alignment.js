@@ -1,4 +1,4 @@
-// Where boxes go when they are lined up, spread out, or put down where there is room. Pure functions.
+// Positions of nodes after aligning and distributing, and free positions for new states. Pure functions.
 import { bounds, grow, overlaps, rectAround, nodeRect, snap } from "./geometry.js";
 
 const NEW_STATE = { w: 120, h: 60 };
@@ -15,14 +15,14 @@ const SIDES = {
   bottom: (box, all) => ({ y: all.y + all.h - box.h / 2 }),
 };
 
-/** New centres by key for boxes lined up at one side of the frame around them; `how` is "align-left" and so on. */
+/** Returns the new centers, by key, of nodes aligned at one side of their common bounds; `how` is "align-left", … */
 export function align(boxes, how) {
   const all = bounds(boxes.map(nodeRect));
-  const place = SIDES[how.replace("align-", "")];
-  return new Map(boxes.map((box) => [box.key, whole({ x: box.x, y: box.y, ...place(box, all) })]));
+  const alignedCenter = SIDES[how.replace("align-", "")];
+  return new Map(boxes.map((box) => [box.key, rounded({ x: box.x, y: box.y, ...alignedCenter(box, all) })]));
 }
 
-/** New centres by key with the same gap between neighbours; the first and the last stay. */
+/** Returns the new centers, by key, of nodes with equal gaps between them; the first and the last node stay. */
 export function distribute(boxes, how) {
   const [axis, size] = how === "distribute-across" ? ["x", "w"] : ["y", "h"];
   const row = [...boxes].sort((a, b) => a[axis] - b[axis]);
@@ -31,28 +31,28 @@ export function distribute(boxes, how) {
   const inside = row.slice(1, -1).reduce((sum, box) => sum + box[size], 0);
   const gap = (last[axis] - last[size] / 2 - (first[axis] + first[size] / 2) - inside) / (row.length - 1);
   let edge = first[axis] + first[size] / 2;
-  const places = new Map();
+  const positions = new Map();
   for (const box of row.slice(1, -1)) {
-    places.set(box.key, whole({ x: box.x, y: box.y, [axis]: edge + gap + box[size] / 2 }));
+    positions.set(box.key, rounded({ x: box.x, y: box.y, [axis]: edge + gap + box[size] / 2 }));
     edge += gap + box[size];
   }
-  return places;
+  return positions;
 }
 
-/** The nearest place to (x, y), to the right and then below, where a new state covers no box. */
+/** Returns the nearest position to the right of or below (x, y) where a new state covers no node. */
 export function findFreePosition(scene, x, y) {
   for (let ring = 0, tries = 0; tries < MAX_TRIES; ring += 1) {
     for (let column = 0; column <= ring; column += 1, tries += 1) {
-      const at = { x: snap(x + column * STEP.x), y: snap(y + (ring - column) * STEP.y) };
-      if (isFree(scene, at)) return at;
+      const position = { x: snap(x + column * STEP.x), y: snap(y + (ring - column) * STEP.y) };
+      if (isFree(scene, position)) return position;
     }
   }
   return { x: snap(x), y: snap(y) };
 }
 
 function isFree(scene, { x, y }) {
-  const room = grow(rectAround(x, y, NEW_STATE.w, NEW_STATE.h), GAP);
-  return ![...scene.nodeGrid.query(room)].some((key) => overlaps(nodeRect(scene.nodes.get(key)), room));
+  const area = grow(rectAround(x, y, NEW_STATE.w, NEW_STATE.h), GAP);
+  return ![...scene.nodeGrid.query(area)].some((key) => overlaps(nodeRect(scene.nodes.get(key)), area));
 }
 
-const whole = ({ x, y }) => ({ x: Math.round(x), y: Math.round(y) });
+const rounded = ({ x, y }) => ({ x: Math.round(x), y: Math.round(y) });

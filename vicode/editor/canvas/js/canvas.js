@@ -1,4 +1,4 @@
-// The canvas itself: puts the parts together, and is what Python's methods reach.
+// The canvas: assembles its parts and implements the methods that Python calls.
 import { Clipboard } from "./clipboard.js";
 import { Commands } from "./commands.js";
 import { bounds, nodeRect } from "./geometry.js";
@@ -19,6 +19,7 @@ import { InlineRename } from "./inline_rename.js";
 import { Router } from "./routing.js";
 import { keyOf, Scene } from "./scene.js";
 import { Selection } from "./selection.js";
+import { DIAGRAM, EMPTY, STAGE_ROLE, stageName } from "./strings.js";
 import { html } from "./svg.js";
 import { awaitFonts, onFontsLoaded } from "./text_metrics.js";
 import { Theme } from "./theme.js";
@@ -30,10 +31,10 @@ const DIM_MS = 120;
 const TOAST_MS = 3000;
 
 const sheet = new CSSStyleSheet();
-const [look] = await Promise.all([fetch(new URL("./canvas.css", import.meta.url)), awaitFonts()]);
-sheet.replaceSync(await look.text());
+const [styles] = await Promise.all([fetch(new URL("./canvas.css", import.meta.url)), awaitFonts()]);
+sheet.replaceSync(await styles.text());
 
-/** Draws into `host` (in a shadow root) and reports gestures by `emit(event, payload)`; `table` holds the commands. */
+/** Mounts a canvas in the shadow root of `host`; it reports events by `emit(event, payload)`. `table`: the commands. */
 export const mountCanvas = (host, emit, table) => new Canvas(host, emit, table);
 
 class Canvas {
@@ -54,15 +55,15 @@ class Canvas {
   }
 
   load(view) {
-    const same = view.component === this.scene.component;
-    const kept = same ? [...this.selection.keys] : [];
+    const isSame = view.component === this.scene.component;
+    const kept = isSame ? [...this.selection.keys] : [];
     this.gestures.cancel();
     this.painter.clear();
     this.router.clear();
     this.scene.load(view);
     this.nudge.reset();
     this.theme.set(view.theme);
-    this.fitPending = this.fitPending || !same;
+    this.fitPending = this.fitPending || !isSame;
     this.selection.keys = new Set();
     this.selection.set(kept, { quiet: true });
     this.painter.mark("breakpoint", this.breakpoints ?? []);
@@ -80,20 +81,20 @@ class Canvas {
     this.#sceneChanged();
   }
 
-  /** What Python wishes to be selected; it is too late when the hand selected anew before Python had heard of `seq`. */
+  /** Selection by Python; ignored if the user has changed the selection since the one that Python acknowledges by `seq`. */
   select(items, seq = this.clientSeq) {
     if (seq !== this.clientSeq) return;
     this.selection.set(items.map(({ of, id }) => keyOf(of, id)), { quiet: true });
   }
 
   centre(of, id) {
-    const thing = this.scene.find(keyOf(of, id));
-    if (!thing) return;
-    const { x, y } = this.scene.nodes.has(thing.key) ? thing : this.scene.isDrawable(thing) ? this.router.route(thing).at : this.viewport.middle();
+    const element = this.scene.find(keyOf(of, id));
+    if (!element) return;
+    const { x, y } = this.scene.nodes.has(element.key) ? element : this.scene.isDrawable(element) ? this.router.route(element).at : this.viewport.middle();
     this.viewport.centreOn(x, y, Math.max(this.viewport.k, 0.6));
   }
 
-  /** Brings a thing into view as the page opens; the view of a page that was left and is come back to stays. */
+  /** Centers an element as the page opens; a view restored from the browser's history only reveals it. */
   scrollToInitial(of, id) {
     return this.restoredView ? this.reveal(keyOf(of, id)) : this.centre(of, id);
   }
@@ -108,7 +109,7 @@ class Canvas {
     this.fitted = { x, y, k };
   }
 
-  /** Shows what is selected, with the ends of its transitions. */
+  /** Fits the selection, including the end nodes of selected edges. */
   zoomToSelection() {
     const keys = [...this.selection.keys].flatMap((key) => {
       const edge = this.scene.edges.get(key);
@@ -118,7 +119,7 @@ class Canvas {
     if (extent && this.viewport.measure()) this.viewport.fit(extent);
   }
 
-  /** Highlights the states a running component is in; an older picture never replaces a newer one. */
+  /** Highlights the active states of a running component; calls with an older sequence number are ignored. */
   highlightActive(ids, seq, taken = []) {
     if (seq <= this.activeSeq) return;
     this.activeSeq = seq;
@@ -130,7 +131,7 @@ class Canvas {
     });
   }
 
-  /** Shows signs at the things where a run is to rest. */
+  /** Shows breakpoint signs at exactly these elements. */
   setBreakpoints(items) {
     this.breakpoints = items.map(({ of, id }) => keyOf(of, id));
     this.painter.mark("breakpoint", this.breakpoints);
@@ -157,7 +158,7 @@ class Canvas {
     this.theme.dispose();
   }
 
-  /** Shows other places, given as `{of, id, x, y}`, without taking them; none ends it. `stay`: the view stays too. */
+  /** Previews node positions `{of, id, x, y}`; an empty list ends the preview. `stay`: keep the view at its end. */
   showPreview(items, stay) {
     if (items.length) this.preview.show(items.map(({ of, id, x, y }) => ({ key: keyOf(of, id), x, y })));
     else this.preview.clear({ stay });
@@ -169,17 +170,17 @@ class Canvas {
     this.emit("gesture", { kind, ...payload, rev: this.scene.rev });
   }
 
-  /** Moves boxes by a command; `how` says by which, for the name of the edit. */
-  moveNodes(places, how) {
-    const keys = [...places.keys()];
+  /** Moves nodes to `positions` (by key); `how` is the command, for the name of the edit. */
+  moveNodes(positions, how) {
+    const keys = [...positions.keys()];
     const rects = keys.map((key) => nodeRect(this.scene.nodes.get(key)));
-    for (const [key, { x, y }] of places) this.scene.move(key, x, y);
+    for (const [key, { x, y }] of positions) this.scene.move(key, x, y);
     this.painter.updateNodes(keys);
     this.reportMove(keys, rects, how);
     this.afterGesture();
   }
 
-  /** Boxes were moved by hand: everything that depends on their place follows, and Python is told. */
+  /** Updates everything that depends on the positions of moved nodes, and reports the move. */
   reportMove(keys, oldRects, how = "drag") {
     const nodes = keys.map((key) => this.scene.nodes.get(key));
     this.scene.reindex(keys);
@@ -189,7 +190,7 @@ class Canvas {
     this.#sceneChanged();
   }
 
-  /** Boxes stand elsewhere for some other reason than a hand. */
+  /** Updates the canvas after nodes were moved programmatically. */
   positionsChanged(keys) {
     this.scene.reindex(keys);
     this.router.clear();
@@ -210,35 +211,35 @@ class Canvas {
     if (this.isOverview) this.levelOfDetail.scheduleCull();
   }
 
-  /** The selection changed, by Python's wish (`quiet`) or by hand. */
+  /** Called after each change of the selection; `quiet` if Python set it. */
   selectionChanged(quiet) {
     this.handles.refresh();
     if (!quiet) this.report("select", { items: this.selection.items(), client_seq: ++this.clientSeq });
     this.levelOfDetail.selectionChanged();
   }
 
-  /** Brings the mounted part up to what is seen. */
+  /** Mounts what is visible. */
   cull() {
     this.levelOfDetail.cull();
   }
 
-  /** Whether all is seen as a bitmap. */
+  /** Whether the scene is shown as a bitmap. */
   get isOverview() {
     return this.levelOfDetail.far;
   }
 
-  /** Brings a thing into sight, and near enough to be read. */
+  /** Scrolls an element into view, at a readable zoom. */
   reveal(key) {
-    const thing = this.scene.find(key);
-    if (!thing) return;
-    if (this.isOverview) this.centre(thing.of, thing.id);
-    else if (this.scene.nodes.has(key)) this.viewport.reveal(nodeRect(thing));
-    else if (this.scene.isDrawable(thing)) this.viewport.reveal({ ...this.router.route(thing).at, w: 0, h: 0 });
+    const element = this.scene.find(key);
+    if (!element) return;
+    if (this.isOverview) this.centre(element.of, element.id);
+    else if (this.scene.nodes.has(key)) this.viewport.reveal(nodeRect(element));
+    else if (this.scene.isDrawable(element)) this.viewport.reveal({ ...this.router.route(element).at, w: 0, h: 0 });
     this.frame.flush();
     this.cull();
   }
 
-  /** What is lit changed: the rest steps back once the hand rests. */
+  /** The highlight changed: dims the other elements after a pause, and not during a drag. */
   scheduleDim() {
     this.frame.debounce("dim", DIM_MS, () => (this.gestures.isDragging() ? this.scheduleDim() : this.painter.dim()));
   }
@@ -247,10 +248,10 @@ class Canvas {
     this.message.textContent = text;
   }
 
-  /** Words that go by themselves. */
+  /** Shows a message that disappears by itself. */
   showToast(text) {
     this.showMessage(text);
-    this.frame.debounce("tell", TOAST_MS, () => this.message.textContent === text && this.showMessage(""));
+    this.frame.debounce("toast", TOAST_MS, () => this.message.textContent === text && this.showMessage(""));
   }
 
   drawableEdges() {
@@ -260,14 +261,14 @@ class Canvas {
   #build() {
     this.root = this.host.attachShadow({ mode: "open" });
     this.root.adoptedStyleSheets = [sheet];
-    this.stage = html("div", { class: "stage", tabindex: "0", role: "application", "aria-roledescription": "state machine canvas" });
+    this.stage = html("div", { class: "stage", tabindex: "0", role: "application", "aria-roledescription": STAGE_ROLE });
     this.root.append(this.stage);
     const colours = (name) => this.theme.colour(name);
     this.viewport = new Viewport(this.stage, this.frame);
     this.minimap = new Minimap(this.scene, this.viewport, colours);
-    // What is painted last is heard first.
-    const heard = { role: "group", "aria-label": "Drawing", "aria-owns": "nodes edges links" };
-    this.levelOfDetail = new LevelOfDetail(this, html("div", { class: "plane", ...heard }, this.painter.svgRoots), colours);
+    // Screen readers read nodes first, although they are painted last.
+    const readingOrder = { role: "group", "aria-label": DIAGRAM, "aria-owns": "nodes edges links" };
+    this.levelOfDetail = new LevelOfDetail(this, html("div", { class: "plane", ...readingOrder }, this.painter.svgRoots), colours);
     this.theme = new Theme(this.stage, () => this.#coloursChanged());
     this.toolbar = new Toolbar(this);
     this.selection = new Selection(this);
@@ -281,9 +282,9 @@ class Canvas {
     this.tooltip = new Tooltip(this);
     this.presence = new PresenceLayer(this);
     this.dots = html("div", { class: "dots" });
-    // Always there, as what only comes with its words is not read aloud by all screen readers.
+    // Always mounted: some screen readers do not announce a status element that is added together with its text.
     this.message = html("div", { class: "message", role: "status" });
-    this.empty = html("div", { class: "empty", hidden: true, text: "No states yet.\nDouble click, or press S, to add the first." });
+    this.empty = html("div", { class: "empty", hidden: true, text: EMPTY });
     const corner = html("div", { class: "corner" }, [this.minimap.element, this.toolbar.element]);
     const above = [this.empty, this.message, this.rename.input, corner, this.tooltip.element, this.menu.element];
     this.stage.append(this.dots, ...this.levelOfDetail.elements, ...this.presence.elements, ...above);
@@ -330,14 +331,14 @@ class Canvas {
     this.handles.refresh();
   }
 
-  /** The dots are one layer that is only moved and scaled; painting them anew in each frame would cost a third of all frames. */
+  /** The dots are one layer that is only moved and scaled. Repainting them in each frame drops a third of the frames. */
   #placeDots(x, y, k) {
     let scale = k;
     while (scale < 0.7) scale *= 2;
     while (scale >= 1.4) scale /= 2;
     const gap = DOT_GAP * scale;
-    const within = (value) => (((value % gap) + gap) % gap) - gap;
-    this.dots.style.transform = `translate(${within(x)}px, ${within(y)}px) scale(${scale})`;
+    const wrap = (value) => (((value % gap) + gap) % gap) - gap;
+    this.dots.style.transform = `translate(${wrap(x)}px, ${wrap(y)}px) scale(${scale})`;
   }
 
   #coloursChanged() {
@@ -351,7 +352,7 @@ class Canvas {
   #sceneChanged() {
     this.host.dataset.rev = String(this.scene.rev);
     this.empty.hidden = [...this.scene.nodes.values()].some((node) => node.of === "states");
-    this.stage.setAttribute("aria-label", `State machine ${this.scene.component}`);
+    this.stage.setAttribute("aria-label", stageName(this.scene.component));
     this.levelOfDetail.sceneChanged();
     this.frame.schedule("minimap", () => this.minimap.draw());
     this.frame.schedule("scene", () => {
@@ -363,15 +364,15 @@ class Canvas {
   }
 
   #testApi() {
-    const place = ({ x, y, w, h }) => ({ x, y, w, h });
+    const frame = ({ x, y, w, h }) => ({ x, y, w, h });
     return {
-      positions: () => Object.fromEntries([...this.scene.nodes.values()].map((node) => [`${node.of}/${node.id}`, place(node)])),
+      positions: () => Object.fromEntries([...this.scene.nodes.values()].map((node) => [`${node.of}/${node.id}`, frame(node)])),
       selection: () => this.selection.items(),
       view: () => ({ x: this.viewport.x, y: this.viewport.y, k: this.viewport.k, far: this.isOverview, resting: this.viewport.isIdle }),
       setView: (view) => this.viewport.set(view),
       screen: (of, id) => {
-        const thing = this.scene.find(keyOf(of, id));
-        const at = this.viewport.toScreen(this.scene.nodes.has(thing.key) ? thing : this.router.route(thing).at);
+        const element = this.scene.find(keyOf(of, id));
+        const at = this.viewport.toScreen(this.scene.nodes.has(element.key) ? element : this.router.route(element).at);
         const box = this.stage.getBoundingClientRect();
         return { x: at.x + box.left, y: at.y + box.top };
       },

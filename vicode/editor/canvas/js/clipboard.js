@@ -1,9 +1,10 @@
-// Copy and paste through the clipboard of the system. What is copied comes from Python as text; what is pasted goes there.
+// Copy and paste through the system clipboard. Python converts elements to text and back.
+import { CLIPBOARD_EMPTY, CLIPBOARD_TOO_LARGE, COPIED, COPY_FAILED, COPY_TIMED_OUT, CUT, PASTE_BY_KEY } from "./strings.js";
 
-// What travels to Python must stay well below its limit for one message.
+// Well below the size limit of a message to the server.
 const MAX_CHARACTERS = 400_000;
 const ANSWER_MS = 20_000;
-const TOO_LATE = new Error("no answer");
+const TIMEOUT = new Error("no answer");
 
 export class Clipboard {
   constructor(canvas) {
@@ -17,67 +18,67 @@ export class Clipboard {
     document.removeEventListener("paste", this.onPaste);
   }
 
-  /** Asks Python for the selection as text and puts it on the clipboard; a cut deletes it only then. */
+  /** Requests the selection as text from Python and copies it to the clipboard; a cut deletes it only after that. */
   copy({ cut = false } = {}) {
     const items = this.canvas.selection.items();
     const text = this.#requestCopy(items);
     this.#write(text).then(
       () => {
         if (cut) this.canvas.report("delete", { items });
-        this.canvas.showToast(cut ? "Cut" : "Copied");
+        this.canvas.showToast(cut ? CUT : COPIED);
       },
-      (error) => this.canvas.showToast(error === TOO_LATE ? "vicode does not answer: nothing was copied" : "Nothing was copied"),
+      (error) => this.canvas.showToast(error === TIMEOUT ? COPY_TIMED_OUT : COPY_FAILED),
     );
   }
 
-  /** Python's answer: the text, or null when there is nothing to copy. */
+  /** Receives Python's answer: the text, or null if there is nothing to copy. */
   resolveCopy(text) {
     this.answer?.(text);
     this.answer = null;
   }
 
-  /** From a menu: the browser may ask whether it is allowed, or not allow it at all. */
+  /** Pastes from the menu. The browser may ask for permission or deny it. */
   paste() {
     const { canvas } = this;
-    const spot = canvas.gestures.pointerPosition();
+    const position = canvas.gestures.pointerPosition();
     const read = navigator.clipboard?.readText ? navigator.clipboard.readText() : Promise.reject(new Error("no clipboard"));
-    read.then((text) => this.#report(text, spot), () => canvas.showToast("Press Ctrl+V to paste"));
+    read.then((text) => this.#report(text, position), () => canvas.showToast(PASTE_BY_KEY));
   }
 
-  /** Within reach of the hand that pressed the key, the browser lets a promise be written. */
+  /** Writes a promise: the browser only allows a write that starts during the user's gesture. */
   #write(text) {
-    if (!navigator.clipboard?.write) return text.then(writeOld);
-    const blob = text.then((found) => new Blob([found], { type: "text/plain" }));
+    if (!navigator.clipboard?.write) return text.then(writeByCommand);
+    const blob = text.then((content) => new Blob([content], { type: "text/plain" }));
     return navigator.clipboard.write([new ClipboardItem({ "text/plain": blob })]);
   }
 
   #requestCopy(items) {
     return new Promise((resolve, reject) => {
       this.answer = (text) => (text === null ? reject(new Error("nothing")) : resolve(text));
-      setTimeout(() => reject(TOO_LATE), ANSWER_MS);
+      setTimeout(() => reject(TIMEOUT), ANSWER_MS);
       this.canvas.report("copy", { items });
     });
   }
 
   #handlePaste(event) {
     const [inner] = event.composedPath();
-    const isOurs = event.composedPath().includes(this.canvas.stage) || inner === document.body;
+    const isForCanvas = event.composedPath().includes(this.canvas.stage) || inner === document.body;
     const isShown = Boolean(this.canvas.host.offsetParent);
-    if (!isOurs || !isShown || inner.closest?.("input, textarea, [contenteditable=true]")) return;
+    if (!isForCanvas || !isShown || inner.closest?.("input, textarea, [contenteditable=true]")) return;
     event.preventDefault();
     this.#report(event.clipboardData?.getData("text/plain") ?? "", this.canvas.gestures.pointerPosition());
   }
 
   #report(text, { x, y }) {
     const { canvas } = this;
-    if (!text.trim()) canvas.showToast("The clipboard holds no text");
-    else if (text.length > MAX_CHARACTERS) canvas.showToast("The clipboard holds too much text for a part of a design");
+    if (!text.trim()) canvas.showToast(CLIPBOARD_EMPTY);
+    else if (text.length > MAX_CHARACTERS) canvas.showToast(CLIPBOARD_TOO_LARGE);
     else canvas.report("paste", { text, x, y });
   }
 }
 
-/** Pages that are not served securely have only the old way. */
-function writeOld(text) {
+/** Fallback for pages without HTTPS, where the clipboard interface is missing. */
+function writeByCommand(text) {
   const field = document.createElement("textarea");
   field.value = text;
   field.style.position = "fixed";

@@ -1,4 +1,4 @@
-// What the canvas can do by name. Names, words and keys come from Python's table; here is only what happens.
+// The handlers of the canvas commands. Names, labels and shortcuts come from Python's table.
 import { align, distribute, findFreePosition } from "./alignment.js";
 import { SNAP } from "./geometry.js";
 import { nudgeLabel } from "./label_drag.js";
@@ -14,7 +14,7 @@ export class Commands {
     this.table = table.filter(({ name }) => name in this.handlers);
   }
 
-  /** Runs what the keys mean just now; false when they mean nothing here. */
+  /** Runs the first available command with this shortcut; returns false if there is none. */
   runShortcut(chord) {
     const command = this.table.find(({ name, keys }) => keys.includes(chord) && this.can(name));
     return command ? this.run(command.name, chord) : false;
@@ -29,23 +29,23 @@ export class Commands {
     return this.handlers[name].can?.() ?? true;
   }
 
-  /** The entries of the menu for what is selected. */
+  /** Returns the commands of the context menu for the selection. */
   menuEntries() {
     const { selection, scene } = this.canvas;
     const single = selection.single();
     const kind = single ? scene.find(single).of : selection.keys.size ? "several" : "nothing";
-    return this.table.filter(({ name, on }) => on.includes(kind) && this.can(name));
+    return this.table.filter(({ name, menus }) => menus.includes(kind) && this.can(name));
   }
 }
 
 function createHandlers(canvas) {
   const { selection, scene, gestures } = canvas;
   const node = () => scene.nodes.get(selection.single());
-  const leaves = () => ["states", "common"].includes(node()?.of);
+  const hasTransitions = () => ["states", "common"].includes(node()?.of);
   return {
     "new-state": { run: () => canvas.report("create", gestures.freePosition()) },
     use: { run: () => canvas.report("use", { address: null, ...gestures.freePosition() }) },
-    "new-target": { can: leaves, run: () => canvas.report("connect", { source: node().id, target: null, ...beside(scene, node()) }) },
+    "new-target": { can: hasTransitions, run: () => canvas.report("connect", { source: node().id, target: null, ...freePositionNextTo(scene, node()) }) },
     connect: { can: () => Boolean(node()), run: () => gestures.connectFrom(selection.single()) },
     "finish-connection": { can: () => Boolean(gestures.connectMode), run: () => gestures.finishConnect() },
   };
@@ -82,7 +82,7 @@ function editHandlers(canvas) {
     redo: { run: () => canvas.report("redo", {}) },
     cut: { can: some, run: () => canvas.clipboard.copy({ cut: true }) },
     copy: { can: some, run: () => canvas.clipboard.copy() },
-    // By keys the browser's own event brings the text; asking for it would need a permission.
+    // With a shortcut the browser's paste event carries the text; reading the clipboard would require a permission.
     paste: { run: (chord) => (chord ? false : canvas.clipboard.paste()) },
     duplicate: { can: some, run: () => canvas.report("duplicate", { items: selection.items() }) },
     delete: { can: some, run: () => canvas.report("delete", { items: selection.items() }) },
@@ -93,8 +93,8 @@ function editHandlers(canvas) {
 function arrangeHandlers(canvas) {
   const { selection, scene } = canvas;
   const boxes = () => selection.nodes().map((key) => scene.nodes.get(key));
-  const arranging = (least, work, how) => ({
-    can: () => selection.nodes().length >= least,
+  const arranging = (minimum, work, how) => ({
+    can: () => selection.nodes().length >= minimum,
     run: () => canvas.moveNodes(work(boxes(), how), how),
   });
   return {
@@ -139,31 +139,31 @@ function navigationHandlers(canvas) {
 
 const directionOf = (chord) => ARROWS[chord.split("+").at(-1)];
 
-const beside = (scene, node) => findFreePosition(scene, node.x + node.w / 2 + 140, node.y);
+const freePositionNextTo = (scene, node) => findFreePosition(scene, node.x + node.w / 2 + 140, node.y);
 
-function nudge(canvas, boxes, [dx, dy], by) {
+function nudge(canvas, nodes, [dx, dy], step) {
   const { gestures, scene, selection, viewport } = canvas;
   if (gestures.connectMode) return gestures.connectMode.aimInDirection([dx, dy]);
   const edge = scene.edges.get(selection.single());
-  if (edge?.of === "transitions" && scene.isDrawable(edge)) return nudgeLabel(canvas, edge, dx * by, dy * by);
-  if (!boxes.length) return viewport.panBy(-dx * PAN, -dy * PAN);
-  canvas.moveNodes(canvas.nudge.step(boxes, dx * by, dy * by), "nudge");
+  if (edge?.of === "transitions" && scene.isDrawable(edge)) return nudgeLabel(canvas, edge, dx * step, dy * step);
+  if (!nodes.length) return viewport.panBy(-dx * PAN, -dy * PAN);
+  canvas.moveNodes(canvas.nudge.step(nodes, dx * step, dy * step), "nudge");
 }
 
-/** Tab goes through the things in the order of the design; past the last it leaves the canvas. */
+/** Tab selects the next element in the order of the design; after the last one it leaves the canvas. */
 function selectInTabOrder(canvas, step) {
   const { gestures, scene, selection, painter } = canvas;
   if (gestures.connectMode) return gestures.connectMode.aimNext(step);
-  const things = tabOrder(scene);
-  const at = things.indexOf(selection.single());
-  const next = at < 0 && step < 0 ? undefined : things[at + step];
+  const keys = tabOrder(scene);
+  const index = keys.indexOf(selection.single());
+  const next = index < 0 && step < 0 ? undefined : keys[index + step];
   if (!next) return false;
   selection.set([next]);
   canvas.reveal(next);
   painter.focus(next);
 }
 
-/** To the nearest box in a direction: from the box that was selected last, else from the middle of the view. */
+/** Selects the nearest node in a direction from the last selected node, or from the middle of the view. */
 function selectNearest(canvas, direction, keep) {
   const { scene, selection, painter, viewport } = canvas;
   const from = scene.nodes.get(selection.nodes().at(-1)) ?? viewport.middle();

@@ -1,10 +1,10 @@
-// Drawing a new edge from a node, or taking an end of a transition elsewhere, with a preview under the pointer.
+// Dragging a new edge from a node, or one end of a transition to another node, with a preview under the pointer.
 import { headOf, pathOf } from "./edge_svg.js";
 import { exitPoint, quadraticToCubic, rectAround, snap } from "./geometry.js";
 import { svg } from "./svg.js";
 
-// A release this near to the box it came from is a slip of the hand, not a wish for a new state.
-const SLIP = 40;
+// A release this close to the source node is accidental and creates no state.
+const ACCIDENTAL_DISTANCE = 40;
 const NEW_STATE = { w: 120, h: 60 };
 
 export class ConnectDrag {
@@ -26,7 +26,7 @@ export class ConnectDrag {
     this.preview.show(this.#from(), target ?? { ...world }, !target && !this.#isAccidental(world));
   }
 
-  /** The nodes that may be at the other end. */
+  /** Whether a node may be the other end. */
   accepts(node) {
     const source = this.#from();
     return Boolean(source) && canJoin(source, node);
@@ -49,7 +49,7 @@ export class ConnectDrag {
     if (!this.#from()) this.canvas.gestures.cancel();
   }
 
-  /** Reports what joining these two means: a transition or a link. */
+  /** Reports the transition or link between the two nodes. */
   connectTo(target) {
     const source = this.#from();
     if (!source || !canJoin(source, target)) return;
@@ -58,7 +58,7 @@ export class ConnectDrag {
       return;
     }
     const [state, component] = source.of === "states" ? [source, target] : [target, source];
-    // What takes no parameters cannot be modulated: a state can only wish that it runs.
+    // A component without parameters cannot be modulated, only required.
     const kind = source.of === "states" && target.data.parameters !== 0 ? "modulates" : "requires";
     this.canvas.report("link", { kind_of_link: kind, state: state.id, component: component.id });
   }
@@ -81,8 +81,8 @@ export class ConnectDrag {
   #isAccidental(world) {
     const from = this.#from();
     if (!from) return true;
-    const slip = SLIP / Math.min(1, this.canvas.viewport.k);
-    return Math.abs(world.x - from.x) < from.w / 2 + slip && Math.abs(world.y - from.y) < from.h / 2 + slip;
+    const distance = ACCIDENTAL_DISTANCE / Math.min(1, this.canvas.viewport.k);
+    return Math.abs(world.x - from.x) < from.w / 2 + distance && Math.abs(world.y - from.y) < from.h / 2 + distance;
   }
 }
 
@@ -149,7 +149,7 @@ export class ReconnectDrag {
 const canJoin = (source, target) =>
   target.of === "states" || (source.of === "states" && target.of === "components");
 
-/** The dashed curve that follows the pointer, and the outline of the state that would be made. */
+/** The dashed curve that follows the pointer, and the outline of the state that would be created. */
 class ConnectionPreview {
   constructor(canvas, { box }) {
     this.canvas = canvas;
@@ -161,14 +161,14 @@ class ConnectionPreview {
     canvas.stage.classList.add("connecting");
   }
 
-  /** Ends are nodes or bare points. */
-  show(from, to, makesState) {
+  /** The ends are nodes or points. */
+  show(from, to, createsState) {
     if (!from || !to) return;
     const curve = from === to ? loopOver(from) : straight(from, to);
     const { tip, base } = headOf(curve);
     this.line.setAttribute("d", pathOf(curve, base));
     this.head.setAttribute("d", tip);
-    this.#showBox(to, makesState);
+    this.#showBox(to, createsState);
   }
 
   close() {

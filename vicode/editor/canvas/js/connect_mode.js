@@ -1,22 +1,27 @@
-// A connection without holding a button: the next click ends it, or keys aim at a box and Enter ends it.
+// Connecting without holding a button: a click on the target ends it, or keys choose a target and Enter confirms.
 import { nearestInDirection } from "./keyboard_navigation.js";
+import { chooseTarget, confirmTarget } from "./strings.js";
 
 const TYPING_MS = 1200;
 
 export class ConnectMode {
-  /** Args: the canvas; a gesture of connecting.js; the node it starts from; what it is called, for the words shown. */
-  constructor(canvas, gesture, from, what) {
+  /**
+   * @param gesture a drag of connect_drags.js
+   * @param from the key of the node that it starts from
+   * @param action the beginning of the message, such as "Connect to"
+   */
+  constructor(canvas, gesture, from, action) {
     this.canvas = canvas;
     this.gesture = gesture;
     this.from = from;
-    this.what = what;
+    this.action = action;
     this.aimed = null;
     this.typed = { text: "", time: 0 };
   }
 
   begin() {
     this.gesture.begin();
-    this.#say();
+    this.#showMessage();
   }
 
   move(where) {
@@ -24,12 +29,12 @@ export class ConnectMode {
     this.gesture.move(where);
   }
 
-  /** Ends where the pointer was pressed. */
+  /** Connects to the node under the pointer. */
   end() {
     this.gesture.end();
   }
 
-  /** Ends at the box the keys aim at, at the start itself when they aim at none. */
+  /** Connects to the node chosen by keys, or to the start node if none is chosen. */
   finish() {
     const target = this.canvas.scene.nodes.get(this.aimed ?? this.from);
     this.gesture.cancel();
@@ -44,31 +49,31 @@ export class ConnectMode {
     this.gesture.sceneChanged();
   }
 
-  /** Tab: on to the next box that fits, in the order of the design. */
-  aimNext(by) {
-    const fitting = this.#fitting();
+  /** Tab: chooses the next possible target in the order of the design; wraps around. */
+  aimNext(step) {
+    const targets = this.#targets();
     const keys = [...this.canvas.scene.nodes.keys()];
-    const at = keys.indexOf(this.aimed ?? this.from);
-    const turned = by > 0 ? [...keys.slice(at + 1), ...keys.slice(0, at + 1)] : [...keys.slice(0, at).reverse(), ...keys.slice(at).reverse()];
-    this.#aim(turned.map((key) => fitting.find((node) => node.key === key)).find(Boolean));
+    const index = keys.indexOf(this.aimed ?? this.from);
+    const rotated = step > 0 ? [...keys.slice(index + 1), ...keys.slice(0, index + 1)] : [...keys.slice(0, index).reverse(), ...keys.slice(index).reverse()];
+    this.#aim(rotated.map((key) => targets.find((node) => node.key === key)).find(Boolean));
   }
 
-  /** Arrow keys: on to the nearest box that fits in that direction. */
+  /** Arrow keys: chooses the nearest possible target in a direction. */
   aimInDirection(direction) {
     const from = this.canvas.scene.nodes.get(this.aimed ?? this.from);
-    if (from) this.#aim(nearestInDirection(this.#fitting(), from, direction));
+    if (from) this.#aim(nearestInDirection(this.#targets(), from, direction));
   }
 
-  /** Letters: on to the next box whose name begins with what was typed. */
+  /** Letters: chooses the first possible target whose name starts with the typed text. */
   aimByName(letter) {
     const now = performance.now();
-    const goesOn = now - this.typed.time < TYPING_MS;
-    this.typed = { text: (goesOn ? this.typed.text : "") + letter.toLowerCase(), time: now };
-    this.#aim(this.#fitting().find(({ id }) => id.toLowerCase().startsWith(this.typed.text)));
+    const isContinued = now - this.typed.time < TYPING_MS;
+    this.typed = { text: (isContinued ? this.typed.text : "") + letter.toLowerCase(), time: now };
+    this.#aim(this.#targets().find(({ id }) => id.toLowerCase().startsWith(this.typed.text)));
     return true;
   }
 
-  #fitting() {
+  #targets() {
     return [...this.canvas.scene.nodes.values()].filter((node) => this.gesture.accepts(node));
   }
 
@@ -78,11 +83,11 @@ export class ConnectMode {
     this.canvas.reveal(node.key);
     this.gesture.move({ world: { x: node.x, y: node.y } });
     this.canvas.painter.mark("drop", [node.key]);
-    this.#say();
+    this.#showMessage();
   }
 
-  #say() {
+  #showMessage() {
     const target = this.canvas.scene.nodes.get(this.aimed);
-    this.canvas.showMessage(target ? `${this.what} ${target.id}: Enter. Esc ends.` : `${this.what} …: click, or type its name. Esc ends.`);
+    this.canvas.showMessage(target ? confirmTarget(this.action, target.id) : chooseTarget(this.action));
   }
 }

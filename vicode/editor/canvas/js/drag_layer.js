@@ -1,21 +1,21 @@
-// What moves with a hand as one: held boxes, and arrows of which both ends are held. One transform a layer moves them all.
+// Elements that a drag moves as one: the dragged nodes and the edges between them. One transform per layer moves them.
 import { bringToFront, svg } from "./svg.js";
 
-// So many things have layers of their own; for fewer it takes longer to put one more layer together than to paint them.
-const MANY = 60;
+// From this many elements on they get a compositor layer; for fewer, compositing takes longer than painting.
+const MIN_LAYER_ITEMS = 60;
 
 export class DragLayer {
-  /** Args: the layers of what is held. */
+  /** @param layers the SVG layers of dragged elements */
   constructor(layers) {
     this.groups = new Map(layers.map((layer) => [layer, svg("g", { class: `${layer.getAttribute("class")} dragged` })]));
     this.keys = new Set();
   }
 
-  /** Takes the parts of what is shown, `{key: {node} or {line, chip}}`, out of the layers they lie in. */
+  /** Moves SVG groups, `{key: {node} or {line, chip}}`, from their layers into the drag layer. */
   attach(items) {
     for (const [layer, group] of this.groups) {
       group.removeAttribute("transform");
-      group.classList.toggle("many", items.size > MANY);
+      group.classList.toggle("many", items.size > MIN_LAYER_ITEMS);
       layer.prepend(group);
     }
     for (const [key, item] of items) {
@@ -28,17 +28,17 @@ export class DragLayer {
     return this.keys.has(key);
   }
 
-  /** Moves all to so far from where they were lifted. */
+  /** Sets the offset from the positions at the start of the drag. */
   move({ x, y }) {
     for (const group of this.groups.values()) group.setAttribute("transform", `translate(${x} ${y})`);
   }
 
-  /** One of them goes: who draws it again moves it alone. */
+  /** Removes one element; returns whether it was part of the drag. */
   detach(key) {
     return this.keys.delete(key);
   }
 
-  /** Gives all back to their layers, at the places where they were lifted. */
+  /** Moves all elements back to their layers, at the positions of the start of the drag. */
   release() {
     this.keys.clear();
     for (const [layer, group] of this.groups) {

@@ -1,9 +1,9 @@
-// What a held pointer can do to the view and to boxes: pan, select by a frame, move. Each can be called off.
+// Pointer drags that pan the view, select with a marquee and move nodes. Each can be canceled.
 import { bounds, overlaps, pointOnCurve, rectBetween, nodeRect, snap } from "./geometry.js";
 import { Guides } from "./guides.js";
 import { svg } from "./svg.js";
 
-// More boxes than this are moved as one outline; drawing each of them would stutter.
+// More nodes than this are moved as one outline; drawing each of them would drop frames.
 const MAX_LIVE_NODES = 120;
 
 export class PanDrag {
@@ -34,10 +34,9 @@ export class PanDrag {
 export class MarqueeDrag {
   scrolls = true;
 
-  constructor(canvas, added) {
+  constructor(canvas, isAdditive) {
     this.canvas = canvas;
-    this.before = new Set(canvas.selection.keys);
-    this.kept = added ? this.before : new Set();
+    this.kept = isAdditive ? new Set(canvas.selection.keys) : new Set();
   }
 
   begin({ world }) {
@@ -61,7 +60,7 @@ export class MarqueeDrag {
     this.rect.remove();
   }
 
-  /** Boxes that the frame touches, and edges whose middle lies in it when no box does. */
+  /** Nodes that the marquee touches with the edges between them; without nodes, the edges whose middle lies inside. */
   #inside(area) {
     const { scene, router } = this.canvas;
     const nodes = [...scene.nodeGrid.query(area)].filter((key) => overlaps(nodeRect(scene.nodes.get(key)), area));
@@ -86,61 +85,61 @@ export class MoveDrag {
   begin({ world }) {
     const { scene, selection } = this.canvas;
     this.from = world;
-    this.places = new Map(selection.nodes().map((key) => [key, { x: scene.nodes.get(key).x, y: scene.nodes.get(key).y }]));
-    this.rects = [...this.places.keys()].map((key) => nodeRect(scene.nodes.get(key)));
+    this.origins = new Map(selection.nodes().map((key) => [key, { x: scene.nodes.get(key).x, y: scene.nodes.get(key).y }]));
+    this.rects = [...this.origins.keys()].map((key) => nodeRect(scene.nodes.get(key)));
     this.frame = bounds(this.rects);
-    this.by = { x: 0, y: 0 };
-    if (this.places.size > MAX_LIVE_NODES) return this.#raiseGhost();
+    this.offset = { x: 0, y: 0 };
+    if (this.origins.size > MAX_LIVE_NODES) return this.#raiseGhost();
     this.#lift();
-    this.guides = new Guides(this.canvas, this.places);
+    this.guides = new Guides(this.canvas, this.origins);
   }
 
   move({ world, free }) {
-    const start = this.places.get(this.lead);
+    const start = this.origins.get(this.lead);
     if (!start) return;
-    const by = { x: world.x - this.from.x, y: world.y - this.from.y };
-    const pull = free || !this.guides ? {} : this.guides.snapOffsets(shifted(this.frame, by));
-    this.by = { x: landing(start.x, by.x, pull.x, free), y: landing(start.y, by.y, pull.y, free) };
+    const offset = { x: world.x - this.from.x, y: world.y - this.from.y };
+    const pull = free || !this.guides ? {} : this.guides.snapOffsets(shifted(this.frame, offset));
+    this.offset = { x: snappedOffset(start.x, offset.x, pull.x, free), y: snappedOffset(start.y, offset.y, pull.y, free) };
     if (free) this.guides?.hide();
-    else this.guides?.show(shifted(this.frame, this.by));
-    if (this.ghost) this.ghost.setAttribute("transform", `translate(${this.by.x} ${this.by.y})`);
+    else this.guides?.show(shifted(this.frame, this.offset));
+    if (this.ghost) this.ghost.setAttribute("transform", `translate(${this.offset.x} ${this.offset.y})`);
     else this.#put();
   }
 
   end() {
     this.#release();
-    if (this.by.x || this.by.y) this.canvas.reportMove([...this.places.keys()], this.rects);
+    if (this.offset.x || this.offset.y) this.canvas.reportMove([...this.origins.keys()], this.rects);
   }
 
   cancel() {
-    this.by = { x: 0, y: 0 };
+    this.offset = { x: 0, y: 0 };
     this.#release();
     this.canvas.painter.refineRoutes();
   }
 
-  /** Python changed the scene meanwhile: what is still there keeps following the hand. */
+  /** Python changed the scene during the drag: the remaining nodes stay in it. */
   sceneChanged() {
-    for (const key of [...this.places.keys()]) if (!this.canvas.scene.nodes.has(key)) this.places.delete(key);
+    for (const key of [...this.origins.keys()]) if (!this.canvas.scene.nodes.has(key)) this.origins.delete(key);
     if (!this.ghost) this.#put();
   }
 
   #put() {
     this.#place();
-    this.canvas.painter.updateDrag([...this.places.keys()], this.by);
+    this.canvas.painter.updateDrag([...this.origins.keys()], this.offset);
   }
 
   #place() {
-    for (const [key, { x, y }] of this.places) this.canvas.scene.move(key, x + this.by.x, y + this.by.y);
+    for (const [key, { x, y }] of this.origins) this.canvas.scene.move(key, x + this.offset.x, y + this.offset.y);
   }
 
   #lift() {
     const { scene, painter, stage } = this.canvas;
-    const held = new Set(this.places.keys());
-    for (const key of this.places.keys()) for (const edge of scene.edgesOf(key)) held.add(edge.key);
+    const held = new Set(this.origins.keys());
+    for (const key of this.origins.keys()) for (const edge of scene.edgesOf(key)) held.add(edge.key);
     painter.mark("held", held);
     stage.classList.add("lifting");
     this.canvas.cull();
-    painter.beginDrag(this.places.keys());
+    painter.beginDrag(this.origins.keys());
   }
 
   #raiseGhost() {
@@ -152,7 +151,7 @@ export class MoveDrag {
   #release() {
     const { painter, stage } = this.canvas;
     this.#place();
-    painter.endDrag([...this.places.keys()]);
+    painter.endDrag([...this.origins.keys()]);
     painter.mark("held", []);
     stage.classList.remove("lifting");
     this.guides?.close();
@@ -161,10 +160,10 @@ export class MoveDrag {
   }
 }
 
-const shifted = (rect, by) => ({ ...rect, x: rect.x + by.x, y: rect.y + by.y });
+const shifted = (rect, offset) => ({ ...rect, x: rect.x + offset.x, y: rect.y + offset.y });
 
-/** How far a box goes: in line with another where one pulls, else to the grid; freely, to whole pixels. */
-function landing(start, by, pull, free) {
-  const wanted = by + (pull ?? 0);
-  return free || (pull ?? null) !== null ? Math.round(start + wanted) - start : snap(start + by) - start;
+/** The offset of a node: snapped to a guide if there is one, else to the grid; free: rounded to pixels. */
+function snappedOffset(start, offset, pull, free) {
+  const wanted = offset + (pull ?? 0);
+  return free || (pull ?? null) !== null ? Math.round(start + wanted) - start : snap(start + offset) - start;
 }

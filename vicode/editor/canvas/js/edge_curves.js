@@ -1,13 +1,13 @@
-// The curves of the edges between one pair of nodes: lanes beside each other, around boxes in the way, loops on free sides.
+// The curves of the edges between one pair of nodes: parallel lanes that bend around other nodes, and self loops on free sides.
 import { exitFrom, grow, curveLength, overlaps, pointOnCurve, quadraticToCubic, rectAround, nodeRect } from "./geometry.js";
 
 const CLEARANCE = 8;
 const LABEL_GAP = 6;
 const MIN_LANE = 24;
 const MAX_LANE = 100;
-// A line starts at least so far from the corners of its boxes.
+// Minimum distance between the start of a curve and the corners of its node.
 const INSET = { x: 14, y: 12 };
-// Tried in this order: straight first, then ever wider bows to either side around boxes in the way.
+// Tried in this order: straight first, then wider bows to either side around obstacles.
 const BOWS = [0, 45, -45, 85, -85, 135, -135, 200, -200, 280, -280, 370, -370];
 const FLAT_FROM = 85;
 const SIDES = [
@@ -17,7 +17,7 @@ const SIDES = [
   { x: -1, y: 0 },
 ];
 
-/** Curves for edges between two nodes, in lane order; `chips` are their labels, which the lanes make room for. */
+/** Returns curves for edges between two nodes, in lane order; `chips` are their labels, which need room between lanes. */
 export function parallelCurves(edges, chips, scene) {
   const { pair, bent } = lanesBetween(edges, chips, scene);
   let best = null;
@@ -32,7 +32,7 @@ export function parallelCurves(edges, chips, scene) {
   return best.curves;
 }
 
-/** The same without a look at boxes in the way: straight, but for what lanes need. */
+/** Like `parallelCurves`, but ignores obstacles. */
 export const straightCurves = (edges, chips, scene) => lanesBetween(edges, chips, scene).bent(0, false);
 
 function lanesBetween(edges, chips, scene) {
@@ -42,46 +42,46 @@ function lanesBetween(edges, chips, scene) {
   return { pair, bent: (bow, flat) => edges.map((edge, index) => bend(edge, pair, { lane: lanes[index], bow, flat })) };
 }
 
-/** Self loops take the freest sides; further ones grow around the first. */
+/** Places self loops on the least crowded sides; from the fifth loop on they enclose the first ones. */
 export function selfLoopCurves(edges, chips, scene) {
   const node = scene.nodes.get(edges[0].source);
   const room = chips.reduce((most, chip) => Math.max(most, chip?.w ?? 0), 40);
-  const sides = SIDES.map((side) => ({ side, burden: sideLoad(node, side, room, scene) })).sort((a, b) => a.burden - b.burden);
+  const sides = SIDES.map((side) => ({ side, load: sideLoad(node, side, room, scene) })).sort((a, b) => a.load - b.load);
   return edges.map((_, index) => loop(node, sides[index % 4].side, Math.floor(index / 4)));
 }
 
-/** Of two nodes the one that is read first: the left one, or the upper one of two that stand one above the other. */
+/** Orders two nodes: the left one first, or the upper one if they are stacked. */
 export function readingOrder(a, b) {
   const [dx, dy] = [b.x - a.x, b.y - a.y];
   const isFirst = Math.abs(dx) > 0.4 * Math.abs(dy) ? dx > 0 : dy > 0 || (dy === 0 && a.key < b.key);
   return isFirst ? [a, b] : [b, a];
 }
 
-/** Across the way from one node to another: downwards, or to the right when they stand one above the other. */
+/** Unit normal of the line between two nodes: it points down, or to the right if the nodes are stacked. */
 function normalOf(from, to) {
   const length = Math.hypot(to.x - from.x, to.y - from.y) || 1;
   const sign = Math.abs(to.x - from.x) > 0.4 * Math.abs(to.y - from.y) ? 1 : -1;
   return { x: (-sign * (to.y - from.y)) / length, y: (sign * (to.x - from.x)) / length };
 }
 
-/** How far each lane lies beside the middle, so that labels at the same height do not touch. */
+/** Returns the offset of each lane from the center line, so that labels of neighboring lanes do not touch. */
 function lanesOf(chips, normal) {
-  const places = [0];
+  const offsets = [0];
   for (let index = 1; index < chips.length; index += 1) {
     const [one, other] = [chips[index - 1], chips[index]];
     const wide = ((one?.w ?? 0) + (other?.w ?? 0)) / 2 + LABEL_GAP;
     const high = Math.max(one?.h ?? 0, other?.h ?? 0) + LABEL_GAP;
     const gap = Math.min(wide / Math.abs(normal.x || 1e-9), high / Math.abs(normal.y || 1e-9));
-    places.push(places[index - 1] + Math.min(MAX_LANE, Math.max(MIN_LANE, gap)));
+    offsets.push(offsets[index - 1] + Math.min(MAX_LANE, Math.max(MIN_LANE, gap)));
   }
-  const middle = places.at(-1) / 2;
-  return places.map((place) => place - middle);
+  const middle = offsets.at(-1) / 2;
+  return offsets.map((offset) => offset - middle);
 }
 
-/** A curve in a lane: as far beside the centres as the boxes allow, the rest of the way, and `bow`, by bending. */
+/** A curve in a lane: its ends are shifted as far as the nodes allow; the rest of the offset, and `bow`, bend it. */
 function bend(edge, { from, to, normal }, { lane, bow, flat }) {
-  const most = Math.min(...[from, to].map((node) => roomAcross(node, normal)));
-  const inner = Math.max(-most, Math.min(most, lane));
+  const maxShift = Math.min(...[from, to].map((node) => roomAcross(node, normal)));
+  const inner = Math.max(-maxShift, Math.min(maxShift, lane));
   const apex = lane - inner + bow;
   const [source, target] = edge.source === from.key ? [from, to] : [to, from];
   const [start, end] = [source, target].map(({ x, y }) => ({ x: x + normal.x * inner, y: y + normal.y * inner }));
@@ -104,7 +104,7 @@ function roomAcross(node, normal) {
   return Math.min(wide, high);
 }
 
-/** How many boxes a curve runs over, looked up along the curve in steps smaller than a box. */
+/** Counts the nodes that a curve crosses, sampled in steps smaller than a node. */
 function boxesUnder(curve, { from, to }, scene) {
   const hit = new Set();
   const steps = Math.min(120, Math.max(8, Math.ceil(curveLength(curve) / 24)));
@@ -120,23 +120,23 @@ function boxesUnder(curve, { from, to }, scene) {
 }
 
 function sideLoad(node, side, room, scene) {
-  // The initial mark sits at the upper left, so that the top is a little worse than it looks.
-  let burden = side.y === -1 && node.data.initial ? 1.5 : 0;
-  if (side.x !== 0) burden += 0.2;
+  // The initial mark is at the upper left, which makes the top side less free.
+  let load = side.y === -1 && node.data.initial ? 1.5 : 0;
+  if (side.x !== 0) load += 0.2;
   for (const edge of scene.edgesOf(node.key)) {
     const other = scene.nodes.get(edge.source === node.key ? edge.target : edge.source);
     if (!other || other === node || !scene.isDrawable(edge)) continue;
     const length = Math.hypot(other.x - node.x, other.y - node.y) || 1;
     const facing = ((other.x - node.x) * side.x + (other.y - node.y) * side.y) / length;
-    burden += Math.max(0, facing) ** 2;
+    load += Math.max(0, facing) ** 2;
   }
   const [w, h] = side.x ? [62 + room - 16, 70] : [Math.max(room, 80), 76];
-  const place = rectAround(node.x + (side.x * (node.w + w)) / 2, node.y + (side.y * (node.h + h)) / 2, w, h);
-  for (const key of scene.nodeGrid.query(place)) {
+  const area = rectAround(node.x + (side.x * (node.w + w)) / 2, node.y + (side.y * (node.h + h)) / 2, w, h);
+  for (const key of scene.nodeGrid.query(area)) {
     const other = scene.nodes.get(key);
-    if (other && other !== node && overlaps(grow(nodeRect(other), 4), place)) burden += 3;
+    if (other && other !== node && overlaps(grow(nodeRect(other), 4), area)) load += 3;
   }
-  return burden;
+  return load;
 }
 
 function loop(node, side, ring) {

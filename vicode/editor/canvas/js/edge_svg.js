@@ -1,7 +1,8 @@
-// Curves with arrow heads and their label chips. A curve and its chip lie in different layers.
+// The SVG groups of edges: a curve with an arrow head in the edge layer, and its label (chip) in the label layer.
 import { badge, findingMessages, kindOf } from "./node_svg.js";
 import { BADGE } from "./edge_labels.js";
 import { translateElement, placeGroup } from "./group_transforms.js";
+import { DISABLED, linkName, transitionName, transitionTitle } from "./strings.js";
 import { svg } from "./svg.js";
 
 const HEAD = 10;
@@ -12,7 +13,7 @@ const ICONS = {
   tree: "M1.5 -4.5V0C1.5 2.5 3 3 5.5 3H8.5M1.5 -1C1.5 -3 4 -3 8.5 -3",
 };
 
-/** The two groups of an edge: `line` for the edge layer and `chip` for the label layer (or null). */
+/** Returns the groups of an edge: `line` for the edge layer and `chip` for the label layer, or null. */
 export function drawEdge(edge, route, ends) {
   const names = { "data-id": edge.id, "data-kind": kindOf(edge), "data-key": edge.key, "data-text": route.chip?.text ?? "" };
   const style = ["item", "edge", kindOf(edge), edge.of === "links" ? edge.data.kind : edge.data.kind ?? "", styleOf(edge)].join(" ");
@@ -32,7 +33,7 @@ export function placeEdge({ line, chip }, { curve, at }) {
   if (chip) placeGroup(chip, round(at.x), round(at.y));
 }
 
-/** Places only what is seen of the line. */
+/** Updates only the visible parts of the line, not its hit area. */
 export function placeLine({ line }, curve) {
   const [, stroke, head] = line.children;
   const { tip, base } = headOf(curve);
@@ -40,11 +41,11 @@ export function placeLine({ line }, curve) {
   head.setAttribute("d", tip);
 }
 
-/** The path of a curve, drawn to `end` instead of its own last point. */
+/** Path data of a curve that ends at `end` instead of its last point. */
 export const pathOf = (c, end) =>
   `M${round(c[0])} ${round(c[1])}C${round(c[2])} ${round(c[3])} ${round(c[4])} ${round(c[5])} ${round(end.x)} ${round(end.y)}`;
 
-/** The arrow head as a path, and the point where the line meets its base. */
+/** Path data of the arrow head, and the point where the line meets it. */
 export function headOf(curve) {
   const dx = curve[6] - curve[4];
   const dy = curve[7] - curve[5];
@@ -75,19 +76,18 @@ function drawChip(edge, { chip }, names) {
 
 const styleOf = (edge) => [edge.source === "common" ? "common-edge" : "", edge.data.disabled ? "disabled" : ""].join(" ");
 
-/** The tooltip of an edge: its whole text, as the chip may show only the beginning. */
+/** Returns the tooltip of an edge, with its full text: the label may be truncated. */
 export function edgeTooltip(edge, { source, target }) {
   const { data } = edge;
-  if (edge.of === "links") return data.kind === "requires" ? `${data.state} requires ${data.component}` : `${data.state} modulates ${data.component}`;
-  const order = data.of > 1 ? ` (${data.order} of ${data.of})` : "";
-  return [`${source} → ${target}${order}`, data.disabled && "disabled", data.doc || data.label, ...findingMessages(data)].filter(Boolean).join("\n");
+  if (edge.of === "links") return linkName(data);
+  return [transitionTitle(data, source, target), data.disabled && DISABLED, data.doc || data.label, ...findingMessages(data)].filter(Boolean).join("\n");
 }
 
 function describe(edge, { source, target }) {
   const { data } = edge;
   if (edge.of === "links") return edgeTooltip(edge, { source, target });
   const label = data.label ? `: ${data.label}` : "";
-  return [`Transition ${data.order} of ${data.of} from ${source} to ${target}${label}`, ...(data.disabled ? ["disabled"] : []), ...findingMessages(data)].join(", ");
+  return [transitionName(data, source, target) + label, ...(data.disabled ? [DISABLED] : []), ...findingMessages(data)].join(", ");
 }
 
 const round = (value) => Math.round(value * 10) / 10;

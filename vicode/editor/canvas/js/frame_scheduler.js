@@ -1,4 +1,4 @@
-// Work is done once per frame, and slow work once the hand rests.
+// Schedules work once per frame, and slow work after a pause.
 
 /** Runs each named job at most once in the next animation frame. */
 export class FrameScheduler {
@@ -11,7 +11,7 @@ export class FrameScheduler {
     if (!this.#request) this.#request = requestAnimationFrame(() => this.flush());
   }
 
-  /** Runs what is waiting now, so that a release never loses the last movement. */
+  /** Runs the scheduled jobs now, so that releasing the pointer never loses the last movement. */
   flush() {
     cancelAnimationFrame(this.#request);
     this.#request = 0;
@@ -20,7 +20,7 @@ export class FrameScheduler {
     for (const job of jobs) job();
   }
 
-  /** Runs a named job when it was not asked for again during `delay` milliseconds. */
+  /** Runs a named job once it has not been scheduled again for `delay` milliseconds. */
   debounce(name, delay, job) {
     clearTimeout(this.#timers.get(name));
     this.#timers.set(name, setTimeout(job, delay));

@@ -1,4 +1,4 @@
-// Rectangles, cubic curves and the places where a ray leaves a shape. Pure functions, world units.
+// Rectangles, cubic curves and the points where a ray leaves a shape. Pure functions in world units.
 
 export const SNAP = 10;
 export const HEX_SLANT = 16;
@@ -16,7 +16,7 @@ export const rectBetween = (a, b) => ({
   h: Math.abs(a.y - b.y),
 });
 
-export const grow = (rect, by) => ({ x: rect.x - by, y: rect.y - by, w: rect.w + 2 * by, h: rect.h + 2 * by });
+export const grow = (rect, margin) => ({ x: rect.x - margin, y: rect.y - margin, w: rect.w + 2 * margin, h: rect.h + 2 * margin });
 
 export const overlaps = (a, b) => a.x < b.x + b.w && b.x < a.x + a.w && a.y < b.y + b.h && b.y < a.y + a.h;
 
@@ -25,7 +25,7 @@ export const containsPoint = (rect, x, y) => x >= rect.x && x <= rect.x + rect.w
 export const containsRect = (outer, inner) =>
   containsPoint(outer, inner.x, inner.y) && containsPoint(outer, inner.x + inner.w, inner.y + inner.h);
 
-/** The smallest rectangle around all given ones, or null for none. */
+/** Returns the bounding rectangle of all rectangles, or null if there are none. */
 export function bounds(rects) {
   let x0 = Infinity;
   let y0 = Infinity;
@@ -40,10 +40,10 @@ export function bounds(rects) {
   return x0 === Infinity ? null : { x: x0, y: y0, w: x1 - x0, h: y1 - y0 };
 }
 
-/** Where the ray from a node's centre towards (x, y) leaves its shape. */
+/** Returns the point where the ray from a node's center to (x, y) leaves its shape. */
 export const exitPoint = (node, x, y) => exitFrom(node, node, { x, y });
 
-/** Where the ray from a point within a node towards another point leaves the node's shape. */
+/** Returns the point where the ray from a point inside a node to another point leaves the node's shape. */
 export function exitFrom(node, from, towards) {
   const [dx, dy] = [towards.x - from.x, towards.y - from.y];
   const [x, y] = [from.x - node.x, from.y - node.y];
@@ -57,12 +57,12 @@ export function exitFrom(node, from, towards) {
   return { x: from.x + dx * reach, y: from.y + dy * reach };
 }
 
-/** How many steps `by` lead from a value within ±half to the border. */
-function stretch(value, by, half) {
-  return by === 0 ? Infinity : (Math.sign(by) * half - value) / by;
+/** Returns the factor `t` for which `value + t * delta` reaches the border ±half. */
+function stretch(value, delta, half) {
+  return delta === 0 ? Infinity : (Math.sign(delta) * half - value) / delta;
 }
 
-/** A cubic curve is eight numbers: start, two controls, end. A quadratic one is raised to it. */
+/** A cubic curve is an array of eight numbers: start, two control points, end. This converts a quadratic curve. */
 export const quadraticToCubic = (p, c, q) => [
   p.x,
   p.y,
@@ -86,7 +86,7 @@ export function pointOnCurve(curve, t) {
   };
 }
 
-/** The rectangle around the control points, which always holds the curve. */
+/** Returns the bounding rectangle of the control points, which contains the curve. */
 export function curveBounds(curve) {
   const xs = [curve[0], curve[2], curve[4], curve[6]];
   const ys = [curve[1], curve[3], curve[5], curve[7]];
@@ -95,7 +95,7 @@ export function curveBounds(curve) {
   return { x, y, w: Math.max(...xs) - x, h: Math.max(...ys) - y };
 }
 
-/** The squared distance from a point to a curve, good enough for picking with a pointer. */
+/** Returns the squared distance from a point to a curve, sampled: precise enough for hit testing. */
 export function distanceToCurve(curve, x, y) {
   let best = Infinity;
   for (let step = 0; step <= 24; step += 1) {
@@ -105,37 +105,37 @@ export function distanceToCurve(curve, x, y) {
   return best;
 }
 
-/** How long a curve is at most: the way over its control points. */
+/** Upper bound of the length of a curve: the length of its control polygon. */
 export const curveLength = (c) =>
   Math.hypot(c[2] - c[0], c[3] - c[1]) + Math.hypot(c[4] - c[2], c[5] - c[3]) + Math.hypot(c[6] - c[4], c[7] - c[5]);
 
-/** Points along a curve, near enough to each other to stand for it. */
+/** Returns points along a curve as an approximation of it. */
 export function sampleCurve(curve, length) {
   const steps = Math.min(32, Math.max(4, Math.ceil(length / 40)));
   return Array.from({ length: steps + 1 }, (_, step) => pointOnCurve(curve, step / steps));
 }
 
-/** Whether a line through these points touches a rectangle. */
+/** Whether a polyline touches a rectangle. */
 export function polylineTouches(points, rect) {
   let before = sidesOf(points[0], rect);
   for (let index = 1; index < points.length; index += 1) {
     const sides = sidesOf(points[index], rect);
-    // Both beyond the same side: this is asked for thousands of lines, of which nearly all pass elsewhere.
+    // Fast path for segments beyond one side of the rectangle, which are nearly all of thousands.
     if ((before & sides) === 0 && touches(points[index - 1], points[index], rect)) return true;
     before = sides;
   }
   return false;
 }
 
-/** Beyond which sides of a rectangle a point lies, as bits. */
+/** Bit set of the sides of a rectangle that a point lies beyond. */
 const sidesOf = ({ x, y }, rect) =>
   (x < rect.x ? 1 : x > rect.x + rect.w ? 2 : 0) | (y < rect.y ? 4 : y > rect.y + rect.h ? 8 : 0);
 
-/** Whether a segment that is not wholly beyond one side of a rectangle has a part in it. */
+/** Whether a segment that is not entirely beyond one side of a rectangle intersects it. */
 function touches(a, b, rect) {
   const [right, bottom] = [rect.x + rect.w, rect.y + rect.h];
   if (a.x === b.x || a.y === b.y) return true;
-  // Not beside it, so only a slanting line past a corner misses: then all four corners lie on one side of it.
+  // Only an oblique segment that passes a corner misses; then all four corners lie on one side of it.
   const side = (x, y) => (b.x - a.x) * (y - a.y) > (b.y - a.y) * (x - a.x);
   const first = side(rect.x, rect.y);
   return side(right, rect.y) !== first || side(rect.x, bottom) !== first || side(right, bottom) !== first;

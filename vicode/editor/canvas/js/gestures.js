@@ -1,10 +1,11 @@
-// From pointer events to gestures: what is under the pointer decides, and movement is taken once per frame.
+// Converts pointer events to gestures. The element under the pointer decides which; movement is handled once per frame.
 import { ConnectDrag, ReconnectDrag } from "./connect_drags.js";
 import { MarqueeDrag, MoveDrag, PanDrag } from "./drags.js";
 import { findFreePosition } from "./alignment.js";
 import { distanceToCurve, snap } from "./geometry.js";
 import { LabelDrag } from "./label_drag.js";
 import { ConnectMode } from "./connect_mode.js";
+import { CHANGE_SOURCE, CHANGE_TARGET, CONNECT } from "./strings.js";
 import { Touch } from "./touch.js";
 import { Wheel } from "./wheel.js";
 
@@ -39,7 +40,7 @@ export class PointerGestures {
     return Boolean(this.drag?.begun || this.connectMode);
   }
 
-  /** Calls off whatever is under way; true when there was something. */
+  /** Cancels the current gesture; returns whether there was one. */
   cancel() {
     const busy = Boolean(this.drag || this.connectMode);
     if (this.drag?.begun) this.drag.gesture.cancel();
@@ -53,18 +54,18 @@ export class PointerGestures {
     return busy;
   }
 
-  /** Starts a connection that the next click, or a box aimed at by keys, ends. */
+  /** Starts to connect a node to the node that is clicked next, or that is chosen by keys. */
   connectFrom(key) {
-    this.#startConnectMode(new ConnectDrag(this.canvas, key), key, "Connect to");
+    this.#startConnectMode(new ConnectDrag(this.canvas, key), key, CONNECT);
   }
 
-  /** The same for one end of a transition. */
+  /** Starts to move one end of a transition in the same way. */
   reconnect(key, end) {
     const edge = this.canvas.scene.edges.get(key);
-    this.#startConnectMode(new ReconnectDrag(this.canvas, key, end), edge[end], end === "target" ? "Lead to" : "Start from");
+    this.#startConnectMode(new ReconnectDrag(this.canvas, key, end), edge[end], end === "target" ? CHANGE_TARGET : CHANGE_SOURCE);
   }
 
-  /** Enter: ends a connection at the box the keys aim at. */
+  /** Enter: connects to the node that was chosen by keys. */
   finishConnect() {
     const { connectMode } = this;
     this.connectMode = null;
@@ -78,7 +79,7 @@ export class PointerGestures {
     else this.connectMode?.sceneChanged?.();
   }
 
-  /** Where a new thing goes: where the menu was opened, under the pointer, else in the middle; there or beside, where it is free. */
+  /** Free position for a new state near the open menu, else near the pointer, else near the middle of the view. */
   freePosition() {
     const { x, y } = this.pointerPosition();
     return findFreePosition(this.canvas.scene, x, y);
@@ -86,13 +87,13 @@ export class PointerGestures {
 
   pointerPosition() {
     const { viewport } = this.canvas;
-    const at = this.menuAt ?? this.pointer;
-    return at ? viewport.toWorld(at) : viewport.middle();
+    const position = this.menuAt ?? this.pointer;
+    return position ? viewport.toWorld(position) : viewport.middle();
   }
 
-  #startConnectMode(gesture, from, what) {
+  #startConnectMode(gesture, from, action) {
     this.cancel();
-    this.connectMode = new ConnectMode(this.canvas, gesture, from, what);
+    this.connectMode = new ConnectMode(this.canvas, gesture, from, action);
     this.connectMode.begin();
     this.canvas.handles.refresh();
   }
@@ -125,12 +126,12 @@ export class PointerGestures {
     return event.pointerType === "touch" && !this.isAdditive ? new PanDrag(canvas) : new MarqueeDrag(canvas, adds);
   }
 
-  /** Whether a press adds to the selection; by touch there are no keys to hold, but a switch in the corner. */
+  /** Whether a press adds to the selection: by a modifier key, or by the toggle button for touch. */
   #adds(event) {
     return event.shiftKey || event.ctrlKey || event.metaKey || this.isAdditive;
   }
 
-  /** Selects what is pressed at once; answers whether it was selected before. */
+  /** Selects the pressed element immediately; returns whether it was selected before. */
   #press(event, hit) {
     const { selection } = this.canvas;
     if (!hit.key || event.button !== 0 || this.spaceHeld) return false;
@@ -173,7 +174,7 @@ export class PointerGestures {
     if (push) canvas.frame.schedule("drag", () => this.#dragOn());
   }
 
-  /** Near the border the view comes along. */
+  /** Distance to scroll when the pointer is near the border. */
   #autoScroll({ x, y }) {
     const { width, height } = this.canvas.viewport;
     const speed = (value, size) => (value < BORDER ? (BORDER - value) / 3 : value > size - BORDER ? (size - BORDER - value) / 3 : 0);
@@ -205,9 +206,9 @@ export class PointerGestures {
 
   #doubleClick(event, hit) {
     const { canvas } = this;
-    const thing = hit.key && canvas.scene.find(hit.key);
-    if (thing?.of === "states") canvas.rename.start(hit.key);
-    else if (thing) canvas.report("open", { of: thing.of, id: thing.id });
+    const element = hit.key && canvas.scene.find(hit.key);
+    if (element?.of === "states") canvas.rename.start(hit.key);
+    else if (element) canvas.report("open", { of: element.of, id: element.id });
     else {
       const { x, y } = this.#where(event).world;
       canvas.report("create", { x: snap(x), y: snap(y) });
@@ -244,7 +245,7 @@ export class PointerGestures {
     return { key: this.#hitFar(this.#where(event).world), handle: null, end: null, edge: null, isLabel: false };
   }
 
-  /** In the overview there are no elements to ask. */
+  /** Hit test in the overview, where no elements are mounted. */
   #hitFar({ x, y }) {
     const { scene, router, viewport } = this.canvas;
     const node = scene.nodeAt(x, y);
@@ -259,7 +260,7 @@ export class PointerGestures {
     this.drag = null;
   }
 
-  /** A finger that is held still wants the menu, not the drag that it could have become. */
+  /** A long press opens the menu instead of starting a drag. */
   #longPress(event) {
     if (this.drag?.begun || this.connectMode) return;
     this.drag = null;
@@ -268,7 +269,7 @@ export class PointerGestures {
 
   #menu(event) {
     event.preventDefault();
-    // Fingers and keys have ways of their own, of which some browsers tell in this way as well.
+    // Touch and keyboard open the menu by other events; some browsers send this one in addition.
     if (event.button === 2 && event.pointerType !== "touch") this.#openMenu(event);
   }
 
@@ -282,7 +283,7 @@ export class PointerGestures {
     canvas.menu.open(this.menuAt);
   }
 
-  /** A design was dragged here from the list beside: links bring their address. */
+  /** A design was dragged from the list of designs, as a link with its address. */
   #drop(event) {
     event.preventDefault();
     const link = event.dataTransfer?.getData("text/uri-list") ?? "";

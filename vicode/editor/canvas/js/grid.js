@@ -1,4 +1,4 @@
-// A uniform grid over the plane: which keys may touch a rectangle, in constant time per cell.
+// Spatial index: a uniform grid that finds the keys near a rectangle in constant time per cell.
 
 const CELL = 320;
 const NONE = new Set();
@@ -14,18 +14,18 @@ export class Grid {
     this.cellsByKey.clear();
   }
 
-  /** Files a key under every cell its rectangle touches. */
+  /** Indexes a key under every cell that its rectangle touches. */
   putRect(key, rect) {
     this.remove(key);
     this.#index(key, cellsOf(rect));
   }
 
-  /** Files a key under the cells along a straight line, so that long diagonals stay cheap. */
+  /** Indexes a key under the cells along a straight line, which keeps long diagonals cheap. */
   putLine(key, a, b) {
     this.putPath(key, [a, b]);
   }
 
-  /** Files a key under the cells along a line through points. */
+  /** Indexes a key under the cells along a polyline. */
   putPath(key, points) {
     this.remove(key);
     const cells = new Set();
@@ -42,7 +42,7 @@ export class Grid {
     this.cellsByKey.delete(key);
   }
 
-  /** The keys of all cells that a rectangle touches; a superset of what really overlaps it. */
+  /** Returns the keys of all cells that a rectangle touches: a superset of the keys that overlap it. */
   query(rect) {
     const found = new Set();
     for (const cell of cellsOf(rect)) {
@@ -51,7 +51,7 @@ export class Grid {
     return found;
   }
 
-  /** The keys of the one cell a point lies in, without copying them. */
+  /** Returns the keys of the cell that contains a point, without copying them. */
   at(x, y) {
     return this.cells.get(cellAt(x, y)) ?? NONE;
   }
@@ -65,7 +65,7 @@ export class Grid {
   }
 }
 
-// One number names a cell: 2^21 cells each way are far more than any design needs.
+// A cell is one number, which allows for 2^21 columns and rows.
 const cellName = (column, row) => (column + 1048576) * 2097152 + (row + 1048576);
 
 const cellAt = (x, y) => cellName(Math.floor(x / CELL), Math.floor(y / CELL));

@@ -1,12 +1,12 @@
-// Where groups stand. A browser goes through all elements that have a transform whenever one of them moves, which with a
-// thousand takes longer than a frame. So what rests has its place in its coordinates; only what is held has a transform.
+// Positions of SVG groups. Whenever one element with a transform moves, the browser visits all elements with a transform;
+// with a thousand this takes longer than a frame. So positions are baked into coordinates, except during a drag.
 
 const drawnAt = new WeakMap();
 const ORIGIN = { x: 0, y: 0 };
 
-/** Puts a group, drawn around the origin, at a place; it tells that place in `data-at`. */
-export function placeGroup(group, ...at) {
-  const [x, y] = at.map(round);
+/** Moves a group, drawn around the origin, to a position, which is also stored in `data-at`. */
+export function placeGroup(group, ...position) {
+  const [x, y] = position.map(round);
   const from = drawnAt.get(group) ?? ORIGIN;
   group.dataset.at = `${x} ${y}`;
   if (isHeld(group)) return group.setAttribute("transform", `translate(${x - from.x} ${y - from.y})`);
@@ -15,15 +15,15 @@ export function placeGroup(group, ...at) {
   drawnAt.set(group, { x, y });
 }
 
-/** A group that was held rests again. */
+/** Replaces the transform of a group after a drag by coordinates. */
 export function bakeTransform(group) {
   if (group.hasAttribute("transform")) placeGroup(group, ...group.dataset.at.split(" ").map(Number));
 }
 
-/** The point that the coordinates of a group are drawn around. */
+/** Returns the point around which the coordinates of a group are drawn. */
 export const groupOrigin = (group) => drawnAt.get(group) ?? ORIGIN;
 
-/** Moves an element, and all in it, by changing its coordinates; returns it. */
+/** Moves an element and its children by changing their coordinates; returns the element. */
 export function translateElement(element, dx, dy) {
   if (element.tagName === "g") for (const child of element.children) translateElement(child, dx, dy);
   else if (element.tagName === "path") element.setAttribute("d", shiftPath(element.getAttribute("d"), dx, dy));
@@ -34,11 +34,11 @@ export function translateElement(element, dx, dy) {
 
 const isHeld = (group) => Boolean(group.parentNode?.classList.contains("held"));
 
-function add(element, by) {
-  for (const [name, value] of Object.entries(by)) element.setAttribute(name, round(Number(element.getAttribute(name) ?? 0) + value));
+function add(element, offsets) {
+  for (const [name, value] of Object.entries(offsets)) element.setAttribute(name, round(Number(element.getAttribute(name) ?? 0) + value));
 }
 
-/** Only commands in capitals have coordinates; the others go on from where the pen is. Arcs in capitals are not drawn here. */
+/** Only uppercase commands have absolute coordinates. Absolute arcs are not supported. */
 const shiftPath = (path, dx, dy) =>
   path.replace(/([MLHVCQ])([^A-Za-z]*)/g, (_, command, numbers) => command + shiftNumbers(command, numbers, dx, dy));
 
@@ -47,5 +47,5 @@ function shiftNumbers(command, numbers, dx, dy) {
   return numbers.match(/-?[\d.]+/g).map((number, index) => round(Number(number) + (isAcross(index) ? dx : dy))).join(" ");
 }
 
-// On a grid, so that no errors add up when a group is moved often.
+// Rounded, so that errors do not accumulate when a group is moved often.
 const round = (value) => Math.round(value * 100) / 100;

@@ -1,4 +1,4 @@
-// Lines that show with which boxes a dragged one lines up, marks of equal gaps, and the small pull towards both.
+// Guides during a drag: lines through aligned nodes, marks of equal gaps, and snapping to both.
 import { grow, nodeRect } from "./geometry.js";
 import { equalGaps } from "./spacing.js";
 import { svg } from "./svg.js";
@@ -14,7 +14,7 @@ const AXES = [
 ];
 
 export class Guides {
-  /** Args: the canvas; the keys of what is dragged, which are no guides to themselves. */
+  /** @param dragged the keys of the dragged nodes, which are not guides */
   constructor(canvas, dragged) {
     this.canvas = canvas;
     this.group = svg("g", { class: "guides" });
@@ -24,21 +24,21 @@ export class Guides {
     this.rects = near.slice(0, MAX_NODES).map((key) => nodeRect(canvas.scene.nodes.get(key)));
   }
 
-  /** How far a rectangle is to be pulled, by axis; null where nothing is near enough. */
+  /** Returns the snap offset of a rectangle for each axis, or null where nothing is near enough. */
   snapOffsets(rect) {
     const reach = SNAP_DISTANCE / this.canvas.viewport.k;
     return Object.fromEntries(AXES.map((axis) => [axis.name, this.#nearest(rect, axis, reach)]));
   }
 
-  /** Draws a line through everything that is in line with a rectangle, and a mark in each of its equal gaps. */
+  /** Draws a line through all nodes that are aligned with a rectangle, and a mark in each of its equal gaps. */
   show(rect) {
     this.group.replaceChildren();
     for (const axis of AXES) {
-      for (const { by, gaps } of equalGaps(rect, this.rects, axis)) {
-        if (Math.abs(by) < 1) this.group.append(...gaps.map((gap) => gapMark(axis, gap, rect, TICK / this.canvas.viewport.k)));
+      for (const { offset, gaps } of equalGaps(rect, this.rects, axis)) {
+        if (Math.abs(offset) < 1) this.group.append(...gaps.map((gap) => gapMark(axis, gap, rect, TICK / this.canvas.viewport.k)));
       }
       for (const at of alignmentLines(rect, axis)) {
-        const inLine = this.rects.filter((each) => alignmentLines(each, axis).some((stop) => Math.abs(stop - at) < 0.5));
+        const inLine = this.rects.filter((other) => alignmentLines(other, axis).some((stop) => Math.abs(stop - at) < 0.5));
         if (inLine.length) this.group.append(line(axis, at, [rect, ...inLine]));
       }
     }
@@ -54,13 +54,13 @@ export class Guides {
 
   #nearest(rect, axis, reach) {
     const inLine = this.rects.flatMap((other) => alignmentLines(other, axis).flatMap((stop) => alignmentLines(rect, axis).map((own) => stop - own)));
-    const even = equalGaps(rect, this.rects, axis).map(({ by }) => by);
-    const near = [...inLine, ...even].filter((by) => Math.abs(by) <= reach);
-    return near.length ? near.reduce((best, by) => (Math.abs(by) < Math.abs(best) ? by : best)) : null;
+    const even = equalGaps(rect, this.rects, axis).map(({ offset }) => offset);
+    const near = [...inLine, ...even].filter((offset) => Math.abs(offset) <= reach);
+    return near.length ? near.reduce((best, offset) => (Math.abs(offset) < Math.abs(best) ? offset : best)) : null;
   }
 }
 
-/** The two sides of a rectangle and its middle, along one axis. */
+/** The two sides and the middle of a rectangle along one axis. */
 const alignmentLines = (rect, { name, size }) => [rect[name], rect[name] + rect[size] / 2, rect[name] + rect[size]];
 
 function line({ name, across, length }, at, rects) {
@@ -69,7 +69,7 @@ function line({ name, across, length }, at, rects) {
   return svg("path", { class: "guide", d: name === "x" ? `M${at} ${low}V${high}` : `M${low} ${at}H${high}` });
 }
 
-/** A line across a gap, with a tick at either end. */
+/** A line across a gap with a tick at each end. */
 function gapMark({ name, across, length }, [from, to], rect, tick) {
   const at = rect[across] + rect[length] / 2;
   const ends = [from, to].map((end) => (name === "x" ? `M${end} ${at - tick}V${at + tick}` : `M${at - tick} ${end}H${at + tick}`));

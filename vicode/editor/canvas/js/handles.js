@@ -1,10 +1,10 @@
-// The small discs one drags from: round a hovered or selected node, and at both ends of a selected transition.
+// Drag handles: around a hovered or selected node, and at both ends of a selected transition.
 import { svg } from "./svg.js";
 
 const OUT = 9;
 const RADIUS = 5;
 const REACH = 11;
-// Under a finger: 44 pixels across.
+// Touch target of 44 pixels.
 const TOUCH_REACH = 22;
 
 export class Handles {
@@ -14,7 +14,7 @@ export class Handles {
     canvas.painter.layers.above.append(this.group);
   }
 
-  /** Draws the discs for what is hovered or alone selected; none while something is dragged. */
+  /** Draws the handles of the hovered or the only selected element; none during a drag. */
   refresh() {
     const { selection, scene, gestures } = this.canvas;
     this.group.replaceChildren();
@@ -29,13 +29,13 @@ export class Handles {
     const size = this.#size();
     if (size > 2.5) return;
     const out = OUT * size;
-    const places = [
+    const positions = [
       [node.x, node.y - node.h / 2 - out],
       [node.x + node.w / 2 + out, node.y],
       [node.x, node.y + node.h / 2 + out],
       [node.x - node.w / 2 - out, node.y],
     ];
-    for (const [x, y] of places) this.#disc(x, y, size, { "data-handle": node.key });
+    for (const [x, y] of positions) this.#disc(x, y, size, { "data-handle": node.key });
   }
 
   #atEnds(edge) {
@@ -53,7 +53,7 @@ export class Handles {
     );
   }
 
-  /** Discs keep their size on the screen when the scene is small. */
+  /** Scale that keeps the size of handles on the screen when the view is zoomed out. */
   #size() {
     return 1 / Math.min(1, this.canvas.viewport.k);
   }

@@ -1,12 +1,13 @@
-// Renaming in place: an input laid over a box. The name is only proposed; Python decides.
+// Inline rename: an input field over a node. Python validates the name.
 import { keyOf } from "./scene.js";
+import { NAME } from "./strings.js";
 import { html } from "./svg.js";
 
 export class InlineRename {
   constructor(canvas) {
     this.canvas = canvas;
     this.key = null;
-    this.input = html("input", { class: "rename", type: "text", spellcheck: "false", hidden: true, "aria-label": "Name" });
+    this.input = html("input", { class: "rename", type: "text", spellcheck: "false", hidden: true, "aria-label": NAME });
     this.input.addEventListener("keydown", (event) => this.#down(event));
     this.input.addEventListener("blur", () => this.#close(true));
     for (const name of ["pointerdown", "keyup", "wheel"]) this.input.addEventListener(name, (event) => event.stopPropagation());
@@ -24,20 +25,20 @@ export class InlineRename {
     this.input.select();
   }
 
-  /** The box will be called otherwise in a moment: what is being typed goes on, and becomes its name. */
+  /** Another user renamed the state: the field stays open, and its text will rename the state again. */
   stateRenamed(old, name) {
     if (!this.key || this.key !== keyOf("states", old)) return;
     this.key = keyOf("states", name);
-    this.isAwaited = true;
+    this.isRenamePending = true;
     this.canvas.report("renamed-meanwhile", { of: "states", id: name, name: old });
   }
 
-  /** Stays on its box while the view moves; closes when the box is gone. */
+  /** Keeps the field over its node; closes it if the node was removed. */
   viewChanged() {
     if (!this.key) return;
     const node = this.canvas.scene.nodes.get(this.key);
-    if (!node && this.isAwaited) return;
-    this.isAwaited = false;
+    if (!node && this.isRenamePending) return;
+    this.isRenamePending = false;
     if (!node) return this.#close(false);
     const { viewport } = this.canvas;
     const at = viewport.toScreen({ x: node.x - node.w / 2, y: node.y - node.h / 2 });
@@ -52,7 +53,7 @@ export class InlineRename {
   }
 
   #down(event) {
-    // Saving is the page's business; what is saved includes the name just typed.
+    // The page handles saving; the typed name is applied first, so that it is saved too.
     if ((event.ctrlKey || event.metaKey) && event.key.toLowerCase() === "s") return this.#leave(true);
     event.stopPropagation();
     if (!["Enter", "Escape", "Tab"].includes(event.key)) return;

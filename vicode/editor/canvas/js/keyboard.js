@@ -1,6 +1,6 @@
-// Key events become chords such as "Ctrl+Shift+Z"; what they mean is in the table of commands. Others go on to the page.
+// Converts key events to shortcuts such as "Ctrl+Shift+Z" and runs their commands. Other keys are left to the page.
 
-const HELD_ORDER = ["Ctrl", "Alt", "Shift"];
+const MODIFIER_ORDER = ["Ctrl", "Alt", "Shift"];
 
 export class Keyboard {
   constructor(canvas) {
@@ -9,7 +9,7 @@ export class Keyboard {
     this.onPageKey = (event) => this.#pageKey(event);
     stage.addEventListener("keydown", (event) => this.#down(event));
     stage.addEventListener("keyup", (event) => this.#up(event));
-    // The focus is shown to those who steer by keys, and only to them.
+    // The focus ring is only shown to keyboard users.
     stage.addEventListener("keyup", () => stage.classList.add("keys"));
     stage.addEventListener("pointerdown", () => stage.classList.remove("keys"), { capture: true });
     stage.addEventListener("blur", () => this.#space(false));
@@ -21,7 +21,7 @@ export class Keyboard {
     document.removeEventListener("keydown", this.onPageKey);
   }
 
-  /** Keys pressed while nothing on the page has the focus are meant for the drawing. */
+  /** Keys pressed while no element of the page has the focus are handled by the canvas. */
   #pageKey(event) {
     if (event.target !== document.body || event.defaultPrevented || event.key === "Tab" || !this.canvas.host.offsetParent) return;
     this.canvas.stage.focus({ preventScroll: true });
@@ -54,7 +54,7 @@ export class Keyboard {
   }
 }
 
-/** "Ctrl+Shift+Z": Cmd counts as Ctrl; signs are named as they are printed, whatever must be held to reach them. */
+/** Returns a shortcut such as "Ctrl+Shift+Z". Cmd counts as Ctrl; Shift is left out for signs such as "?". */
 export function chordOf(event) {
   const isLetter = /^\p{L}$/u.test(event.key);
   const isSign = event.key.length === 1 && !isLetter && event.key !== " ";
@@ -64,10 +64,10 @@ export function chordOf(event) {
     Alt: event.altKey && !isThirdLevel,
     Shift: event.shiftKey && !isSign,
   };
-  return [...HELD_ORDER.filter((name) => held[name]), keyOf(event, held.Alt)].join("+");
+  return [...MODIFIER_ORDER.filter((name) => held[name]), keyOf(event, held.Alt)].join("+");
 }
 
-/** With Alt some keyboards give other letters; then the place of the key counts. */
+/** With Alt, some keyboard layouts produce other letters; then the physical key is used. */
 function keyOf({ key, code }, alt) {
   if (key === " ") return "Space";
   if (alt && /^Key[A-Z]$/.test(code)) return code.slice(3);

@@ -1,6 +1,6 @@
-// From thing to thing without a pointer: in the order of the design, or in a direction. Pure functions.
+// Keyboard navigation between elements, in the order of the design or in a direction. Pure functions.
 
-/** Every node, each followed by what leaves it: transitions by their order, then links. */
+/** Returns the keys of all nodes, each followed by its outgoing edges: transitions by priority, then links. */
 export function tabOrder(scene) {
   return [...scene.nodes.values()].flatMap((node) => {
     const leaving = scene.edgesOf(node.key).filter((edge) => edge.source === node.key && scene.isDrawable(edge));
@@ -9,7 +9,7 @@ export function tabOrder(scene) {
   });
 }
 
-/** The nearest box in a direction; what lies aside counts as farther away. */
+/** Returns the nearest node in a direction; distance across the direction counts twice. */
 export function nearestInDirection(boxes, from, [dx, dy]) {
   let best = null;
   for (const box of boxes) {

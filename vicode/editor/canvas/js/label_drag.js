@@ -1,7 +1,8 @@
-// The label of a transition is put elsewhere by hand: along its arrow or off it, or onto another label to be tested there.
+// Dragging the label of a transition: to another position, or onto another label to change the priority.
 import { rectAround } from "./geometry.js";
 import { labelPosition, labelOffset } from "./edge_labels.js";
 import { placeGroup } from "./group_transforms.js";
+import { DROP_ON_LABEL } from "./strings.js";
 import { svg } from "./svg.js";
 
 export class LabelDrag {
@@ -17,7 +18,7 @@ export class LabelDrag {
     this.tie = svg("path", { class: "guide" });
     this.canvas.painter.layers.above.append(this.tie);
     this.canvas.painter.mark("held", [this.key]);
-    this.canvas.showMessage("On another label of this state: tested there");
+    this.canvas.showMessage(DROP_ON_LABEL);
   }
 
   move({ world }) {
@@ -77,7 +78,7 @@ export class LabelDrag {
     for (const name of ["drop", "held"]) this.canvas.painter.mark(name, []);
   }
 
-  /** Another transition of the same source whose label lies under the pointer. */
+  /** Returns another transition of the same source whose label is under the pointer. */
   #siblingAt({ x, y }) {
     const { scene, router } = this.canvas;
     const own = this.#edge();
@@ -90,7 +91,7 @@ export class LabelDrag {
   }
 }
 
-/** Arrow keys on a selected transition: its label goes a step. */
+/** Arrow keys on a selected transition move its label. */
 export function nudgeLabel(canvas, edge, dx, dy) {
   const { at, curve, chip } = canvas.router.route(edge);
   if (chip) canvas.report("label", { id: edge.id, at: labelOffset(curve, { x: at.x + dx, y: at.y + dy }), by: "nudge" });

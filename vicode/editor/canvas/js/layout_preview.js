@@ -1,4 +1,4 @@
-// Other places for boxes, shown before anybody decides: the drawing stands there, outlines stay where the boxes were.
+// Layout preview: shows nodes at proposed positions, with outlines at the current positions, until the user decides.
 import { nodeRect } from "./geometry.js";
 import { svg } from "./svg.js";
 
@@ -10,17 +10,17 @@ export class LayoutPreview {
     this.keys = null;
     this.pan = null;
     const { stage } = canvas;
-    // Before anything else hears of them: while it is a preview one looks, and does not touch.
+    // Captured before all other listeners: during a preview the diagram can be viewed, but not edited.
     for (const [name, job] of [["pointerdown", this.#down], ["pointermove", this.#move], ["pointerup", this.#up], ["keydown", this.#key]]) {
       stage.addEventListener(name, (event) => this.keys && job.call(this, event), { capture: true });
     }
   }
 
-  /** Shows nodes `{key, x, y}` elsewhere and everything in sight. */
-  show(places) {
+  /** Shows nodes at the positions `{key, x, y}` and fits the view. */
+  show(positions) {
     this.clear();
     const { canvas } = this;
-    const known = places.filter(({ key }) => canvas.scene.nodes.has(key));
+    const known = positions.filter(({ key }) => canvas.scene.nodes.has(key));
     if (!known.length) return;
     const { x, y, k } = canvas.viewport;
     canvas.gestures.cancel();
@@ -35,7 +35,7 @@ export class LayoutPreview {
     canvas.stage.focus({ preventScroll: true });
   }
 
-  /** Back to where the scene has everything; the view goes back too unless `stay`. */
+  /** Restores the positions of the scene, and the view unless `stay`. */
   clear({ stay = false } = {}) {
     if (!this.keys) return;
     const { canvas, keys } = this;
@@ -47,10 +47,10 @@ export class LayoutPreview {
     if (!stay) canvas.viewport.set(this.view);
   }
 
-  #put(places) {
+  #put(positions) {
     const { scene } = this.canvas;
-    for (const { key, x, y } of places) scene.move(key, x, y);
-    this.canvas.positionsChanged(places.map(({ key }) => key));
+    for (const { key, x, y } of positions) scene.move(key, x, y);
+    this.canvas.positionsChanged(positions.map(({ key }) => key));
   }
 
   #down(event) {

@@ -1,4 +1,4 @@
-// How much is drawn piece by piece: near everything in sight, far bitmaps of it, and while a crowd zooms its picture.
+// Level of detail: SVG when zoomed in, bitmaps when zoomed out, and a snapshot while many elements are being zoomed.
 import { MAX_PINNED } from "./painter.js";
 import { Overview } from "./overview.js";
 import { Snapshot } from "./snapshot.js";
@@ -19,11 +19,11 @@ export class LevelOfDetail {
     this.overview = new Overview(canvas.scene, canvas.viewport, colours);
     this.snapshot = new Snapshot(canvas.painter, canvas.viewport, colours);
     this.elements = [...this.overview.elements, this.snapshot.element, plane];
-    // What is pressed must be there to be found.
+    // A press needs mounted elements for its hit test.
     canvas.stage.addEventListener("pointerdown", () => this.#unfreeze(), { capture: true });
   }
 
-  /** The view moved: what is shown moves along. */
+  /** Moves the planes and bitmaps with the view. */
   viewChanged() {
     const { viewport, painter } = this.canvas;
     const zooms = viewport.k !== this.shownZoom;
@@ -37,13 +37,13 @@ export class LevelOfDetail {
     else if (!painter.covers(viewport.visibleRect())) this.#uncovered(zooms);
   }
 
-  /** The view came to rest: what is seen is drawn as well as it can be; after a picture a little later, as wheels pause. */
+  /** Draws the visible part in full detail; after a snapshot with a delay, since wheel events pause. */
   viewIdle() {
     if (!this.frozen) return this.#settle();
     this.canvas.frame.debounce("thaw", THAW_MS, () => this.canvas.viewport.isIdle && this.#settle());
   }
 
-  /** Brings the mounted part up to what is seen. */
+  /** Mounts what is visible. */
   cull() {
     if (!this.far && this.#isTooDense(1)) this.#setFar(true);
     else this.#mount();
@@ -68,14 +68,14 @@ export class LevelOfDetail {
   selectionChanged() {
     if (!this.far) return;
     this.scheduleCull();
-    // A small selection lies as SVG above the bitmap; a large one is drawn into it.
+    // A small selection is SVG above the bitmap; a large one is part of the bitmap.
     const inBitmap = this.canvas.selection.keys.size > MAX_PINNED;
     if (inBitmap || this.overview.showsSelection) this.overview.invalidate();
     this.overview.showsSelection = inBitmap;
     this.scheduleRedraw();
   }
 
-  /** Bitmaps follow a change when there is time: soon when they are looked at, later when they only stand by. */
+  /** Redraws the bitmaps after a pause, which is short if they are visible. */
   scheduleRedraw() {
     const { frame, gestures, viewport, selection } = this.canvas;
     frame.debounce("overview", this.far ? 60 : 500, () => {
@@ -98,7 +98,7 @@ export class LevelOfDetail {
     this.plane.style.transform = `translate(${x}px, ${y}px) scale(${k})`;
   }
 
-  /** A browser lays out every SVG text anew at each step of a zoom: a crowd of things is stood for by its picture. */
+  /** Shows the snapshot during a zoom: browsers lay out every SVG text again at each zoom step. */
   #freeze() {
     const { gestures, root, viewport } = this.canvas;
     const isBusy = this.far || gestures.isDragging() || this.plane.contains(root.activeElement);
@@ -117,7 +117,7 @@ export class LevelOfDetail {
     this.canvas.stage.classList.remove("frozen");
   }
 
-  /** The view moved past what is mounted. While it zooms the coarse bitmap must do; while it pans, things are mounted. */
+  /** The view left the mounted area: shows the coarse bitmap during a zoom, and mounts elements while panning. */
   #uncovered(zooms) {
     if (zooms && this.overview.isDrawn()) this.#showUnderlay(true);
     else this.#mount();
@@ -133,7 +133,7 @@ export class LevelOfDetail {
     this.canvas.stage.classList.toggle("under", shown);
   }
 
-  /** Whether there is more in sight than the browser should draw piece by piece; `slack` below 1 makes leaving harder. */
+  /** Whether too many elements for SVG are visible; `slack` below 1 adds hysteresis for leaving the overview. */
   #isTooDense(slack) {
     const { scene, viewport } = this.canvas;
     if (scene.nodes.size <= FAR_STATES) return false;

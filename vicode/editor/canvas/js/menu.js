@@ -1,5 +1,6 @@
-// The menu of what is selected: by the right button, a long press or Shift+F10; arrow keys, letters and Escape inside.
+// Context menu of the selection, opened by right-click, long press or Shift+F10.
 import { nodeRect } from "./geometry.js";
+import { MENU } from "./strings.js";
 import { html } from "./svg.js";
 
 const EDGE = 8;
@@ -19,7 +20,7 @@ export class Menu {
     const entries = this.canvas.commands.menuEntries();
     if (!entries.length) return;
     this.element.replaceChildren(...this.#rows(entries));
-    this.element.setAttribute("aria-label", "Menu");
+    this.element.setAttribute("aria-label", MENU);
     this.element.hidden = false;
     const { width, height } = this.canvas.viewport;
     const fit = (at, size, room) => Math.max(EDGE, Math.min(at, room - size - EDGE));
@@ -29,14 +30,14 @@ export class Menu {
     this.#items()[0].focus({ preventScroll: true });
   }
 
-  /** Opens beside what is selected, in the middle when that is nothing. */
+  /** Opens below the selected element, or in the middle of the view if nothing is selected. */
   openAtSelection() {
     const { selection, scene, router, viewport } = this.canvas;
     const key = selection.single() ?? selection.nodes().at(-1);
     if (key) this.canvas.reveal(key);
-    const thing = key && scene.find(key);
-    if (!thing) return this.open({ x: viewport.width / 2, y: viewport.height / 2 });
-    const rect = scene.nodes.has(key) ? nodeRect(thing) : { ...(scene.isDrawable(thing) ? router.route(thing).at : viewport.middle()), w: 0, h: 0 };
+    const element = key && scene.find(key);
+    if (!element) return this.open({ x: viewport.width / 2, y: viewport.height / 2 });
+    const rect = scene.nodes.has(key) ? nodeRect(element) : { ...(scene.isDrawable(element) ? router.route(element).at : viewport.middle()), w: 0, h: 0 };
     this.open(viewport.toScreen({ x: rect.x + rect.w / 2, y: rect.y + rect.h }));
   }
 
@@ -67,7 +68,7 @@ export class Menu {
     return row;
   }
 
-  /** What is made from the menu goes where it was opened; what is made later by a key does not. */
+  /** Runs a command. Commands from the menu create elements where the menu was opened. */
   #choose(name) {
     const { commands, gestures } = this.canvas;
     const at = gestures.menuAt;
@@ -94,8 +95,8 @@ export class Menu {
   }
 
   #jump(items, at, letter) {
-    const turned = [...items.slice(at + 1), ...items.slice(0, at + 1)];
-    turned.find((item) => item.textContent.toLowerCase().startsWith(letter))?.focus();
+    const rotated = [...items.slice(at + 1), ...items.slice(0, at + 1)];
+    rotated.find((item) => item.textContent.toLowerCase().startsWith(letter))?.focus();
   }
 
   #lost(event) {

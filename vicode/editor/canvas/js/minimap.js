@@ -1,4 +1,4 @@
-// The whole scene in a corner; a press or drag there brings that place to the middle.
+// Minimap of the scene; a press or drag centers the view there.
 import { bounds, containsRect, grow, nodeRect } from "./geometry.js";
 import { html } from "./svg.js";
 
@@ -19,7 +19,7 @@ export class Minimap {
     this.#listen();
   }
 
-  /** Draws the boxes anew; the scene changed. */
+  /** Redraws the minimap after a change of the scene. */
   draw() {
     const pen = this.canvas.getContext("2d");
     pen.setTransform(1, 0, 0, 1, 0, 0);
@@ -42,7 +42,7 @@ export class Minimap {
     this.viewChanged();
   }
 
-  /** Where the lines run tells more than boxes alone; thousands of them would only be grey. */
+  /** Draws the edges, unless there are too many to be readable. */
   #drawEdges(pen, scale) {
     if (this.scene.edges.size > MAX_LINES) return;
     pen.strokeStyle = this.colours("plate-line");
@@ -57,7 +57,7 @@ export class Minimap {
     pen.stroke();
   }
 
-  /** Shows which part of the map is seen; when that is all of it, the map is only in the way. */
+  /** Shows the visible part; hides the minimap if everything is visible. */
   viewChanged() {
     const seen = this.viewport.visibleRect();
     this.element.hidden = !this.extent || containsRect(seen, this.extent);
@@ -85,4 +85,4 @@ export class Minimap {
   }
 }
 
-const clamp = (value, most) => Math.min(most - 1, Math.max(1, value));
+const clamp = (value, max) => Math.min(max - 1, Math.max(1, value));

@@ -1,6 +1,7 @@
-// Boxes, hexagons and the common badge as SVG groups. Marks speak by shape first, by colour second.
+// The SVG groups of nodes: states, components and the common badge. Marks differ in shape, not only in color.
 import { HEX_SLANT } from "./geometry.js";
 import { translateElement, placeGroup } from "./group_transforms.js";
+import { COMMON_TITLE, DISABLED, alias, commonName, componentName, markName, stateName } from "./strings.js";
 import { svg } from "./svg.js";
 
 const MARK_ROW = 16;
@@ -15,8 +16,6 @@ const MARKS = {
 };
 
 const OFF = "M0 0a5 5 0 1 0 10 0a5 5 0 1 0 -10 0M1.6 3.4L8.4 -3.4";
-
-const WORDS = { error: "error", warning: "warning", note: "note" };
 
 export function drawNode(node) {
   const draw = { states: drawState, components: drawComponent, common: drawCommon }[node.of];
@@ -105,7 +104,7 @@ function markRow(marks, y) {
   return row;
 }
 
-/** Error: octagon. Warning: triangle. Note: disc. The number is how many messages there are. */
+/** Badge with the number of findings. Error: octagon. Warning: triangle. Note: disc. */
 export function badge(data, x, y) {
   const shape = {
     error: "M-4.2 -10H4.2L10 -4.2V4.2L4.2 10H-4.2L-10 4.2V-4.2Z",
@@ -122,18 +121,18 @@ export function badge(data, x, y) {
 /** The tooltip of a node. */
 export function nodeTooltip(node) {
   const { data } = node;
-  const title = node.of === "common" ? "Common transitions, tested before those of every state" : data.name;
-  const second = node.of === "components" && data.name !== data.id ? `as ${data.id}` : "";
-  return [title, second, data.disabled && "disabled", data.doc, ...findingMessages(data)].filter(Boolean).join("\n");
+  const title = node.of === "common" ? COMMON_TITLE : data.name;
+  const second = node.of === "components" && data.name !== data.id ? alias(data.id) : "";
+  return [title, second, data.disabled && DISABLED, data.doc, ...findingMessages(data)].filter(Boolean).join("\n");
 }
 
 function describe(node) {
   const { data } = node;
-  if (node.of === "common") return [`Common transitions of every state: ${data.transitions ?? 0}`, ...findingMessages(data)].join(", ");
-  if (node.of === "components") return [`Component ${data.id}`, data.name, ...findingMessages(data)].join(", ");
-  const marks = marksOf(data).map(({ name, count }) => (count ? `${name} ${count}` : `${name} code`));
-  const facts = [data.initial && "initial", data.final && "final", data.disabled && "disabled", ...marks, ...findingMessages(data)];
-  return [`State ${data.name}`, ...facts.filter(Boolean)].join(", ");
+  if (node.of === "common") return [commonName(data.transitions ?? 0), ...findingMessages(data)].join(", ");
+  if (node.of === "components") return [componentName(data.id), data.name, ...findingMessages(data)].join(", ");
+  const marks = marksOf(data).map(({ name, count }) => markName(name, count));
+  const facts = [data.initial && "initial", data.final && "final", data.disabled && DISABLED, ...marks, ...findingMessages(data)];
+  return [stateName(data.name), ...facts.filter(Boolean)].join(", ");
 }
 
-export const findingMessages = (data) => (data.severity ? (data.messages ?? []).map((text) => `${WORDS[data.severity]}: ${text}`) : []);
+export const findingMessages = (data) => (data.severity ? (data.messages ?? []).map((text) => `${data.severity}: ${text}`) : []);

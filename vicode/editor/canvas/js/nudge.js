@@ -1,6 +1,6 @@
-// Boxes moved step by step by keys. Until Python has told of the last step, what it tells of is an older one.
+// Moves nodes in steps by arrow keys. Until Python has confirmed the last step, the positions it sends are outdated.
 
-const LATEST_MS = 5000;
+const TIMEOUT_MS = 5000;
 const PART_OF_STEPS = /^(Arrow|Shift$)/;
 
 export class Nudge {
@@ -8,21 +8,21 @@ export class Nudge {
     this.canvas = canvas;
     this.places = new Map();
     this.time = -Infinity;
-    // Another key, such as that of undo, and whatever is done elsewhere, may put the boxes somewhere else.
+    // Another key, such as Ctrl+Z, or an edit outside the canvas may move the nodes.
     canvas.stage.addEventListener("keydown", ({ key }) => PART_OF_STEPS.test(key) || this.reset(), { capture: true });
     canvas.stage.addEventListener("blur", () => this.reset());
   }
 
-  /** Where nodes are after a step further from where the last one led. */
+  /** Returns the positions after one more step from the positions of the last step. */
   step(nodes, dx, dy) {
-    if (performance.now() - this.time > LATEST_MS) this.reset();
+    if (performance.now() - this.time > TIMEOUT_MS) this.reset();
     const before = nodes.map(({ key, x, y }) => [key, this.places.get(key) ?? { x, y }]);
     this.places = new Map(before.map(([key, { x, y }]) => [key, { x: x + dx, y: y + dy }]));
     this.time = performance.now();
     return this.places;
   }
 
-  /** Python told of changes: nodes that stand where the last step led go on from there. */
+  /** Called after changes by Python: forgets the nodes whose last step is confirmed. */
   reconcile() {
     for (const [key, { x, y }] of this.places) {
       const data = this.canvas.scene.nodes.get(key)?.data;

@@ -1,4 +1,4 @@
-// From far the scene is two bitmaps: a coarse one of everything and a sharp one of what is seen.
+// Overview for small zooms: a coarse bitmap of the whole scene and a sharp bitmap of the visible part.
 import { bounds, containsRect, grow, overlaps, nodeRect } from "./geometry.js";
 import { html } from "./svg.js";
 import { FONTS } from "./text_metrics.js";
@@ -19,12 +19,12 @@ export class Overview {
     this.showsSelection = false;
   }
 
-  /** The scene or its colours changed. The old bitmaps stay until new ones are drawn, so that nothing flickers. */
+  /** The scene or its colors changed. The old bitmaps remain until new ones are drawn, which avoids flicker. */
   invalidate() {
     this.stale = true;
   }
 
-  /** Draws the coarse bitmap when it is out of date, so that there is always something to show. */
+  /** Draws the coarse bitmap if it is outdated. */
   drawCoarse(selected) {
     const extent = this.scene.extent();
     if (!this.stale || !extent) return;
@@ -38,7 +38,7 @@ export class Overview {
     return this.coarse.region !== null;
   }
 
-  /** Draws what is seen, and some more, at the present zoom. */
+  /** Draws the visible part with a margin at the current zoom. */
   drawSharp(selected) {
     const extent = this.scene.extent();
     if (!extent) return;
@@ -52,7 +52,7 @@ export class Overview {
     this.place();
   }
 
-  /** Moves both bitmaps to where the viewport wants them. */
+  /** Positions both bitmaps for the current view. */
   place() {
     if (!this.isDrawn()) return;
     const { x, y, k } = this.viewport;
@@ -134,7 +134,7 @@ const LOOKS = {
   note: ["note", "note"],
 };
 
-/** Whether a bitmap of a region shows everything of the scene that is seen. */
+/** Whether a bitmap of a region covers the visible part of the scene. */
 function holdsSeen(region, seen, extent) {
   const part = intersection(seen, extent);
   return !part || containsRect(region, part);

@@ -1,33 +1,31 @@
-// Keeps in the DOM what is near enough to be seen, and nothing else; knows the marks on every thing.
+// Mounts the elements near the visible area in the DOM and keeps the marks of all elements.
 import { DragLayer } from "./drag_layer.js";
 import { drawEdge, placeEdge, placeLine } from "./edge_svg.js";
 import { bounds, containsRect, grow, overlaps, nodeRect } from "./geometry.js";
 import { drawNode, placeNode } from "./node_svg.js";
 import { bakeTransform } from "./group_transforms.js";
 import { showBreakpoint } from "./breakpoint_sign.js";
+import { EVERY_STATE, LAYERS, MARKS } from "./strings.js";
 import { bringToFront, svg } from "./svg.js";
 
-// Marked things stay mounted also where the overview bitmap stands for the rest, up to this many of each mark.
+// Marked elements stay mounted even in the overview, up to this many of each mark.
 export const MAX_PINNED = 150;
 const PINNED = { selected: MAX_PINNED, active: MAX_PINNED, taken: 1, drop: 1, lit: 200, held: 1500 };
 
-// So many edges look for a good way, and a place for their label, whenever a hand moves; with more it would stutter.
+// During a drag, up to this many edges are fully routed and labeled in each frame; more would drop frames.
 const MAX_FULL_ROUTING = 40;
 const MAX_MOUNTED = 2500;
-// So far arrows may bow, and boxes be dragged, beyond what was there before.
-const GROUND = 1000;
+// Margin for bent edges and dragged nodes beyond the scene.
+const HIT_AREA_MARGIN = 1000;
 
-// Back to front. What a hand moves lies on sheets of its own, so that a browser need not paint all the rest with every movement.
+// Back to front. Dragged elements have separate SVG roots, so that a movement does not repaint the rest.
 const LAYER_STACK = [
   ["links", "edges"],
   ["held links", "held edges"],
   ["nodes", "chips"],
   ["held nodes", "held chips", "above"],
 ];
-const ARIA_LABELS = { links: "Links to components", edges: "Transitions", nodes: "States and components" };
 const TWINS = ["links", "edges", "nodes", "chips"].map((name) => [name, `held ${name}`]);
-
-const MARK_DESCRIPTIONS = { selected: "selected", active: "active now", taken: "just taken", breakpoint: "breakpoint" };
 
 export class Painter {
   constructor(scene, router) {
@@ -44,7 +42,7 @@ export class Painter {
     this.mountedRect = null;
     this.hitArea = null;
     this.far = false;
-    // They grow with everything that changes the picture, and with what only changes colours in it.
+    // Counters of changes to shapes, and of changes to styles only.
     this.revision = 0;
     this.styleRevision = 0;
   }
@@ -55,15 +53,15 @@ export class Painter {
     this.mountedRect = null;
   }
 
-  /** Whether the mounted part still holds everything that is seen. */
+  /** Whether the mounted area still covers the visible one. */
   covers(seen) {
     return this.far || (this.mountedRect !== null && containsRect(this.mountedRect, seen));
   }
 
-  /** Mounts what a rectangle (with a margin) shows; from far only what is marked. While the view moves nothing is taken away. */
+  /** Mounts what is visible, with a margin; in the overview only marked elements. While the view moves nothing is unmounted. */
   cull(seen, { far, zoom, moving = false }) {
     this.far = far;
-    // The smaller things are, the more of them the margin would hold.
+    // The margin shrinks with the zoom, since it would contain more elements.
     this.mountedRect = grow(seen, (Math.max(seen.w, seen.h) / 3) * Math.min(1, zoom * zoom));
     this.#extendHitAreas(bounds([this.mountedRect, this.scene.extent() ?? this.mountedRect]));
     const wanted = far ? new Set() : this.#near(this.mountedRect);
@@ -74,7 +72,7 @@ export class Painter {
     for (const key of wanted) if (!this.items.has(key)) this.#mount(key);
   }
 
-  /** Gives a mark to exactly these keys. */
+  /** Sets a mark on exactly these keys. */
   mark(name, keys) {
     const old = this.marks.get(name);
     const now = new Set(keys);
@@ -83,14 +81,14 @@ export class Painter {
     for (const key of now) if (!old.has(key)) this.#toggle(key, name, true);
   }
 
-  /** Lets everything that is not lit step back. This paints all anew, so it is not for moments when the hand moves. */
+  /** Dims all elements that are not highlighted. This repaints everything, so it must not run during a drag. */
   dim() {
     this.styleRevision += 1;
     const isDim = this.marks.get("lit").size > 0;
     for (const [name, layer] of Object.entries(this.layers)) layer.classList.toggle("dim", isDim && name !== "above");
   }
 
-  /** Redraws what changed; `affectedNodes` have edges that may want another way, in `changedRects` boxes came or left. */
+  /** Redraws changed elements. Edges at `affectedNodes` and near `changedRects`, where nodes came or left, are rerouted. */
   refresh({ touched, gone, affectedNodes, changedRects = [] }) {
     for (const key of gone) {
       this.#unmount(key);
@@ -109,7 +107,7 @@ export class Painter {
     this.rerouteNear(changedRects);
   }
 
-  /** Follows nodes that are being moved, with the edges at them. */
+  /** Redraws nodes that are being moved, with their edges. */
   updateNodes(nodeKeys) {
     this.#placeNodes(nodeKeys);
     this.router.isProvisional = true;
@@ -119,7 +117,7 @@ export class Painter {
     this.router.isProvisional = false;
   }
 
-  /** Makes one of held nodes and the edges between them, which `updateDrag` moves. */
+  /** Moves dragged nodes and the edges between them into the drag layer; `updateDrag` moves it. */
   beginDrag(nodeKeys) {
     const nodes = new Set(nodeKeys);
     const inner = this.#edgesAt(nodes).filter((edge) => nodes.has(edge.source) && nodes.has(edge.target));
@@ -127,9 +125,9 @@ export class Painter {
     this.dragLayer.attach(new Map(keys.filter((key) => this.items.has(key)).map((key) => [key, this.items.get(key)])));
   }
 
-  /** Follows nodes that moved `by` since they were lifted. Edges to others are led anew, many of them without labels. */
-  updateDrag(nodeKeys, by) {
-    this.dragLayer.move(by);
+  /** Moves the dragged nodes to an offset from their start. Edges to other nodes are rerouted, many of them without labels. */
+  updateDrag(nodeKeys, offset) {
+    this.dragLayer.move(offset);
     const edges = this.#edgesOutsideDrag(nodeKeys);
     const isRough = edges.length > MAX_FULL_ROUTING;
     this.layers["held chips"].classList.toggle("rough", isRough);
@@ -138,7 +136,7 @@ export class Painter {
     for (const [key, curve] of this.router.roughCurves(edges)) if (this.items.has(key)) placeLine(this.items.get(key), curve);
   }
 
-  /** Ends carrying: what was carried stands where the scene has it, and its edges are routed by `refineRoutes`. */
+  /** Ends a drag: nodes are drawn at their positions in the scene; `refineRoutes` routes their edges. */
   endDrag(nodeKeys) {
     this.dragLayer.release();
     this.layers["held chips"].classList.remove("rough");
@@ -146,14 +144,14 @@ export class Painter {
     for (const edge of this.#edgesAt(nodeKeys)) this.router.provisional.add(edge.key);
   }
 
-  /** The hand let go: labels that were placed in haste look for the best places; boxes left or came to some rectangles. */
+  /** Reroutes edges that were routed provisionally during a drag, and edges near `rects`, where nodes came or left. */
   refineRoutes(rects = []) {
     const edges = [...this.router.provisional].map((key) => this.scene.edges.get(key)).filter(Boolean);
     this.router.provisional.clear();
     this.#route(new Set([...edges, ...this.#passing(rects)]));
   }
 
-  /** Puts everything where the scene has it now. */
+  /** Draws everything at its position in the scene. */
   repositionAll() {
     for (const [key, item] of [...this.items]) {
       if (item.node) placeNode(item.node, this.scene.nodes.get(key));
@@ -161,7 +159,7 @@ export class Painter {
     }
   }
 
-  /** Boxes came to rest or left: edges that pass there are routed again. */
+  /** Reroutes edges near rectangles where nodes came or left. */
   rerouteNear(rects) {
     this.#route(this.#passing(rects));
   }
@@ -181,12 +179,12 @@ export class Painter {
   }
 
   /**
-   * Lays an invisible ground under each sheet. The browser notes for every element where it hears wheel and touch, and
-   * joins all these rectangles whenever the bounds of a sheet change: 30 ms with 700 things. A ground holds them all.
+   * Puts an invisible rectangle under each SVG root. The browser keeps a wheel and touch region of every element, and
+   * merges all of them whenever the bounds of the root change: 30 ms with 700 elements. The rectangle contains them all.
    */
   #extendHitAreas(rect) {
     if (this.hitArea && containsRect(this.hitArea, rect)) return;
-    this.hitArea = grow(rect, GROUND);
+    this.hitArea = grow(rect, HIT_AREA_MARGIN);
     const { x, y, w, h } = this.hitArea;
     for (const element of this.hitAreas) for (const [name, value] of Object.entries({ x, y, width: w, height: h })) element.setAttribute(name, value);
   }
@@ -200,18 +198,18 @@ export class Painter {
 
   #pinned() {
     const pinned = new Set();
-    for (const [name, most] of Object.entries(PINNED)) {
+    for (const [name, max] of Object.entries(PINNED)) {
       const keys = this.marks.get(name);
-      if (keys.size <= most) for (const key of keys) pinned.add(key);
+      if (keys.size <= max) for (const key of keys) pinned.add(key);
     }
     return pinned;
   }
 
   #mount(key) {
     this.revision += 1;
-    const thing = this.scene.find(key);
-    if (!thing) return;
-    const item = this.scene.nodes.has(key) ? this.#mountNode(thing) : this.#mountEdge(thing);
+    const element = this.scene.find(key);
+    if (!element) return;
+    const item = this.scene.nodes.has(key) ? this.#mountNode(element) : this.#mountEdge(element);
     if (!item) return;
     this.items.set(key, item);
     for (const [name, keys] of this.marks) if (keys.has(key)) this.#toggle(key, name, true);
@@ -232,7 +230,7 @@ export class Painter {
   }
 
   #endsOf(edge) {
-    const nameOf = (key) => (key === "common" ? "every state" : String(this.scene.nodes.get(key).data.name));
+    const nameOf = (key) => (key === "common" ? EVERY_STATE : String(this.scene.nodes.get(key).data.name));
     return { source: nameOf(edge.source), target: nameOf(edge.target) };
   }
 
@@ -257,7 +255,7 @@ export class Painter {
     for (const edge of this.#edgesOutsideDrag(nodeKeys)) this.#placeEdge(edge);
   }
 
-  /** The edges at nodes that are not carried. */
+  /** The edges at nodes that are not in the drag layer. */
   #edgesOutsideDrag(nodeKeys) {
     return this.#edgesAt(nodeKeys).filter((edge) => !this.dragLayer.has(edge.key));
   }
@@ -273,7 +271,7 @@ export class Painter {
     if (!this.scene.isDrawable(edge)) return this.#unmount(edge.key);
     const route = this.router.route(edge);
     if (route.chip?.text === item.line.dataset.text || !route.chip) return placeEdge(item, route);
-    // There is more or less room for the text now.
+    // The label needs another text, since the available width changed.
     this.#unmount(edge.key);
     this.#mount(edge.key);
   }
@@ -285,7 +283,7 @@ export class Painter {
       if (!part) continue;
       if (name === "held") this.#hold(part, on);
       else part.classList.toggle(name, on);
-      if (name in MARK_DESCRIPTIONS && part.role === "button") describeMarks(part);
+      if (name in MARKS && part.role === "button") describeMarks(part);
       if (on && name === "lit" && part.nextSibling) bringToFront(part, part.parentNode);
     }
   }
@@ -296,16 +294,16 @@ export class Painter {
   }
 }
 
-const layer = (name) => svg("g", { class: name, id: ARIA_LABELS[name] && name, role: ARIA_LABELS[name] && "group", "aria-label": ARIA_LABELS[name] });
+const layer = (name) => svg("g", { class: name, id: LAYERS[name] && name, role: LAYERS[name] && "group", "aria-label": LAYERS[name] });
 
-/** Marks are told beside the name, which stays what it is. */
+/** Describes the marks in addition to the name, which does not change. */
 function describeMarks(part) {
-  const words = Object.keys(MARK_DESCRIPTIONS).filter((name) => part.classList.contains(name)).map((name) => MARK_DESCRIPTIONS[name]);
+  const words = Object.keys(MARKS).filter((name) => part.classList.contains(name)).map((name) => MARKS[name]);
   if (words.length) part.setAttribute("aria-description", words.join(", "));
   else part.removeAttribute("aria-description");
 }
 
-/** The lines across a disabled box. */
+/** The hatching of disabled nodes. */
 function hatching() {
   const names = { id: "hatch", width: 8, height: 8, patternUnits: "userSpaceOnUse", patternTransform: "rotate(45)" };
   const parts = [svg("rect", { class: "hatch-ground", width: 8, height: 8 }), svg("path", { class: "hatch-line", d: "M0 0V8" })];

@@ -1,4 +1,4 @@
-// The other people: what they have selected, outlined in their colour with their name, and where their pointers are.
+// Presence of other users: outlines of their selections in their color with their name, and their pointers.
 import { pathOf } from "./edge_svg.js";
 import { grow, nodeRect } from "./geometry.js";
 import { keyOf } from "./scene.js";
@@ -24,7 +24,7 @@ export class PresenceLayer {
     stage.addEventListener("pointerleave", () => this.#pointAt(null));
   }
 
-  /** Shows what others are at; each is `{name, colour, items, pointer}`. */
+  /** Shows other users, each as `{name, colour, items, pointer}`. */
   show(others) {
     this.others = others;
     this.canvas.frame.schedule("presence", () => {
@@ -33,7 +33,7 @@ export class PresenceLayer {
     });
   }
 
-  /** Draws everything anew: the others turned to other things, or what they are at was moved. */
+  /** Redraws everything after a change of the users or of the scene. */
   draw() {
     this.placed = [];
     const outlines = this.others.flatMap((person) => this.#outlines(person));
@@ -43,7 +43,7 @@ export class PresenceLayer {
     this.viewChanged();
   }
 
-  /** Keeps names and pointers at their places while the view moves. */
+  /** Keeps names and pointers in position while the view moves. */
   viewChanged() {
     const { x: left, y: top, k } = this.canvas.viewport;
     this.art.style.transform = `translate(${left}px, ${top}px) scale(${k})`;
@@ -59,18 +59,18 @@ export class PresenceLayer {
 
   #outlines(person) {
     const { scene, router } = this.canvas;
-    const things = person.items.slice(0, MAX_OUTLINES).map(({ of, id }) => scene.find(keyOf(of, id))).filter(Boolean);
-    const drawn = things.filter((thing) => scene.nodes.has(thing.key) || scene.isDrawable(thing));
-    return drawn.map((thing, index) => {
-      const isNode = scene.nodes.has(thing.key);
-      const route = isNode ? null : router.route(thing);
-      const box = isNode ? grow(nodeRect(thing), GAP) : null;
+    const elements = person.items.slice(0, MAX_OUTLINES).map(({ of, id }) => scene.find(keyOf(of, id))).filter(Boolean);
+    const drawn = elements.filter((element) => scene.nodes.has(element.key) || scene.isDrawable(element));
+    return drawn.map((element, index) => {
+      const isNode = scene.nodes.has(element.key);
+      const route = isNode ? null : router.route(element);
+      const box = isNode ? grow(nodeRect(element), GAP) : null;
       if (index === 0) this.#tag(person, box ? { x: box.x + box.w, y: box.y } : route.at);
       const shape = box
         ? svg("rect", { x: box.x, y: box.y, width: box.w, height: box.h, rx: 12 + GAP })
         : svg("path", { d: pathOf(route.curve, { x: route.curve[6], y: route.curve[7] }) });
       shape.setAttribute("class", `outline person-${person.colour}`);
-      shape.setAttribute("data-at", thing.key);
+      shape.setAttribute("data-at", element.key);
       return shape;
     });
   }
@@ -88,7 +88,7 @@ export class PresenceLayer {
     return element;
   }
 
-  /** Tells where the own pointer is, the latest only, and only while others are here to see it. */
+  /** Reports this user's latest pointer position, throttled, and only while other users are present. */
   #pointAt(point) {
     this.pointer = point && { x: Math.round(point.x), y: Math.round(point.y) };
     if (this.timer || !this.others.length) return;

@@ -1,13 +1,13 @@
-// The way of every edge and the place of its label. Ways depend on boxes alone; labels also on the ways near them.
+// The curve of each edge and the position of its label. Curves depend on nodes only; labels also on the curves near them.
 import { Grid } from "./grid.js";
 import { bounds, polylineTouches, curveBounds, grow, curveLength, overlaps, pointOnCurve, sampleCurve, rectAround, nodeRect } from "./geometry.js";
 import { makeEdgeLabel, labelPosition, placeLabel, shorterLabels } from "./edge_labels.js";
 import { LINKS, pairKey } from "./scene.js";
 import { parallelCurves, selfLoopCurves, readingOrder, straightCurves } from "./edge_curves.js";
 
-// What a label would hide, dearer first. A place farther along its line costs less than hiding a line.
+// Cost of what a label would hide. Moving the label farther along its curve costs less than hiding another curve.
 const COST = { box: 12, label: 8, line: 1.4, link: 0.7 };
-// In a scene of more edges a label looks only at ways and labels that are known already: those of what is in sight.
+// With more edges, a label only avoids curves and labels that are already routed: those in the visible area.
 const MAX_PLANNED = 600;
 
 export class Router {
@@ -18,7 +18,7 @@ export class Router {
     this.lines = new Grid();
     this.labels = new Grid();
     this.labelRects = new Map();
-    // While a box follows a hand, labels look at boxes and labels alone; these want a second look then.
+    // During a drag, labels avoid nodes and labels only; the edges in `provisional` are routed again after it.
     this.isProvisional = false;
     this.provisional = new Set();
   }
@@ -27,14 +27,14 @@ export class Router {
     for (const store of [this.routes, this.paths, this.lines, this.labels, this.labelRects]) store.clear();
   }
 
-  /** The route of an edge: `{curve, chip, at}`, worked out when first asked for. */
+  /** Returns the route of an edge, `{curve, chip, at}`; computed on demand and cached. */
   route(edge) {
     if (!this.routes.has(edge.key)) this.#placeLabels();
     if (!this.routes.has(edge.key)) this.#label(edge);
     return this.routes.get(edge.key);
   }
 
-  /** Straight curves, as `[key, curve]`, for edges that hands pull along with many others; they want a second look then. */
+  /** Returns straight curves, as `[key, curve]`, for the many edges of a large drag; they are routed again after it. */
   roughCurves(edges) {
     const pairs = new Set(edges.map((edge) => this.scene.isDrawable(edge) && pairKey(edge)));
     pairs.delete(false);
@@ -48,13 +48,13 @@ export class Router {
     });
   }
 
-  /** The curve alone, which needs no neighbours. */
+  /** Returns the curve of an edge, which does not depend on other edges' labels. */
   edgePath(edge) {
     if (!this.paths.has(edge.key)) this.#routePair(pairKey(edge));
     return this.paths.get(edge.key);
   }
 
-  /** What all curves and labels cover, or null; in a large scene they stray little from the boxes. */
+  /** Returns the bounds of all curves and labels; null in a large scene, where they exceed the nodes only slightly. */
   extent() {
     if (this.scene.edges.size > MAX_PLANNED) return null;
     const edges = [...this.scene.edges.values()].filter((edge) => this.scene.isDrawable(edge));
@@ -68,7 +68,7 @@ export class Router {
     this.drop(edge.key);
   }
 
-  /** Forgets one edge only, also one that is gone from the scene: its label must not keep others from their places. */
+  /** Drops the route of one edge, also of one that was removed from the scene: its label must not block others. */
   drop(key) {
     for (const store of [this.routes, this.paths, this.labelRects]) store.delete(key);
     this.labels.remove(key);
@@ -79,17 +79,17 @@ export class Router {
     for (const edge of this.scene.edgesOf(nodeKey)) this.invalidate(edge);
   }
 
-  /** The routed edges that come near a rectangle: they may want another way when a box arrives there or leaves. */
+  /** Returns the routed edges near a rectangle, whose routes may change when a node comes or leaves there. */
   edgesNear(rect) {
     const found = [];
     for (const key of this.scene.edgeGrid.query(grow(rect, 160))) {
-      const way = this.paths.get(key);
-      if (way && overlaps(this.#sweep(this.scene.edges.get(key), way.curve), rect)) found.push(this.scene.edges.get(key));
+      const path = this.paths.get(key);
+      if (path && overlaps(this.#sweep(this.scene.edges.get(key), path.curve), rect)) found.push(this.scene.edges.get(key));
     }
     return found;
   }
 
-  /** What an edge covers and, as it may have bowed around a box, what it would like to cover. */
+  /** Bounds of an edge's curve and of the straight line between its nodes, which it would follow without obstacles. */
   #sweep(edge, curve) {
     const ends = [edge.source, edge.target].map((key) => this.scene.nodes.get(key)).filter(Boolean);
     return bounds([curveBounds(curve), ...ends.map(({ x, y }) => ({ x, y, w: 0, h: 0 }))]);
@@ -99,9 +99,9 @@ export class Router {
     const { edges, chips, curves } = this.#curves(pair, parallelCurves);
     edges.forEach(({ key }, index) => {
       const length = curveLength(curves[index]);
-      const way = { curve: curves[index], chip: chips[index], length, points: sampleCurve(curves[index], length) };
-      this.paths.set(key, way);
-      this.lines.putPath(key, way.points);
+      const path = { curve: curves[index], chip: chips[index], length, points: sampleCurve(curves[index], length) };
+      this.paths.set(key, path);
+      this.lines.putPath(key, path.points);
     });
   }
 
@@ -113,7 +113,7 @@ export class Router {
     return { edges, chips, curves: (source === target ? selfLoopCurves : spread)(edges, chips, this.scene) };
   }
 
-  /** The shown edges of a pair as they are read: those to the right or downwards first, each way by its order in the design. */
+  /** Visible edges of a pair in reading order: those to the right or down first, then by their order in the design. */
   #lanes(pair) {
     const edges = [...this.scene.pairs.get(pair)].map((key) => this.scene.edges.get(key));
     const shown = edges.filter((edge) => this.scene.isDrawable(edge));
@@ -123,7 +123,7 @@ export class Router {
     return shown.sort((a, b) => rank(a) - rank(b) || (a.data.order ?? 0) - (b.data.order ?? 0) || (a.key < b.key ? -1 : 1));
   }
 
-  /** Places all labels that have none, those with the least choice first: so places do not hang on what was asked first. */
+  /** Places all missing labels, shortest edges first, so that positions do not depend on the order of requests. */
   #placeLabels() {
     if (this.scene.edges.size > MAX_PLANNED) return;
     const edges = [...this.scene.edges.values()].filter((edge) => !this.routes.has(edge.key) && this.scene.isDrawable(edge));
@@ -133,7 +133,7 @@ export class Router {
     this.#makeRoom(edges);
   }
 
-  /** Where labels had no choice but to lie on others, these look again, now that they know of them. */
+  /** Places overlapping labels once more, now that the positions of the others are known. */
   #makeRoom(edges) {
     const fresh = new Set(edges.map(({ key }) => key));
     const meet = (key, other) => key !== other && fresh.has(other) && overlaps(this.labelRects.get(key), this.labelRects.get(other));
@@ -157,19 +157,19 @@ export class Router {
     this.labelRects.set(edge.key, rect);
   }
 
-  /** The best place for a label; where it would hide something else in any place, a shorter one may not. */
+  /** Returns the best position of a label; if it overlaps something everywhere, shorter variants are tried. */
   #freeLabel(edge, curve, wanted) {
     let best = { cost: Infinity };
     for (const chip of [wanted, ...shorterLabels(edge, wanted)]) {
-      const place = placeLabel(edge, curve, chip, (rect, limit) => this.#overlapCost(rect, edge.key, limit));
+      const candidate = placeLabel(edge, curve, chip, (rect, limit) => this.#overlapCost(rect, edge.key, limit));
       if (this.isProvisional) this.provisional.add(edge.key);
-      if (place.cost < best.cost) best = { ...place, chip };
+      if (candidate.cost < best.cost) best = { ...candidate, chip };
       if (best.cost < COST.label) break;
     }
     return best;
   }
 
-  /** What lies under a rectangle, or would be under a label there; as soon as it is too much, no more is looked for. */
+  /** Cost of what a label in a rectangle would hide; stops as soon as the limit is reached. */
   #overlapCost(rect, own, limit) {
     let sum = 0;
     for (const key of this.scene.nodeGrid.query(rect)) {

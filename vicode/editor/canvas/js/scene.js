@@ -1,9 +1,10 @@
-// What Python told us to draw: nodes and edges by key, indexed by place and by pair. No design, no DOM.
+// The scene sent by Python: nodes and edges by key, with a spatial index and an index by node pair.
 import { Grid } from "./grid.js";
 import { bounds, nodeRect } from "./geometry.js";
+import { EVERY_STATE } from "./strings.js";
 import { truncate, textWidth } from "./text_metrics.js";
 
-/** How the keys of links begin. */
+/** Prefix of the keys of links. */
 export const LINKS = "l:";
 const KINDS = { states: "s:", components: "c:", transitions: "t:", links: LINKS, common: "common" };
 const NODE_HEIGHT = 60;
@@ -38,8 +39,8 @@ export class Scene {
   }
 
   /**
-   * Takes a difference; answers which keys were touched, which are gone, the nodes whose edges may run differently,
-   * and the rectangles where boxes came or left.
+   * Applies a difference; returns the keys that changed (`touched`) and were removed (`gone`), the nodes whose edges
+   * need rerouting, and the rectangles where nodes came or left.
    */
   apply(changes) {
     this.rev = changes.rev;
@@ -56,7 +57,7 @@ export class Scene {
     return { touched, gone, affectedNodes: this.affectedNodes, changedRects: this.changedRects };
   }
 
-  /** Moves a node without filing it anew; `reindex` does that once the hand lets go. */
+  /** Moves a node without updating the spatial index; `reindex` does that at the end of a drag. */
   move(key, x, y) {
     const node = this.nodes.get(key);
     if (node) Object.assign(node, { x, y });
@@ -67,7 +68,7 @@ export class Scene {
     this.#index(nodes, this.#edgesAtAll(nodes));
   }
 
-  /** An edge is drawn only when both its ends are there and its kind is shown. */
+  /** Whether both ends of an edge exist and its kind is visible. */
   isDrawable(edge) {
     return this.nodes.has(edge.source) && this.nodes.has(edge.target) && (this.linksShown || edge.of !== "links");
   }
@@ -80,7 +81,7 @@ export class Scene {
     return this.nodes.get(key) ?? this.edges.get(key);
   }
 
-  /** All nodes under a point, the one drawn last first. */
+  /** Returns the topmost node under a point. */
   nodeAt(x, y, slack = 0) {
     const near = [...this.nodeGrid.query({ x, y, w: 0, h: 0 })].map((key) => this.nodes.get(key));
     return near.reverse().find((node) => Math.abs(x - node.x) <= node.w / 2 + slack && Math.abs(y - node.y) <= node.h / 2 + slack);
@@ -90,7 +91,7 @@ export class Scene {
     return bounds([...this.nodes.values()].map(nodeRect));
   }
 
-  /** A web font changed what texts measure: sizes are taken again. */
+  /** Measures all nodes again, after a web font was loaded. */
   remeasure() {
     for (const node of this.nodes.values()) Object.assign(node, sizeOf(node.of, node.data));
     this.reindex(this.nodes.keys());
@@ -168,7 +169,7 @@ export class Scene {
     return new Set(nodes.flatMap((key) => [...(this.edgesAt.get(key) ?? [])]));
   }
 
-  /** Notes where nodes and edges lie. */
+  /** Updates the spatial index. */
   #index(nodes, edges) {
     for (const key of nodes) this.nodeGrid.putRect(key, nodeRect(this.nodes.get(key)));
     for (const key of edges) {
@@ -179,9 +180,9 @@ export class Scene {
   }
 }
 
-/** The texts a node shows and the room they need; widths are multiples of 20 so that both sides meet the grid. */
+/** Returns the texts of a node and its size; widths are multiples of 20, so that both sides are on the grid. */
 export function sizeOf(of, data) {
-  if (of === "common") return { w: 140, h: 40, label: "every state", second: "" };
+  if (of === "common") return { w: 140, h: 40, label: EVERY_STATE, second: "" };
   const name = String(of === "states" ? data.name : data.id);
   const label = truncate(name, "name", 230);
   const second = of === "components" && data.name !== data.id ? truncate(String(data.name), "small", 200) : "";
@@ -189,7 +190,7 @@ export function sizeOf(of, data) {
   return { w: Math.max(120, Math.ceil(room / 20) * 20), h: NODE_HEIGHT, label, second };
 }
 
-/** Whether arrows and labels may stay where they are; the mark of the first state takes room beside its box. */
+/** Whether edges and labels near a node can stay; the mark of the initial state occupies space next to the node. */
 const isSamePlace = (old, node) =>
   ["x", "y", "w", "h"].every((name) => old[name] === node[name]) && Boolean(old.data.initial) === Boolean(node.data.initial);
 

@@ -1,4 +1,4 @@
-// What is selected and what is under the pointer, and therefore what is brought forward.
+// The selected elements, the hovered element, and the highlight that follows from them.
 
 const MAX_HIGHLIGHTED = 40;
 
@@ -11,11 +11,11 @@ export class Selection {
     this.hovered = null;
   }
 
-  /** Selects exactly these keys; `quiet` when Python said so and need not be told. */
+  /** Sets the selection; `quiet` if Python set it, so that no gesture is reported. */
   set(keys, { quiet = false } = {}) {
     const known = [...new Set(keys)].filter((key) => this.scene.find(key));
-    const same = known.length === this.keys.size && known.every((key) => this.keys.has(key));
-    if (same) return;
+    const isSame = known.length === this.keys.size && known.every((key) => this.keys.has(key));
+    if (isSame) return;
     this.keys = new Set(known);
     this.painter.mark("selected", this.keys);
     this.updateHighlight();
@@ -36,7 +36,7 @@ export class Selection {
     return true;
   }
 
-  /** Things went away or changed their ends. */
+  /** Removes deleted elements; returns whether the selection changed. */
   prune() {
     if (this.hovered && !this.scene.find(this.hovered)) this.hovered = null;
     const known = [...this.keys].filter((key) => this.scene.find(key));
@@ -59,14 +59,14 @@ export class Selection {
     return [...this.keys].map((key) => this.scene.find(key)).map(({ of, id }) => ({ of, id }));
   }
 
-  /** Marks the thing in question together with its ends; everything else steps back. */
+  /** Highlights the hovered or selected elements with their edges and ends; everything else is dimmed. */
   updateHighlight() {
     const centre = this.hovered ? [this.hovered] : this.keys.size <= MAX_HIGHLIGHTED ? [...this.keys] : [];
     const lit = new Set(centre);
     for (const key of centre) {
       const edge = this.scene.edges.get(key);
-      const edges = edge ? [edge] : this.scene.edgesOf(key).filter((each) => this.scene.isDrawable(each));
-      for (const each of edges) for (const part of [each.key, each.source, each.target]) lit.add(part);
+      const edges = edge ? [edge] : this.scene.edgesOf(key).filter((candidate) => this.scene.isDrawable(candidate));
+      for (const { key: edgeKey, source, target } of edges) for (const part of [edgeKey, source, target]) lit.add(part);
     }
     this.painter.mark("lit", lit);
     this.canvas.scheduleDim();

@@ -1,8 +1,8 @@
-// What is mounted, as a bitmap. A browser lays out every SVG text anew at each step of a zoom; a bitmap it only scales.
+// Bitmap of the mounted elements for zooming: a browser lays out every SVG text again at each zoom step.
 import { html } from "./svg.js";
 
-// Fewer things than this zoom as they are, and stay sharp.
-const MANY = 250;
+// Fewer elements than this are zoomed as SVG and stay sharp.
+const MIN_ITEMS = 250;
 const MAX_PIXELS = 4096;
 const STEP = 20;
 
@@ -19,25 +19,25 @@ export class Snapshot {
 
   /** Whether zooming is smoother with a bitmap. */
   isUseful() {
-    return this.painter.items.size > MANY && this.painter.mountedRect !== null;
+    return this.painter.items.size > MIN_ITEMS && this.painter.mountedRect !== null;
   }
 
-  /** Gets ready for a zoom while nobody waits for it. */
+  /** Draws the bitmap in idle time, before a zoom needs it. */
   prepare(zoom) {
     const { revision, styleRevision } = this.painter;
     if (!this.isUseful() || (this.#isCurrent(zoom) && this.taken.styleRevision === styleRevision)) return;
     this.taken = null;
     const drawing = this.#draw(zoom);
-    const goOn = (deadline) => {
+    const step = (deadline) => {
       if (this.drawing !== drawing || this.painter.revision !== revision) return;
       while (deadline.timeRemaining() > 4) if (drawing.next().done) return;
-      this.#idle(goOn);
+      this.#idle(step);
     };
     this.drawing = drawing;
-    this.#idle(goOn);
+    this.#idle(step);
   }
 
-  /** Finishes the picture, or takes a new one when boxes or lines were moved; an outdated highlight does no harm. */
+  /** Completes the bitmap, or draws a new one if shapes changed; an outdated highlight is acceptable. */
   finish(zoom) {
     if (this.#isCurrent(zoom)) return;
     this.drawing = this.#draw(zoom);
@@ -49,7 +49,7 @@ export class Snapshot {
     return this.taken?.revision === revision && this.taken.region === mountedRect && this.taken.zoom === zoom;
   }
 
-  /** The colours changed. */
+  /** The colors changed. */
   invalidate() {
     this.styles.clear();
     this.taken = null;
@@ -62,7 +62,7 @@ export class Snapshot {
     this.element.style.transform = `translate(${x + region.x * k}px, ${y + region.y * k}px) scale(${k / scale})`;
   }
 
-  /** Draws some, and then waits to be asked for more. */
+  /** Draws in batches; yields between them. */
   *#draw(zoom) {
     const { revision, styleRevision, mountedRect: region } = this.painter;
     const scale = Math.min(zoom * devicePixelRatio, MAX_PIXELS / Math.max(region.w, region.h));
@@ -70,7 +70,7 @@ export class Snapshot {
     const groups = Object.values(this.painter.layers).flatMap((layer) => [...layer.children].map((group) => ({ layer, group })));
     for (const [index, { layer, group }] of groups.entries()) {
       this.#drawGroup(pen, group, `${layer.getAttribute("class")} ${group.getAttribute("class")}`);
-      // Reading a dot back makes the browser paint what it has only noted so far.
+      // Reading a pixel back forces the browser to paint the recorded operations.
       if (index % STEP === STEP - 1) yield pen.getImageData(0, 0, 1, 1);
     }
     pen.getImageData(0, 0, 1, 1);
@@ -94,13 +94,13 @@ export class Snapshot {
   }
 
   #drawGroup(pen, group, context) {
-    const by = offsetOf(group);
-    pen.translate(by.x, by.y);
+    const offset = offsetOf(group);
+    pen.translate(offset.x, offset.y);
     for (const element of group.children) {
       if (element.tagName === "g") this.#drawGroup(pen, element, `${context} ${element.getAttribute("class")}`);
       else if (element.tagName !== "title") this.#drawShape(pen, element, this.#styleOf(element, context));
     }
-    pen.translate(-by.x, -by.y);
+    pen.translate(-offset.x, -offset.y);
   }
 
   #drawShape(pen, element, style) {
@@ -109,7 +109,7 @@ export class Snapshot {
     else drawPath(pen, pathOf(element), style);
   }
 
-  /** The style of an element; things of the same classes look the same. */
+  /** Returns the style of an element, cached by its classes. */
   #styleOf(element, context) {
     const name = `${context}|${element.tagName} ${element.getAttribute("class")}`;
     if (!this.styles.has(name)) this.styles.set(name, readStyle(getComputedStyle(element), this.colours));
@@ -118,7 +118,7 @@ export class Snapshot {
 }
 
 function readStyle(style, colours) {
-  // The one pattern there is hatches boxes; its ground must do.
+  // The only pattern is the hatching of disabled nodes; its background color replaces it.
   const plain = (value) => (value.startsWith("url(") ? colours("faint") : value);
   const paint = (value) => (value === "none" || value === "rgba(0, 0, 0, 0)" ? null : plain(value));
   return {
@@ -170,6 +170,6 @@ function pathOf(element) {
 const numberOf = (element, name) => Number(element.getAttribute(name) ?? 0);
 
 function offsetOf(element) {
-  const found = element.getAttribute("transform")?.match(/^translate\(([-\d.e]+) ([-\d.e]+)\)$/);
-  return found ? { x: Number(found[1]), y: Number(found[2]) } : { x: 0, y: 0 };
+  const match = element.getAttribute("transform")?.match(/^translate\(([-\d.e]+) ([-\d.e]+)\)$/);
+  return match ? { x: Number(match[1]), y: Number(match[2]) } : { x: 0, y: 0 };
 }

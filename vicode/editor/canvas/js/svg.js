@@ -1,4 +1,4 @@
-// Making SVG and HTML elements. Data only ever enters as attributes and text, never as markup.
+// Creates SVG and HTML elements. Data is only set as attributes and text, never as markup.
 
 const SVG = "http://www.w3.org/2000/svg";
 
@@ -20,7 +20,7 @@ function fill(element, attributes, children) {
   return element;
 }
 
-/** In front of all others of a layer. Moving an element takes the focus away from it; it is given back. */
+/** Moves an element to the front of a layer. Moving it in the DOM drops the focus, which is restored. */
 export function bringToFront(part, layer) {
   const focused = part.getRootNode().activeElement === part;
   layer.append(part);

@@ -1,4 +1,4 @@
-// How wide a text is, and how it is shortened. Measured once per text and font.
+// Measures and truncates texts. Widths are cached by text and font.
 
 export const FONTS = {
   name: '600 14px Roboto, "Segoe UI", system-ui, sans-serif',
@@ -8,15 +8,15 @@ export const FONTS = {
 
 const FONT_TIMEOUT_MS = 300;
 
-let areTrue = false;
-const loaded = Promise.allSettled(Object.values(FONTS).map((font) => document.fonts.load(font))).then(() => (areTrue = true));
+let areLoaded = false;
+const loaded = Promise.allSettled(Object.values(FONTS).map((font) => document.fonts.load(font))).then(() => (areLoaded = true));
 
-/** Waits a moment for the web fonts, as what is drawn with others moves when they come. */
+/** Waits a moment for the web fonts: the layout shifts if they arrive after the first drawing. */
 export const awaitFonts = () => Promise.race([loaded, new Promise((done) => setTimeout(done, FONT_TIMEOUT_MS))]);
 
-/** Does a job when fonts come after all; what was measured before may be wrong then. */
+/** Runs a job when the fonts arrive later; widths measured before may be wrong. */
 export function onFontsLoaded(job) {
-  if (areTrue) return;
+  if (areLoaded) return;
   loaded.then(() => {
     rulers.clear();
     job();
@@ -27,7 +27,7 @@ const rulers = new Map();
 
 export const textWidth = (text, font) => rulerOf(font).measure(text);
 
-// A pen for each font, as choosing another one takes longer than measuring.
+// One drawing context per font: changing the font takes longer than measuring.
 function rulerOf(font) {
   if (!rulers.has(font)) rulers.set(font, new Ruler(FONTS[font]));
   return rulers.get(font);
@@ -50,10 +50,10 @@ class Ruler {
   }
 }
 
-/** The text itself when it fits, else its beginning and an ellipsis. */
+/** Returns the text if it fits, else its beginning and an ellipsis. */
 export function truncate(text, font, room) {
   const line = text.replace(/\s+/g, " ").trim();
-  // Nothing longer than this can fit in any room we have; it spares measuring a novel.
+  // No available width fits more; this avoids measuring very long texts.
   const start = line.length > 120 ? line.slice(0, 120) : line;
   if (start === line && textWidth(line, font) <= room) return line;
   let low = 0;

@@ -1,4 +1,4 @@
-// Light or dark: what the view says, else NiceGUI's body class, else what the person's system prefers.
+// Light or dark theme: from the scene, else from NiceGUI's body class, else from the system preference.
 
 export class Theme {
   constructor(stage, onChange) {
@@ -14,12 +14,12 @@ export class Theme {
     this.#refresh();
   }
 
-  set(wish) {
-    this.preference = wish ?? "auto";
+  set(preference) {
+    this.preference = preference ?? "auto";
     this.#refresh();
   }
 
-  /** The value of a colour of the style sheet, for bitmaps. */
+  /** Returns the value of a color of the style sheet, for bitmaps. */
   colour(name) {
     if (!this.colours.has(name)) this.colours.set(name, getComputedStyle(this.stage).getPropertyValue(`--${name}`).trim());
     return this.colours.get(name);

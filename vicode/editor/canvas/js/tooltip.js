@@ -1,8 +1,8 @@
-// The card that tells more of what the pointer rests on, or the keys have reached. It is never in the way: a press,
-// a turn of the wheel or a key takes it away, and the pointer goes through it.
+// Tooltip of the hovered or focused element. A press, the wheel or a key closes it; it ignores the pointer.
 import { edgeTooltip } from "./edge_svg.js";
 import { nodeRect } from "./geometry.js";
 import { nodeTooltip } from "./node_svg.js";
+import { EVERY_STATE } from "./strings.js";
 import { html } from "./svg.js";
 
 const DELAY_MS = 450;
@@ -19,7 +19,7 @@ export class Tooltip {
     stage.addEventListener("focusin", (event) => this.#focused(event));
   }
 
-  /** Something is pointed at (or nothing any more): tell of it when that lasts. */
+  /** Opens the tooltip of an element after a delay; null closes it. */
   request(key) {
     this.hide();
     this.requestedKey = key;
@@ -34,45 +34,45 @@ export class Tooltip {
     this.described?.removeAttribute("aria-describedby");
   }
 
-  /** What Python knows of it: sections of text. */
+  /** Adds the sections of text that Python sends for the open tooltip. */
   addSections({ of, id, sections }) {
-    const thing = this.key && this.canvas.scene.find(this.key);
-    if (thing?.of !== of || thing.id !== id) return;
+    const element = this.key && this.canvas.scene.find(this.key);
+    if (element?.of !== of || element.id !== id) return;
     for (const { name, text } of sections) {
       this.element.append(html("div", { class: "tooltip-name", text: name }), html("pre", { text }));
     }
-    this.#place(thing);
+    this.#place(element);
   }
 
   #show(key) {
     const { canvas } = this;
-    const thing = canvas.scene.find(key);
-    if (this.requestedKey !== key || !thing || canvas.gestures.isDragging() || !canvas.rename.input.hidden) return;
+    const element = canvas.scene.find(key);
+    if (this.requestedKey !== key || !element || canvas.gestures.isDragging() || !canvas.rename.input.hidden) return;
     this.key = key;
-    const [title, ...lines] = this.#words(thing);
+    const [title, ...lines] = this.#linesOf(element);
     this.element.replaceChildren(html("div", { class: "tooltip-title", text: title }), ...lines.map((text) => html("div", { class: "tooltip-line", text })));
     this.element.hidden = false;
-    this.#place(thing);
+    this.#place(element);
     this.described = canvas.root.activeElement?.closest("[data-key]");
     this.described?.setAttribute("aria-describedby", "tooltip");
-    canvas.report("tooltip", { of: thing.of, id: thing.id });
+    canvas.report("tooltip", { of: element.of, id: element.id });
   }
 
-  #words(thing) {
+  #linesOf(element) {
     const { scene } = this.canvas;
-    const nameOf = (key) => (key === "common" ? "every state" : String(scene.nodes.get(key)?.data.name));
-    const hint = scene.nodes.has(thing.key) ? nodeTooltip(thing) : edgeTooltip(thing, { source: nameOf(thing.source), target: nameOf(thing.target) });
-    return hint.split("\n");
+    const nameOf = (key) => (key === "common" ? EVERY_STATE : String(scene.nodes.get(key)?.data.name));
+    const text = scene.nodes.has(element.key) ? nodeTooltip(element) : edgeTooltip(element, { source: nameOf(element.source), target: nameOf(element.target) });
+    return text.split("\n");
   }
 
-  /** Beside the thing, where there is more room. */
-  #place(thing) {
+  /** Positions the tooltip on the side of the element with more space. */
+  #place(element) {
     const { viewport, scene, router } = this.canvas;
-    const box = scene.nodes.has(thing.key) ? nodeRect(thing) : chipRect(router.route(thing));
+    const box = scene.nodes.has(element.key) ? nodeRect(element) : chipRect(router.route(element));
     const [a, b] = [viewport.toScreen(box), viewport.toScreen({ x: box.x + box.w, y: box.y + box.h })];
     const { offsetWidth: w, offsetHeight: h } = this.element;
     const isRight = b.x + GAP + w + MARGIN <= viewport.width || viewport.width - b.x > a.x;
-    const fit = (value, size, all) => Math.max(MARGIN, Math.min(value, all - size - MARGIN));
+    const fit = (value, size, available) => Math.max(MARGIN, Math.min(value, available - size - MARGIN));
     this.element.style.left = `${fit(isRight ? b.x + GAP : a.x - GAP - w, w, viewport.width)}px`;
     this.element.style.top = `${fit(a.y, h, viewport.height)}px`;
   }

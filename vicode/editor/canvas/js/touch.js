@@ -1,4 +1,4 @@
-// Fingers: two of them pan and pinch, one that is held still opens the menu.
+// Touch: two fingers pan and pinch, a long press opens the menu.
 
 const HOLD_MS = 500;
 
@@ -15,7 +15,7 @@ export class Touch {
     return this.span !== null;
   }
 
-  /** A finger came down; true when it is the second. */
+  /** Handles a touch; returns whether it is the second finger. */
   down(event) {
     this.canvas.stage.classList.toggle("touch", event.pointerType === "touch");
     if (event.pointerType !== "touch") return false;
@@ -31,12 +31,12 @@ export class Touch {
     if (this.fingers.has(event.pointerId)) this.fingers.set(event.pointerId, this.canvas.viewport.toLocal(event));
   }
 
-  /** The finger moved or left: it is not held still. */
+  /** Cancels the long press after a movement or release. */
   cancelHold() {
     clearTimeout(this.timer);
   }
 
-  /** A finger left; true while (or until just now) there were two. */
+  /** Handles a release; returns whether it belongs to a two-finger gesture. */
   up(event) {
     this.cancelHold();
     this.fingers.delete(event.pointerId);

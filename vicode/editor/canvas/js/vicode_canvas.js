@@ -1,11 +1,11 @@
-// The Vue shell NiceGUI loads; the canvas itself lives in the ES modules beside it.
+// The Vue component that NiceGUI loads; the canvas itself is in the ES modules of this folder.
 import { mountCanvas } from "vicode-canvas";
 
 export default {
   props: { commands: { type: Array, default: () => [] }, scene: { type: String, default: "" } },
   template: `<div class="vicode-canvas"></div>`,
   mounted() {
-    // A press takes the focus from a field, which tells at the end of this task what was typed there: first that, then the press.
+    // A press blurs a text field, which reports its text at the end of the current task; the press must be reported after it.
     const emit = (event, payload) => queueMicrotask(() => this.$emit(event, payload));
     this.canvas = mountCanvas(this.$el, emit, this.commands);
     const scene = takeScene(this.scene);
@@ -70,7 +70,7 @@ export default {
   },
 };
 
-/** The scene that came with the page, in a script of this id; it is there once. */
+/** Removes and returns the scene that is embedded in the page as a script element, if any. */
 function takeScene(id) {
   const script = document.getElementById(id);
   script?.remove();

@@ -1,10 +1,10 @@
-// The view of each page of the browser's history, so that Back shows a drawing as it was left.
+// Stores the view in the browser's history, so that Back restores it.
 
 export function saveView(component, { x, y, k }) {
   if (component) history.replaceState({ ...history.state, view: { component, x, y, k } }, "");
 }
 
-/** Shows the drawing as it was left on this page of the history; what is new here is fitted in. */
+/** Restores the view from the browser's history, or fits the scene if there is none. */
 export function restoreView(canvas) {
   canvas.restoredView = recall(canvas.scene.component);
   if (!canvas.restoredView) return canvas.fit();

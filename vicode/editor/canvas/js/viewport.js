@@ -1,11 +1,11 @@
-// Which part of the plane is seen: screen = world * k + (x, y). Moving it never touches the scene.
+// The visible part of the plane: screen = world * k + (x, y). Moving it does not change the scene.
 const MIN_ZOOM = 0.02;
 const MAX_ZOOM = 4;
 const REST_MS = 200;
-// From this width on things are drawn larger than life, or they would be lost on a wall of pixels.
+// From this width on, fitting may zoom beyond 100%.
 const WIDE = 1900;
-// So much is left free at each side: the buttons lie to the right, words and the switch at the top.
-const CLEAR = { left: 40, right: 64, top: 56, bottom: 32 };
+// Margins for the controls: the buttons are at the right, messages and the view switch at the top.
+const MARGINS = { left: 40, right: 64, top: 56, bottom: 32 };
 
 export class Viewport {
   constructor(stage, frame) {
@@ -21,7 +21,7 @@ export class Viewport {
     this.onIdle = () => {};
   }
 
-  /** Takes the room there is; false while the element is hidden. */
+  /** Reads the size of the stage; returns false while the element is hidden. */
   measure() {
     this.width = this.stage.clientWidth;
     this.height = this.stage.clientHeight;
@@ -41,7 +41,7 @@ export class Viewport {
     return { x: point.x * this.k + this.x, y: point.y * this.k + this.y };
   }
 
-  /** What is seen, in world units. */
+  /** The visible rectangle in world units. */
   visibleRect() {
     return { x: -this.x / this.k, y: -this.y / this.k, w: this.width / this.k, h: this.height / this.k };
   }
@@ -66,7 +66,7 @@ export class Viewport {
     this.set({ x: this.x + dx, y: this.y + dy });
   }
 
-  /** Zooms so that the world point under a screen point stays there. */
+  /** Zooms around a screen point. */
   zoomAt(point, factor) {
     const k = Math.min(MAX_ZOOM, Math.max(MIN_ZOOM, this.k * factor));
     const ratio = k / this.k;
@@ -81,21 +81,21 @@ export class Viewport {
     this.set({ k, x: this.width / 2 - x * k, y: this.height / 2 - y * k });
   }
 
-  /** Shows a whole rectangle, clear of the controls in the corners; larger than life only where there is much more room. */
+  /** Fits a rectangle into the view without the margins; zooms beyond 100% only on very wide screens. */
   fit(rect) {
-    const side = (wish, room) => Math.min(wish, room / 10);
-    const [left, right] = [side(CLEAR.left, this.width), side(CLEAR.right, this.width)];
-    const [top, bottom] = [side(CLEAR.top, this.height), side(CLEAR.bottom, this.height)];
+    const limited = (margin, size) => Math.min(margin, size / 10);
+    const [left, right] = [limited(MARGINS.left, this.width), limited(MARGINS.right, this.width)];
+    const [top, bottom] = [limited(MARGINS.top, this.height), limited(MARGINS.bottom, this.height)];
     const [w, h] = [this.width - left - right, this.height - top - bottom];
     const k = Math.max(MIN_ZOOM, Math.min(Math.max(1, this.width / WIDE), w / rect.w, h / rect.h));
     this.set({ k, x: left + w / 2 - (rect.x + rect.w / 2) * k, y: top + h / 2 - (rect.y + rect.h / 2) * k });
   }
 
-  /** Pans as little as needed to bring a rectangle into sight. */
+  /** Pans as little as needed to bring a rectangle into view. */
   reveal(rect, margin = 40) {
     const seen = this.visibleRect();
-    const by = margin / this.k;
-    const push = (low, high, from, to) => (low - by < from ? low - by - from : high + by > to ? high + by - to : 0);
+    const gap = margin / this.k;
+    const push = (low, high, from, to) => (low - gap < from ? low - gap - from : high + gap > to ? high + gap - to : 0);
     const dx = push(rect.x, rect.x + rect.w, seen.x, seen.x + seen.w);
     const dy = push(rect.y, rect.y + rect.h, seen.y, seen.y + seen.h);
     if (dx || dy) this.panBy(-dx * this.k, -dy * this.k);

@@ -1,4 +1,4 @@
-// The wheel: a mouse zooms at the pointer, two fingers on a touchpad pan, Ctrl (or a pinch) always zooms.
+// Wheel events: a mouse wheel zooms at the pointer, two fingers on a touchpad pan, Ctrl or a pinch always zooms.
 
 const STREAM_MS = 200;
 
@@ -24,7 +24,7 @@ export class Wheel {
     }
   }
 
-  /** Browsers do not say; a mouse turns in whole, large, purely vertical steps. A stream keeps its kind. */
+  /** Heuristic: a mouse sends large, vertical integer steps. Events in quick succession come from the same device. */
   #comesFromPad(event) {
     const fresh = event.timeStamp - this.lastTime > STREAM_MS;
     this.lastTime = event.timeStamp;
@@ -34,4 +34,4 @@ export class Wheel {
   }
 }
 
-const clamp = (value, most) => Math.max(-most, Math.min(most, value));
+const clamp = (value, max) => Math.max(-max, Math.min(max, value));

@@ -1,4 +1,4 @@
-// The colours of expressions: a closed part of Python, so that nothing offers what only Python has.
+// Syntax highlighting of expressions: a subset of Python, so that pure Python constructs are not highlighted.
 import * as CM from "nicegui-codemirror";
 
 const KEYWORDS = /^(and|or|not|if|else)\b/;

@@ -1,10 +1,14 @@
-// The door of the aid: puts completion, marks and keys into an editor that NiceGUI made.
+// Entry point of the code editor extensions: adds completion, marks and line styles to NiceGUI's editor.
 import * as CM from "nicegui-codemirror";
 import { createCompletion } from "./completion.js";
 import { expressionLanguage } from "./expression.js";
 import { createLineStyles } from "./line_styles.js";
 import { createMarks } from "./marks.js";
 import { toUnits } from "./offsets.js";
+
+// Describes the keyboard access to screen readers.
+const KEY_HINT = "Control+Space lists names; Escape, then Tab leaves the editor";
+const EXPRESSION_KEY_HINT = "Control+Space lists names";
 
 export async function attachCodeAssist(id, options, emit) {
   const view = await waitForEditor(id);
@@ -16,7 +20,7 @@ export async function attachCodeAssist(id, options, emit) {
   if (options.isExpression) extensions.push(expressionLanguage());
   if (options.hint) extensions.push(CM.placeholder(options.hint));
   view?.dispatch({ effects: CM.StateEffect.appendConfig.of(extensions) });
-  // Tab leaves an expression like any other field; in code it indents, and Escape before it makes it leave.
+  // Tab leaves an expression field; in code it indents, unless Escape is pressed before.
   if (options.isExpression) view?.setTabFocusMode(true);
   return {
     showMarks: (text, list) => view && marks.show(view, text, list),
@@ -33,7 +37,7 @@ export async function attachCodeAssist(id, options, emit) {
   };
 }
 
-// The editor of an element; it may be mounted a moment after its aid. Null if its page is gone.
+// Returns the editor of an element, which may be mounted later than its extensions; null if the page is gone.
 async function waitForEditor(id) {
   for (let attempt = 0; attempt < 600; attempt += 1) {
     const view = findEditor(id);
@@ -47,19 +51,19 @@ function findEditor(id) {
   try {
     return window.getElement?.(id)?.editor;
   } catch {
-    // The page itself is being mounted: an address may open it on a transition.
+    // The page itself is still being mounted.
     return null;
   }
 }
 
 function attributesFor(options) {
-  const hint = options.isExpression ? "Control+Space lists names" : "Control+Space lists names; Escape, then Tab leaves";
+  const hint = options.isExpression ? EXPRESSION_KEY_HINT : KEY_HINT;
   return CM.EditorView.contentAttributes.of({
     "aria-label": options.label,
     "aria-description": options.completes ? hint : "",
     spellcheck: "false",
     autocapitalize: "off",
-    // One that is only read must be reached by Tab too, to be scrolled.
+    // Read-only editors must be reachable by Tab too, for scrolling.
     tabindex: "0",
   });
 }

@@ -1,12 +1,12 @@
-// Lines brought forward, lines with a style, and the line at which somebody looks.
+// Highlighted lines, lines with a style, and the report of the line that the user selects.
 import * as CM from "nicegui-codemirror";
 
 export function createLineStyles(emit) {
   const highlight = lineField();
   const styles = lineField();
   const reportLine = CM.EditorView.updateListener.of((update) => {
-    const isOwn = update.transactions.some((each) => each.isUserEvent("select"));
-    if (emit && update.selectionSet && isOwn) {
+    const isByUser = update.transactions.some((transaction) => transaction.isUserEvent("select"));
+    if (emit && update.selectionSet && isByUser) {
       emit("line", update.state.doc.lineAt(update.state.selection.main.head).number);
     }
   });

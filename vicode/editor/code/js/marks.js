@@ -1,4 +1,4 @@
-// Marks under characters that follow the text while it is typed; a message when the mouse or the cursor is there.
+// Marks under characters, which move with the text while the user types, and their messages as tooltips.
 import * as CM from "nicegui-codemirror";
 import { toUnits } from "./offsets.js";
 
@@ -18,7 +18,7 @@ export function createMarks() {
     extension: [field, hover],
     show(view, text, list) {
       const doc = view.state.doc;
-      // Typed on in the meantime: the marks of what stands there now are on their way.
+      // The text has changed since; its marks will follow.
       if (doc.toString() !== text) return;
       view.dispatch({ effects: replace.of(decorationsFor(text, list)) });
       view.contentDOM.setAttribute("aria-invalid", String(list.some((mark) => mark.severity === "error")));
@@ -32,7 +32,7 @@ function decorationsFor(text, list) {
   for (const mark of list) {
     let from = unit(mark.start);
     let to = unit(mark.end);
-    // What is missing at the end is shown at the last character.
+    // An empty range, such as at the end of the text, marks the character before it.
     if (from === to) from > 0 ? (from -= 1) : (to = Math.min(1, text.length));
     if (from === to) continue;
     const style = `squiggle ${mark.severity}`;

@@ -1,6 +1,6 @@
-// Python counts characters, JavaScript counts halves of those beyond the first 65536.
+// Converts between offsets in characters (Python) and in UTF-16 code units (JavaScript).
 
-// From a character of a text, as Python counts, to a place in the string.
+// Returns a function from character offsets to code unit offsets.
 export function toUnits(text) {
   if (!/[\uD800-\uDBFF]/.test(text)) return (index) => index;
   const units = [];
@@ -13,7 +13,7 @@ export function toUnits(text) {
   return (index) => units[Math.max(0, Math.min(index, units.length - 1))];
 }
 
-// From a place in the string to a character as Python counts.
+// Converts an offset in code units to an offset in characters.
 export function toCharacters(text, unit) {
   return [...text.slice(0, unit)].length;
 }

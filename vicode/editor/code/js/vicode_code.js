@@ -1,4 +1,4 @@
-// The Vue shell NiceGUI loads beside a code editor; the aid itself lives in the ES modules beside it.
+// The Vue component that NiceGUI loads; the extensions themselves are in the ES modules of this folder.
 import { attachCodeAssist } from "vicode-code";
 
 export default {
@@ -6,7 +6,7 @@ export default {
   props: { editor: Number, options: Object },
   async mounted() {
     this.codeAssist = await attachCodeAssist(this.editor, this.options, (event, payload) => this.$emit(event, payload));
-    // The page may have gone on to something else before the editor was there.
+    // The page may have been left before the editor was mounted.
     if (this.isUnmounted) this.codeAssist.dispose();
     else this.$emit("ready", {});
   },

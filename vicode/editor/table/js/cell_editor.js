@@ -1,23 +1,23 @@
-// Typing in a cell: a field laid over it. What is typed is only proposed; Python decides, and a refusal keeps it.
+// Cell editor: a field over the cell. Python validates the edit; if it is refused, the text is kept.
 import { COLUMNS, editorKind, rowName } from "./columns.js";
 
 export class CellEditor {
   constructor(table) {
     this.table = table;
     this.field = null;
-    this.words = document.createElement("div");
-    this.words.className = "refused";
-    this.words.id = `refused-${table.host.id}`;
-    this.words.setAttribute("role", "alert");
-    this.words.hidden = true;
-    table.scroller.append(this.words);
+    this.errorBox = document.createElement("div");
+    this.errorBox.className = "refused";
+    this.errorBox.id = `refused-${table.host.id}`;
+    this.errorBox.setAttribute("role", "alert");
+    this.errorBox.hidden = true;
+    table.scroller.append(this.errorBox);
   }
 
   get isOpen() {
     return this.field !== null;
   }
 
-  /** Opens a cell; `text` replaces what stands in it, `byMouse` opens a list at once. */
+  /** Opens a cell; `text` replaces its text, `byMouse` also opens the list of a choice. */
   open(row, column, { text = null, byMouse = false, error = "" } = {}) {
     this.close(false);
     const cell = this.table.cellAt(row.id, column);
@@ -34,14 +34,14 @@ export class CellEditor {
     if (byMouse && this.field.tagName === "SELECT") this.#openList();
   }
 
-  /** Ends the typing; `keep` proposes what was typed. */
+  /** Closes the editor; `keep` reports the typed text as an edit. */
   close(keep) {
     if (!this.field) return;
     const { field, row, column, base } = this;
     this.field = null;
     field.parentElement?.classList.remove("is-edited");
     field.remove();
-    this.words.hidden = true;
+    this.errorBox.hidden = true;
     if (keep && field.value !== base) this.table.emit("edit", { kind: "set", row, column: column.name, value: field.value, base });
   }
 
@@ -77,14 +77,14 @@ export class CellEditor {
     requestAnimationFrame(grow);
   }
 
-  /** A list opened by hand takes what is picked at once; by keys Enter does, as every arrow would be an edit. */
+  /** Opens the list. A choice by mouse is applied immediately; by keys only Enter applies it, since arrow keys change it too. */
   #openList() {
     const { field } = this;
     field.addEventListener("change", () => this.#closeAndFocus(true));
     try {
       field.showPicker();
     } catch {
-      // Without a fresh gesture a browser keeps it shut; it can still be opened by a click.
+      // Without a recent user gesture the browser refuses; the user can still click.
     }
   }
 
@@ -105,15 +105,15 @@ export class CellEditor {
     this.table.focusGrid();
   }
 
-  #showError(words, cell) {
-    this.words.textContent = words;
-    this.words.hidden = !words;
-    if (!words) return;
+  #showError(message, cell) {
+    this.errorBox.textContent = message;
+    this.errorBox.hidden = !message;
+    if (!message) return;
     const { offsetLeft, offsetHeight } = cell;
-    this.words.style.left = `${offsetLeft}px`;
-    this.words.style.top = `${cell.parentElement.offsetTop + offsetHeight}px`;
+    this.errorBox.style.left = `${offsetLeft}px`;
+    this.errorBox.style.top = `${cell.parentElement.offsetTop + offsetHeight}px`;
     this.field.setAttribute("aria-invalid", "true");
-    this.field.setAttribute("aria-describedby", this.words.id);
+    this.field.setAttribute("aria-describedby", this.errorBox.id);
   }
 }
 

@@ -1,6 +1,6 @@
-// The columns of the table and what one cell looks like. Data only ever enters as text, never as markup.
+// The columns of the table and how cells are drawn. Data is only set as text, never as markup.
 
-/** `from` names the list that a choice is made from. */
+/** `from`: name of the list of possible values. */
 export const COLUMNS = [
   { name: "name", title: "State or target", kind: "text" },
   { name: "initial", title: "Initial", kind: "flag" },
@@ -18,20 +18,20 @@ export const rowName = (row) => `${row.lead} ${row.cells.name ?? ""}`.trim();
 
 const SIGNS = { error: "⬣", warning: "▲", note: "●" };
 
-/** Whether a value of this column can be typed or chosen in this row. */
+/** Whether a cell is editable. */
 export function isEditable(row, column) {
   if (!(column.name in row.cells) || column.kind === "marks") return false;
   if (row.kind === "common") return false;
   return column.name !== "name" || ["state", "transition"].includes(row.kind);
 }
 
-/** How a cell is edited: a choice among the states, or a line (a doc: lines) of text. */
+/** Returns the kind of editor of a cell: "choice" of a state, a "line" or several "lines" of text. */
 export function editorKind(row, column) {
   if (column.name === "name" && row.kind === "transition") return "choice";
   return column.name === "doc" || column.name === "when" ? "lines" : "line";
 }
 
-/** Fills a cell; returns what takes the focus for it. */
+/** Draws a cell; returns the element that receives the focus. */
 export function drawCell(cell, row, column) {
   const value = row.cells[column.name];
   cell.replaceChildren();
@@ -40,7 +40,7 @@ export function drawCell(cell, row, column) {
   if (column.kind === "flag" && value !== undefined) return drawFlag(cell, row, column, value);
   if (column.name === "name") drawLead(cell, row);
   const text = span("text", value ?? "");
-  // Only without any condition a transition is always taken.
+  // Only a transition without any condition is always taken.
   if (column.hint && value === "" && !row.cells.when && !row.cells.after && !row.cells.code) text.dataset.hint = column.hint;
   cell.append(text);
   cell.title = column.name === "name" && row.messages.length ? row.messages.join("\n") : (value ?? "");

@@ -1,2 +1,2 @@
-// The door of the table: everything else is reached from here by relative imports.
+// Entry point of the table.
 export { mountTable } from "./table.js";

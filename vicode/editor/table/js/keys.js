@@ -1,4 +1,4 @@
-// The keys of the table. Those it does not know go on to the page.
+// Keyboard handling of the table. Other keys are left to the page.
 
 const STEPS = { ArrowUp: [-1, 0], ArrowDown: [1, 0], ArrowLeft: [0, -1], ArrowRight: [0, 1] };
 const MAX_STEPS = 1e6;
@@ -29,9 +29,9 @@ function findHandler(table, event) {
     Backspace: () => clearCell(table, row, column),
   };
   if (event.key === " ") return column.kind === "flag" ? () => table.editOrToggle() : null;
-  // Letters typed on a flag say nothing, neither to it nor to the page.
+  // Letters have no effect on a flag and must not trigger shortcuts of the page.
   if (column.kind === "flag" && /^\p{L}$/u.test(event.key)) return () => {};
-  // A key that writes begins to type over what stands there, as in a spreadsheet; a choice is only opened.
+  // A printable key replaces the text of the cell, as in a spreadsheet; a choice is only opened.
   if (event.key.length === 1) return () => table.editOrToggle({ text: column.name === "name" && row.kind === "transition" ? null : event.key });
   return jobs[event.key];
 }
@@ -52,7 +52,7 @@ function findCtrlHandler(table, event, row) {
   return jobs[event.key];
 }
 
-/** The first cell stands for the whole row; others are emptied. */
+/** Deletes the row if its first cell is current; otherwise clears the cell. */
 function clearCell(table, row, column) {
   if (column.name === "name") return table.sendEdit({ kind: "remove", row: row.id });
   const base = row.cells[column.name];

@@ -1,4 +1,4 @@
-// The table itself: rows mounted where they are seen, one cell in the tab order, keys as in a spreadsheet.
+// The table: only visible rows are mounted, one cell is in the tab order, keys work as in a spreadsheet.
 import { CellEditor, findColumn } from "./cell_editor.js";
 import { COLUMNS, drawCell, isEditable } from "./columns.js";
 import { keyDown } from "./keys.js";
@@ -11,7 +11,7 @@ const sheet = new CSSStyleSheet();
 sheet.replaceSync(await (await fetch(new URL("./table.css", import.meta.url))).text());
 document.adoptedStyleSheets = [...document.adoptedStyleSheets, sheet];
 
-/** Shows rows in `host` and reports what a person wishes by `emit(event, payload)`. */
+/** Mounts a table in `host`; it reports events by `emit(event, payload)`. */
 export const mountTable = (host, emit) => new Table(host, emit);
 
 class Table {
@@ -52,7 +52,7 @@ class Table {
   select(ids) {
     this.#markSelected(ids);
     const [first] = ids;
-    // Who is typing stays there.
+    // Typing is not interrupted.
     if (this.editor.isOpen || ids.length !== 1 || !this.rows.has(first) || first === this.at.row) return;
     this.#goTo(first, this.at.column, { quiet: true, focus: this.body.contains(document.activeElement) });
   }
@@ -65,9 +65,9 @@ class Table {
     if (isEditable(row, column) && column.kind !== "flag") this.editor.open(row, column, options);
   }
 
-  /** An edit was not done: what was typed comes back, with the reason. */
-  showError({ row, column, value }, words) {
-    if (value !== undefined && this.rows.has(row)) this.editCell(row, column, { text: value, error: words });
+  /** An edit was refused: opens the cell with the typed text and the reason. */
+  showError({ row, column, value }, message) {
+    if (value !== undefined && this.rows.has(row)) this.editCell(row, column, { text: value, error: message });
   }
 
   focusGrid() {
@@ -76,7 +76,7 @@ class Table {
     this.#goTo(this.at.row, this.at.column, { focus: true, quiet: true });
   }
 
-  /** Goes on by rows and columns, as far as there are any. */
+  /** Moves the current cell by rows and columns, within the table. */
   go(rows, columns) {
     const last = this.order.length - 1;
     const index = Math.max(0, Math.min(last, this.order.indexOf(this.at.row) + rows));
@@ -84,16 +84,16 @@ class Table {
     if (last >= 0) this.#goTo(this.order[index], column, { focus: true });
   }
 
-  /** To the next cell that can be edited in this row, else to the next one at all. */
-  moveToEditable(by) {
+  /** Moves to the next editable cell of the row; stays if there is none. */
+  moveToEditable(step) {
     const row = this.rows.get(this.at.row);
-    let column = this.at.column + by;
-    while (row && COLUMNS[column] && !isEditable(row, COLUMNS[column])) column += by;
+    let column = this.at.column + step;
+    while (row && COLUMNS[column] && !isEditable(row, COLUMNS[column])) column += step;
     if (COLUMNS[column]) this.go(0, column - this.at.column);
     else this.focusGrid();
   }
 
-  /** Rows that fit into the window. */
+  /** Number of rows that Page Up and Page Down move. */
   get page() {
     return Math.max(1, Math.floor(this.scroller.clientHeight / ROW) - 2);
   }
@@ -102,7 +102,7 @@ class Table {
     return { row: this.rows.get(this.at.row), column: COLUMNS[this.at.column] };
   }
 
-  /** Begins to type in the cell, or flips a flag. */
+  /** Opens the current cell for editing, or toggles a flag. */
   editOrToggle(options = {}) {
     const { row, column } = this.current;
     if (!row || !isEditable(row, column)) return;
@@ -110,7 +110,7 @@ class Table {
     else this.editor.open(row, column, options);
   }
 
-  /** Asks Python for something. */
+  /** Reports an edit to Python. */
   sendEdit(payload) {
     this.#reportSelection();
     this.emit("edit", payload);
@@ -161,7 +161,7 @@ class Table {
     this.body.addEventListener("focusout", () => this.#reportSelection());
   }
 
-  /** A press selects a cell; a press on the selected one begins to type. */
+  /** A press selects a cell; a press on the current cell opens it. */
   #onPointerDown(event) {
     const place = this.#findCell(event);
     if (!place || event.button !== 0) return;
@@ -191,7 +191,7 @@ class Table {
     this.reportTimer = setTimeout(() => this.#reportSelection(), SELECT_MS);
   }
 
-  /** Tells Python which row is worked on, once the keys rest. */
+  /** Reports the current row to Python. */
   #reportSelection() {
     if (!this.reportTimer) return;
     clearTimeout(this.reportTimer);
@@ -231,13 +231,13 @@ class Table {
     this.#tab(0);
   }
 
-  /** The row that was worked on is gone: what stands in its place now takes over. */
+  /** The current row was removed: selects the row at its position. */
   #moveToNearestRow() {
     const index = Math.max(0, Math.min(this.order.length - 1, this.index ?? 0));
     this.at = { row: this.order[index] ?? null, column: this.at.column };
   }
 
-  /** Brings what is mounted up to what is seen; the row worked on is always there. */
+  /** Mounts the visible rows and the current row. */
   #mount() {
     const first = Math.max(0, Math.floor(this.scroller.scrollTop / ROW) - MARGIN);
     const last = Math.min(this.order.length, first + Math.ceil(this.scroller.clientHeight / ROW) + 2 * MARGIN);
@@ -254,7 +254,7 @@ class Table {
     for (const index of wanted) next = this.#place(index, next);
   }
 
-  /** Puts a row at its place before `next`; returns what follows it. */
+  /** Inserts a row before `next`; returns the row that follows. */
   #place(index, next) {
     const id = this.order[index];
     const element = this.mounted.get(id) ?? this.#newRow(this.rows.get(id));
@@ -287,8 +287,8 @@ class Table {
     element.setAttribute("aria-selected", String(this.selected.has(row.id)));
     COLUMNS.forEach((column, index) => {
       const cell = element.children[index];
-      const isTyped = this.editor.isOpen && this.editor.row === row.id && this.editor.column === column;
-      if (isTyped) return;
+      const isEdited = this.editor.isOpen && this.editor.row === row.id && this.editor.column === column;
+      if (isEdited) return;
       drawCell(cell, row, column).setAttribute("tabindex", "-1");
     });
     if (row.id === this.at.row) this.#tab(0);

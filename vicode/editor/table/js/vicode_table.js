@@ -1,4 +1,4 @@
-// The Vue shell NiceGUI loads; the table itself lives in the ES modules beside it.
+// The Vue component that NiceGUI loads; the table itself is in the ES modules of this folder.
 import { mountTable } from "vicode-table";
 
 export default {
@@ -23,8 +23,8 @@ export default {
     editCell(row, column) {
       this.table.editCell(row, column);
     },
-    showError(payload, words) {
-      this.table.showError(payload, words);
+    showError(payload, message) {
+      this.table.showError(payload, message);
     },
     focusGrid() {
       this.table.focusGrid();
