@@ -66,17 +66,17 @@ class Diagram:
 
 def build_diagram(design: Design, *, only: Collection[str] | None = None, links: bool = True) -> Diagram:
     """The diagram of a design, or of some states and the components they use."""
-    arrows = (*_transition_edges(design), *(_use_edges(design) if links else ()))
+    edges = (*_transition_edges(design), *(_use_edges(design) if links else ()))
     nodes = tuple(_diagram_nodes(design, complete_layout(design)))
     if only is not None:
         wanted = {_state_key(name) for name in only}
-        used = {edge.source for edge in arrows if edge.edge_type == "requires" and edge.target in wanted}
-        used |= {edge.target for edge in arrows if edge.edge_type == "modulates" and edge.source in wanted}
+        used = {edge.source for edge in edges if edge.edge_type == "requires" and edge.target in wanted}
+        used |= {edge.target for edge in edges if edge.edge_type == "modulates" and edge.source in wanted}
         nodes = tuple(node for node in nodes if node.key in wanted | used)
     elif not links:
         nodes = tuple(node for node in nodes if node.node_type != "component")
     known = {node.key for node in nodes}
-    return Diagram(nodes=nodes, edges=tuple(edge for edge in arrows if edge.source in known and edge.target in known))
+    return Diagram(nodes=nodes, edges=tuple(edge for edge in edges if edge.source in known and edge.target in known))
 
 
 def _state_key(name: str) -> str:

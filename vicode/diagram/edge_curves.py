@@ -100,9 +100,9 @@ def _normal(first: DiagramNode, second: DiagramNode) -> Point:
     return (-sign * dy / length, sign * dx / length)
 
 
-def _lane_offsets(chips: Sequence[EdgeLabel | None], normal: Point) -> list[float]:
+def _lane_offsets(labels: Sequence[EdgeLabel | None], normal: Point) -> list[float]:
     """The offset of each lane from the center line, so that labels at the same height do not overlap."""
-    sizes = [label.size if label else Size(width=0, height=0) for label in chips]
+    sizes = [label.size if label else Size(width=0, height=0) for label in labels]
     positions = [0.0]
     for one, other in pairwise(sizes):
         wide = (one.width + other.width) / 2 + _LABEL_GAP

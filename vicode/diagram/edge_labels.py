@@ -37,10 +37,10 @@ def make_edge_label(
     return _make_label(edge, max(_MIN_WIDTH, _available_width(*ends, beside=parallel_count) - used))
 
 
-def shorter_labels(edge: DiagramEdge, chip: EdgeLabel) -> Iterator[EdgeLabel]:
+def shorter_labels(edge: DiagramEdge, label: EdgeLabel) -> Iterator[EdgeLabel]:
     """The label with less and less text."""
     for room in _SHORTER_WIDTHS:
-        shorter = _make_label(edge, room) if text_width(chip.text, LABEL_FONT) > room + 10 else None
+        shorter = _make_label(edge, room) if text_width(label.text, LABEL_FONT) > room + 10 else None
         if shorter:
             yield shorter
 

@@ -60,70 +60,68 @@ def route_edges(diagram: Diagram) -> tuple[EdgeRoute, ...]:
     ways = [way for pair in router.edge_pairs() for way in router.route_pair(pair)]
     # Pairs with the fewest choices first.
     ways.sort(key=lambda way: curve_length(way[1]))
-    routes = {arrow.key: router.place_label(arrow, curve, chip) for arrow, curve, chip in ways}
+    routes = {edge.key: router.place_label(edge, curve, label) for edge, curve, label in ways}
     for key in router.overlapping:
         router.resolve_overlap(key, routes)
-    return tuple(routes[arrow.key] for arrow in diagram.edges)
+    return tuple(routes[edge.key] for edge in diagram.edges)
 
 
 class _EdgeRouter:
     """Routes pair by pair, avoiding what is already placed."""
 
-    def __init__(self, figure: Diagram) -> None:
-        self.nodes = {node.key: node for node in figure.nodes}
+    def __init__(self, diagram: Diagram) -> None:
+        self.nodes = {node.key: node for node in diagram.nodes}
         self.boxes, self.labels, self.lines = RectIndex(), RectIndex(), PointIndex()
         self.obstacles = ObstacleIndex(CLEARANCE)
         self.overlapping: list[str] = []
-        has_labels = any(
-            arrow.label or arrow.order or arrow.guard_kind is not GuardKind.ALWAYS for arrow in figure.edges
-        )
-        self.avoids_edges = has_labels and len(figure.edges) <= _MAX_AVOIDED_EDGES
+        has_labels = any(edge.label or edge.order or edge.guard_kind is not GuardKind.ALWAYS for edge in diagram.edges)
+        self.avoids_edges = has_labels and len(diagram.edges) <= _MAX_AVOIDED_EDGES
         self._edges_at: dict[str, list[DiagramEdge]] = defaultdict(list)
         self._pairs: dict[tuple[str, ...], list[DiagramEdge]] = defaultdict(list)
-        self._links = {arrow.key for arrow in figure.edges if arrow.edge_type != "transition"}
-        for node in figure.nodes:
+        self._links = {edge.key for edge in diagram.edges if edge.edge_type != "transition"}
+        for node in diagram.nodes:
             rect = Rect.from_center(node.center, node.size)
             self.boxes.add(node.key, rect)
             self.obstacles.add(node.key, rect)
-        for arrow in figure.edges:
-            self._pairs[tuple(sorted((arrow.source, arrow.target)))].append(arrow)
-            for end in {arrow.source, arrow.target}:
-                self._edges_at[end].append(arrow)
+        for edge in diagram.edges:
+            self._pairs[tuple(sorted((edge.source, edge.target)))].append(edge)
+            for end in {edge.source, edge.target}:
+                self._edges_at[end].append(edge)
 
     def edge_pairs(self) -> Iterator[list[DiagramEdge]]:
         """The edges of each pair of nodes in reading order: forward edges first, each direction in priority order."""
-        for arrows in self._pairs.values():
-            first, _second = reading_order(*self._ends(arrows[0]))
-            yield sorted(arrows, key=lambda arrow: (arrow.source != first.key, arrow.order))
+        for edges in self._pairs.values():
+            first, _second = reading_order(*self._ends(edges[0]))
+            yield sorted(edges, key=lambda edge: (edge.source != first.key, edge.order))
 
-    def route_pair(self, arrows: Sequence[DiagramEdge]) -> Iterator[tuple[DiagramEdge, CubicBezier, EdgeLabel | None]]:
+    def route_pair(self, edges: Sequence[DiagramEdge]) -> Iterator[tuple[DiagramEdge, CubicBezier, EdgeLabel | None]]:
         """The curves of one pair, with their preferred labels."""
-        source, target = self._ends(arrows[0])
-        chips = [make_edge_label(arrow, (source, target), parallel_count=len(arrows)) for arrow in arrows]
+        source, target = self._ends(edges[0])
+        labels = [make_edge_label(edge, (source, target), parallel_count=len(edges)) for edge in edges]
         if source is target:
-            others = [node for arrow in self._edges_at[source.key] for node in self._ends(arrow) if node is not source]
-            curves = self_loop_curves(source, chips, others, self.boxes)
+            others = [node for edge in self._edges_at[source.key] for node in self._ends(edge) if node is not source]
+            curves = self_loop_curves(source, labels, others, self.boxes)
         else:
-            curves = parallel_curves(arrows, chips, (source, target), self.obstacles)
-        for arrow, curve, chip in zip(arrows, curves, chips, strict=True):
+            curves = parallel_curves(edges, labels, (source, target), self.obstacles)
+        for edge, curve, label in zip(edges, curves, labels, strict=True):
             if self.avoids_edges:
                 count = max(2, math.ceil(curve_length(curve) / _SAMPLE_DISTANCE))
-                self.lines.add(arrow.key, sample_curve(curve, count))
-            yield arrow, curve, chip
+                self.lines.add(edge.key, sample_curve(curve, count))
+            yield edge, curve, label
 
-    def place_label(self, arrow: DiagramEdge, curve: CubicBezier, wanted: EdgeLabel | None) -> EdgeRoute:
+    def place_label(self, edge: DiagramEdge, curve: CubicBezier, wanted: EdgeLabel | None) -> EdgeRoute:
         """The route with the best label position; if every position overlaps something, a shorter label may fit."""
         if wanted is None:
-            return EdgeRoute(edge=arrow, curve=curve, label=None, label_position=point_on_curve(curve, 0.5))
-        if arrow.label_at is not None:
-            part, shift = arrow.label_at
-            chip, at = wanted, _offset_point(curve, min(1.0, max(0.0, part)), shift)
+            return EdgeRoute(edge=edge, curve=curve, label=None, label_position=point_on_curve(curve, 0.5))
+        if edge.label_at is not None:
+            part, shift = edge.label_at
+            label, at = wanted, _offset_point(curve, min(1.0, max(0.0, part)), shift)
         else:
-            chip, at = self._find_label_position(arrow, curve, wanted)
-            if not self._is_free(Rect.from_center(at, chip.size)):
-                self.overlapping.append(arrow.key)
-        self.labels.add(arrow.key, Rect.from_center(at, chip.size))
-        return EdgeRoute(edge=arrow, curve=curve, label=chip, label_position=at)
+            label, at = self._find_label_position(edge, curve, wanted)
+            if not self._is_free(Rect.from_center(at, label.size)):
+                self.overlapping.append(edge.key)
+        self.labels.add(edge.key, Rect.from_center(at, label.size))
+        return EdgeRoute(edge=edge, curve=curve, label=label, label_position=at)
 
     def resolve_overlap(self, key: str, routes: dict[str, EdgeRoute]) -> None:
         """Move the labels that a label overlaps, where they have room."""
@@ -132,41 +130,39 @@ class _EdgeRouter:
             if route.edge.label_at is not None or route.label is None:
                 continue
             self.labels.remove(other, Rect.from_center(route.label_position, route.label.size))
-            chip, at = self._find_label_position(route.edge, route.curve, route.label)
-            routes[other] = replace(route, label=chip, label_position=at)
-            self.labels.add(other, Rect.from_center(at, chip.size))
+            label, at = self._find_label_position(route.edge, route.curve, route.label)
+            routes[other] = replace(route, label=label, label_position=at)
+            self.labels.add(other, Rect.from_center(at, label.size))
 
     def _overlapping_labels(self, route: EdgeRoute) -> set[str]:
         assert route.label is not None
         return self.labels.overlapping(Rect.from_center(route.label_position, route.label.size).expanded(2))
 
-    def _ends(self, arrow: DiagramEdge) -> tuple[DiagramNode, DiagramNode]:
-        return self.nodes[arrow.source], self.nodes[arrow.target]
+    def _ends(self, edge: DiagramEdge) -> tuple[DiagramNode, DiagramNode]:
+        return self.nodes[edge.source], self.nodes[edge.target]
 
-    def _find_label_position(
-        self, arrow: DiagramEdge, curve: CubicBezier, wanted: EdgeLabel
-    ) -> tuple[EdgeLabel, Point]:
+    def _find_label_position(self, edge: DiagramEdge, curve: CubicBezier, wanted: EdgeLabel) -> tuple[EdgeLabel, Point]:
         best, chosen, least = point_on_curve(curve, 0.5), wanted, math.inf
-        for chip in (wanted, *shorter_labels(arrow, wanted)):
-            for price, at in _label_positions(arrow, curve, chip):
+        for label in (wanted, *shorter_labels(edge, wanted)):
+            for price, at in _label_positions(edge, curve, label):
                 if price >= least:
                     break
-                cost = price + self._overlap_cost(Rect.from_center(at, chip.size), arrow.key, least - price)
+                cost = price + self._overlap_cost(Rect.from_center(at, label.size), edge.key, least - price)
                 if cost < least:
-                    best, chosen, least = at, chip, cost
+                    best, chosen, least = at, label, cost
             if least < _LABEL_COST:
                 return chosen, best
-        return self._find_distant_position(arrow, curve, chip) or (chosen, best)
+        return self._find_distant_position(edge, curve, label) or (chosen, best)
 
     def _find_distant_position(
-        self, arrow: DiagramEdge, curve: CubicBezier, shortest: EdgeLabel
+        self, edge: DiagramEdge, curve: CubicBezier, shortest: EdgeLabel
     ) -> tuple[EdgeLabel, Point] | None:
         """A position at a greater distance that hides no text; if necessary for the priority alone."""
-        for chip in (shortest, *textless_labels(arrow)):
-            near = [at for _price, at in _label_positions(arrow, curve, chip)] if chip is not shortest else []
-            for at in (*near, *_distant_positions(arrow, curve, chip)):
-                if self._is_free(Rect.from_center(at, chip.size)):
-                    return chip, at
+        for label in (shortest, *textless_labels(edge)):
+            near = [at for _price, at in _label_positions(edge, curve, label)] if label is not shortest else []
+            for at in (*near, *_distant_positions(edge, curve, label)):
+                if self._is_free(Rect.from_center(at, label.size)):
+                    return label, at
         return None
 
     def _is_free(self, rect: Rect) -> bool:
@@ -185,35 +181,37 @@ class _EdgeRouter:
         return crowd + _USE_EDGE_COST * links + _EDGE_COST * (len(hidden) - links)
 
 
-def _label_positions(arrow: DiagramEdge, curve: CubicBezier, chip: EdgeLabel) -> Iterator[tuple[float, Point]]:
+def _label_positions(edge: DiagramEdge, curve: CubicBezier, label: EdgeLabel) -> Iterator[tuple[float, Point]]:
     """Candidate positions with their costs, best first."""
-    if arrow.source == arrow.target:
-        yield from ((price, _loop_label_position(curve, chip, slip, is_out=price > 0)) for price, slip in _LOOP_OFFSETS)
+    if edge.source == edge.target:
+        yield from (
+            (price, _loop_label_position(curve, label, slip, is_out=price > 0)) for price, slip in _LOOP_OFFSETS
+        )
         return
     for price, part, side in _LABEL_POSITIONS:
-        yield price, _position_beside_curve(curve, chip, part, side) if side else point_on_curve(curve, part)
+        yield price, _position_beside_curve(curve, label, part, side) if side else point_on_curve(curve, part)
 
 
-def _distant_positions(arrow: DiagramEdge, curve: CubicBezier, chip: EdgeLabel) -> Iterator[Point]:
-    if arrow.source == arrow.target:
-        hung = [_loop_label_position(curve, chip, slip, is_out=True) for slip in _DISTANT_LOOP_OFFSETS]
+def _distant_positions(edge: DiagramEdge, curve: CubicBezier, label: EdgeLabel) -> Iterator[Point]:
+    if edge.source == edge.target:
+        hung = [_loop_label_position(curve, label, slip, is_out=True) for slip in _DISTANT_LOOP_OFFSETS]
         return ((x, y + rise) for rise in _VERTICAL_OFFSETS for x, y in hung)
-    return (_position_beside_curve(curve, chip, part, side) for side, part in _DISTANT_POSITIONS)
+    return (_position_beside_curve(curve, label, part, side) for side, part in _DISTANT_POSITIONS)
 
 
-def _loop_label_position(curve: CubicBezier, chip: EdgeLabel, slip: int, *, is_out: bool) -> Point:
+def _loop_label_position(curve: CubicBezier, label: EdgeLabel, slip: int, *, is_out: bool) -> Point:
     """The label of a self-loop is at its outermost point, so that the loop remains visible."""
     apex = point_on_curve(curve, 0.5)
     out = (apex[0] - (curve[0] + curve[6]) / 2, apex[1] - (curve[1] + curve[7]) / 2)
     if abs(out[0]) < abs(out[1]):
-        return (apex[0] + slip * chip.size.width * 0.4, apex[1] + (math.copysign(9, out[1]) if is_out else 0))
-    return (apex[0] + math.copysign(chip.size.width / 2 - 8, out[0]), apex[1] + slip * 18)
+        return (apex[0] + slip * label.size.width * 0.4, apex[1] + (math.copysign(9, out[1]) if is_out else 0))
+    return (apex[0] + math.copysign(label.size.width / 2 - 8, out[0]), apex[1] + slip * 18)
 
 
-def _position_beside_curve(curve: CubicBezier, chip: EdgeLabel, part: float, side: int) -> Point:
+def _position_beside_curve(curve: CubicBezier, label: EdgeLabel, part: float, side: int) -> Point:
     """A position next to the line that keeps the line visible."""
     dx, dy = _direction(curve, part)
-    reach = (abs(dy) * chip.size.width + abs(dx) * chip.size.height) / 2
+    reach = (abs(dy) * label.size.width + abs(dx) * label.size.height) / 2
     beyond = 3 if abs(side) == 1 else 9 + _DISTANT_STEP * (abs(side) - 2)
     shift = math.copysign(reach + beyond, side)
     x, y = point_on_curve(curve, part)

@@ -19,12 +19,12 @@ _USE_EDGES = {"requires": {"style": "dashed", "arrowhead": "empty"}, "modulates"
 
 def write_graphviz(design: Design, *, only: Collection[str] | None = None, links: bool = True) -> str:
     """The text of the whole design, or of some states and the components they use."""
-    figure = build_diagram(design, only=only, links=links)
-    ids = {node.key: f"n{index}" for index, node in enumerate(figure.nodes)}
+    diagram = build_diagram(design, only=only, links=links)
+    ids = {node.key: f"n{index}" for index, node in enumerate(diagram.nodes)}
     graph = graphviz.Digraph(
         name=_quoted(design.component), graph_attr={"rankdir": "LR"}, node_attr={"fontname": "Helvetica"}
     )
-    for node in figure.nodes:
+    for node in diagram.nodes:
         graph.node(ids[node.key], label=_quoted(_unshortened_label(node)), **_attributes(node))
         if node.initial:
             graph.node("start", label="", shape="point", width="0.15")
@@ -33,9 +33,9 @@ def write_graphviz(design: Design, *, only: Collection[str] | None = None, links
         source = "common" if line.source == COMMON else f"s:{line.source}"
         if source in ids:
             graph.edge(ids[source], ids[f"s:{line.target}"], label=_quoted(line.label))
-    for arrow in figure.edges:
-        if arrow.edge_type in _USE_EDGES:
-            graph.edge(ids[arrow.source], ids[arrow.target], **_USE_EDGES[arrow.edge_type])
+    for edge in diagram.edges:
+        if edge.edge_type in _USE_EDGES:
+            graph.edge(ids[edge.source], ids[edge.target], **_USE_EDGES[edge.edge_type])
     lost = "".join(f"// {words}\n" for words in describe_dangling_transitions(design, only))
     return lost + str(graph.source)
 

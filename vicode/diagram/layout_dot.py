@@ -58,11 +58,11 @@ def write_layout_dot(layout_graph: LayoutGraph, direction: RankDirection, effort
     return str(graph.source)
 
 
-def _rank_gap(sketch: LayoutGraph, direction: RankDirection) -> float:
+def _rank_gap(graph: LayoutGraph, direction: RankDirection) -> float:
     # Graphviz labels cost minutes at 150 states and stretch ranks; a wider rank separation holds them as well.
     if direction is RankDirection.DOWN:
         return _RANK_GAP
-    return min(_MAX_RANK_GAP, max((_RANK_GAP, *(edge.label_width + _LABEL_MARGIN for edge in sketch.edges))))
+    return min(_MAX_RANK_GAP, max((_RANK_GAP, *(edge.label_width + _LABEL_MARGIN for edge in graph.edges))))
 
 
 def _write_node(graph: graphviz.Digraph, node: LayoutNode) -> None:

@@ -53,8 +53,8 @@ def build_layout_graph(design: Design, only: Collection[str] | None = None) -> L
     """The graph of a design, or of some states and the edges between them."""
     nodes = tuple(_layout_nodes(design, only))
     known = {node.id for node in nodes}
-    arrows = (*_transition_edges(design), *_use_edges(design))
-    edges = [edge for edge in arrows if edge.source in known and edge.target in known and edge.source != edge.target]
+    candidates = (*_transition_edges(design), *_use_edges(design))
+    edges = [edge for edge in candidates if edge.source in known and edge.target in known and edge.source != edge.target]
     return LayoutGraph(nodes=nodes, edges=_orient_edges(nodes, edges))
 
 

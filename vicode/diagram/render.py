@@ -55,8 +55,8 @@ def render_design(
         links: whether to show used components with their requires and modulates links.
         palette: the colors.
     """
-    figure = build_diagram(design, only=only, links=links)
-    return render_diagram(figure, title=design.component, doc=design.doc, palette=palette)
+    diagram = build_diagram(design, only=only, links=links)
+    return render_diagram(diagram, title=design.component, doc=design.doc, palette=palette)
 
 
 def render_diagram(diagram: Diagram, *, title: str, doc: str = "", palette: ColorPalette = LIGHT) -> VectorImage:
@@ -96,53 +96,53 @@ class _DiagramRenderer:
 
     def edge(self, route: EdgeRoute) -> ShapeGroup:
         """A curve with its arrowhead."""
-        pal, arrow, ends = self.palette, route.edge, (route.edge.source, route.edge.target)
+        pal, edge, ends = self.palette, route.edge, (route.edge.source, route.edge.target)
         tip, base = _arrowhead(route.curve)
         shaft = curve_path((*route.curve[:6], *base))
-        if arrow.edge_type == "requires":
+        if edge.edge_type == "requires":
             drawn = PathShape(commands=shaft, stroke=pal.requires, width=1.3, dash=(9, 4))
             head = PathShape(commands=tip, fill=pal.paper, stroke=pal.requires, width=1.3)
-        elif arrow.edge_type == "modulates":
+        elif edge.edge_type == "modulates":
             drawn = PathShape(commands=shaft, stroke=pal.modulates, width=2, dash=(1.5, 4))
             head = PathShape(commands=tip, fill=pal.modulates)
         else:
-            is_common = arrow.source == "common"
+            is_common = edge.source == "common"
             colour = pal.common if is_common else pal.edge
-            drawn = PathShape(commands=shaft, stroke=colour, width=1.6, dash=_dash(arrow))
+            drawn = PathShape(commands=shaft, stroke=colour, width=1.6, dash=_dash(edge))
             head = PathShape(commands=tip, fill=colour)
         is_echo = route.label is not None
         return ShapeGroup(
-            title=arrow.title,
-            css_class=arrow.edge_type,
+            title=edge.title,
+            css_class=edge.edge_type,
             shapes=(drawn, head),
-            href=arrow.href,
+            href=edge.href,
             end_keys=ends,
             is_decorative=is_echo,
         )
 
-    def label(self, chip: EdgeLabel | None, route: EdgeRoute) -> ShapeGroup:
-        assert chip is not None
+    def label(self, label: EdgeLabel | None, route: EdgeRoute) -> ShapeGroup:
+        assert label is not None
         pal, (x, y) = self.palette, route.label_position
         plate = PathShape(
-            commands=rounded_rect_path(route.label_position, chip.size.width, chip.size.height, 11),
+            commands=rounded_rect_path(route.label_position, label.size.width, label.size.height, 11),
             fill=pal.plate,
             stroke=pal.plate_line,
         )
         shapes: list[PathShape | TextShape] = [plate]
-        x += PADDING - chip.size.width / 2
-        if chip.order:
-            shapes.append(TextShape(x=x, y=y, text=chip.order, fill=pal.muted))
-        x += chip.order_width
-        if chip.icon:
-            shapes += [PathShape(commands=steps, stroke=pal.muted, width=1.3) for steps in _icon(chip.icon, (x, y))]
-        x += chip.icon_width
-        if chip.text:
+        x += PADDING - label.size.width / 2
+        if label.order:
+            shapes.append(TextShape(x=x, y=y, text=label.order, fill=pal.muted))
+        x += label.order_width
+        if label.icon:
+            shapes += [PathShape(commands=steps, stroke=pal.muted, width=1.3) for steps in _icon(label.icon, (x, y))]
+        x += label.icon_width
+        if label.text:
             is_off = route.edge.disabled
             colour = pal.muted if is_off else pal.text
-            shapes.append(TextShape(x=x, y=y, text=chip.text, fill=colour, font=LABEL_FONT, is_struck_through=is_off))
-        arrow = route.edge
-        ends = (arrow.source, arrow.target)
-        return ShapeGroup(title=arrow.title, css_class="label", shapes=tuple(shapes), href=arrow.href, end_keys=ends)
+            shapes.append(TextShape(x=x, y=y, text=label.text, fill=colour, font=LABEL_FONT, is_struck_through=is_off))
+        edge = route.edge
+        ends = (edge.source, edge.target)
+        return ShapeGroup(title=edge.title, css_class="label", shapes=tuple(shapes), href=edge.href, end_keys=ends)
 
     def _state(self, node: DiagramNode) -> Iterable[PathShape | TextShape]:
         pal, (x, y), size = self.palette, node.center, node.size
@@ -233,10 +233,10 @@ def _subtitle_text(node: DiagramNode, colour: str) -> TextShape:
     )
 
 
-def _dash(arrow: DiagramEdge) -> tuple[float, ...]:
-    if arrow.disabled:
+def _dash(edge: DiagramEdge) -> tuple[float, ...]:
+    if edge.disabled:
         return (2, 5)
-    return (6, 4) if arrow.source == "common" else ()
+    return (6, 4) if edge.source == "common" else ()
 
 
 def _icon(kind: GuardKind, at: Point) -> Iterable[tuple[tuple[str, tuple[float, ...]], ...]]:
@@ -262,11 +262,11 @@ def _arrowhead(of: CubicBezier) -> tuple[tuple[tuple[str, tuple[float, ...]], ..
     return polyline_path(corners, closed=True), notch
 
 
-def _bounds(figure: Diagram, routes: Iterable[EdgeRoute]) -> tuple[float, float, float, float]:
+def _bounds(diagram: Diagram, routes: Iterable[EdgeRoute]) -> tuple[float, float, float, float]:
     """The bounds of everything, including labels and curves."""
     xs: list[float] = []
     ys: list[float] = []
-    for node in figure.nodes:
+    for node in diagram.nodes:
         room = 20 if node.initial else 0
         xs += [node.center[0] - node.size.width / 2 - room, node.center[0] + node.size.width / 2]
         ys += [node.center[1] - node.size.height / 2 - room - 6 * bool(room), node.center[1] + node.size.height / 2]

@@ -15,27 +15,27 @@ _MAX_EDGES = 600
 
 def render_thumbnail(design: Design, *, dark: bool = False) -> str:
     """The SVG of the states and transitions of a design, with its aspect ratio."""
-    figure = build_diagram(design, links=False)
+    diagram = build_diagram(design, links=False)
     palette = DARK if dark else LIGHT
-    if len(figure.nodes) <= _MAX_DETAILED_NODES:
-        return write_svg(render_diagram(figure, title=design.component, palette=palette))
-    return write_svg(_outline(figure, design.component, palette))
+    if len(diagram.nodes) <= _MAX_DETAILED_NODES:
+        return write_svg(render_diagram(diagram, title=design.component, palette=palette))
+    return write_svg(_outline(diagram, design.component, palette))
 
 
-def _outline(figure: Diagram, title: str, palette: ColorPalette) -> VectorImage:
+def _outline(diagram: Diagram, title: str, palette: ColorPalette) -> VectorImage:
     """Boxes and straight lines, thick enough for the small scale."""
-    lefts = [node.center[0] - node.size.width / 2 for node in figure.nodes]
-    rights = [node.center[0] + node.size.width / 2 for node in figure.nodes]
-    ys = [node.center[1] for node in figure.nodes]
+    lefts = [node.center[0] - node.size.width / 2 for node in diagram.nodes]
+    rights = [node.center[0] + node.size.width / 2 for node in diagram.nodes]
+    ys = [node.center[1] for node in diagram.nodes]
     left, width, top, height = min(lefts) - 30, max(rights) - min(lefts) + 60, min(ys) - 60, max(ys) - min(ys) + 120
     pen = max(1.5, max(width, height) * _MIN_LINE_WIDTH)
-    positions = {node.key: node.center for node in figure.nodes}
+    positions = {node.key: node.center for node in diagram.nodes}
     # With more states, only boxes are recognizable.
-    shown = figure.edges if len(figure.edges) <= _MAX_EDGES else ()
-    ways = sorted({tuple(sorted((positions[arrow.source], positions[arrow.target]))) for arrow in shown})
+    shown = diagram.edges if len(diagram.edges) <= _MAX_EDGES else ()
+    ways = sorted({tuple(sorted((positions[edge.source], positions[edge.target]))) for edge in shown})
     lines = tuple(step for way in ways for step in polyline_path(way))
     shapes: list[PathShape] = [PathShape(commands=lines, stroke=palette.edge, width=pen)] if lines else []
-    for node in figure.nodes:
+    for node in diagram.nodes:
         fill, stroke = {"common": (palette.common_fill, palette.common)}.get(
             node.node_type, (palette.box, palette.box_line)
         )

@@ -41,11 +41,11 @@ def main() -> None:
         thread.join()
 
 
-def compute_positions(sketch: LayoutGraph, run: Callable[[str], str]) -> PositionsById:
+def compute_positions(graph: LayoutGraph, run: Callable[[str], str]) -> PositionsById:
     """Centers in pixels by id, x to the right and y downwards; of both rank directions the one that fits a screen
     better.
     """
-    size = len(sketch.nodes)
+    size = len(graph.nodes)
     effort = (
         LayoutEffort.FULL
         if size <= _MAX_FULL_EFFORT
@@ -54,7 +54,7 @@ def compute_positions(sketch: LayoutGraph, run: Callable[[str], str]) -> Positio
         else LayoutEffort.QUICK
     )
     directions = tuple(RankDirection) if size <= _MAX_FULL_EFFORT else (RankDirection.RIGHT,)
-    pictures = (_read_plain(run(write_layout_dot(sketch, direction, effort))) for direction in directions)
+    pictures = (_read_plain(run(write_layout_dot(graph, direction, effort))) for direction in directions)
     return min(pictures, key=lambda picture: _screen_extent(picture[0]))[1]
 
 
@@ -65,13 +65,13 @@ def _serve(requests: TextIO, answers: TextIO) -> None:
 
 
 def _answer(request: dict[str, Any]) -> dict[str, Any]:
-    sketch = LayoutGraph(
+    graph = LayoutGraph(
         nodes=tuple(LayoutNode(**node) for node in request["nodes"]),
         edges=tuple(LayoutEdge(**edge) for edge in request["edges"]),
     )
     _limit_run_time(request["timeout_s"])
     try:
-        return {"positions": compute_positions(sketch, _run_library if pygraphviz else _run_program)}
+        return {"positions": compute_positions(graph, _run_library if pygraphviz else _run_program)}
     except (OSError, ValueError, subprocess.SubprocessError, graphviz.ExecutableNotFound) as error:
         return {"error": str(error)}
     finally:
