@@ -41,7 +41,7 @@ def compile_source(source: ProgramSource) -> CompileResult:
                 agents.append((item.name.text, _resolve_root(item, table, report, parsed.tokens)))
     check_semantics(source, table, report)
     findings = sort_findings([*source.findings, *report.findings])
-    is_sound = not any(each.severity is Severity.ERROR for each in findings)
+    is_sound = not any(finding.severity is Severity.ERROR for finding in findings)
     program = Program(
         options=tuple(sorted(options, key=lambda option: option.name.lower())),
         agents=tuple(agents),
@@ -55,17 +55,25 @@ def compile_source(source: ProgramSource) -> CompileResult:
 def declared_symbols(table: SymbolTable) -> SymbolList:
     """The symbols and basic behaviors that the robot program must provide, as declared."""
     enums = [
-        (each, tuple(element.qualified_name for element in each.elements.values())) for each in table.enums.values()
+        (definition, tuple(element.qualified_name for element in definition.elements.values()))
+        for definition in table.enums.values()
     ]
     return SymbolList(
-        enums=tuple((each.name, elements) for each, elements in enums if not _is_internal(each)),
-        internal_enums=tuple((each.name, elements) for each, elements in enums if _is_internal(each)),
+        enums=tuple((definition.name, elements) for definition, elements in enums if not _is_internal(definition)),
+        internal_enums=tuple((definition.name, elements) for definition, elements in enums if _is_internal(definition)),
         symbols=tuple(
-            RobotSymbol(each.role, each.kind, each.name, each.enum, tuple(map(_slot, each.parameters.values())))
-            for each in table.symbols("input", "output", "internal")
+            RobotSymbol(
+                definition.role,
+                definition.kind,
+                definition.name,
+                definition.enum,
+                tuple(map(_slot, definition.parameters.values())),
+            )
+            for definition in table.symbols("input", "output", "internal")
         ),
         behaviors=tuple(
-            BasicBehavior(each.name, tuple(map(_slot, each.parameters.values()))) for each in table.behaviors.values()
+            BasicBehavior(definition.name, tuple(map(_slot, definition.parameters.values())))
+            for definition in table.behaviors.values()
         ),
     )
 
@@ -77,29 +85,29 @@ def _is_internal(enum: Definition) -> bool:
 def _resolve_root(agent: tree.AgentNode, table: SymbolTable, report: CompileReport, tokens: Tokens) -> str:
     root = table.options.get(agent.root.text)
     if root is None:
-        mend = did_you_mean(agent.root.text, table.options, "include the file of the option")
-        report.add_finding(tokens, agent.root.first_token, "X621", f"no option {agent.root.text}", mend)
+        fix = did_you_mean(agent.root.text, table.options, "include the file of the option")
+        report.add_finding(tokens, agent.root.first_token, "X621", f"no option {agent.root.text}", fix)
     else:
         report.references.append((tokens, agent.root.first_token, root))
     return agent.root.text
 
 
 def _internal_enums(table: SymbolTable) -> tuple[tuple[str, tuple[str, ...]], ...]:
-    found = [
-        (each.name, tuple(element.qualified_name for element in each.elements.values()))
-        for each in table.enums.values()
-        if _is_internal(each)
+    enums = [
+        (enum.name, tuple(element.qualified_name for element in enum.elements.values()))
+        for enum in table.enums.values()
+        if _is_internal(enum)
     ]
-    return tuple(sorted(found, key=lambda each: each[0].lower()))
+    return tuple(sorted(enums, key=lambda enum: enum[0].lower()))
 
 
 def _internal_symbols(table: SymbolTable) -> tuple[TypedSlot, ...]:
-    slots = (_slot(each) for each in table.symbols("internal"))
+    slots = (_slot(symbol) for symbol in table.symbols("internal"))
     return tuple(sorted(slots, key=lambda slot: slot.name.lower()))
 
 
-def _slot(declared: Definition) -> TypedSlot:
-    return TypedSlot(declared.kind, declared.qualified_name, declared.enum)
+def _slot(definition: Definition) -> TypedSlot:
+    return TypedSlot(definition.kind, definition.qualified_name, definition.enum)
 
 
 class _OptionCompiler:
@@ -110,30 +118,32 @@ class _OptionCompiler:
 
     def _find_definition(self) -> Definition:
         """The definition of this option, also if it is the second one of its name."""
-        found = self.table.options[self.option.name.text]
-        if found.node is self.option:
-            return found
-        return Definition("option", found.name, self.tokens, self.option.name, self.option, qualified_name=found.name)
+        definition = self.table.options[self.option.name.text]
+        if definition.node is self.option:
+            return definition
+        return Definition(
+            "option", definition.name, self.tokens, self.option.name, self.option, qualified_name=definition.name
+        )
 
     def compile(self) -> CompiledOption:
         common = self.option.common_decision
         before = self._open_tree(common) if common is not None else None
         actions = self._actions(self.option.common_actions)
-        states = tuple(self._state(each, before, actions) for each in self.option.states)
-        slots = tuple(_slot(each) for each in self.definition.parameters.values())
+        states = tuple(self._state(state, before, actions) for state in self.option.states)
+        slots = tuple(_slot(parameter) for parameter in self.definition.parameters.values())
         return CompiledOption(self.option.name.text, self._initial(), states, slots)
 
     def _initial(self) -> str:
-        initial = [each for each in self.option.states if each.is_initial]
+        initial = [state for state in self.option.states if state.is_initial]
         if not initial:
             name = self.option.name
             message = f"option {name.text} has no initial state"
             self.expressions.add_finding(name.first_token, "X628", message, "mark one of its states as initial")
             return ""
-        for each in initial[1:]:
-            message = f"a second initial state: {each.name.text}"
+        for state in initial[1:]:
+            message = f"a second initial state: {state.name.text}"
             self.expressions.add_finding(
-                each.name.first_token,
+                state.name.first_token,
                 "X629",
                 message,
                 f"the first one is {initial[0].name.text}: remove initial from one of them",
@@ -145,13 +155,13 @@ class _OptionCompiler:
         stay: Term = ("t", name)
         decision = state.decision
         if decision is None:
-            own = stay
+            own_tree = stay
         else:
             self._check_else(decision, has_common=before is not None)
-            own = self._tree(decision.tree, stay)
+            own_tree = self._tree(decision.tree, stay)
         return CompiledState(
             name=name,
-            decision=before.close(own) if before is not None else own,
+            decision=before.close(own_tree) if before is not None else own_tree,
             actions=(*common, *self._actions(state.actions)),
             is_target=state.is_target,
             mode=_MODES[state.cooperation],
@@ -183,8 +193,8 @@ class _OptionCompiler:
         name = goto.state.text
         state = self.definition.states.get(name)
         if state is None:
-            mend = did_you_mean(name, self.definition.states, f"option {self.option.name.text} has no such state")
-            self.expressions.add_finding(goto.state.first_token, "X621", f"no state {name}", mend)
+            fix = did_you_mean(name, self.definition.states, f"option {self.option.name.text} has no such state")
+            self.expressions.add_finding(goto.state.first_token, "X621", f"no state {name}", fix)
         else:
             self.report.references.append((self.tokens, goto.state.first_token, state))
         return name
@@ -220,50 +230,50 @@ class _OptionCompiler:
                     self._check_no_stay(node.otherwise)
 
     def _actions(self, actions: tree.ActionBlockNode | None) -> tuple[Term, ...]:
-        terms = [self._action(each) for each in actions.actions] if actions else []
+        terms = [self._action(action) for action in actions.actions] if actions else []
         return tuple(term for term in terms if term is not None)
 
     def _action(self, action: tree.ActionNode) -> Term | None:
         if isinstance(action, tree.AssignmentNode):
             return self._assignment(action)
         name = action.name.text
-        found = [each for each in self.table.callable.get(name, ()) if not action.kind or each.role == action.kind]
-        if not found:
-            what = action.kind or "option or basic behavior"
-            mend = did_you_mean(
-                name, self.table.callable, f"declare behavior {name}, or include the file of the option"
-            )
-            self.expressions.add_finding(action.name.first_token, "X621", f"no {what} {name}", mend)
+        callees = [
+            callee for callee in self.table.callable.get(name, ()) if not action.kind or callee.role == action.kind
+        ]
+        if not callees:
+            expected = action.kind or "option or basic behavior"
+            fix = did_you_mean(name, self.table.callable, f"declare behavior {name}, or include the file of the option")
+            self.expressions.add_finding(action.name.first_token, "X621", f"no {expected} {name}", fix)
             return None
-        if len(found) > 1:
-            mend = f"write {name} option(…) or {name} behavior(…)"
+        if len(callees) > 1:
+            fix = f"write {name} option(…) or {name} behavior(…)"
             self.expressions.add_finding(
-                action.name.first_token, "X622", f"{name} is both an option and a basic behavior", mend
+                action.name.first_token, "X622", f"{name} is both an option and a basic behavior", fix
             )
-        self.report.references.append((self.tokens, action.name.first_token, found[0]))
-        letter = "o" if found[0].role == "option" else "a"
-        return (letter, name, self.expressions.compile_arguments(found[0], action.arguments))
+        self.report.references.append((self.tokens, action.name.first_token, callees[0]))
+        letter = "o" if callees[0].role == "option" else "a"
+        return (letter, name, self.expressions.compile_arguments(callees[0], action.arguments))
 
     def _assignment(self, action: tree.AssignmentNode) -> Term | None:
         name = action.symbol.text
-        found = self.table.assignable.get(name, [])
-        if not found:
-            others = self.table.readable.get(name)
-            if others:
-                message = f"{others[0].description} {name} cannot be set"
+        symbols = self.table.assignable.get(name, [])
+        if not symbols:
+            readable = self.table.readable.get(name)
+            if readable:
+                message = f"{readable[0].description} {name} cannot be set"
                 self.expressions.add_finding(
                     action.symbol.first_token, "X624", message, "set an output or internal symbol"
                 )
             else:
-                mend = did_you_mean(name, self.table.assignable, "declare it as an output or internal symbol")
-                self.expressions.add_finding(action.symbol.first_token, "X621", f"no output symbol {name}", mend)
+                fix = did_you_mean(name, self.table.assignable, "declare it as an output or internal symbol")
+                self.expressions.add_finding(action.symbol.first_token, "X621", f"no output symbol {name}", fix)
             return None
-        if len(found) > 1:
-            whats = " and ".join(each.description for each in found)
+        if len(symbols) > 1:
+            meanings = " and ".join(candidate.description for candidate in symbols)
             self.expressions.add_finding(
-                action.symbol.first_token, "X622", f"{name} is ambiguous: {whats}", "rename one of them"
+                action.symbol.first_token, "X622", f"{name} is ambiguous: {meanings}", "rename one of them"
             )
-        symbol = found[0]
+        symbol = symbols[0]
         self.report.references.append((self.tokens, action.symbol.first_token, symbol))
         check_range(self.report, self.tokens, action.value, symbol)
         return (symbol.kind, name, self.expressions.compile(action.value, symbol.kind, symbol.enum))

@@ -63,9 +63,9 @@ class TokenCursor:
         """
         if self.accept(";"):
             return
-        slip = self.syntax_error((";",), where)
+        error = self.syntax_error((";",), where)
         if self.kind not in _RESUME_KINDS and not self._is_at_line_start():
-            raise slip
+            raise error
 
     def _is_at_line_start(self) -> bool:
         tokens = self.tokens
@@ -98,31 +98,31 @@ class TokenCursor:
             self.add_finding("X604", f"nested deeper than {MAX_DEPTH} levels", "move parts of it into separate options")
             raise XabslSyntaxError
 
-    def add_finding(self, code: str, message: str, fix: str = "", at: int = -1) -> None:
+    def add_finding(self, code: str, message: str, fix: str = "", token: int = -1) -> None:
         """Report a problem with a token, by default the next one."""
-        place = self.tokens.location(self.position if at < 0 else at)
-        self.findings.append(Finding(rule=get_rule(code), message=message, fix=fix, location=place))
+        location = self.tokens.location(self.position if token < 0 else token)
+        self.findings.append(Finding(rule=get_rule(code), message=message, fix=fix, location=location))
 
     def syntax_error(self, expected: Collection[str], where: str = "") -> XabslSyntaxError:
         """Report an unexpected token and return the exception to raise."""
         after = f" {where}" if where else ""
         if self.kind == END:
-            if any(each.rule.code == "X605" for each in self.findings):
+            if any(finding.rule.code == "X605" for finding in self.findings):
                 return XabslSyntaxError()
             self.add_finding("X605", f"unexpected end of file: expected {_format_expected(expected)}{after}")
             return XabslSyntaxError()
-        shown = self.tokens.texts[self.position]
-        mend = did_you_mean(shown, [each for each in expected if each in KEYWORDS]) if self.kind == NAME else ""
+        found = self.tokens.texts[self.position]
+        fix = did_you_mean(found, [kind for kind in expected if kind in KEYWORDS]) if self.kind == NAME else ""
         if self.kind in (DOC, HEADER):
-            message, mend = "a description is not allowed here", "write it as a comment: // …"
+            message, fix = "a description is not allowed here", "write it as a comment: // …"
         elif self.kind in KEYWORDS and NAME in expected:
-            message, mend = f"'{shown}' is a keyword", "choose another name"
+            message, fix = f"'{found}' is a keyword", "choose another name"
         else:
-            message = f"expected {_format_expected(expected)}{after}, found '{shown[:40]}'"
-        self.add_finding("X604", message, mend)
+            message = f"expected {_format_expected(expected)}{after}, found '{found[:40]}'"
+        self.add_finding("X604", message, fix)
         return XabslSyntaxError()
 
-    def skip_to(self, *wanted: str, open_braces: int) -> None:
+    def skip_to(self, *kinds: str, open_braces: int) -> None:
         """Skip to the next token of these kinds outside nested braces, and never past the `}` of the current block.
 
         Args:
@@ -137,20 +137,20 @@ class TokenCursor:
                 if depth <= 0:
                     return
                 depth -= 1
-                if depth <= 0 and "}" in wanted:
+                if depth <= 0 and "}" in kinds:
                     self.advance()
                     return
-            elif depth <= 0 and self.kind in wanted:
+            elif depth <= 0 and self.kind in kinds:
                 return
             self.advance()
 
     def open_braces_since(self, start: int) -> int:
         """Number of braces opened since a token that are still open."""
-        passed = self.kinds[start : self.position]
-        return max(0, passed.count("{") - passed.count("}"))
+        kinds = self.kinds[start : self.position]
+        return max(0, kinds.count("{") - kinds.count("}"))
 
 
-def _format_expected(wanted: Collection[str]) -> str:
-    shown = [each if each in (NAME, END) or " " in each or each.isalpha() else f"'{each}'" for each in wanted]
-    shown = [f"a {each}" if each == NAME else each for each in shown]
-    return shown[0] if len(shown) == 1 else f"{', '.join(shown[:-1])} or {shown[-1]}"
+def _format_expected(kinds: Collection[str]) -> str:
+    names = [kind if kind in (NAME, END) or " " in kind or kind.isalpha() else f"'{kind}'" for kind in kinds]
+    names = [f"a {kind}" if kind == NAME else kind for kind in names]
+    return names[0] if len(names) == 1 else f"{', '.join(names[:-1])} or {names[-1]}"

@@ -187,7 +187,7 @@ def _parameter(cursor: TokenCursor) -> ParameterNode:
     start, doc = cursor.position, cursor.accept_doc()
     type_node = _type(cursor)
     if doc and type_node is None and cursor.kind in KEYWORDS:
-        cursor.add_finding("X604", "a description is not allowed here", "write it as a comment: // …", at=start)
+        cursor.add_finding("X604", "a description is not allowed here", "write it as a comment: // …", token=start)
         raise XabslSyntaxError
     if type_node is None and cursor.kind != NAME:
         raise cursor.syntax_error((NAME, "float", "bool", "enum"), "for a parameter")

@@ -54,8 +54,8 @@ def _parse_embedded(before: str, text: str, after: str, parse: Callable[[TokenCu
     except XabslSyntaxError:
         node = None
     lines = f"{before}{text}{after}".split("\n")
-    errors = [each for each in (*findings, *cursor.findings) if each.severity is Severity.ERROR]
-    diagnostics = tuple(_to_diagnostic(each, lines, len(before), len(text)) for each in errors)
+    errors = [finding for finding in (*findings, *cursor.findings) if finding.severity is Severity.ERROR]
+    diagnostics = tuple(_to_diagnostic(finding, lines, len(before), len(text)) for finding in errors)
     return EmbeddedCode(node, diagnostics, tokens.comments)
 
 

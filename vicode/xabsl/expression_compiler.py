@@ -53,8 +53,8 @@ class ExpressionCompiler:
                 term: Term = ("v", float(expression.text))
                 return term if kind == DECIMAL else self._type_mismatch(expression, kind, DECIMAL, enum)
             case tree.KeywordNode():
-                own, term = _KEYWORD_TERMS[expression.text]
-                return term if own == kind else self._type_mismatch(expression, kind, own, enum)
+                own_kind, term = _KEYWORD_TERMS[expression.text]
+                return term if own_kind == kind else self._type_mismatch(expression, kind, own_kind, enum)
             case tree.FunctionCallNode():
                 return self._function(expression, kind, enum)
             case tree.UnaryNode():
@@ -66,15 +66,15 @@ class ExpressionCompiler:
 
     def compile_arguments(self, owner: Definition, arguments: tree.ArgumentListNode) -> tuple[Term, ...]:
         """Compile the arguments of a call to `owner`, in the order of the call."""
-        given: list[Term] = []
+        terms: list[Term] = []
         seen: set[str] = set()
         for argument in arguments.items:
             name = argument.name.text
             parameter = owner.parameters.get(name.removeprefix("@"))
             if parameter is None:
-                mend = did_you_mean(name, owner.parameters, _list_parameters(owner))
+                fix = did_you_mean(name, owner.parameters, _list_parameters(owner))
                 self.add_finding(
-                    argument.name.first_token, "X621", f"{owner.description} {owner.name} has no parameter {name}", mend
+                    argument.name.first_token, "X621", f"{owner.description} {owner.name} has no parameter {name}", fix
                 )
                 continue
             self.report.references.append((self.tokens, argument.name.first_token, parameter))
@@ -89,92 +89,95 @@ class ExpressionCompiler:
             seen.add(parameter.name)
             value = self.compile(argument.value, parameter.kind, parameter.enum)
             kind = (ENUM, parameter.enum) if parameter.kind == ENUM else (parameter.kind,)
-            given.append((*kind, parameter.qualified_name, value))
+            terms.append((*kind, parameter.qualified_name, value))
         missing = [name for name in owner.parameters if name not in seen]
         if missing:
             message = f"the call of {owner.name} omits {', '.join(missing)}: 0, false or the first element is used"
             self.add_finding(arguments.first_token, "X642", message, "give every parameter a value, even if it is 0")
-        return tuple(given)
+        return tuple(terms)
 
-    def add_finding(self, at: int, code: str, message: str, fix: str = "") -> None:
+    def add_finding(self, token: int, code: str, message: str, fix: str = "") -> None:
         """Report a problem with a token of this file."""
-        self.report.add_finding(self.tokens, at, code, message, fix)
+        self.report.add_finding(self.tokens, token, code, message, fix)
 
     def _ref(self, ref: tree.ReferenceNode, kind: str, enum: str) -> Term:
-        found = self._lookup(ref.name, kind, enum)
-        if not found:
+        candidates = self._lookup(ref.name, kind, enum)
+        if not candidates:
             self._add_unknown_name(ref.name, ref.first_token, kind, enum)
             return _ERROR_TERMS[kind]
-        if len(found) > 1:
-            whats = " and ".join(each.description for each in found)
-            self.add_finding(ref.first_token, "X622", f"{ref.name} is ambiguous: {whats}", "rename one of them")
-        declared = found[0]
-        self.report.references.append((self.tokens, ref.first_token, declared))
-        if declared.kind != kind:
-            return self._type_mismatch(ref, kind, declared.kind, enum)
-        if declared.kind == ENUM and declared.enum != enum:
-            message = f"{ref.name} is of enum {declared.enum}, not {enum}"
+        if len(candidates) > 1:
+            meanings = " and ".join(candidate.description for candidate in candidates)
+            self.add_finding(ref.first_token, "X622", f"{ref.name} is ambiguous: {meanings}", "rename one of them")
+        definition = candidates[0]
+        self.report.references.append((self.tokens, ref.first_token, definition))
+        if definition.kind != kind:
+            return self._type_mismatch(ref, kind, definition.kind, enum)
+        if definition.kind == ENUM and definition.enum != enum:
+            message = f"{ref.name} is of enum {definition.enum}, not {enum}"
             self.add_finding(ref.first_token, "X626", message)
-        return self._load_term(declared, ref.first_token)
+        return self._load_term(definition, ref.first_token)
 
     def _lookup(self, name: str, kind: str, enum: str) -> list[Definition]:
         """Find the candidates for a name; an element of the expected enumeration precedes symbols of other kinds."""
         if name[0] == "@":
             parameter = self.parameters.get(name[1:])
             return [parameter] if parameter else []
-        found = self.table.readable.get(name, [])
+        candidates = self.table.readable.get(name, [])
         if kind == ENUM and enum in self.table.enums:
-            known = self.table.enums[enum]
-            element = known.elements.get(name.removeprefix(f"{enum}."))
+            definition = self.table.enums[enum]
+            element = definition.elements.get(name.removeprefix(f"{enum}."))
             if element is not None:
-                return [element, *(each for each in found if each.kind == ENUM and each.enum == enum)]
-        return found
+                return [
+                    element,
+                    *(candidate for candidate in candidates if candidate.kind == ENUM and candidate.enum == enum),
+                ]
+        return candidates
 
-    def _load_term(self, declared: Definition, at: int) -> Term:
-        if declared.role == "const":
-            assert isinstance(declared.node, tree.ConstantNode)
-            return ("c", declared.node.number)
-        if declared.role == "element":
-            return ("v", declared.qualified_name)
-        if declared.role == "input":
-            if declared.parameters:
+    def _load_term(self, definition: Definition, token: int) -> Term:
+        if definition.role == "const":
+            assert isinstance(definition.node, tree.ConstantNode)
+            return ("c", definition.node.number)
+        if definition.role == "element":
+            return ("v", definition.qualified_name)
+        if definition.role == "input":
+            if definition.parameters:
                 self.add_finding(
-                    at,
+                    token,
                     "X642",
-                    f"{declared.name} is read without arguments",
+                    f"{definition.name} is read without arguments",
                     "give its parameters values in parentheses",
                 )
-            return ("i", declared.qualified_name, ())
-        return (_READ_LETTERS[declared.role], declared.qualified_name)
+            return ("i", definition.qualified_name, ())
+        return (_READ_LETTERS[definition.role], definition.qualified_name)
 
     def _function(self, function: tree.FunctionCallNode, kind: str, enum: str) -> Term:
         name = function.name.text
-        found = [each for each in self.table.readable.get(name, []) if each.role == "input"]
-        if not found:
-            others = self.table.readable.get(name)
-            if others:
-                message = f"{others[0].description} {name} has no parameters"
+        inputs = [definition for definition in self.table.readable.get(name, []) if definition.role == "input"]
+        if not inputs:
+            readable = self.table.readable.get(name)
+            if readable:
+                message = f"{readable[0].description} {name} has no parameters"
                 self.add_finding(function.name.first_token, "X624", message, "remove the parentheses")
             else:
-                known = [each.name for each in self.table.symbols("input")]
-                mend = did_you_mean(name, known, "declare it as an input symbol")
-                self.add_finding(function.name.first_token, "X621", f"no input symbol {name}", mend)
+                names = [symbol.name for symbol in self.table.symbols("input")]
+                fix = did_you_mean(name, names, "declare it as an input symbol")
+                self.add_finding(function.name.first_token, "X621", f"no input symbol {name}", fix)
             return _ERROR_TERMS[kind]
-        declared = found[0]
-        self.report.references.append((self.tokens, function.name.first_token, declared))
-        given = self.compile_arguments(declared, function.arguments)
-        if declared.kind != kind:
-            return self._type_mismatch(function, kind, declared.kind, enum)
-        if kind == ENUM and declared.enum != enum:
-            self.add_finding(function.name.first_token, "X626", f"{name} is of enum {declared.enum}, not {enum}")
-        return ("i", declared.qualified_name, given)
+        definition = inputs[0]
+        self.report.references.append((self.tokens, function.name.first_token, definition))
+        arguments = self.compile_arguments(definition, function.arguments)
+        if definition.kind != kind:
+            return self._type_mismatch(function, kind, definition.kind, enum)
+        if kind == ENUM and definition.enum != enum:
+            self.add_finding(function.name.first_token, "X626", f"{name} is of enum {definition.enum}, not {enum}")
+        return ("i", definition.qualified_name, arguments)
 
     def _unary(self, unary: tree.UnaryNode, kind: str, enum: str) -> Term:
-        own = DECIMAL if unary.operator == "-" else BOOLEAN
-        operand = self.compile(unary.operand, own)
-        if own != kind:
-            return self._type_mismatch(unary, kind, own, enum)
-        if own == BOOLEAN:
+        own_kind = DECIMAL if unary.operator == "-" else BOOLEAN
+        operand = self.compile(unary.operand, own_kind)
+        if own_kind != kind:
+            return self._type_mismatch(unary, kind, own_kind, enum)
+        if own_kind == BOOLEAN:
             return ("!", operand)
         return ("v", -operand[1]) if operand[0] == "v" else ("-", ("v", 0.0), operand)
 
@@ -190,8 +193,8 @@ class ExpressionCompiler:
         if operator in _LOGICAL:
             letter = _LOGICAL[operator]
             operands: list[Term] = []
-            for each in (binary.left, binary.right):
-                operand = self.compile(each, BOOLEAN)
+            for side in (binary.left, binary.right):
+                operand = self.compile(side, BOOLEAN)
                 operands += operand[1:] if operand[0] == letter else (operand,)
             term = (letter, *operands)
         elif operator in _RELATIONAL:
@@ -203,17 +206,17 @@ class ExpressionCompiler:
     def _equality(self, binary: tree.BinaryNode) -> Term:
         kind, enum = self.infer_kind(binary.left)
         if kind == BOOLEAN:
-            mend = "write a && b || !a && !b for a == b" if binary.operator == "==" else "write a && !b || !a && b"
+            fix = "write a && b || !a && !b for a == b" if binary.operator == "==" else "write a && !b || !a && b"
             self.add_finding(
-                binary.operator_token, "X625", f"{binary.operator} compares decimals and enums, not bools", mend
+                binary.operator_token, "X625", f"{binary.operator} compares decimals and enums, not bools", fix
             )
             return _ERROR_TERMS[BOOLEAN]
         if kind == ENUM:
             equal: Term = ("c", self.compile(binary.left, ENUM, enum), self.compile(binary.right, ENUM, enum))
             return equal if binary.operator == "==" else ("!", equal)
         if self.infer_kind(binary.right)[0] == ENUM and isinstance(binary.left, tree.ReferenceNode):
-            known = self._lookup(binary.left.name, DECIMAL, "")
-            if not known:
+            candidates = self._lookup(binary.left.name, DECIMAL, "")
+            if not candidates:
                 self._add_unknown_name(binary.left.name, binary.left.first_token, DECIMAL, "")
                 return _ERROR_TERMS[BOOLEAN]
         letter = "=" if binary.operator == "==" else "n"
@@ -223,9 +226,9 @@ class ExpressionCompiler:
         condition = self.compile(expression.condition, BOOLEAN)
         yes, no = self.compile(expression.yes, kind, enum), self.compile(expression.no, kind, enum)
         if kind == BOOLEAN:
-            at = expression.condition.last_token + 1
+            question_mark = expression.condition.last_token + 1
             self.add_finding(
-                at, "X652", "the original engines cannot read ? : between bools", "write c && a || !c && b"
+                question_mark, "X652", "the original engines cannot read ? : between bools", "write c && a || !c && b"
             )
         return ("q", condition, yes, no)
 
@@ -233,9 +236,9 @@ class ExpressionCompiler:
         """Infer the kind and enumeration of an expression without context; decimal by default."""
         match expression:
             case tree.ReferenceNode():
-                found = self._lookup(expression.name, "", "")
+                candidates = self._lookup(expression.name, "", "")
             case tree.FunctionCallNode():
-                found = self.table.readable.get(expression.name.text, [])
+                candidates = self.table.readable.get(expression.name.text, [])
             case tree.ParenthesizedNode():
                 return self.infer_kind(expression.inner)
             case tree.KeywordNode():
@@ -249,35 +252,39 @@ class ExpressionCompiler:
                 return kind if kind != (DECIMAL, "") else self.infer_kind(expression.no)
             case _:
                 return DECIMAL, ""
-        return (found[0].kind, found[0].enum) if found else (DECIMAL, "")
+        return (candidates[0].kind, candidates[0].enum) if candidates else (DECIMAL, "")
 
-    def _type_mismatch(self, expression: tree.ExpressionNode, kind: str, own: str, enum: str, at: int = -1) -> Term:
-        wanted = f"{'an' if kind == ENUM else 'a'} {KIND_NAMES[kind]}{f' {enum}' if enum else ''}"
-        message = f"{'an' if own == ENUM else 'a'} {KIND_NAMES[own]} where {wanted} is expected"
-        mend = "compare it, for example with > 0 or != 0" if (kind, own) == (BOOLEAN, DECIMAL) else ""
-        self.add_finding(expression.first_token if at < 0 else at, "X625", message, mend)
+    def _type_mismatch(
+        self, expression: tree.ExpressionNode, kind: str, found: str, enum: str, token: int = -1
+    ) -> Term:
+        expected = f"{'an' if kind == ENUM else 'a'} {KIND_NAMES[kind]}{f' {enum}' if enum else ''}"
+        message = f"{'an' if found == ENUM else 'a'} {KIND_NAMES[found]} where {expected} is expected"
+        fix = "compare it, for example with > 0 or != 0" if (kind, found) == (BOOLEAN, DECIMAL) else ""
+        self.add_finding(expression.first_token if token < 0 else token, "X625", message, fix)
         return _ERROR_TERMS[kind]
 
-    def _add_unknown_name(self, name: str, at: int, kind: str, enum: str) -> None:
+    def _add_unknown_name(self, name: str, token: int, kind: str, enum: str) -> None:
         if name[0] == "@":
-            mend = did_you_mean(name, [f"@{each}" for each in self.parameters], "declare it at the start of the option")
-            self.add_finding(at, "X621", f"the option has no parameter {name}", mend)
+            fix = did_you_mean(
+                name, [f"@{parameter}" for parameter in self.parameters], "declare it at the start of the option"
+            )
+            self.add_finding(token, "X621", f"the option has no parameter {name}", fix)
             return
-        known = [*self.table.readable, *(f"@{each}" for each in self.parameters)]
+        names = [*self.table.readable, *(f"@{parameter}" for parameter in self.parameters)]
         if kind == ENUM and enum in self.table.enums:
             elements = self.table.enums[enum].elements
-            mend = did_you_mean(name, [*elements, *known], f"use one of {', '.join([*elements][:8])}")
-            self.add_finding(at, "X621", f"{name} is neither an element of enum {enum} nor a symbol", mend)
+            fix = did_you_mean(name, [*elements, *names], f"use one of {', '.join([*elements][:8])}")
+            self.add_finding(token, "X621", f"{name} is neither an element of enum {enum} nor a symbol", fix)
             return
-        owner = next((each for each in self.table.enums.values() if name in each.elements), None)
+        owner = next((candidate for candidate in self.table.enums.values() if name in candidate.elements), None)
         otherwise = "declare it in a namespace of symbols"
         if owner is not None:
             otherwise = f"{name} is an element of {owner.name}: write it to the right of a symbol of that enumeration"
-            self.add_finding(at, "X621", f"no symbol {name}", otherwise)
+            self.add_finding(token, "X621", f"no symbol {name}", otherwise)
             return
         if name in self.parameters:
             otherwise = f"write @{name}"
-        self.add_finding(at, "X621", f"no symbol {name}", did_you_mean(name, known, otherwise))
+        self.add_finding(token, "X621", f"no symbol {name}", did_you_mean(name, names, otherwise))
 
 
 def _list_parameters(owner: Definition) -> str:

@@ -48,7 +48,7 @@ def parse_expression(cursor: TokenCursor) -> ExpressionNode:
         first = cursor.position
         no = parse_expression(cursor)
         if isinstance(no, ConditionalNode):
-            cursor.add_finding("X651", "a ? : in the last branch of another", "put it in parentheses", at=first)
+            cursor.add_finding("X651", "a ? : in the last branch of another", "put it in parentheses", token=first)
         condition = ConditionalNode(condition, yes, no, first_token=start, last_token=cursor.position - 1)
     cursor.depth -= 1
     return condition
@@ -118,8 +118,8 @@ def _number(cursor: TokenCursor, start: int) -> NumberNode:
     text, next_text = cursor.tokens.texts[start], cursor.tokens.texts[cursor.position]
     is_joined = cursor.tokens.starts[start] + len(text) == cursor.tokens.starts[cursor.position]
     if cursor.kind == NAME and is_joined:
-        mend = "write it without an exponent" if next_text[0] in "eE" else "write a space or an operator between them"
-        cursor.add_finding("X604", f"a number is followed directly by {next_text[:20]}", mend)
+        fix = "write it without an exponent" if next_text[0] in "eE" else "write a space or an operator between them"
+        cursor.add_finding("X604", f"a number is followed directly by {next_text[:20]}", fix)
         cursor.advance()
     return NumberNode(text, first_token=start, last_token=start)
 
@@ -131,7 +131,7 @@ def parse_arguments(cursor: TokenCursor) -> ArgumentListNode:
         XabslSyntaxError: The list is malformed.
     """
     start = cursor.expect("(")
-    given: list[ArgumentNode] = []
+    arguments: list[ArgumentNode] = []
     ends_with_comma = False
     while cursor.kind != ")":
         name = cursor.expect_name("for a parameter")
@@ -142,9 +142,9 @@ def parse_arguments(cursor: TokenCursor) -> ArgumentListNode:
             raise XabslSyntaxError
         cursor.advance()
         value = parse_expression(cursor)
-        given.append(ArgumentNode(name, value, first_token=name.first_token, last_token=cursor.position - 1))
+        arguments.append(ArgumentNode(name, value, first_token=name.first_token, last_token=cursor.position - 1))
         ends_with_comma = cursor.accept(",")
         if not ends_with_comma:
             break
     cursor.expect(")", "after the parameters")
-    return ArgumentListNode(given, ends_with_comma, first_token=start, last_token=cursor.position - 1)
+    return ArgumentListNode(arguments, ends_with_comma, first_token=start, last_token=cursor.position - 1)

@@ -16,7 +16,7 @@ class TokenFormatter:
     """
 
     def __init__(self, comments: Mapping[int, Sequence[Comment]], blanks: Collection[int]) -> None:
-        self._comments = {number: list(found) for number, found in comments.items()}
+        self._comments = {number: list(group) for number, group in comments.items()}
         self._after_blank_lines = blanks
         self._lines: list[str] = []
         self._line = ""
@@ -56,9 +56,9 @@ class TokenFormatter:
 
     def end_line(self) -> None:
         """End the line after the trailing comments of its last token."""
-        waiting = self._comments.get(self._count, [])
-        while waiting and self._line and not waiting[0].own_line:
-            self._write_trailing_comment(waiting.pop(0))
+        trailing = self._comments.get(self._count, [])
+        while trailing and self._line and not trailing[0].own_line:
+            self._write_trailing_comment(trailing.pop(0))
         self._end_line()
 
     def blank_line(self) -> None:
@@ -84,9 +84,9 @@ class TokenFormatter:
     def _start_line(self, text: str) -> None:
         if self._count in self._after_blank_lines and self._lines and self._lines[-1] and not self._is_block_start:
             self._lines.append("")
-        first, *others = text.split("\n")
-        self._lines += [INDENT * self.depth + first, *others][:-1] if others else []
-        self._line = others[-1] if others else INDENT * self.depth + first
+        first, *more_lines = text.split("\n")
+        self._lines += [INDENT * self.depth + first, *more_lines][:-1] if more_lines else []
+        self._line = more_lines[-1] if more_lines else INDENT * self.depth + first
 
     def _end_line(self) -> None:
         if self._line:
@@ -101,9 +101,9 @@ class TokenFormatter:
             self._end_line()
             if comment.after_blank_line and self._lines and self._lines[-1] and not self._is_block_start:
                 self._lines.append("")
-            first, *others = comment.text.split("\n")
+            first, *more_lines = comment.text.split("\n")
             # Only the first line of a comment is indented; the other lines stay as written.
-            self._lines += [INDENT * depth + first, *others]
+            self._lines += [INDENT * depth + first, *more_lines]
             self._is_block_start = False
 
     def _write_trailing_comment(self, comment: Comment) -> None:

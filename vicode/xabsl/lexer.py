@@ -91,7 +91,7 @@ class Tokens:
 
 def tokenize(text: str, file: str) -> tuple[Tokens, list[Finding]]:
     """Split a text into tokens; returns them with the findings about its characters."""
-    tokens, odd = Tokens(file, text), list[tuple[str, str, int]]()
+    tokens, invalid = Tokens(file, text), list[tuple[str, str, int]]()
     kinds, texts, starts = tokens.kinds, tokens.texts, tokens.starts
     for match in TOKEN_PATTERN.finditer(text):
         group = match.lastgroup or END
@@ -101,7 +101,7 @@ def tokenize(text: str, file: str) -> tuple[Tokens, list[Finding]]:
             if group == "end":
                 break
             if group != "doc":
-                odd.append((group, word, start))
+                invalid.append((group, word, start))
             if group in _COMMENTS:
                 _add_comment(tokens, word, start)
             elif text.startswith("/*", start):
@@ -117,14 +117,14 @@ def tokenize(text: str, file: str) -> tuple[Tokens, list[Finding]]:
             _add_comment(tokens, texts.pop(), starts.pop())
             tokens.comments[len(kinds)] += between
         if group == "open" or (group == "name" and kind is word and text.startswith("-", start + len(word))):
-            odd.append((group, word, start))
+            invalid.append((group, word, start))
         kinds.append(kind)
         texts.append(word)
         starts.append(start)
     kinds.append(END)
     texts.append("")
     starts.append(len(text))
-    return tokens, [finding for each in odd for finding in _token_findings(tokens, *each)]
+    return tokens, [finding for token in invalid for finding in _token_findings(tokens, *token)]
 
 
 def _add_comment(tokens: Tokens, word: str, start: int) -> None:
@@ -147,6 +147,6 @@ def _token_findings(tokens: Tokens, group: str, word: str, start: int) -> list[F
     if group not in _TOKEN_ERRORS and group.startswith("/*"):
         return []
     shown = word if word.isprintable() else f"U+{ord(word[0]):04X}"
-    code, message, mend = _TOKEN_ERRORS.get(group, ("X601", "unexpected character {}", "remove it"))
-    place = tokens.location_at(start, len(word))
-    return [Finding(rule=get_rule(code), message=message.format(shown), fix=mend.format(shown), location=place)]
+    code, message, fix = _TOKEN_ERRORS.get(group, ("X601", "unexpected character {}", "remove it"))
+    location = tokens.location_at(start, len(word))
+    return [Finding(rule=get_rule(code), message=message.format(shown), fix=fix.format(shown), location=location)]

@@ -69,7 +69,7 @@ def _item(cursor: TokenCursor, result: FileNode) -> None:
             include = _include(cursor)
             if result.body:
                 cursor.add_finding(
-                    "X604", "an include after a definition", "move it to the start of the file", at=start
+                    "X604", "an include after a definition", "move it to the start of the file", token=start
                 )
             result.includes.append(include)
         case "option":
@@ -88,9 +88,9 @@ def _item(cursor: TokenCursor, result: FileNode) -> None:
 def _check_single_definition(
     cursor: TokenCursor, body: list[OptionNode | NamespaceNode | AgentNode], start: int
 ) -> None:
-    if len(body) > 1 and not all(isinstance(each, AgentNode) for each in body):
+    if len(body) > 1 and not all(isinstance(item, AgentNode) for item in body):
         message = "a second definition in this file: a file defines one option, one namespace, or agents"
-        cursor.add_finding("X610", message, "move it to a separate file", at=start)
+        cursor.add_finding("X610", message, "move it to a separate file", token=start)
 
 
 def _include(cursor: TokenCursor) -> IncludeNode:
@@ -120,7 +120,7 @@ def _option(cursor: TokenCursor, start: int, doc: str) -> OptionNode:
             cursor.skip_to(*_STATE_STARTS, "}", open_braces=cursor.open_braces_since(first))
     option = OptionNode(name, parameters, states, decision, actions, doc, first_token=start, last_token=cursor.position)
     if not states and cursor.kind == "}":
-        cursor.add_finding("X604", f"option {name.text} has no state", "add a state", at=name.first_token)
+        cursor.add_finding("X604", f"option {name.text} has no state", "add a state", token=name.first_token)
     if not cursor.accept("}"):
         cursor.syntax_error(("}",), f"at the end of option {name.text}")
     return option

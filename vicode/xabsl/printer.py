@@ -73,16 +73,16 @@ class _Printer:
         self.out.close_block("}")
 
     def _state(self, state: tree.StateNode) -> None:
-        words = [
+        keywords = [
             *(["initial"] if state.is_initial else []),
             *(["target"] if state.is_target else []),
             *("state", state.name.text),
             *([state.cooperation] if state.cooperation else []),
             *([state.robots] if state.robots else []),
         ]
-        self.out.write_on_new_line(words[0])
-        for word in words[1:]:
-            self.out.write(word)
+        self.out.write_on_new_line(keywords[0])
+        for keyword in keywords[1:]:
+            self.out.write(keyword)
         self._open()
         if state.decision is not None:
             self._decision(state.decision)
@@ -263,7 +263,7 @@ class _Printer:
         self.out.write(";", "")
 
     def _elements(self, item: tree.EnumerationNode) -> None:
-        names = [each.text for each in item.elements]
+        names = [element.text for element in item.elements]
         breaks = self.out.column + sum(map(len, names)) + 2 * len(names) > MAX_WIDTH
         self.out.write("{")
         self.out.depth += 1
@@ -282,18 +282,18 @@ class _Printer:
 
     def _parameters(self, begin: str, parameters: Sequence[tree.ParameterNode], end: str) -> None:
         """Write parameters in one line, or in one line each if they have descriptions or exceed the width."""
-        flat = sum(len(" ".join(_parameter_tokens(each))) + 2 for each in parameters)
-        breaks = any(each.doc for each in parameters) or self.out.column + flat > MAX_WIDTH
+        flat = sum(len(" ".join(_parameter_tokens(parameter))) + 2 for parameter in parameters)
+        breaks = any(parameter.doc for parameter in parameters) or self.out.column + flat > MAX_WIDTH
         self.out.write(begin, " " if begin == "{" else "")
         if breaks:
             self.out.depth += 1
-            for each in parameters:
-                self._parameter(each)
+            for parameter in parameters:
+                self._parameter(parameter)
             self.out.close_block(end)
             return
-        for number, each in enumerate(parameters):
-            for at, word in enumerate(_parameter_tokens(each)):
-                self.out.write(word, " " if begin == "{" or number or at else "")
+        for number, parameter in enumerate(parameters):
+            for index, word in enumerate(_parameter_tokens(parameter)):
+                self.out.write(word, " " if begin == "{" or number or index else "")
             self.out.write(";", "")
         self.out.write(end, " " if begin == "{" else "")
 
@@ -347,4 +347,4 @@ def _flat(node: tree.ExpressionNode) -> str:
 
 
 def _length(arguments: tree.ArgumentListNode) -> int:
-    return sum(len(each.name.text) + len(_flat(each.value)) + 5 for each in arguments.items) + 2
+    return sum(len(argument.name.text) + len(_flat(argument.value)) + 5 for argument in arguments.items) + 2

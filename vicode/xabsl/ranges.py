@@ -12,17 +12,17 @@ _RANGE = re.compile(r"\s*(-?\d+(?:\.\d*)?)\s*\.\.\s*(-?\d+(?:\.\d*)?)\s*")
 
 def parse_range(text: str) -> tuple[float, float] | None:
     """Both ends of a range; None for other text between brackets, often a unit."""
-    found = _RANGE.fullmatch(text)
-    return (float(found[1]), float(found[2])) if found else None
+    match = _RANGE.fullmatch(text)
+    return (float(match[1]), float(match[2])) if match else None
 
 
-def check_range(report: CompileReport, tokens: Tokens, value: tree.ExpressionNode, declared: Definition) -> None:
+def check_range(report: CompileReport, tokens: Tokens, value: tree.ExpressionNode, definition: Definition) -> None:
     """Report a constant outside the range of the symbol or parameter that receives it."""
-    assert isinstance(declared.node, tree.SymbolNode | tree.ParameterNode)
+    assert isinstance(definition.node, tree.SymbolNode | tree.ParameterNode)
     number = _constant_value(value)
-    ends = parse_range(declared.node.range) if number is not None else None
+    ends = parse_range(definition.node.range) if number is not None else None
     if number is not None and ends is not None and not ends[0] <= number <= ends[1]:
-        message = f"{number:g} is outside the range [{declared.node.range}] of {declared.name}"
+        message = f"{number:g} is outside the range [{definition.node.range}] of {definition.name}"
         report.add_finding(tokens, value.first_token, "X646", message, "change the number or the range")
 
 

@@ -33,7 +33,7 @@ class ProgramSource:
 
     @property
     def has_agents(self) -> bool:
-        return any(isinstance(each, AgentNode) for parsed in self.files.values() for each in parsed.file.body)
+        return any(isinstance(item, AgentNode) for parsed in self.files.values() for item in parsed.file.body)
 
 
 def parse_header(header: str) -> dict[str, str]:
@@ -65,17 +65,17 @@ def find_agent_files(folder: Path, *, recursive: bool = True) -> Iterator[Path]:
 def load_source(main: Path, read: ReadText = read_text, parse_text: ParseText = parse) -> ProgramSource:
     """Load a program from the file with its agents. Files that cannot be read are reported as findings."""
     source = ProgramSource(main.resolve())
-    waiting: list[tuple[Path, SourceLocation | None, str]] = [(source.main, None, str(main))]
-    while waiting:
-        path, place, shown = waiting.pop()
-        text = _read(source, path, place, shown, read)
+    pending: list[tuple[Path, SourceLocation | None, str]] = [(source.main, None, str(main))]
+    while pending:
+        path, location, shown = pending.pop()
+        text = _read(source, path, location, shown, read)
         parsed = _parse(source, path, text, parse_text) if text is not None else None
         if parsed is None:
             continue
         source.files[path] = parsed
         source.findings += parsed.findings
         # Reversed, because the stack returns the last entry first.
-        waiting += reversed(_resolve_includes(source, path, parsed))
+        pending += reversed(_resolve_includes(source, path, parsed))
     _check_agents(source)
     return source
 
@@ -97,7 +97,7 @@ def format_file(path: Path, read: ReadText = read_text) -> FormatResult:
     """
     before = read(path)
     parsed = parse(before, str(path))
-    errors = tuple(each for each in parsed.findings if each.severity is Severity.ERROR)
+    errors = tuple(finding for finding in parsed.findings if finding.severity is Severity.ERROR)
     if errors:
         return FormatResult(before, before, errors)
     text = print_file(parsed.file)
@@ -108,45 +108,45 @@ def format_file(path: Path, read: ReadText = read_text) -> FormatResult:
 def _resolve_includes(
     source: ProgramSource, path: Path, parsed: ParsedFile
 ) -> list[tuple[Path, SourceLocation | None, str]]:
-    found: dict[Path, tuple[Path, SourceLocation | None, str]] = {}
+    includes: dict[Path, tuple[Path, SourceLocation | None, str]] = {}
     for include in parsed.file.includes:
         written = include.path.replace("\\", "/")
         target = (path.parent / written).resolve()
-        place = parsed.tokens.location(include.first_token + 1)
-        if target in found:
-            _add_finding(source, place, "X608", f"{include.path} is included twice", "remove one of the includes")
+        location = parsed.tokens.location(include.first_token + 1)
+        if target in includes:
+            _add_finding(source, location, "X608", f"{include.path} is included twice", "remove one of the includes")
         else:
-            found[target] = (target, place, include.path)
-    return list(found.values())
+            includes[target] = (target, location, include.path)
+    return list(includes.values())
 
 
-def _read(source: ProgramSource, path: Path, place: SourceLocation | None, shown: str, read: ReadText) -> str | None:
+def _read(source: ProgramSource, path: Path, location: SourceLocation | None, shown: str, read: ReadText) -> str | None:
     if path in source.files:
         return None
     if path.suffix.lower() not in _EXTENSIONS:
-        _add_finding(source, place, "X607", f"{shown} does not end in .xabsl", "rename the file", shown=shown)
+        _add_finding(source, location, "X607", f"{shown} does not end in .xabsl", "rename the file", shown=shown)
         return None
     try:
         return read(path)
     except OSError as error:
-        mend = did_you_mean(path.name, _sibling_files(path), "check the path, which is relative to the including file")
+        fix = did_you_mean(path.name, _sibling_files(path), "check the path, which is relative to the including file")
         reason = error.strerror or type(error).__name__
-        _add_finding(source, place, "X606", f"{shown} cannot be read: {reason}", mend, shown=shown)
+        _add_finding(source, location, "X606", f"{shown} cannot be read: {reason}", fix, shown=shown)
         return None
 
 
 def _parse(source: ProgramSource, path: Path, text: str, parse_text: ParseText) -> ParsedFile:
     name = str(path.relative_to(source.main.parent)) if path.is_relative_to(source.main.parent) else str(path)
     parsed = parse_text(text, name)
-    if not parsed.file.body and not any(each.rule.code in ("X604", "X605") for each in parsed.findings):
-        at = parsed.tokens.location(len(parsed.tokens.kinds) - 1)
-        _add_finding(source, at, "X609", "the file defines nothing", "add an option, a namespace or an agent")
+    if not parsed.file.body and not any(finding.rule.code in ("X604", "X605") for finding in parsed.findings):
+        location = parsed.tokens.location(len(parsed.tokens.kinds) - 1)
+        _add_finding(source, location, "X609", "the file defines nothing", "add an option, a namespace or an agent")
     return parsed
 
 
 def _sibling_files(path: Path) -> list[str]:
     try:
-        return [each.name for each in path.parent.iterdir() if each.suffix in _EXTENSIONS]
+        return [sibling.name for sibling in path.parent.iterdir() if sibling.suffix in _EXTENSIONS]
     except OSError:
         return []
 
@@ -155,7 +155,7 @@ def _check_agents(source: ProgramSource) -> None:
     with_agents = [
         (parsed, first)
         for parsed in source.files.values()
-        if (first := next((each for each in parsed.file.body if isinstance(each, AgentNode)), None)) is not None
+        if (first := next((item for item in parsed.file.body if isinstance(item, AgentNode)), None)) is not None
     ]
     for parsed, agent in with_agents[1:]:
         message = f"a second file declares agents: {agent.name.text}"
@@ -163,14 +163,14 @@ def _check_agents(source: ProgramSource) -> None:
             source, parsed.tokens.location(agent.first_token), "X610", message, f"move them to {source.main.name}"
         )
     if source.files and not with_agents and not source.findings:
-        place = SourceLocation(file=source.main.name, line=1, column=1)
+        location = SourceLocation(file=source.main.name, line=1, column=1)
         _add_finding(
-            source, place, "X609", "no file of the program has an agent", 'add agent name("Title", root_option);'
+            source, location, "X609", "no file of the program has an agent", 'add agent name("Title", root_option);'
         )
 
 
 def _add_finding(
-    source: ProgramSource, place: SourceLocation | None, code: str, message: str, mend: str, *, shown: str = ""
+    source: ProgramSource, location: SourceLocation | None, code: str, message: str, fix: str, *, shown: str = ""
 ) -> None:
-    place = place or SourceLocation(file=shown, line=1, column=1)
-    source.findings.append(Finding(rule=get_rule(code), message=message, fix=mend, location=place))
+    location = location or SourceLocation(file=shown, line=1, column=1)
+    source.findings.append(Finding(rule=get_rule(code), message=message, fix=fix, location=location))

@@ -161,9 +161,9 @@ def _if(cursor: TokenCursor, *, is_open: bool) -> IfNode:
         if cursor.kind not in ("if", DOC):
             last = _final_else(cursor, is_open=is_open)
             break
-    for each in reversed(chain):
-        each.otherwise, last = last, each
-        each.last_token = cursor.position - 1
+    for node in reversed(chain):
+        node.otherwise, last = last, node
+        node.last_token = cursor.position - 1
     return chain[0]
 
 

@@ -20,12 +20,12 @@ class CompileReport:
     references: list[tuple[Tokens, int, Definition]] = field(default_factory=list)
 
     def add_finding(
-        self, tokens: Tokens, at: int, code: str, message: str, fix: str = "", *, note: Note | None = None
+        self, tokens: Tokens, token: int, code: str, message: str, fix: str = "", *, note: Note | None = None
     ) -> None:
         """Report a problem with a token."""
         notes = (note,) if note else ()
-        place = tokens.location(max(at, 0))
-        self.findings.append(Finding(rule=get_rule(code), message=message, fix=fix, location=place, notes=notes))
+        location = tokens.location(max(token, 0))
+        self.findings.append(Finding(rule=get_rule(code), message=message, fix=fix, location=location, notes=notes))
 
 
 def collect_symbols(source: ProgramSource, report: CompileReport) -> SymbolTable:
@@ -51,9 +51,9 @@ class _Collector:
         self.table, self.report = table, report
         self.type_nodes: list[tuple[tree.TypeNode | None, Tokens]] = []
 
-    def add(self, found: dict[str, Definition], new: Definition) -> bool:
+    def add(self, definitions: dict[str, Definition], new: Definition) -> bool:
         """Add a definition unless its name is taken; returns whether it was added."""
-        old = found.setdefault(new.name, new)
+        old = definitions.setdefault(new.name, new)
         if old is not new:
             self._add_duplicate_finding(old, new)
         return old is new
@@ -63,27 +63,35 @@ class _Collector:
             self.report.add_finding(
                 tokens, item.name.first_token, "X631", f"namespace {item.name.text} is empty", "remove it"
             )
-        kinds = {isinstance(each, tree.BehaviorNode) for each in item.declarations}
+        kinds = {isinstance(declaration, tree.BehaviorNode) for declaration in item.declarations}
         if len(kinds) == 2:
             first = isinstance(item.declarations[0], tree.BehaviorNode)
-            other = next(each for each in item.declarations if isinstance(each, tree.BehaviorNode) != first)
+            other = next(
+                declaration for declaration in item.declarations if isinstance(declaration, tree.BehaviorNode) != first
+            )
             message = f"namespace {item.name.text} mixes symbols and basic behaviors: {other.name.text}"
             self.report.add_finding(
                 tokens, other.name.first_token, "X630", message, "move the basic behaviors to a separate namespace"
             )
-        for each in item.declarations:
-            match each:
+        for declaration in item.declarations:
+            match declaration:
                 case tree.BehaviorNode():
-                    self._add_behavior(each, tokens)
+                    self._add_behavior(declaration, tokens)
                 case tree.EnumerationNode():
-                    self._add_enumeration(each, tokens)
+                    self._add_enumeration(declaration, tokens)
                 case tree.ConstantNode():
                     constant = Definition(
-                        "const", each.name.text, tokens, each.name, each, DECIMAL, qualified_name=each.name.text
+                        "const",
+                        declaration.name.text,
+                        tokens,
+                        declaration.name,
+                        declaration,
+                        DECIMAL,
+                        qualified_name=declaration.name.text,
                     )
                     self._add_symbol(constant, self.table.readable)
                 case tree.SymbolNode():
-                    self._collect_symbol(each, tokens)
+                    self._collect_symbol(declaration, tokens)
 
     def add_option(self, item: tree.OptionNode, tokens: Tokens) -> None:
         name = item.name.text
@@ -99,15 +107,17 @@ class _Collector:
 
     def check_types(self) -> None:
         """Check that all enumerations named in types are declared."""
-        for of, tokens in self.type_nodes:
-            if of is None or of.enum is None:
+        for type_node, tokens in self.type_nodes:
+            if type_node is None or type_node.enum is None:
                 continue
-            enum = self.table.enums.get(of.enum.text)
+            enum = self.table.enums.get(type_node.enum.text)
             if enum is None:
-                mend = did_you_mean(of.enum.text, self.table.enums, "declare it: enum NAME { … };")
-                self.report.add_finding(tokens, of.enum.first_token, "X621", f"no enumeration {of.enum.text}", mend)
+                fix = did_you_mean(type_node.enum.text, self.table.enums, "declare it: enum NAME { … };")
+                self.report.add_finding(
+                    tokens, type_node.enum.first_token, "X621", f"no enumeration {type_node.enum.text}", fix
+                )
             else:
-                self.report.references.append((tokens, of.enum.first_token, enum))
+                self.report.references.append((tokens, type_node.enum.first_token, enum))
 
     def _add_behavior(self, item: tree.BehaviorNode, tokens: Tokens) -> None:
         name = item.name.text
@@ -119,8 +129,10 @@ class _Collector:
     def _add_enumeration(self, item: tree.EnumerationNode, tokens: Tokens) -> None:
         name = item.name.text
         enum = Definition("enum", name, tokens, item.name, item, qualified_name=name)
-        for word in item.elements:
-            element = Definition("element", word.text, tokens, word, item, ENUM, name, f"{name}.{word.text}")
+        for element_name in item.elements:
+            element = Definition(
+                "element", element_name.text, tokens, element_name, item, ENUM, name, f"{name}.{element_name.text}"
+            )
             self.add(enum.elements, element)
         self.add(self.table.enums, enum)
 
@@ -136,33 +148,33 @@ class _Collector:
 
     def _add_parameters(self, owner: Definition, parameters: Iterable[tree.ParameterNode]) -> None:
         is_option = owner.role == "option"
-        for each in parameters:
-            kind, enum = resolve_type(each.type)
-            self.type_nodes.append((each.type, owner.tokens))
-            word = each.name.text
-            if is_option and not word.startswith("@"):
-                message = f"parameter {word} has no @, so the option cannot refer to it"
-                self.report.add_finding(owner.tokens, each.name.first_token, "X635", message, f"write @{word}")
-            name = word.removeprefix("@") if is_option else word
+        for node in parameters:
+            kind, enum = resolve_type(node.type)
+            self.type_nodes.append((node.type, owner.tokens))
+            written_name = node.name.text
+            if is_option and not written_name.startswith("@"):
+                message = f"parameter {written_name} has no @, so the option cannot refer to it"
+                self.report.add_finding(owner.tokens, node.name.first_token, "X635", message, f"write @{written_name}")
+            name = written_name.removeprefix("@") if is_option else written_name
             full = f"{owner.name}.{name}"
-            parameter = Definition("parameter", name, owner.tokens, each.name, each, kind, enum, full)
-            self._check_range_type(each, kind, owner.tokens)
+            parameter = Definition("parameter", name, owner.tokens, node.name, node, kind, enum, full)
+            self._check_range_type(node, kind, owner.tokens)
             self.add(owner.parameters, parameter)
 
-    def _add_symbol(self, new: Definition, found: dict[str, list[Definition]]) -> bool:
-        same = found.setdefault(new.name, [])
+    def _add_symbol(self, new: Definition, definitions: dict[str, list[Definition]]) -> bool:
+        namesakes = definitions.setdefault(new.name, [])
         outputs = new.role in _OUTPUTS
-        for old in same:
+        for old in namesakes:
             if old.kind == new.kind and (old.role == new.role or (outputs and old.role in _OUTPUTS)):
                 self._add_duplicate_finding(old, new)
                 return False
-        same.append(new)
+        namesakes.append(new)
         return True
 
     def _check_range_type(self, item: tree.SymbolNode | tree.ParameterNode, kind: str, tokens: Tokens) -> None:
         if kind != DECIMAL and (item.range or item.unit):
-            words = "range or unit" if item.range and item.unit else "range" if item.range else "unit"
-            message = f"{item.name.text} is not a decimal and cannot have a {words}"
+            excess = "range or unit" if item.range and item.unit else "range" if item.range else "unit"
+            message = f"{item.name.text} is not a decimal and cannot have a {excess}"
             self.report.add_finding(tokens, item.name.first_token, "X634", message, "remove it")
 
     def _add_duplicate_finding(self, old: Definition, new: Definition) -> None:

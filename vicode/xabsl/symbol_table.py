@@ -52,8 +52,8 @@ class SymbolTable:
 
     def symbols(self, *roles: str) -> Iterator[Definition]:
         """Yield symbols and constants of these roles in the order of their declaration."""
-        for found in self.readable.values():
-            yield from (each for each in found if each.role in roles)
+        for definitions in self.readable.values():
+            yield from (definition for definition in definitions if definition.role in roles)
 
 
 def resolve_type(type_node: tree.TypeNode | None) -> tuple[str, str]:

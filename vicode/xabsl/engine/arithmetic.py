@@ -9,7 +9,7 @@ def divide(dividend: float, divisor: float) -> float:
 
 
 def remainder(dividend: float, divisor: float) -> float:
-    """Remainder of the integer parts with the sign of the dividend; 0 for a divisor below 1, which ends the original."""
+    """Remainder of the integer parts with the sign of the dividend; 0 for a divisor below 1 (the original crashes)."""
     if not (math.isfinite(dividend) and math.isfinite(divisor)) or not int(divisor):
         return 0.0
     return math.fmod(int(dividend), int(divisor))

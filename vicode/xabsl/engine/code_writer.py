@@ -11,9 +11,9 @@ def write_code(program: Program) -> str:
     """Write intermediate code with the line breaks of the original compiler. It starts with the only comment."""
     lines = [f"// Intermediate code for the agents of {program.title}", "", str(len(program.enums))]
     lines += [f"{name} {len(elements)} {' '.join(elements)}" for name, elements in program.enums]
-    lines += [str(len(program.symbols)), *(_slot(each) for each in program.symbols), "", str(len(program.options))]
+    lines += [str(len(program.symbols)), *(_slot(slot) for slot in program.symbols), "", str(len(program.options))]
     for option in program.options:
-        slots = "".join(f" {_slot(each)}" for each in option.parameters)
+        slots = "".join(f" {_slot(slot)}" for slot in option.parameters)
         lines.append(f"{option.name} {len(option.parameters)}{slots}")
     for option in program.options:
         lines += _option(option)

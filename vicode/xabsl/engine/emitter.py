@@ -72,12 +72,12 @@ class PythonEmitter:
 
     def parameters(self, option: CompiledOption) -> dict[str, str]:
         """Names of the variables that hold the parameters of an option."""
-        return {slot.name: f"o{self.number(option.name)}.p{at}" for at, slot in enumerate(option.parameters)}
+        return {slot.name: f"o{self.number(option.name)}.p{index}" for index, slot in enumerate(option.parameters)}
 
     def _run(self, option: CompiledOption) -> Iterator[str]:
         """Emit the function that executes an option after its parameters are stored."""
         number = self.number(option.name)
-        initial = next(at for at, state in enumerate(option.states) if state.name == option.initial)
+        initial = next(index for index, state in enumerate(option.states) if state.name == option.initial)
         target = option.states[initial].is_target
         o = f"o{number}"
         yield f"def run{number}(now, cycle):"
@@ -108,7 +108,7 @@ class _StateEmitter:
         self.state: CompiledState = option.states[number]
         self.option_number = emitter.number(option.name)
         self.name = f"{self.option_number}_{number}"
-        self.states = {state.name: at for at, state in enumerate(option.states)}
+        self.states = {state.name: index for index, state in enumerate(option.states)}
         self.helpers: list[str] = []
         o = f"o{self.option_number}"
         names = emitter.names
@@ -176,10 +176,10 @@ class _StateEmitter:
             yield f"{pad}{keyword} {_strip_parentheses(self.deciding.emit(condition, 'b'))}:"
             yield from self._branch(then, depth + 1, goto)
             keyword, tree = "elif", last
-        rest = list(self._tree(tree, depth + 1, goto))
-        if rest:
+        otherwise = list(self._tree(tree, depth + 1, goto))
+        if otherwise:
             yield f"{pad}else:"
-            yield from rest
+            yield from otherwise
 
     def _branch(self, tree: Term, depth: int, goto: str) -> Iterator[str]:
         lines = list(self._tree(tree, depth, goto))
@@ -247,8 +247,8 @@ def _strip_parentheses(text: str) -> str:
     if not text.startswith("("):
         return text
     depth = 0
-    for at, character in enumerate(text):
+    for index, character in enumerate(text):
         depth += (character == "(") - (character == ")")
         if not depth:
-            return text[1:-1] if at == len(text) - 1 and "," not in text else text
+            return text[1:-1] if index == len(text) - 1 and "," not in text else text
     return text

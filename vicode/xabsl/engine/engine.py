@@ -230,7 +230,7 @@ class Engine:
     def _view(self, number: int, now: int) -> OptionView:
         option, record = self.program.options[number], self._records[number]
         is_active = record.last_cycle == self.cycle
-        parameters = {slot.name: getattr(record, f"p{at}") for at, slot in enumerate(option.parameters)}
+        parameters = {slot.name: getattr(record, f"p{index}") for index, slot in enumerate(option.parameters)}
         state = self._states.get(record.run, option.initial) if record.last_cycle != NEVER else option.initial
         times = (now - record.option_since) & _MASK, (now - record.state_since) & _MASK
         return OptionView(option.name, is_active, state, *times, parameters)
@@ -256,9 +256,9 @@ class Engine:
         # Safe: all names in the source are generated; words of the program occur only as literals written by `repr`.
         exec(compile(self.source, "<behavior>", "exec"), functions)  # noqa: S102
         self._states = {
-            functions[f"s{number}_{at}"]: state.name
+            functions[f"s{number}_{state_number}"]: state.name
             for number, option in enumerate(self.program.options)
-            for at, state in enumerate(option.states)
+            for state_number, state in enumerate(option.states)
         }
 
     def _coop_states(self, numbers: Mapping[tuple[str, str], int], *, strict: bool) -> list[CoopState]:
@@ -292,12 +292,12 @@ class Engine:
         self.trace.nodes.append(["s", symbol, value])
         self.trace.values[symbol] = value
 
-    def _trace_behavior(self, record: BehaviorRecord, now: int, cycle: int, given: dict[str, Any]) -> None:
+    def _trace_behavior(self, record: BehaviorRecord, now: int, cycle: int, arguments: dict[str, Any]) -> None:
         if record.last_cycle != cycle:
             record.was_active = record.last_cycle == cycle - 1
         if not record.was_active:
             record.active_since = now
-        parameters = {slot.name: given[record.keywords[slot.name]] for slot in record.slots}
+        parameters = {slot.name: arguments[record.keywords[slot.name]] for slot in record.slots}
         self.trace.nodes.append(["b", record.name, (now - record.active_since) & _MASK, parameters])
-        record.act(**given)
+        record.act(**arguments)
         record.last_cycle = cycle

@@ -57,12 +57,13 @@ class WorldLinker:
             LoadError: The world lacks a symbol or a basic behavior.
         """
         nested = find_nested_inputs(self.program)
-        inputs = [each for each in self.symbols.symbols if each.role == "input"]
+        inputs = [symbol for symbol in self.symbols.symbols if symbol.role == "input"]
         return LinkedNames(
-            inputs={each.name: self._bind_input(number, each, nested) for number, each in enumerate(inputs)},
+            inputs={symbol.name: self._bind_input(number, symbol, nested) for number, symbol in enumerate(inputs)},
             outputs=self._bind_outputs(),
             behaviors={
-                each.name: self._bind_behavior(number, each) for number, each in enumerate(self.symbols.behaviors)
+                behavior.name: self._bind_behavior(number, behavior)
+                for number, behavior in enumerate(self.symbols.behaviors)
             },
             elements=self._elements,
         )
@@ -100,11 +101,13 @@ class WorldLinker:
         return InputAccess(f"i{number}", _keywords(symbol.name, symbol.parameters), symbol.parameters, cells)
 
     def _bind_outputs(self) -> dict[str, str]:
-        found = {each.name: f"w.{python_name(each.name)}" for each in self.symbols.symbols if each.role == "output"}
+        outputs = {
+            symbol.name: f"w.{python_name(symbol.name)}" for symbol in self.symbols.symbols if symbol.role == "output"
+        }
         for number, slot in enumerate(self.program.symbols):
-            found[slot.name] = f"m.v{number}"
+            outputs[slot.name] = f"m.v{number}"
             setattr(self.memory, f"v{number}", self.default_value(slot))
-        return found
+        return outputs
 
     def _bind_behavior(self, number: int, behavior: BasicBehavior) -> BehaviorBinding:
         act, keywords = self.find_behavior(behavior.name), _keywords(behavior.name, behavior.parameters)

@@ -33,11 +33,11 @@ class TableWorld:
 
     def __init__(self, symbols: SymbolList, program: Program) -> None:
         self._elements = {
-            name: tuple(each.rpartition(".")[2] for each in elements)
+            name: tuple(element.rpartition(".")[2] for element in elements)
             for name, elements in (*symbols.enums, *symbols.internal_enums, *program.enums)
         }
         self._bases: dict[str, float] = {}
-        self._inputs = {each.name: each for each in symbols.symbols if each.role == "input"}
+        self._inputs = {symbol.name: symbol for symbol in symbols.symbols if symbol.role == "input"}
         for symbol in self._inputs.values():
             self._bases[symbol.name] = 0.0
             if symbol.parameters:
@@ -65,11 +65,11 @@ class TableWorld:
             setattr(self, python_name(name), self._value(symbol, 0.0))
 
     def _function(self, symbol: RobotSymbol) -> Callable[..., Any]:
-        order = [(python_name(each.name.removeprefix(f"{symbol.name}.")), each) for each in symbol.parameters]
+        order = [(python_name(slot.name.removeprefix(f"{symbol.name}.")), slot) for slot in symbol.parameters]
         weights = [
-            (keyword, slot, weight * (at + 1))
+            (keyword, slot, weight * (index + 1))
             for kind, weight in (("d", 1.0), ("b", 0.5), ("e", 0.25))
-            for at, (keyword, slot) in enumerate(pair for pair in order if pair[1].kind == kind)
+            for index, (keyword, slot) in enumerate(pair for pair in order if pair[1].kind == kind)
         ]
 
         def read(**arguments: Any) -> Any:
@@ -121,8 +121,8 @@ class ReplayRobot:
         self.now = 0
         self.world = TableWorld(symbols, program)
         self.engine = Engine(program, self.world, symbols=symbols, clock=lambda: self.now, strict=strict, traced=traced)
-        self._kinds = {each.name: each for each in symbols.symbols if each.role != "input"}
-        self._kinds |= {each.name: RobotSymbol("internal", each.kind, each.name, each.enum) for each in program.symbols}
+        self._kinds = {symbol.name: symbol for symbol in symbols.symbols if symbol.role != "input"}
+        self._kinds |= {slot.name: RobotSymbol("internal", slot.kind, slot.name, slot.enum) for slot in program.symbols}
         slots = [slot for option in program.options for slot in option.parameters]
         slots += [slot for behavior in symbols.behaviors for slot in behavior.parameters]
         self._slots = {slot.name: slot for slot in slots}
@@ -168,7 +168,7 @@ class ReplayRobot:
                 return ["s", node[1], self._json_value(self._kinds[node[1]], node[2])]
             case "b":
                 return ["b", node[1], node[2], self._parameters(node[3])]
-        return [*node[:5], self._parameters(node[5]), [self._node(each) for each in node[6]]]
+        return [*node[:5], self._parameters(node[5]), [self._node(child) for child in node[6]]]
 
     def _parameters(self, values: dict[str, Any]) -> dict[str, Any]:
         order = sorted(values, key=lambda name: "dbe".index(self._slots[name].kind))
@@ -224,8 +224,8 @@ def replay_team(
         for number, robot in enumerate(team):
             robot.apply_row(row, f"{number}:")
             robot.engine.prepare_incoming_messages()
-            for other, message in enumerate(received):
-                if other != number:
+            for sender, message in enumerate(received):
+                if sender != number:
                     robot.engine.process_incoming_message(message)
             robot.engine.execute()
             sent.append(robot.engine.generate_outgoing_message())

@@ -36,7 +36,7 @@ class SymbolList:
 
     def elements(self, name: str) -> tuple[str, ...]:
         """The elements of an enumeration; empty if it is unknown."""
-        return next((elements for each, elements in (*self.enums, *self.internal_enums) if each == name), ())
+        return next((elements for enum, elements in (*self.enums, *self.internal_enums) if enum == name), ())
 
 
 class SymbolListError(ValueError):
@@ -52,8 +52,8 @@ def write_symbols(symbols: SymbolList) -> str:
     lines += [f"ienum {name} {len(elements)} {' '.join(elements)}" for name, elements in symbols.internal_enums]
     for role in ("input", "output", "internal"):
         for kind in "dbe":
-            lines += [_line(each) for each in symbols.symbols if (each.role, each.kind) == (role, kind)]
-    lines += [f"bb {each.name} {_slots(each.parameters)}" for each in symbols.behaviors]
+            lines += [_line(symbol) for symbol in symbols.symbols if (symbol.role, symbol.kind) == (role, kind)]
+    lines += [f"bb {behavior.name} {_slots(behavior.parameters)}" for behavior in symbols.behaviors]
     return "".join(f"{line}\n" for line in lines)
 
 
@@ -65,7 +65,7 @@ def _line(symbol: RobotSymbol) -> str:
 
 
 def _slots(parameters: tuple[TypedSlot, ...]) -> str:
-    slots = (f" {each.kind} {each.enum + ' ' if each.kind == 'e' else ''}{each.name}" for each in parameters)
+    slots = (f" {slot.kind} {slot.enum + ' ' if slot.kind == 'e' else ''}{slot.name}" for slot in parameters)
     return f"{len(parameters)}{''.join(slots)}"
 
 

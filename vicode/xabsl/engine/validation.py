@@ -35,9 +35,9 @@ def _iter_tree_values(tree: Term) -> Iterator[tuple[str, Term]]:
         tree = tree[3]
 
 
-def _iter_argument_values(given: Iterable[Term]) -> Iterator[tuple[str, Term]]:
-    for each in given:
-        yield from _iter_term_values(each[0], each[-1])
+def _iter_argument_values(arguments: Iterable[Term]) -> Iterator[tuple[str, Term]]:
+    for argument in arguments:
+        yield from _iter_term_values(argument[0], argument[-1])
 
 
 def _iter_term_values(kind: str, term: Term) -> Iterator[tuple[str, Term]]:
@@ -51,8 +51,8 @@ def _iter_term_values(kind: str, term: Term) -> Iterator[tuple[str, Term]]:
         yield from _iter_term_values(kind, term[3])
     elif letter not in ("v", "c", "o", "p") or (letter == "c" and kind == "b"):
         inner = kind if letter in ("&", "|", "!") or kind == "d" else "e" if letter == "c" else "d"
-        for each in term[1:]:
-            yield from _iter_term_values(inner, each)
+        for operand in term[1:]:
+            yield from _iter_term_values(inner, operand)
 
 
 def iter_actions(program: Program) -> Iterator[tuple[CompiledOption, CompiledState, Term]]:
@@ -68,9 +68,9 @@ def find_nested_inputs(program: Program) -> set[str]:
     nested: set[str] = set()
     for _kind, term in iter_values(program):
         if term[0] == "i" and any(
-            each[0] == "i" and each[1] == term[1]
-            for given in term[2]
-            for _, each in _iter_term_values(given[0], given[-1])
+            inner[0] == "i" and inner[1] == term[1]
+            for argument in term[2]
+            for _, inner in _iter_term_values(argument[0], argument[-1])
         ):
             nested.add(term[1])
     return nested
@@ -79,73 +79,79 @@ def find_nested_inputs(program: Program) -> set[str]:
 def used_symbols(program: Program) -> SymbolList:
     """Derive the symbols and basic behaviors from their uses in a program. Enumerations are unknown."""
     internal = {slot.name for slot in program.symbols}
-    found: dict[tuple[str, str], RobotSymbol] = {}
+    symbols_by_key: dict[tuple[str, str], RobotSymbol] = {}
     slots: dict[tuple[str, str], dict[str, TypedSlot]] = {}
     behaviors: dict[str, dict[str, TypedSlot]] = {}
     for kind, term in iter_values(program):
         if term[0] == "i":
-            found.setdefault(("input", term[1]), RobotSymbol("input", kind, term[1]))
+            symbols_by_key.setdefault(("input", term[1]), RobotSymbol("input", kind, term[1]))
             slots.setdefault(("input", term[1]), {}).update(_slots(term[2]))
         elif term[0] == "o" and term[1] not in internal:
-            found.setdefault(("output", term[1]), RobotSymbol("output", kind, term[1]))
+            symbols_by_key.setdefault(("output", term[1]), RobotSymbol("output", kind, term[1]))
     for _option, _state, action in iter_actions(program):
         if action[0] == "a":
             behaviors.setdefault(action[1], {}).update(_slots(action[2]))
         elif action[0] != "o" and action[1] not in internal:
-            found.setdefault(("output", action[1]), RobotSymbol("output", action[0], action[1]))
+            symbols_by_key.setdefault(("output", action[1]), RobotSymbol("output", action[0], action[1]))
     symbols = tuple(
-        RobotSymbol(each.role, each.kind, each.name, "", tuple(slots.get(key, {}).values()))
-        for key, each in found.items()
+        RobotSymbol(symbol.role, symbol.kind, symbol.name, "", tuple(slots.get(key, {}).values()))
+        for key, symbol in symbols_by_key.items()
     )
     return SymbolList(
-        symbols=symbols, behaviors=tuple(BasicBehavior(n, tuple(each.values())) for n, each in behaviors.items())
+        symbols=symbols,
+        behaviors=tuple(BasicBehavior(name, tuple(parameters.values())) for name, parameters in behaviors.items()),
     )
 
 
-def _slots(given: Iterable[Term]) -> dict[str, TypedSlot]:
-    return {each[-2]: TypedSlot(each[0], each[-2], each[1] if each[0] == "e" else "") for each in given}
+def _slots(arguments: Iterable[Term]) -> dict[str, TypedSlot]:
+    return {
+        argument[-2]: TypedSlot(argument[0], argument[-2], argument[1] if argument[0] == "e" else "")
+        for argument in arguments
+    }
 
 
 def select_used_symbols(symbols: SymbolList, program: Program) -> SymbolList:
     """Select the symbols that a program uses; the world may lack the others."""
-    names = {(each.role, each.name) for each in used_symbols(program).symbols}
+    names = {(symbol.role, symbol.name) for symbol in used_symbols(program).symbols}
     behaviors = {action[1] for _option, _state, action in iter_actions(program) if action[0] == "a"}
     return SymbolList(
         symbols.enums,
         symbols.internal_enums,
-        tuple(each for each in symbols.symbols if (each.role, each.name) in names),
-        tuple(each for each in symbols.behaviors if each.name in behaviors),
+        tuple(symbol for symbol in symbols.symbols if (symbol.role, symbol.name) in names),
+        tuple(behavior for behavior in symbols.behaviors if behavior.name in behaviors),
     )
 
 
 def check_symbols(program: Program, symbols: SymbolList) -> list[str]:
     """Find symbols and behaviors that a program uses and a robot does not have."""
-    known = {(each.role, each.name): each for each in symbols.symbols}
-    behaviors = {each.name: each for each in symbols.behaviors}
-    elements = {each for _name, of in (*symbols.enums, *symbols.internal_enums, *program.enums) for each in of}
+    registered = {(symbol.role, symbol.name): symbol for symbol in symbols.symbols}
+    behaviors = {behavior.name: behavior for behavior in symbols.behaviors}
+    elements = {
+        element for _name, names in (*symbols.enums, *symbols.internal_enums, *program.enums) for element in names
+    }
     problems: list[str] = []
     used = used_symbols(program)
-    for each in used.symbols:
-        own = known.get((each.role, each.name))
-        if own is None or own.kind != each.kind:
-            problems.append(f"{_KIND_NAMES[each.kind]} {each.role} symbol {each.name} is not registered")
+    for symbol in used.symbols:
+        definition = registered.get((symbol.role, symbol.name))
+        if definition is None or definition.kind != symbol.kind:
+            problems.append(f"{_KIND_NAMES[symbol.kind]} {symbol.role} symbol {symbol.name} is not registered")
             continue
-        problems += _check_slots(f"input symbol {each.name}", each.parameters, own.parameters)
+        problems += _check_slots(f"input symbol {symbol.name}", symbol.parameters, definition.parameters)
     for behavior in used.behaviors:
         if behavior.name not in behaviors:
             problems.append(f"basic behavior {behavior.name} is not registered")
             continue
-        given = behaviors[behavior.name].parameters
-        problems += _check_slots(f"basic behavior {behavior.name}", behavior.parameters, given)
+        parameters = behaviors[behavior.name].parameters
+        problems += _check_slots(f"basic behavior {behavior.name}", behavior.parameters, parameters)
     for kind, term in iter_values(program):
         if kind == "e" and term[0] == "v" and term[1] not in elements:
             problems.append(f"enum element {term[1]} is not registered")
     return problems
 
 
-def _check_slots(what: str, used: Iterable[TypedSlot], own: Iterable[TypedSlot]) -> list[str]:
-    known = {(each.kind, each.name) for each in own}
-    return [f"{what} has no parameter {each.name}" for each in used if (each.kind, each.name) not in known]
+def _check_slots(owner: str, used: Iterable[TypedSlot], declared: Iterable[TypedSlot]) -> list[str]:
+    known = {(slot.kind, slot.name) for slot in declared}
+    return [f"{owner} has no parameter {slot.name}" for slot in used if (slot.kind, slot.name) not in known]
 
 
 def check_structure(program: Program) -> list[str]:
@@ -168,17 +174,17 @@ def check_structure(program: Program) -> list[str]:
         if action[0] == "o" and action[1] not in slots:
             problems.append(f"state {state.name} of option {option.name}: there is no option {action[1]}")
         elif action[0] == "o":
-            known = slots[action[1]]
+            parameters = slots[action[1]]
             problems += [
-                f"option {action[1]} has no parameter {each[-2]}"
-                for each in action[2]
-                if (each[0], each[-2]) not in known
+                f"option {action[1]} has no parameter {argument[-2]}"
+                for argument in action[2]
+                if (argument[0], argument[-2]) not in parameters
             ]
-    own = set().union(*slots.values()) if slots else set()
+    all_parameters = set().union(*slots.values()) if slots else set()
     problems += [
         f"there is no parameter {term[1]}"
         for kind, term in iter_values(program)
-        if term[0] == "p" and (kind, term[1]) not in own
+        if term[0] == "p" and (kind, term[1]) not in all_parameters
     ]
     return problems
 
@@ -194,32 +200,34 @@ def check_loops(program: Program, *, strict: bool) -> list[str]:
     """Find cycles of options; with `strict`, also options and behaviors that may be active twice in a cycle."""
     options = {option.name: option for option in program.options}
     problems: list[str] = []
-    reached: dict[str, frozenset[str]] = {}
+    descendants: dict[str, frozenset[str]] = {}
 
-    def look(option: CompiledOption, path: tuple[str, ...]) -> frozenset[str]:
+    def visit(option: CompiledOption, path: tuple[str, ...]) -> frozenset[str]:
         """Collect everything that an option may activate, and report calls of an option in the path."""
-        if option.name in reached:
-            return reached[option.name]
-        path, found = (*path, option.name), set[str]()
+        if option.name in descendants:
+            return descendants[option.name]
+        path, callees = (*path, option.name), set[str]()
         for state in option.states:
-            seen: set[str] = set()
+            earlier: set[str] = set()
             for action in state.actions:
-                below = {action[1]} if action[0] in ("o", "a") else set()
+                activated = {action[1]} if action[0] in ("o", "a") else set()
                 if action[0] == "o" and action[1] in path:
                     problems.append(_loop_message(state, option, action[1]))
                 elif action[0] == "o":
-                    below |= look(options[action[1]], path)
+                    activated |= visit(options[action[1]], path)
                 problems.extend(
-                    _double_activation_message(state, option, each) for each in sorted(below & seen) if strict
+                    _double_activation_message(state, option, repeated)
+                    for repeated in sorted(activated & earlier)
+                    if strict
                 )
-                seen |= below
-            found |= seen
-        reached[option.name] = frozenset(found)
-        return reached[option.name]
+                earlier |= activated
+            callees |= earlier
+        descendants[option.name] = frozenset(callees)
+        return descendants[option.name]
 
     for _agent, root in program.agents:
         if root in options:
-            look(options[root], ())
+            visit(options[root], ())
     return problems
 
 

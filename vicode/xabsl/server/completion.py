@@ -61,61 +61,74 @@ def complete_at(behavior: OpenBehavior, tokens: Tokens, offset: int) -> list[Com
     block = context.blocks[-1] if context.blocks else ""
     if last == "goto":
         option = table.options.get(context.option)
-        return [_definition_proposal(each) for each in option.states.values()] if option else []
+        return [_definition_proposal(state) for state in option.states.values()] if option else []
     if last == "enum":
-        return [_definition_proposal(each) for each in table.enums.values()]
+        return [_definition_proposal(enum) for enum in table.enums.values()]
     if context.call:
         return list(_argument_proposals(table, context))
     if block == "action" and last in ("{", ";"):
         return list(_action_proposals(table))
     if block in ("decision", "action") and last not in ("{", ";", "else", ")"):
         return list(_value_proposals(table, context))
-    return [_keyword_proposal(each) for each in _BLOCK_KEYWORDS.get(block, ())]
+    return [_keyword_proposal(keyword) for keyword in _BLOCK_KEYWORDS.get(block, ())]
 
 
 def _argument_proposals(table: SymbolTable, context: _CompletionContext) -> Iterator[CompletionProposal]:
     """Inside parentheses: parameters of the callee, or values for a parameter or a condition."""
     owner = _find_callee(table, context.call)
     if context.kinds[-1] in ("(", ",") and owner is not None:
-        for each in owner.parameters.values():
-            choice = _definition_proposal(each)
-            yield CompletionProposal(choice.name, choice.kind, choice.detail, choice.doc, f"{each.name} = ${{1}}")
+        for parameter in owner.parameters.values():
+            proposal = _definition_proposal(parameter)
+            yield CompletionProposal(
+                proposal.name, proposal.kind, proposal.detail, proposal.doc, f"{parameter.name} = ${{1}}"
+            )
     elif context.call == "agent":
-        yield from (_definition_proposal(each) for each in table.options.values())
+        yield from (_definition_proposal(candidate) for candidate in table.options.values())
     else:
         yield from _value_proposals(table, context)
 
 
 def _find_callee(table: SymbolTable, name: str) -> Definition | None:
-    found = [*table.callable.get(name, ()), *(each for each in table.readable.get(name, ()) if each.role == "input")]
-    return found[0] if found else None
+    callees = [
+        *table.callable.get(name, ()),
+        *(definition for definition in table.readable.get(name, ()) if definition.role == "input"),
+    ]
+    return callees[0] if callees else None
 
 
 def _action_proposals(table: SymbolTable) -> Iterator[CompletionProposal]:
     """The start of an action."""
-    for found in table.assignable.values():
-        for each in found:
-            choice = _definition_proposal(each)
-            yield CompletionProposal(choice.name, choice.kind, choice.detail, choice.doc, f"{each.name} = ${{1}};")
-    for each in (*table.options.values(), *table.behaviors.values()):
-        given = ", ".join(f"{name} = ${{{at}}}" for at, name in enumerate(each.parameters, 1))
-        choice = _definition_proposal(each)
-        yield CompletionProposal(choice.name, choice.kind, choice.detail, choice.doc, f"{each.name}({given});")
+    for definitions in table.assignable.values():
+        for definition in definitions:
+            proposal = _definition_proposal(definition)
+            yield CompletionProposal(
+                proposal.name, proposal.kind, proposal.detail, proposal.doc, f"{definition.name} = ${{1}};"
+            )
+    for definition in (*table.options.values(), *table.behaviors.values()):
+        placeholders = ", ".join(f"{name} = ${{{index}}}" for index, name in enumerate(definition.parameters, 1))
+        proposal = _definition_proposal(definition)
+        yield CompletionProposal(
+            proposal.name, proposal.kind, proposal.detail, proposal.doc, f"{definition.name}({placeholders});"
+        )
 
 
 def _value_proposals(table: SymbolTable, context: _CompletionContext) -> Iterator[CompletionProposal]:
     """Readable values: first the elements of the expected enumeration."""
-    yield from (_definition_proposal(each) for each in _expected_elements(table, context))
+    yield from (_definition_proposal(element) for element in _expected_elements(table, context))
     option = table.options.get(context.option)
-    for each in option.parameters.values() if option else ():
-        yield CompletionProposal(f"@{each.name}", "parameter", signature(each), doc_comment(each))
-    for each in table.symbols("input", "output", "internal", "const"):
-        choice = _definition_proposal(each)
-        given = ", ".join(f"{name} = ${{{at}}}" for at, name in enumerate(each.parameters, 1))
+    for parameter in option.parameters.values() if option else ():
+        yield CompletionProposal(f"@{parameter.name}", "parameter", signature(parameter), doc_comment(parameter))
+    for symbol in table.symbols("input", "output", "internal", "const"):
+        proposal = _definition_proposal(symbol)
+        placeholders = ", ".join(f"{name} = ${{{index}}}" for index, name in enumerate(symbol.parameters, 1))
         yield CompletionProposal(
-            each.name, choice.kind, choice.detail, choice.doc, f"{each.name}({given})" if given else ""
+            symbol.name,
+            proposal.kind,
+            proposal.detail,
+            proposal.doc,
+            f"{symbol.name}({placeholders})" if placeholders else "",
         )
-    yield from (_keyword_proposal(each) for each in _VALUES)
+    yield from (_keyword_proposal(keyword) for keyword in _VALUES)
 
 
 def _expected_elements(table: SymbolTable, context: _CompletionContext) -> Iterable[Definition]:
@@ -124,12 +137,16 @@ def _expected_elements(table: SymbolTable, context: _CompletionContext) -> Itera
         return ()
     name = context.texts[-2]
     owner, option = _find_callee(table, context.call), table.options.get(context.option)
-    known = [*table.readable.get(name, ())]
+    candidates = [*table.readable.get(name, ())]
     if context.kinds[-1] == "=" and owner is not None:
-        known = [owner.parameters[name]] if name in owner.parameters else []
+        candidates = [owner.parameters[name]] if name in owner.parameters else []
     if name.startswith("@") and option is not None:
-        known = [option.parameters[name[1:]]] if name[1:] in option.parameters else []
-    enums = [table.enums[each.enum] for each in known if each.kind == ENUM and each.enum in table.enums]
+        candidates = [option.parameters[name[1:]]] if name[1:] in option.parameters else []
+    enums = [
+        table.enums[candidate.enum]
+        for candidate in candidates
+        if candidate.kind == ENUM and candidate.enum in table.enums
+    ]
     return enums[0].elements.values() if enums else ()
 
 
@@ -174,9 +191,9 @@ def _callee_name(tokens: Tokens, number: int) -> str:
     return tokens.texts[before] if before >= 0 and tokens.kinds[before] in (NAME, "if") else "if"
 
 
-def _definition_proposal(declared: Definition) -> CompletionProposal:
-    return CompletionProposal(declared.name, declared.role, signature(declared), doc_comment(declared))
+def _definition_proposal(definition: Definition) -> CompletionProposal:
+    return CompletionProposal(definition.name, definition.role, signature(definition), doc_comment(definition))
 
 
-def _keyword_proposal(word: str) -> CompletionProposal:
-    return CompletionProposal(word, "word", snippet=SNIPPETS.get(word, ""))
+def _keyword_proposal(keyword: str) -> CompletionProposal:
+    return CompletionProposal(keyword, "word", snippet=SNIPPETS.get(keyword, ""))

@@ -10,13 +10,13 @@ _VALUES = ("true", "false", "state_time", "option_time", "action_done", "conflic
 _TYPES = ("float", "bool", "enum", "const", "input", "output", "internal")
 
 
-def _word_pattern(words: tuple[str, ...]) -> str:
-    return rf"\b(?:{'|'.join(sorted(words))})\b"
+def _word_pattern(keywords: tuple[str, ...]) -> str:
+    return rf"\b(?:{'|'.join(sorted(keywords))})\b"
 
 
 def grammar() -> dict[str, Any]:
     """The grammar as JSON data."""
-    others = tuple(KEYWORDS - {*_CONTROL, *_VALUES, *_TYPES})
+    other_keywords = tuple(KEYWORDS - {*_CONTROL, *_VALUES, *_TYPES})
     patterns = [
         {"name": "comment.block.documentation.xabsl", "begin": r"/\*\*(?![*/])", "end": r"\*/"},
         {"name": "comment.block.xabsl", "begin": r"/\*", "end": r"\*/"},
@@ -27,7 +27,7 @@ def grammar() -> dict[str, Any]:
         {"name": "keyword.control.xabsl", "match": _word_pattern(_CONTROL)},
         {"name": "constant.language.xabsl", "match": _word_pattern(_VALUES)},
         {"name": "storage.type.xabsl", "match": _word_pattern(_TYPES)},
-        {"name": "keyword.other.xabsl", "match": _word_pattern(others)},
+        {"name": "keyword.other.xabsl", "match": _word_pattern(other_keywords)},
         {"name": "variable.parameter.xabsl", "match": r"@[A-Za-z_][A-Za-z0-9_.]*"},
         {"name": "entity.name.function.xabsl", "match": r"[A-Za-z_][A-Za-z0-9_.]*(?=\s*\()"},
         {"name": "keyword.operator.xabsl", "match": "|".join((*OPERATORS, "[<>!+*/%=?:-]")).replace("||", r"\|\|")},

@@ -6,66 +6,66 @@ from vicode.xabsl.symbol_table import ENUM, KIND_NAMES, Definition
 _FENCE = "```"
 
 
-def signature(declared: Definition) -> str:
+def signature(definition: Definition) -> str:
     """The declaration of a definition in one line."""
-    of = _type(declared)
-    match declared.role:
+    type_name = _type(definition)
+    match definition.role:
         case "option" | "behavior":
-            return f"{declared.role} {declared.name}({_parameters(declared)})"
+            return f"{definition.role} {definition.name}({_parameters(definition)})"
         case "parameter":
-            return f"{of} {declared.name}{_details(declared)}"
+            return f"{type_name} {definition.name}{_details(definition)}"
         case "enum":
-            return f"enum {declared.name} {{ {', '.join(declared.elements)} }}"
+            return f"enum {definition.name} {{ {', '.join(definition.elements)} }}"
         case "element":
-            return f"{declared.enum}.{declared.name}"
+            return f"{definition.enum}.{definition.name}"
         case "const":
-            assert isinstance(declared.node, tree.ConstantNode)
-            unit = f' "{declared.node.unit}"' if declared.node.unit else ""
-            return f"float const {declared.name} = {declared.node.number}{unit}"
+            assert isinstance(definition.node, tree.ConstantNode)
+            unit = f' "{definition.node.unit}"' if definition.node.unit else ""
+            return f"float const {definition.name} = {definition.node.number}{unit}"
         case "state":
-            assert isinstance(declared.node, tree.StateNode)
-            marks = ["initial"] * declared.node.is_initial + ["target"] * declared.node.is_target
-            return " ".join([*marks, "state", declared.name])
+            assert isinstance(definition.node, tree.StateNode)
+            marks = ["initial"] * definition.node.is_initial + ["target"] * definition.node.is_target
+            return " ".join([*marks, "state", definition.name])
         case "agent":
-            assert isinstance(declared.node, tree.AgentNode)
-            return f'agent {declared.name}("{declared.node.title}", {declared.node.root.text})'
-    parameters = f"({_parameters(declared)})" if declared.parameters else ""
-    return f"{of} {declared.role} {declared.name}{parameters}{_details(declared)}"
+            assert isinstance(definition.node, tree.AgentNode)
+            return f'agent {definition.name}("{definition.node.title}", {definition.node.root.text})'
+    parameters = f"({_parameters(definition)})" if definition.parameters else ""
+    return f"{type_name} {definition.role} {definition.name}{parameters}{_details(definition)}"
 
 
-def hover_text(declared: Definition) -> str:
+def hover_text(definition: Definition) -> str:
     """Signature, description and location of a definition. Descriptions are escaped: they are untrusted."""
-    doc = getattr(declared.node, "doc", "")
-    lines = [f"{_FENCE}xabsl", signature(declared).replace(_FENCE, ""), _FENCE]
+    doc = getattr(definition.node, "doc", "")
+    lines = [f"{_FENCE}xabsl", signature(definition).replace(_FENCE, ""), _FENCE]
     if doc:
         lines += ["", *(_escape_markdown(line) for line in doc.split("\n"))]
-    place = declared.tokens.location(declared.name_node.first_token)
-    return "\n".join([*lines, "", f"{_escape_markdown(place.file)}:{place.line}"])
+    location = definition.tokens.location(definition.name_node.first_token)
+    return "\n".join([*lines, "", f"{_escape_markdown(location.file)}:{location.line}"])
 
 
-def doc_comment(declared: Definition) -> str:
+def doc_comment(definition: Definition) -> str:
     """The description of a definition."""
-    return str(getattr(declared.node, "doc", ""))
+    return str(getattr(definition.node, "doc", ""))
 
 
 def _escape_markdown(text: str) -> str:
-    return "".join(f"\\{each}" if each in "\\`*_{}[]<>()#+!|~$" else each for each in text)
+    return "".join(f"\\{character}" if character in "\\`*_{}[]<>()#+!|~$" else character for character in text)
 
 
-def _type(declared: Definition) -> str:
+def _type(definition: Definition) -> str:
     return (
-        f"enum {declared.enum}"
-        if declared.kind == ENUM
-        else KIND_NAMES.get(declared.kind, "").replace("decimal", "float")
+        f"enum {definition.enum}"
+        if definition.kind == ENUM
+        else KIND_NAMES.get(definition.kind, "").replace("decimal", "float")
     )
 
 
-def _details(declared: Definition) -> str:
-    node = declared.node
+def _details(definition: Definition) -> str:
+    node = definition.node
     if not isinstance(node, tree.SymbolNode | tree.ParameterNode):
         return ""
     return (f" [{node.range}]" if node.range else "") + (f' "{node.unit}"' if node.unit else "")
 
 
-def _parameters(declared: Definition) -> str:
-    return ", ".join(f"{_type(each)} {each.name}" for each in declared.parameters.values())
+def _parameters(definition: Definition) -> str:
+    return ", ".join(f"{_type(parameter)} {parameter.name}" for parameter in definition.parameters.values())

@@ -51,12 +51,14 @@ class OpenBehavior:
         self.source = load_source(self.main, self._read, self._parse)
         self.compiled = compile_source(self.source)
         self._references = {}
-        for tokens, at, declared in self.compiled.references:
-            self._references.setdefault(id(tokens), []).append((at, declared))
-        for declared in self._definitions():
-            self._references.setdefault(id(declared.tokens), []).append((declared.name_node.first_token, declared))
-        for found in self._references.values():
-            found.sort(key=lambda each: each[0])
+        for tokens, token, definition in self.compiled.references:
+            self._references.setdefault(id(tokens), []).append((token, definition))
+        for definition in self._definitions():
+            self._references.setdefault(id(definition.tokens), []).append(
+                (definition.name_node.first_token, definition)
+            )
+        for references in self._references.values():
+            references.sort(key=lambda reference: reference[0])
         return self.compiled
 
     def definition_at(self, path: Path, offset: int) -> Definition | None:
@@ -65,24 +67,24 @@ class OpenBehavior:
         if parsed is None:
             return None
         number = token_at(parsed.tokens, offset)
-        uses = self._references.get(id(parsed.tokens), [])
-        at = bisect_right(uses, number, key=lambda each: each[0]) - 1
-        return uses[at][1] if at >= 0 and uses[at][0] == number else None
+        references = self._references.get(id(parsed.tokens), [])
+        index = bisect_right(references, number, key=lambda reference: reference[0]) - 1
+        return references[index][1] if index >= 0 and references[index][0] == number else None
 
-    def declaration_occurrence(self, declared: Definition) -> SymbolOccurrence:
-        return self._occurrence(declared.tokens, declared.name_node.first_token)
+    def declaration_occurrence(self, definition: Definition) -> SymbolOccurrence:
+        return self._occurrence(definition.tokens, definition.name_node.first_token)
 
-    def occurrences(self, declared: Definition) -> list[SymbolOccurrence]:
+    def occurrences(self, definition: Definition) -> list[SymbolOccurrence]:
         """Declaration and uses of a definition, in the order of files and lines."""
-        paths = {id(parsed.tokens): parsed.tokens for parsed in self.source.files.values()}
+        tokens_by_id = {id(parsed.tokens): parsed.tokens for parsed in self.source.files.values()}
         return [
-            self._occurrence(paths[key], at)
-            for key in paths
-            for at, each in self._references.get(key, ())
-            if each is declared
+            self._occurrence(tokens_by_id[key], token)
+            for key in tokens_by_id
+            for token, referenced in self._references.get(key, ())
+            if referenced is definition
         ]
 
-    def rename_edits(self, declared: Definition, name: str) -> list[SymbolOccurrence]:
+    def rename_edits(self, definition: Definition, name: str) -> list[SymbolOccurrence]:
         """The text changes that rename a definition.
 
         Raises:
@@ -91,47 +93,51 @@ class OpenBehavior:
         name = name.removeprefix("@")
         if not _NAME.fullmatch(name) or name in KEYWORDS:
             raise RenameError(f"{name} is not a valid name")
-        if any(each.name == name and _share_scope(each, declared) for each in self._definitions()):
-            raise RenameError(f"there is already a {declared.description} {name}")
-        spots = []
-        for spot in self.occurrences(declared):
-            sign = "@" if spot.text.startswith("@") else ""
-            before = f"{declared.enum}." if declared.role == "element" and spot.text != declared.name else ""
-            spots.append(SymbolOccurrence(spot.path, spot.start, spot.end, sign + before + name))
-        if declared.role == "enum":
-            spots += self._qualified_element_edits(declared.name, name)
-        return spots
+        if any(other.name == name and _share_scope(other, definition) for other in self._definitions()):
+            raise RenameError(f"there is already a {definition.description} {name}")
+        edits = []
+        for occurrence in self.occurrences(definition):
+            sign = "@" if occurrence.text.startswith("@") else ""
+            qualifier = (
+                f"{definition.enum}." if definition.role == "element" and occurrence.text != definition.name else ""
+            )
+            edits.append(SymbolOccurrence(occurrence.path, occurrence.start, occurrence.end, sign + qualifier + name))
+        if definition.role == "enum":
+            edits += self._qualified_element_edits(definition.name, name)
+        return edits
 
     def _qualified_element_edits(self, enum: str, name: str) -> Iterator[SymbolOccurrence]:
         """Changes of elements that are qualified with the name of their enumeration."""
-        for tokens, at, declared in self.compiled.references:
-            text = tokens.texts[at]
-            if declared.role == "element" and declared.enum == enum and text.startswith(f"{enum}."):
-                spot = self._occurrence(tokens, at)
-                yield SymbolOccurrence(spot.path, spot.start, spot.end, name + text.removeprefix(enum))
+        for tokens, token, definition in self.compiled.references:
+            text = tokens.texts[token]
+            if definition.role == "element" and definition.enum == enum and text.startswith(f"{enum}."):
+                occurrence = self._occurrence(tokens, token)
+                yield SymbolOccurrence(
+                    occurrence.path, occurrence.start, occurrence.end, name + text.removeprefix(enum)
+                )
 
     def _definitions(self) -> Iterator[Definition]:
         table = self.compiled.table
         groups = (table.enums, table.options, table.behaviors, table.agents)
-        for each in (*(each for group in groups for each in group.values()), *table.symbols(*_ROLES)):
-            yield each
-            for inner in (each.parameters, each.elements, each.states):
+        for definition in (*(definition for group in groups for definition in group.values()), *table.symbols(*_ROLES)):
+            yield definition
+            for inner in (definition.parameters, definition.elements, definition.states):
                 yield from inner.values()
 
-    def _occurrence(self, tokens: Tokens, at: int) -> SymbolOccurrence:
+    def _occurrence(self, tokens: Tokens, token: int) -> SymbolOccurrence:
         path = next(path for path, parsed in self.source.files.items() if parsed.tokens is tokens)
-        start = tokens.starts[at]
-        return SymbolOccurrence(path, start, start + len(tokens.texts[at]), tokens.texts[at])
+        start = tokens.starts[token]
+        return SymbolOccurrence(path, start, start + len(tokens.texts[token]), tokens.texts[token])
 
     def _read(self, path: Path) -> str:
         text = self.open_texts.get(path)
         return read_text(path) if text is None else text
 
     def _parse(self, text: str, name: str) -> ParsedFile:
-        known = self._parse_cache.get(name)
-        if known is None or known[0] != text:
-            self._parse_cache[name] = known = (text, parse(text, name))
-        return known[1]
+        cached = self._parse_cache.get(name)
+        if cached is None or cached[0] != text:
+            self._parse_cache[name] = cached = (text, parse(text, name))
+        return cached[1]
 
 
 _ROLES = ("input", "output", "internal", "const")
@@ -149,20 +155,20 @@ def token_at(tokens: Tokens, offset: int) -> int:
     number = bisect_right(tokens.starts, offset) - 1
     ends_there = number > 0 and tokens.starts[number] == offset
     if ends_there and not _NAME.match(tokens.texts[number].lstrip("@")):
-        before = number - 1
-        if tokens.starts[before] + len(tokens.texts[before]) == offset:
-            return before
+        previous = number - 1
+        if tokens.starts[previous] + len(tokens.texts[previous]) == offset:
+            return previous
     return max(number, 0)
 
 
 def find_main_file(path: Path) -> Path:
     """Find the file with the agents of the behavior that includes a file; the file itself if there is none."""
     for folder in [path.parent, *path.parent.parents][:_MAX_FOLDERS]:
-        found = [each for each in sorted(folder.glob("*.xabsl")) if _has_agents(each)]
-        found.sort(key=lambda each: each.name != "agents.xabsl")
-        for each in found:
-            if path in load_source(each).files:
-                return each.resolve()
+        candidates = [candidate for candidate in sorted(folder.glob("*.xabsl")) if _has_agents(candidate)]
+        candidates.sort(key=lambda candidate: candidate.name != "agents.xabsl")
+        for candidate in candidates:
+            if path in load_source(candidate).files:
+                return candidate.resolve()
     return path
 
 

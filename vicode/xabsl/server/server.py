@@ -73,11 +73,11 @@ class XabslLanguageServer(LanguageServer):
 
     def publish_findings(self, behavior: OpenBehavior) -> None:
         """Publish the findings of a behavior, and clear those of files that have none any more."""
-        found = behavior.refresh().findings
+        findings = behavior.refresh().findings
         folder = behavior.source.main.parent
         by_path: dict[Path, list[lsp.Diagnostic]] = {path: [] for path in self._published.get(behavior.main, ())}
         is_alone = not _has_agents(behavior)
-        for finding in found:
+        for finding in findings:
             if finding.location is None or (is_alone and finding.rule.code in ("X609", "X621", "X644")):
                 # These findings are expected in a file that no behavior includes.
                 continue
@@ -96,16 +96,16 @@ class XabslLanguageServer(LanguageServer):
         text = self._text(behavior, path)
         return behavior, path, _offset(text, position)
 
-    def location(self, behavior: OpenBehavior, spot: SymbolOccurrence) -> lsp.Location:
-        text = self._text(behavior, spot.path)
-        return lsp.Location(uri=_uri(spot.path), range=_range(text, spot.start, spot.end))
+    def location(self, behavior: OpenBehavior, occurrence: SymbolOccurrence) -> lsp.Location:
+        text = self._text(behavior, occurrence.path)
+        return lsp.Location(uri=_uri(occurrence.path), range=_range(text, occurrence.start, occurrence.end))
 
-    def workspace_edit(self, behavior: OpenBehavior, spots: Sequence[SymbolOccurrence]) -> lsp.WorkspaceEdit:
+    def workspace_edit(self, behavior: OpenBehavior, occurrences: Sequence[SymbolOccurrence]) -> lsp.WorkspaceEdit:
         changes: dict[str, list[lsp.TextEdit]] = {}
-        for spot in spots:
-            text = self._text(behavior, spot.path)
-            edit = lsp.TextEdit(range=_range(text, spot.start, spot.end), new_text=spot.text)
-            changes.setdefault(_uri(spot.path), []).append(edit)
+        for occurrence in occurrences:
+            text = self._text(behavior, occurrence.path)
+            edit = lsp.TextEdit(range=_range(text, occurrence.start, occurrence.end), new_text=occurrence.text)
+            changes.setdefault(_uri(occurrence.path), []).append(edit)
         return lsp.WorkspaceEdit(changes=changes)
 
     def _text(self, behavior: OpenBehavior, path: Path) -> str:
@@ -148,40 +148,44 @@ def _register_queries(server: XabslLanguageServer) -> None:
     def complete(params: lsp.CompletionParams) -> list[lsp.CompletionItem]:
         behavior, path, offset = server.resolve_position(params.text_document.uri, params.position)
         parsed = behavior.source.files.get(path)
-        choices = complete_at(behavior, parsed.tokens, offset) if parsed else []
-        return [_completion_item(each, number) for number, each in enumerate(choices)]
+        proposals = complete_at(behavior, parsed.tokens, offset) if parsed else []
+        return [_completion_item(proposal, number) for number, proposal in enumerate(proposals)]
 
     @server.feature(lsp.TEXT_DOCUMENT_HOVER)
     def hover(params: lsp.HoverParams) -> lsp.Hover | None:
-        declared = _definition_at(server, params.text_document.uri, params.position)[1]
-        if declared is None:
+        definition = _definition_at(server, params.text_document.uri, params.position)[1]
+        if definition is None:
             return None
-        return lsp.Hover(contents=lsp.MarkupContent(kind=lsp.MarkupKind.Markdown, value=hover_text(declared)))
+        return lsp.Hover(contents=lsp.MarkupContent(kind=lsp.MarkupKind.Markdown, value=hover_text(definition)))
 
     @server.feature(lsp.TEXT_DOCUMENT_DEFINITION)
     def definition(params: lsp.DefinitionParams) -> lsp.Location | None:
-        behavior, declared = _definition_at(server, params.text_document.uri, params.position)
-        return server.location(behavior, behavior.declaration_occurrence(declared)) if declared else None
+        behavior, target = _definition_at(server, params.text_document.uri, params.position)
+        return server.location(behavior, behavior.declaration_occurrence(target)) if target else None
 
     @server.feature(lsp.TEXT_DOCUMENT_REFERENCES)
     def references(params: lsp.ReferenceParams) -> list[lsp.Location]:
-        behavior, declared = _definition_at(server, params.text_document.uri, params.position)
-        if declared is None:
+        behavior, definition = _definition_at(server, params.text_document.uri, params.position)
+        if definition is None:
             return []
-        own = behavior.declaration_occurrence(declared)
-        wants_own = params.context.include_declaration
-        spots = (each for each in behavior.occurrences(declared) if wants_own or each != own)
-        return [server.location(behavior, spot) for spot in spots]
+        declaration = behavior.declaration_occurrence(definition)
+        include_declaration = params.context.include_declaration
+        occurrences = (
+            occurrence
+            for occurrence in behavior.occurrences(definition)
+            if include_declaration or occurrence != declaration
+        )
+        return [server.location(behavior, occurrence) for occurrence in occurrences]
 
 
 def _register_edits(server: XabslLanguageServer) -> None:
     @server.feature(lsp.TEXT_DOCUMENT_RENAME)
     def rename(params: lsp.RenameParams) -> lsp.WorkspaceEdit | None:
-        behavior, declared = _definition_at(server, params.text_document.uri, params.position)
-        if declared is None:
+        behavior, definition = _definition_at(server, params.text_document.uri, params.position)
+        if definition is None:
             return None
         try:
-            return server.workspace_edit(behavior, behavior.rename_edits(declared, params.new_name))
+            return server.workspace_edit(behavior, behavior.rename_edits(definition, params.new_name))
         except RenameError as error:
             server.window_show_message(lsp.ShowMessageParams(type=lsp.MessageType.Error, message=str(error)))
             return None
@@ -196,7 +200,7 @@ def _register_edits(server: XabslLanguageServer) -> None:
     def format_document(params: lsp.DocumentFormattingParams) -> list[lsp.TextEdit] | None:
         path = _path(params.text_document.uri)
         parsed = server.find_behavior(path).source.files.get(path)
-        if parsed is None or any(each.severity is Severity.ERROR for each in parsed.findings):
+        if parsed is None or any(finding.severity is Severity.ERROR for finding in parsed.findings):
             return None
         text = parsed.tokens.text
         return [lsp.TextEdit(range=_range(text, 0, len(text)), new_text=print_file(parsed.file))]
@@ -217,10 +221,13 @@ def _definition_at(
 def _outline(tokens: Tokens, item: tree.OptionNode | tree.NamespaceNode | tree.AgentNode) -> lsp.DocumentSymbol:
     match item:
         case tree.OptionNode():
-            inner = [_document_symbol(tokens, each, each.name, lsp.SymbolKind.Class) for each in item.states]
+            inner = [_document_symbol(tokens, state, state.name, lsp.SymbolKind.Class) for state in item.states]
             kind = lsp.SymbolKind.Module
         case tree.NamespaceNode():
-            inner = [_document_symbol(tokens, each, each.name, _SYMBOL_KINDS[type(each)]) for each in item.declarations]
+            inner = [
+                _document_symbol(tokens, declaration, declaration.name, _SYMBOL_KINDS[type(declaration)])
+                for declaration in item.declarations
+            ]
             kind = lsp.SymbolKind.Namespace
         case tree.AgentNode():
             inner, kind = [], lsp.SymbolKind.Object
@@ -234,20 +241,20 @@ def _document_symbol(
 ) -> lsp.DocumentSymbol:
     text, last = tokens.text, min(max(node.last_token, name.first_token), len(tokens.starts) - 1)
     end = tokens.starts[last] + len(tokens.texts[last])
-    own = _range(text, tokens.starts[name.first_token], tokens.starts[name.first_token] + len(name.text))
+    selection = _range(text, tokens.starts[name.first_token], tokens.starts[name.first_token] + len(name.text))
     return lsp.DocumentSymbol(
-        name=name.text, kind=kind, range=_range(text, tokens.starts[node.first_token], end), selection_range=own
+        name=name.text, kind=kind, range=_range(text, tokens.starts[node.first_token], end), selection_range=selection
     )
 
 
-def _completion_item(choice: CompletionProposal, number: int) -> lsp.CompletionItem:
-    snippet = lsp.InsertTextFormat.Snippet if choice.snippet else lsp.InsertTextFormat.PlainText
+def _completion_item(proposal: CompletionProposal, number: int) -> lsp.CompletionItem:
+    snippet = lsp.InsertTextFormat.Snippet if proposal.snippet else lsp.InsertTextFormat.PlainText
     return lsp.CompletionItem(
-        label=choice.name,
-        kind=_COMPLETION_KINDS.get(choice.kind),
-        detail=choice.detail or None,
-        documentation=choice.doc or None,
-        insert_text=choice.snippet or choice.name,
+        label=proposal.name,
+        kind=_COMPLETION_KINDS.get(proposal.kind),
+        detail=proposal.detail or None,
+        documentation=proposal.doc or None,
+        insert_text=proposal.snippet or proposal.name,
         insert_text_format=snippet,
         # Keeps the order of relevance.
         sort_text=f"{number:05}",
@@ -255,9 +262,9 @@ def _completion_item(choice: CompletionProposal, number: int) -> lsp.CompletionI
 
 
 def _diagnostic(finding: Finding, folder: Path, text: str) -> lsp.Diagnostic:
-    place = finding.location
-    assert place
-    start = _offset(text, lsp.Position(place.line - 1, 0)) + place.column - 1
+    location = finding.location
+    assert location
+    start = _offset(text, lsp.Position(location.line - 1, 0)) + location.column - 1
     related = [
         lsp.DiagnosticRelatedInformation(
             location=lsp.Location(
@@ -270,7 +277,7 @@ def _diagnostic(finding: Finding, folder: Path, text: str) -> lsp.Diagnostic:
         if note.location
     ]
     return lsp.Diagnostic(
-        range=_range(text, start, start + place.length),
+        range=_range(text, start, start + location.length),
         message=finding.message + (f"; {finding.fix}" if finding.fix else ""),
         severity=_SEVERITIES[finding.severity],
         code=finding.rule.code,
@@ -287,10 +294,10 @@ def _offset(text: str, position: lsp.Position) -> int:
     """The offset of a position, whose column counts UTF-16 code units."""
     start = 0
     for _ in range(position.line):
-        found = text.find("\n", start)
-        if found < 0:
+        line_end = text.find("\n", start)
+        if line_end < 0:
             return len(text)
-        start = found + 1
+        start = line_end + 1
     units, offset = 0, start
     while units < position.character and offset < len(text) and text[offset] != "\n":
         units += 1 + (ord(text[offset]) > 0xFFFF)
@@ -304,8 +311,8 @@ def _range(text: str, start: int, end: int) -> lsp.Range:
 
 def _position(text: str, offset: int) -> lsp.Position:
     line = text.count("\n", 0, offset)
-    begin = text.rfind("\n", 0, offset) + 1
-    return lsp.Position(line, len(text[begin:offset].encode("utf-16-le")) // 2)
+    line_start = text.rfind("\n", 0, offset) + 1
+    return lsp.Position(line, len(text[line_start:offset].encode("utf-16-le")) // 2)
 
 
 def _path(uri: str) -> Path:
