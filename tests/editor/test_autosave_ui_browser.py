@@ -89,7 +89,7 @@ def test_a_clash_with_the_file_is_settled_place_by_place(
 
     # What was not taken is in the history.
     page.get_by_role("tab", name="History").click()
-    expect(page.get_by_role("group", name="History").get_by_text("as it was on disk")).to_be_visible()
+    expect(page.get_by_role("group", name="History").get_by_text("version on disk")).to_be_visible()
 
 
 def test_what_does_not_touch_is_merged_and_said(editor: str, page: Page, project: Path) -> None:

@@ -123,7 +123,7 @@ def test_what_few_need_stands_in_folds(editor: str, page: Page, project: Path) -
     page.get_by_text("Team and XABSL").click()
     capacity = page.get_by_label("Capacity: robots in it at once")
     capacity.fill("many")
-    expect(page.get_by_text("write a whole number of robots")).to_be_visible()
+    expect(page.get_by_text("enter a whole number of robots")).to_be_visible()
     capacity.fill("1")
     page.get_by_label("Synchronized: robots that enter at once").fill("2")
     page.get_by_label("Name in XABSL").fill("strike")

@@ -100,7 +100,7 @@ def test_who_renames_a_state_types_on_in_the_next_field(editor: str, page: Page)
 def test_a_declaration_without_a_name_is_told_and_not_taken(editor: str, page: Page) -> None:
     open_player(page, editor)
     page.get_by_role("group", name="variable kick").get_by_role("textbox", name="Name").fill("")
-    expect(page.get_by_text("it needs a name")).to_be_visible()
+    expect(page.get_by_text("enter a name")).to_be_visible()
     expect(page.get_by_text("Unsaved changes")).to_have_count(0)
 
 
@@ -274,10 +274,10 @@ def test_what_is_no_frequency_is_told_and_stays_to_be_mended(editor: str, page: 
     field = page.get_by_label("Frequency, Hz")
     field.fill("1O")
     field.blur()
-    expect(page.get_by_text("'1O' is no number")).to_be_visible()
+    expect(page.get_by_text("'1O' is not a number")).to_be_visible()
     expect(field).to_have_value("1O")
     field.fill("10")
-    expect(page.get_by_text("is no number")).to_have_count(0)
+    expect(page.get_by_text("is not a number")).to_have_count(0)
     expect(page.get_by_text("Saved", exact=True)).to_be_visible()
 
 

@@ -37,9 +37,9 @@ def test_findings_are_worked_through_by_keys_and_mended(editor: str, page: Page,
     # The fixes are those that are certain; one of them, one undo.
     wrong.get_by_role("button", name="Fix:").click()
     expect(page.get_by_role("menuitem")).to_have_text(
-        ["Lead to FollowBall", "Create the state FolowBall", "Remove the transition"]
+        ["Change the target to FollowBall", "Create the state FolowBall", "Remove the transition"]
     )
-    page.get_by_role("menuitem", name="Lead to FollowBall").click()
+    page.get_by_role("menuitem", name="Change the target to FollowBall").click()
     expect(wrong).to_have_count(0)
     page.get_by_role("button", name="Undo").click()
     expect(wrong).to_have_count(1)

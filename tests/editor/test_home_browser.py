@@ -117,7 +117,7 @@ def test_a_renaming_shows_what_changes_does_it_and_takes_it_back(
     expect(dialog).to_contain_text("already a component Turn")
     field.fill("LookAtBall")
     expect(dialog).to_contain_text("Player uses LookAtBall as face_ball")
-    expect(dialog).to_contain_text("face_ball.yaml becomes look_at_ball.yaml")
+    expect(dialog).to_contain_text("face_ball.yaml is renamed to look_at_ball.yaml")
     dialog.get_by_role("button", name="Rename everywhere").click()
     expect(card(page, "LookAtBall")).to_be_visible()
     expect(card(page, "FaceBall")).to_have_count(0)

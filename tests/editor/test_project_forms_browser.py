@@ -105,7 +105,7 @@ def test_a_component_written_by_hand_is_edited_where_it_is_used(editor: str, pag
     inspector = page.get_by_label("Inspector")
     component = inspector.get_by_role("group", name="component Perception", exact=True)
     component.get_by_label("Frequency, Hz").fill("often")
-    expect(component.get_by_text("'often' is no number")).to_be_visible()
+    expect(component.get_by_text("'often' is not a number")).to_be_visible()
     component.get_by_label("Frequency, Hz").fill("30")
     page.keyboard.press("Enter")
     expect(page.get_by_text("project.yaml is written: Perception")).to_be_visible()

@@ -78,7 +78,7 @@ def test_refused_values_stay_to_be_mended(editor: str, page: Page) -> None:
     expect(page.locator(".field-in-cell")).to_have_value("LookForBall")
     page.keyboard.type("Kick")
     press(page, "Enter")
-    expect(page.get_by_role("alert").filter(has_text="there is already a state 'Kick'")).to_be_visible()
+    expect(page.get_by_role("alert").filter(has_text="there is already a state Kick")).to_be_visible()
     expect(page.locator(".field-in-cell")).to_have_value("Kick")
     page.keyboard.type("Seek")
     press(page, "Enter")

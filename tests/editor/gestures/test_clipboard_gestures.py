@@ -89,7 +89,7 @@ def test_transitions_are_pasted_into_the_selected_states(sketch: EditorDriver) -
     sketch.click(sketch.at("transitions", "Start/1"))
     copy(sketch)
     sketch.press("Escape", "Control+v")
-    sketch.expect_message("select the states that shall get these transitions")
+    sketch.expect_message("select the states to add these transitions to")
     sketch.select("Go", "Rest")
     sketch.press("Control+v")
     for name in ("Go", "Rest"):
@@ -101,9 +101,9 @@ def test_transitions_are_pasted_into_the_selected_states(sketch: EditorDriver) -
 
 def test_invalid_clipboard_text_shows_a_message_and_changes_nothing(sketch: EditorDriver) -> None:
     for text, message in (
-        ("just a letter", "the clipboard holds no part of a design"),
-        ("states: {A: !!python/object/apply:os.system [ls]}", "the clipboard holds no part of a design: "),
-        ("states: {'<img src=x onerror=alert(1)>': {}}", "is no name"),
+        ("just a letter", "the clipboard contains no part of a design"),
+        ("states: {A: !!python/object/apply:os.system [ls]}", "the clipboard contains no part of a design: "),
+        ("states: {'<img src=x onerror=alert(1)>': {}}", "is not a valid name"),
         ("states: {}\n" + "# much\n" * 80_000, "The text on the clipboard is too large"),
         ("   ", "The clipboard contains no text"),
     ):

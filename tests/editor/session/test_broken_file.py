@@ -14,7 +14,7 @@ BROKEN = "vicode: 1\ncomponent: A\nstats:\n  S: {}\n"
 
 def test_mistakes_stand_at_their_characters() -> None:
     reading = parse_text(BROKEN, "a.yaml")
-    (mark,) = (each for each in reading.marks if "stats" in each.message)
+    (mark,) = (mark for mark in reading.marks if "stats" in mark.message)
     assert BROKEN[mark.start : mark.end] == "stats"
     assert mark.line == 3
     assert "did you mean 'states'?" in mark.message

@@ -116,7 +116,7 @@ class PeopleAtWork(RuleBasedStateMachine):
             except DiskConflictError:
                 assert hand.shared.conflicts
                 self.workspace.resolve_conflict(
-                    hand, [each.path for each in hand.shared.conflicts] if takes_theirs else []
+                    hand, [conflict.path for conflict in hand.shared.conflicts] if takes_theirs else []
                 )
                 self.workspace.save(hand)
 

@@ -15,7 +15,7 @@ from vicode.store import open_project
 def assert_sound(folder: Path) -> None:
     opened = open_project(folder)
     findings = [*opened.findings, *check_project(opened.project)]
-    assert [each for each in findings if each.severity is Severity.ERROR] == []
+    assert [finding for finding in findings if finding.severity is Severity.ERROR] == []
 
 
 def test_a_renaming_changes_every_name_and_nothing_else(workspace: Workspace, folder: Path) -> None:
@@ -63,7 +63,7 @@ def test_whoever_is_killed_in_the_middle_leaves_a_sound_project(workspace: Works
         ("Perception", "already a component Perception"),
         ("1st", "letters, digits"),
         ("../x", "letters, digits"),
-        ("FaceBall", "its name already"),
+        ("FaceBall", "already its name"),
         ("Taken", "already a file taken.yaml"),
     ],
 )
@@ -85,7 +85,7 @@ def test_unsaved_work_and_other_programs_come_first(workspace: Workspace, folder
     assert plan.error == ""
     file = folder / "follow_ball.yaml"
     file.write_text(file.read_text() + "# theirs\n")
-    assert "just changed by another program" in rename_component.apply_component_rename(workspace, plan)
+    assert "another program has just changed" in rename_component.apply_component_rename(workspace, plan)
     assert (folder / "face_ball.yaml").exists()
     player.edit("add", lambda design: design.__class__(component="Player", uses=design.uses, states=design.states))
     assert (
@@ -118,7 +118,7 @@ def test_what_is_thrown_away_can_be_put_back(
     assert (folder / "turn.yaml").read_bytes() == before
     assert workspace.project.design("Turn") is not None
     assert workspace.removed_components == {}
-    assert "another turn.yaml" in trash.restore_from_trash(workspace, thrown)
+    assert "there is a new turn.yaml" in trash.restore_from_trash(workspace, thrown)
 
 
 def test_unsaved_work_is_not_thrown_away(workspace: Workspace) -> None:

@@ -46,7 +46,7 @@ def test_findings_are_those_of_the_draft(tmp_path: Path) -> None:
     assert document is not None
     document.edit("initial", lambda design: replace(design, initial="Nowhere"))
     subject = load_docs_subject(take_snapshot(workspace))
-    assert {each.component for each in subject.findings} == {"Turn"}
+    assert {finding.component for finding in subject.findings} == {"Turn"}
     assert "Turn" in subject.components_with_errors["python"]
 
 
@@ -82,4 +82,4 @@ def test_a_finding_of_the_file_is_told_once_beside_a_draft(tmp_path: Path) -> No
     rename_doc(workspace, "Turns\n\naround.\n")
     snapshot = take_snapshot(workspace)
     assert "Turn" in snapshot.unsaved_designs
-    assert [each.component for each in load_docs_subject(snapshot).findings] == ["Turn"]
+    assert [finding.component for finding in load_docs_subject(snapshot).findings] == ["Turn"]

@@ -75,7 +75,11 @@ STAY = "initial: S\nstates: {S: {final: true, transitions: [{stay: true, when: %
 @pytest.mark.parametrize(
     ("text", "code", "label"),
     [
-        ("initial: A\nstates: {A: {transitions: [{to: Kik, after: 1}]}, Kick: {}}", "D402", "Lead to Kick"),
+        (
+            "initial: A\nstates: {A: {transitions: [{to: Kik, after: 1}]}, Kick: {}}",
+            "D402",
+            "Change the target to Kick",
+        ),
         ("initial: S\nstates: {S: {transitions: [{to: T, after: 1}]}}", "D402", "Create the state T"),
         (STAY % "n > 3", "E303", "Declare the variable n: 0.0"),
         (STAY % "seen", "E303", "Declare the variable seen: False"),
@@ -84,7 +88,7 @@ STAY = "initial: S\nstates: {S: {final: true, transitions: [{stay: true, when: %
         ("initial: S\nstates: {S: {actions: [{set: {n: 1 + 1}}]}}", "E303", "Declare the variable n: 0"),
         (STAY % "perception.ball", "E303", "Use the component Perception as perception"),
         ("initial: S\nstates: {S: {requires: [perception]}}", "D403", "Use the component Perception as perception"),
-        ("initial: S\nstates: {S: {transitions: [{to: S, after: 1}]}}", "D430", "Make it a stay"),
+        ("initial: S\nstates: {S: {transitions: [{to: S, after: 1}]}}", "D430", "Replace it with a stay"),
     ],
 )
 def test_the_fix_a_person_expects_is_offered(text: str, code: str, label: str, tmp_path: Path) -> None:
@@ -126,7 +130,7 @@ def _assert_mends(project: Project, design: Design, finding: Finding, label: str
 
 
 def _counted(project: Project) -> Counter[tuple[str, str]]:
-    return Counter((each.rule.code, each.message) for each in check_project(project))
+    return Counter((finding.rule.code, finding.message) for finding in check_project(project))
 
 
 def _put_in(frame: str, text: str) -> str:

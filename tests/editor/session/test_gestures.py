@@ -118,7 +118,7 @@ def test_move_is_one_undoable_step(document: DocumentSession) -> None:
     items = [{"of": "states", "id": "A", "x": 1.2, "y": 2}, {"of": "components", "id": "head", "x": 3, "y": 4}]
     apply_gesture(document, {"kind": "move", "items": items})
     assert (document.design.states[0].at, document.design.uses[0].at) == ((1, 2), (3, 4))
-    assert document.undo_label == "move 2 things"
+    assert document.undo_label == "move 2 items"
     apply_gesture(document, {"kind": "undo"})
     assert document.design == DESIGN
     apply_gesture(document, {"kind": "redo"})

@@ -72,7 +72,7 @@ def test_a_label_stays_where_it_was_put(document: DocumentSession) -> None:
     assert document.design.states[0].transitions[0] == Transition(to="B", label_at=(1, 2000))
     do(document, "label", id="A/0", at=None)
     assert document.design == DESIGN
-    assert document.undo_label == "move a label"
+    assert document.undo_label == "move label"
 
 
 def test_steps_by_keys_are_one_edit(document: DocumentSession) -> None:

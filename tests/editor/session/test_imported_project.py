@@ -83,5 +83,5 @@ def test_what_is_wrong_with_a_set_of_others_is_told(opened: OpenProject) -> None
     alias = design.uses[0].alias
     bad = replace(state, actions=(Assign(values=((f"{alias}.nothing", "1"), ("nobody.x", "1"))),))
     findings = check_design(opened.project, replace(design, states=(bad, *design.states[1:])))
-    errors = [each for each in findings if each.severity is Severity.ERROR and each.rule.code == "E303"]
+    errors = [finding for finding in findings if finding.severity is Severity.ERROR and finding.rule.code == "E303"]
     assert len(errors) == 2

@@ -32,8 +32,8 @@ def design_of(action: str, *, module: str = "", guard: str = "return True\n") ->
 
 
 def remarks(lints: LintWarnings, design: Design) -> dict[ThingPath, list[tuple[str, str]]]:
-    texts = {each.path: each.text for each in iter_texts(design)}
-    return {path: [(each.code, texts[path][each.start : each.end]) for each in found] for path, found in lints.items()}
+    texts = {located.path: located.text for located in iter_texts(design)}
+    return {path: [(item.code, texts[path][item.start : item.end]) for item in found] for path, found in lints.items()}
 
 
 def test_a_remark_stands_at_its_characters_whatever_the_margin() -> None:
@@ -86,6 +86,6 @@ def test_any_line_of_the_module_leads_into_a_text_of_the_design(design: Design) 
         rows = [{"location": {"row": at, "column": 3}, "code": "X", "message": ""} for at in range(source.count("\n"))]
         return lint.json.dumps(rows)
 
-    texts = {each.path: each.text for each in iter_texts(design)}
+    texts = {located.path: located.text for located in iter_texts(design)}
     for path, lints in lint_design(Project(name="p"), design, complain).items():
         assert all(0 <= lint.start <= len(texts[path]) for lint in lints)

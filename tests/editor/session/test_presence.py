@@ -22,7 +22,7 @@ def test_people_are_guests_until_they_choose_a_name() -> None:
     assert people.get_or_create_user("2", "\x07").name == "Ana <b>"
     assert people.name_of("1") == "Ben"
     assert people.name_of(DISK_USER) == "another program"
-    assert people.name_of("nobody") == "somebody"
+    assert people.name_of("nobody") == "someone"
 
 
 def test_a_company_knows_who_is_here_and_tells_changes() -> None:
@@ -35,11 +35,11 @@ def test_a_company_knows_who_is_here_and_tells_changes() -> None:
     company.update("b", selected=(ItemRef(kind="states", id="Kick"),))
     company.update("gone", pointer=(1.0, 2.0))
     assert heard == [1, 2, 2]
-    assert [describe_presence(each) for each in company.others("a")] == ["state Kick"]
+    assert [describe_presence(other) for other in company.others("a")] == ["state Kick"]
     company.update("b", editing_path=("states", "Kick", "doc"))
     assert company.names_editing(("states", "Kick", "doc"), "a") == ("Ben",)
     assert company.names_editing(("states", "Kick", "doc"), "b") == ()
-    assert [describe_presence(each) for each in company.others("a")] == ["types doc of state Kick"]
+    assert [describe_presence(other) for other in company.others("a")] == ["edits doc of state Kick"]
     company.leave("b")
     assert company.others("a") == ()
     unwatch()
@@ -52,7 +52,7 @@ def test_paths_and_values_are_said_in_words() -> None:
     assert describe_path(("doc",)) == "doc of the design"
     assert describe_path(("variables", "n", "type")) == "type of variable n"
     assert describe_path(("states", "Kick", "transitions", 1, "when")) == "transition 2 of state Kick, when"
-    assert describe_path(("common", "transitions", 0)) == "transition 1 of the common ones"
+    assert describe_path(("common", "transitions", 0)) == "transition 1 of the common section"
     assert describe_value(None) == "(removed)"
     assert describe_value("") == "(empty)"
     assert describe_value((10.0, 20.5)) == "10, 20.5"
@@ -161,8 +161,8 @@ class Server:
         self.tell_all()
 
     def tell_all(self) -> None:
-        for each in self.windows:
-            each.refresh(self.design)
+        for window in self.windows:
+            window.refresh(self.design)
 
     def happen(self, window: Window, what: str, where: int) -> None:
         """Somebody does something, or a message arrives."""
@@ -192,8 +192,8 @@ def test_however_slow_the_line_no_keystroke_is_lost(happenings: list[tuple[bool,
     for window, what in at_last:
         for _ in range(3 * len(happenings) + 3):
             server.happen(window, what, 0)
-    assert sorted(server.design) == sorted("ball" + "".join(each.typed for each in server.windows))
-    assert [each.text for each in server.windows] == [server.design, server.design]
+    assert sorted(server.design) == sorted("ball" + "".join(window.typed for window in server.windows))
+    assert [window.text for window in server.windows] == [server.design, server.design]
 
 
 def test_a_spelling_of_the_design_is_nobodys_change() -> None:

@@ -28,11 +28,13 @@ def test_a_change_of_the_project_is_written_and_taken_back(workspace: Workspace,
     before = texts_of(folder)
 
     def change(project: Project) -> Project:
-        return replace(project, enumerations=tuple(replace(each, internal=True) for each in project.enumerations))
+        return replace(
+            project, enumerations=tuple(replace(enumeration, internal=True) for enumeration in project.enumerations)
+        )
 
     written = edit_project_file(workspace, change)
     assert written.error == ""
-    assert [each.internal for each in workspace.project.enumerations] == [True, True]
+    assert [enumeration.internal for enumeration in workspace.project.enumerations] == [True, True]
     assert "# Lengths in mm" in (folder / "project.yaml").read_text()
     assert taken_back(written) == ""
     assert texts_of(folder) == before
@@ -46,7 +48,7 @@ def test_a_change_of_the_project_is_written_and_taken_back(workspace: Workspace,
     assert taken_back(again) == ""
     assert (folder / "project.yaml").read_text() == before["project.yaml"] + "# mine\n"
     (folder / "project.yaml").write_text(now.replace("internal: true", "internal: false"))
-    assert taken_back(again) == "Not done: project.yaml was changed since, in the same lines"
+    assert taken_back(again) == "Not done: the same lines of project.yaml have changed since"
     (folder / "project.yaml").write_text("vicode: [")
     assert edit_project_file(workspace, change).error.startswith("project.yaml cannot be read: a value is missing")
     (folder / "project.yaml").write_text("# later\n")
@@ -131,7 +133,7 @@ def test_what_is_used_is_told_before_it_is_removed_and_who_has_errors_afterwards
     before = texts_of(folder)
     assert find_references(workspace.project, NET_X.symbol_ref(workspace.project)) == (
         ReferenceLocation(component="Player", description="transition 1 of state CircleBall, when"),
-        ReferenceLocation(component="Player", description="enter 1 of state CircleBall, set, side"),
+        ReferenceLocation(component="Player", description="enter action 1 of state CircleBall, set, side"),
     )
     written = edit_project_file(workspace, NET_X.remove, NET_X)
     assert written.broken_designs == ("Player",)
@@ -173,7 +175,7 @@ def test_a_file_that_another_program_changed_is_looked_at_first(workspace: Works
     file = folder / "project.yaml"
     file.write_text(file.read_text().replace("net_x:", "goal_x:"))
     written = edit_project_file(workspace, NET_X.remove, NET_X)
-    assert written.error == "project.yaml was just changed by another program: look again"
+    assert written.error == "another program has just changed project.yaml: check it and try again"
     assert "goal_x:" in file.read_text()
 
 
@@ -220,7 +222,7 @@ def test_a_change_of_the_project_is_a_step_of_the_design_beside_which_it_was_mad
     assert (player.design.doc, text()) == ("Plays well.", changed)
     (folder / "project.yaml").write_text(changed.replace("constant: 0", "constant: 1"))
     told = player.jump_to(0)
-    assert told.startswith("project.yaml: one more constant stays as it is. Not done: project.yaml was changed since")
+    assert told.startswith("“project.yaml: one more constant” was kept. Not done: the same lines of project.yaml")
     assert player.design.doc not in ("Plays.", "Plays well.")
     assert "constant: 1" in text()
 
@@ -264,7 +266,7 @@ def test_an_element_goes_before_the_one_before_it(workspace: Workspace) -> None:
         found = workspace.project.enumeration("Kick")
         return found.element_names if found else ()
 
-    kick = next(at for at, each in enumerate(workspace.project.enumerations) if each.name == "Kick")
+    kick = next(at for at, enumeration in enumerate(workspace.project.enumerations) if enumeration.name == "Kick")
     spots = [ProjectNodePath.top_level("enumerations", kick).child("elements", at) for at in range(3)]
     assert elements() == ("front", "diagonal", "lateral")
     assert edit_project_file(workspace, spots[2].move_up, spots[2]).error == ""

@@ -21,7 +21,7 @@ SPEED = SymbolRef(component="Body", section="parameters", name="forward")
 def things_of(workspace: Workspace) -> list[SymbolRef]:
     project = workspace.project
     kinds = [SymbolRef(section=section, name="") for section in ("constants", "enumerations", "components", "agents")]
-    kinds += [SymbolRef(section="elements", owner=each.name, name="") for each in project.enumerations]
+    kinds += [SymbolRef(section="elements", owner=enumeration.name, name="") for enumeration in project.enumerations]
     for name in project.interfaces():
         sections = ("uses", "parameters", "outputs", "variables")
         kinds += [SymbolRef(component=name, section=section, name="") for section in sections]
@@ -41,9 +41,9 @@ def some_of(workspace: Workspace) -> list[SymbolRef]:
 
 def test_every_kind_of_name_can_be_another_and_come_back(workspace: Workspace, folder: Path) -> None:
     before = texts_of(folder)
-    codes = Counter(each.rule.code for each in check_project(workspace.project))
+    codes = Counter(finding.rule.code for finding in check_project(workspace.project))
     things = some_of(workspace)
-    assert {"uses", "parameters", "outputs", "variables", "constants", "elements"} <= {each.section for each in things}
+    assert {"uses", "parameters", "outputs", "variables", "constants", "elements"} <= {item.section for item in things}
     for thing in things:
         plan = plan_symbol_rename(workspace, thing, "something_new")
         assert plan.error == "", thing
@@ -54,7 +54,7 @@ def test_every_kind_of_name_can_be_another_and_come_back(workspace: Workspace, f
         there = SymbolRef(section=thing.section, name=plan.new, component=thing.component, owner=thing.owner)
         if thing.section != "components":
             assert is_declared(renamed.project, there), thing
-        assert Counter(each.rule.code for each in (*renamed.findings, *check_project(renamed.project))) == codes
+        assert Counter(finding.rule.code for finding in (*renamed.findings, *check_project(renamed.project))) == codes
         back = plan_symbol_rename(workspace, there, thing.name)
         assert apply_symbol_rename(workspace, back) == ""
         assert texts_of(folder) == before, thing
@@ -65,14 +65,14 @@ def test_a_name_that_only_one_design_says_is_an_edit_of_it(workspace: Workspace,
     plan = plan_symbol_rename(workspace, SymbolRef(component="Player", section="variables", name="kick"), "shot")
     assert plan.design is not None
     assert plan.changes == ()
-    assert [each.name for each in plan.design.variables if each.name in ("kick", "shot")] == ["shot"]
+    assert [variable.name for variable in plan.design.variables if variable.name in ("kick", "shot")] == ["shot"]
     assert texts_of(folder) == before
 
 
 @pytest.mark.parametrize(
     ("thing", "new", "words"),
     [
-        (SPEED, "", "it needs a name"),
+        (SPEED, "", "enter a name"),
         (SPEED, "so fast", "such as soFast"),
         (SPEED, "turn", "there is already a parameter turn"),
         (SPEED, "go_straight", "'go_straight' is already the name of"),
@@ -93,7 +93,7 @@ def test_what_code_says_already_is_no_new_name(workspace: Workspace) -> None:
     note = Code(texts=(("python", "self.memory = 1"),))
     document.edit("note", lambda design: replace(design, common=replace(design.common, actions=(RunCode(code=note),))))
     plan = plan_symbol_rename(workspace, SymbolRef(component="Player", section="variables", name="kick"), "memory")
-    assert plan.error == "the code of Player says self.memory already, and means something else"
+    assert plan.error == "the code of Player already uses self.memory for something else"
 
 
 def test_nothing_is_written_while_something_of_it_is_unsaved(workspace: Workspace, folder: Path) -> None:
@@ -197,13 +197,16 @@ def test_a_plan_for_other_files_is_not_carried_out(workspace: Workspace, folder:
     plan = plan_symbol_rename(workspace, SPEED, "ahead")
     file = folder / "follow_ball.yaml"
     file.write_text(file.read_text().replace("The ball is ahead.", "The ball is there."))
-    assert apply_symbol_rename(workspace, plan) == "follow_ball.yaml was just changed by another program: look again"
+    assert (
+        apply_symbol_rename(workspace, plan)
+        == "another program has just changed follow_ball.yaml: check it and try again"
+    )
     assert "ahead:" not in file.read_text()
 
 
 def test_a_class_written_by_hand_is_pointed_out(workspace: Workspace) -> None:
     plan = plan_symbol_rename(workspace, SymbolRef(component="Head", section="outputs", name="pan"), "yaw")
-    assert "that class is written by hand" in plan.note
+    assert "in the hand-written class field.head:Head" in plan.note
     assert "project.yaml" in [change.file.name for change in plan.changes]
 
 
@@ -215,4 +218,4 @@ def test_whoever_is_at_a_design_that_does_not_say_the_name_hears_of_a_new_one_to
     thing = SymbolRef(section="constants", name="net_x")
     assert apply_symbol_rename(workspace, plan_symbol_rename(workspace, thing, "goal_x"), "someone") == ""
     assert "someone" in heard
-    assert "goal_x" in [each.name for each in workspace.project.constants]
+    assert "goal_x" in [constant.name for constant in workspace.project.constants]

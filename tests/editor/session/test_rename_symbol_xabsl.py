@@ -103,7 +103,7 @@ def test_a_parameter_is_followed_where_it_is_given_and_where_it_is_read(workspac
     assert "this->done_so_far += this->tempo; // pace" in code
     assert 'log("pace", pace);' in code
     assert "this->walk->tempo = Side::left;" in code
-    assert plan.ambiguous_places == ("Walk: actions 1 of state Go, C++",)
+    assert plan.ambiguous_places == ("Walk: action 1 of state Go, C++",)
 
 
 def test_an_output_is_a_symbol_in_xabsl(workspace: Workspace) -> None:
@@ -115,9 +115,9 @@ def test_an_output_is_a_symbol_in_xabsl(workspace: Workspace) -> None:
     assert plan.ambiguous_places == ()
     # And back, to the same bytes.
     files = {
-        each.component: file.read_text()
-        for each in workspace.project.designs
-        for file in [workspace.files[each.component]]
+        design.component: file.read_text()
+        for design in workspace.project.designs
+        for file in [workspace.files[design.component]]
     }
     back, _plan = carried_out(workspace, SymbolRef(component="Walk", section="outputs", name="way"), "done_so_far")
     assert "walk.way" not in back
@@ -129,7 +129,7 @@ def test_what_two_enumerations_have_is_left_to_a_person(workspace: Workspace) ->
     code, plan = carried_out(workspace, SymbolRef(section="elements", owner="Side", name="left"), "west")
     assert "side = left" in code
     assert "this->walk->pace = Side::west;" in code
-    assert plan.ambiguous_places == ("Main: actions 1 of state On, XABSL",)
+    assert plan.ambiguous_places == ("Main: action 1 of state On, XABSL",)
     code, plan = carried_out(workspace, SymbolRef(section="elements", owner="Side", name="right"), "east")
     assert "side = Side.east" in code
     assert plan.ambiguous_places == ()
@@ -154,13 +154,13 @@ def test_code_that_nobody_can_read_is_left_to_a_person(workspace: Workspace, tmp
     (tmp_path / "walk.yaml").write_text(WALK.replace("@pace; //", "@pace ; ) //"))
     workspace.sync_from_disk()
     plan = planned(workspace, SymbolRef(component="Walk", section="outputs", name="done_so_far"), "way")
-    assert plan.ambiguous_places == ("Walk: actions 1 of state Go, XABSL, 2 times",)
+    assert plan.ambiguous_places == ("Walk: action 1 of state Go, XABSL, 2 times",)
 
 
 def test_a_component_with_a_design_is_followed_in_xabsl(workspace: Workspace, tmp_path: Path) -> None:
     plan = plan_component_rename(workspace, "Walk", "GoAhead")
     assert [change.summary for change in plan.changes] == [
-        "component Walk → GoAhead; walk.yaml becomes go_ahead.yaml",
+        "component Walk → GoAhead; walk.yaml is renamed to go_ahead.yaml",
         "Main uses GoAhead as walk",
     ]
     assert apply_component_rename(workspace, plan) == ""

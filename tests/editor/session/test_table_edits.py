@@ -117,8 +117,8 @@ def test_a_new_name_goes_where_the_old_one_was(document: DocumentSession) -> Non
     ("row", "column", "value", "words"),
     [
         ("states/A", "name", "B", "already a state"),
-        ("states/A", "name", "<img>", "no name"),
-        ("states/A", "requires", "nobody", "no component used here"),
+        ("states/A", "name", "<img>", "not a valid name"),
+        ("states/A", "requires", "nobody", "this design uses no component 'nobody'"),
         ("transitions/A/0", "name", "C", "no state 'C'"),
         ("transitions/A/1", "name", "B", "only a transition"),
         ("states/A", "code", "pass", "cannot be changed"),
@@ -137,7 +137,7 @@ def test_what_cannot_be_is_refused_in_words(
 def test_what_another_wrote_meanwhile_is_not_written_over_silently(document: DocumentSession) -> None:
     wish = {"kind": "set", "row": "states/A", "column": "doc", "value": "mine", "base": "before"}
     write(document, "states/A", "doc", "theirs")
-    assert "it became 'theirs'" in apply_table_edit(document, wish).error
+    assert "the cell has changed to 'theirs'" in apply_table_edit(document, wish).error
     assert document.design.states[0].doc == "theirs"
 
 

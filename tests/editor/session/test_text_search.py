@@ -78,7 +78,7 @@ def test_one_hit_can_be_replaced_alone() -> None:
 
 @pytest.mark.parametrize(
     ("pattern", "replacement", "words"),
-    [("(", "", "no pattern"), ("ball", r"\9", "cannot be put in"), ("ball", r"\g<x>", "cannot be put in")],
+    [("(", "", "invalid pattern"), ("ball", r"\9", "invalid replacement"), ("ball", r"\g<x>", "invalid replacement")],
 )
 def test_mistakes_are_told_and_change_nothing(pattern: str, replacement: str, words: str) -> None:
     changed = replace_matches(DESIGN, TextQuery(text=pattern, is_pattern=True), replacement)
@@ -100,7 +100,7 @@ def test_replacing_there_and_back_is_nothing(design: Design, text: str) -> None:
     query = TextQuery(text=text, match_case=True)
     hits = find_text(design, query).matches
     assert all(hit.matched == text for hit in hits)
-    assert len(hits) == sum(each.text.count(text) for each in iter_texts(design))
+    assert len(hits) == sum(located.text.count(text) for located in iter_texts(design))
     there = replace_matches(design, query, "⟦⟧")
     back = replace_matches(there.design, TextQuery(text="⟦⟧", match_case=True), text)
     assert (there.count, back.design) == (len(hits), design)

@@ -97,7 +97,7 @@ def test_what_both_changed_is_told_and_settled_one_by_one(workspace: Workspace) 
     workspace.resolve_conflict(document, [("doc",)])
     assert (document.design.doc, document.design.frequency_hz) == ("theirs", 50)
     assert document.shared.disk_conflict is None
-    beside = next(step for step in document.history.entries.values() if step.label == "as it was on disk")
+    beside = next(step for step in document.history.entries.values() if step.label == "version on disk")
     assert (beside.design.doc, beside.design.frequency_hz) == ("theirs", 20)
     document.undo()
     assert (document.design.doc, document.design.frequency_hz) == ("mine", 50)
@@ -154,7 +154,7 @@ def test_a_file_that_cannot_be_read_is_put_aside_before_it_is_written_over(works
 def test_a_file_that_holds_no_design_any_more_is_not_taken(workspace: Workspace) -> None:
     document = opened(workspace, "Player")
     document.file.write_text("nothing: here\n")
-    assert "no design" in workspace.reload(document)
+    assert "no longer contains a design" in workspace.reload(document)
     assert document.design.states
 
 
@@ -171,7 +171,7 @@ def test_a_new_design_is_a_file_at_once_and_never_replaces_one(workspace: Worksp
 def test_what_others_read_is_checked_when_it_changes(workspace: Workspace) -> None:
     player, search = opened(workspace, "Player"), opened(workspace, "SearchNet")
     assert player.findings == ()
-    outputs = tuple(each for each in search.design.outputs if each.name != "found")
+    outputs = tuple(output for output in search.design.outputs if output.name != "found")
     search.edit("remove output", lambda design: replace(design, outputs=outputs))
     assert [finding.rule.code for finding in player.findings] == ["E303"]
     search.undo()
@@ -250,7 +250,7 @@ def test_a_design_whose_file_is_gone_is_kept_until_it_is_saved_again(workspace: 
     document.file.unlink()
     workspace.sync_from_disk()
     assert workspace.open_document("Turn") is document
-    assert "no design" in workspace.reload(document)
+    assert "no longer contains a design" in workspace.reload(document)
     with pytest.raises(DiskConflictError):
         workspace.save(document)
     workspace.save(document, overwrite=True)

@@ -96,9 +96,9 @@ def test_difference_is_what_the_canvas_needs_to_follow() -> None:
     }
     new = make_scene(PROJECT, move_nodes(rename_state(DESIGN, "B", "C"), {"A": (5, 5)}), (), 1)
     changes = diff_scenes(old, new)
-    assert [each["id"] for each in changes["upsert"]["states"]] == ["A", "C"]
+    assert [change["id"] for change in changes["upsert"]["states"]] == ["A", "C"]
     assert changes["remove"]["states"] == ["B"]
-    assert {each["target"] for each in changes["upsert"]["transitions"]} == {"C"}
+    assert {change["target"] for change in changes["upsert"]["transitions"]} == {"C"}
 
 
 def test_keys_lead_back_to_their_paths() -> None:

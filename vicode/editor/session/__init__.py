@@ -1,4 +1,4 @@
-"""Open designs: history, edits by gesture, saving and generating. Knows no NiceGUI."""
+"""Open designs: undo history, gestures, saving and code generation, independent of NiceGUI."""
 
 from vicode.editor.session.document import DocumentSession, SharedDocument
 from vicode.editor.session.gestures import EditResult, apply_gesture, apply_layout

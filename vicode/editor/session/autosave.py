@@ -1,4 +1,4 @@
-"""Keeps work from being lost: journals what is unsaved, saves by itself where that is wanted, offers what was left."""
+"""Autosave and recovery: journals unsaved designs, saves idle ones, and restores what a killed server left."""
 
 import contextlib
 import time
@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from difflib import unified_diff
 
+from vicode.editor.session import messages
 from vicode.editor.session.descriptions import error_reason
 from vicode.editor.session.document import ChangeNotice, DocumentSession
 from vicode.editor.session.library import Library
@@ -20,27 +21,27 @@ _AUTOSAVE_DELAY_S = 1.0
 
 @dataclass(eq=False)
 class AutosaveService:
-    """Looks after all open designs of a library."""
+    """Journals and autosaves all open designs of a library."""
 
     library: Library
     recovery: RecoveryStore
     clock: Callable[[], float] = time.time
 
     def __post_init__(self) -> None:
-        """Go on saving by itself what was saved so when the last server ended."""
+        """Restore the autosave setting of each project from the last server."""
         noted = self.recovery.autosaved_projects
         for workspace in self.library.workspaces:
             workspace.autosave = str(workspace.folder.resolve()) in noted
 
     def set_autosave(self, workspace: Workspace, *, is_on: bool) -> None:
-        """Save a project by itself, or no more; also after the next start."""
+        """Switch autosave of a project; the setting outlives the server."""
         workspace.autosave = is_on
-        # Where nothing can be noted it holds for as long as this server runs.
+        # If the setting cannot be written it lasts as long as this server.
         with contextlib.suppress(OSError):
             self.recovery.set_autosave(workspace.folder, is_on=is_on)
 
     def pending_snapshots(self) -> list[JournalSnapshot]:
-        """What the journals must be told now."""
+        """The journals that must be written now."""
         found = (
             self.recovery.next_snapshot(workspace.folder, document.design.component, document.shared)
             for workspace, document in self._open_documents()
@@ -48,21 +49,21 @@ class AutosaveService:
         return [snapshot for snapshot in found if snapshot is not None]
 
     def save_idle_documents(self, idle_s: float = _AUTOSAVE_DELAY_S) -> None:
-        """Save what was not touched for a second, in projects that are saved by themselves."""
+        """Save the designs of projects with autosave that have not changed for `idle_s` seconds."""
         for workspace, document in self._open_documents():
-            is_resting = self.clock() - document.history.current.at_s > idle_s
-            if not workspace.autosave or document.is_saved or document.shared.disk_conflict or not is_resting:
+            is_idle = self.clock() - document.history.current.at_s > idle_s
+            if not workspace.autosave or document.is_saved or document.shared.disk_conflict or not is_idle:
                 continue
             try:
                 workspace.save(document)
             except DiskConflictError:
-                # The header says so, and waits for a person to choose.
+                # The header shows the conflict until a user resolves it.
                 continue
             except (OSError, ValueError) as error:
-                _notify_once(document, f"{document.file.name} cannot be saved: {error_reason(error)}")
+                _notify_once(document, messages.cannot_save(document.file.name, error_reason(error)))
 
     def close(self) -> None:
-        """End in order: what was done in the last moment is kept, too."""
+        """Save and journal the latest edits, then close the journals."""
         self.save_idle_documents(0)
         for snapshot in self.pending_snapshots():
             with contextlib.suppress(OSError):
@@ -70,9 +71,9 @@ class AutosaveService:
         self.recovery.close()
 
     def recoverable(self, workspace: Workspace) -> tuple[RecoverableDesign, ...]:
-        """What can be recovered in a project; what the files hold already is forgotten.
+        """The recoverable designs of a project; journals equal to their file are discarded.
 
-        Work on a design whose file cannot be read just now is kept until it can.
+        The journal of a design whose file is currently unreadable is kept, but not listed.
         """
         offered = []
         for lost in self.recovery.recoverable(workspace.folder):
@@ -85,12 +86,13 @@ class AutosaveService:
         return tuple(offered)
 
     def recover(self, workspace: Workspace, lost: RecoverableDesign, person: str) -> int:
-        """Bring lost work back as one step; returns how often it won over what the file says now.
+        """Merge lost work into the design as one edit; a missing file is created again.
 
-        Where the file is gone it is made again.
+        Returns:
+            The number of conflicts with the current file, in each of which the lost work won.
 
         Raises:
-            OSError: It cannot be made.
+            OSError: The file cannot be created.
         """
         document = workspace.open_document(lost.component)
         base, mine = read_design(lost.base_text).design, read_design(lost.text).design
@@ -101,7 +103,7 @@ class AutosaveService:
             self.recovery.discard(lost)
             return 0
         merged = merge_designs(base or document.design, mine, document.design)
-        DocumentSession(document.shared, person).edit("recover unsaved changes", lambda _design: merged.design)
+        DocumentSession(document.shared, person).edit(messages.RECOVER, lambda _design: merged.design)
         self.recovery.discard(lost)
         return len(merged.conflicts)
 
@@ -112,7 +114,7 @@ class AutosaveService:
 
 
 def format_diff(lost: RecoverableDesign) -> str:
-    """What lost work had changed in its file, as a unified diff."""
+    """The changes of lost work against its file, as a unified diff without file headers."""
     old, new = lost.base_text.splitlines(), lost.text.splitlines()
     return "\n".join(list(unified_diff(old, new, lineterm="", n=2))[2:])
 

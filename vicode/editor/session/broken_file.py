@@ -1,20 +1,20 @@
-"""A file that is meant to be a design and cannot be read: its text, its mistakes, and writing a mended text."""
+"""A design file that cannot be parsed: its text, its errors, and saving the corrected text."""
 
 from dataclasses import dataclass
 from pathlib import Path
 
-from vicode.editor.session.code_marks import CodeMark
+from vicode.editor.session.code_marks import CodeMark, message_with_fix
 from vicode.findings import Finding
 from vicode.store import read_design, write_text
 
 
 class FileModifiedError(Exception):
-    """Another program wrote the file since its text was read here."""
+    """Another program has written the file since it was read."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ParsedText:
-    """A text as it would be read: what is wrong, at which characters, and the component if there is one."""
+    """The result of parsing a text; `component` is empty if the text contains no design."""
 
     findings: tuple[Finding, ...]
     marks: tuple[CodeMark, ...]
@@ -22,17 +22,17 @@ class ParsedText:
 
 
 def read_file_text(file: Path) -> str:
-    """The text of a file.
+    """Read a file as UTF-8, keeping its line ends.
 
     Raises:
-        OSError: It cannot be read.
-        UnicodeDecodeError: It is no UTF-8 text, so that it cannot be mended as one.
+        OSError: The file cannot be read.
+        UnicodeDecodeError: The file is not UTF-8.
     """
     return file.read_bytes().decode("utf-8")
 
 
 def parse_text(text: str, name: str) -> ParsedText:
-    """Read a text as the file of this name would be."""
+    """Parse a text as the design file `name`."""
     read = read_design(text, name)
     starts = _line_starts(text)
     marks = tuple(_mark(text, starts, finding) for finding in read.findings if finding.location is not None)
@@ -41,11 +41,11 @@ def parse_text(text: str, name: str) -> ParsedText:
 
 
 def write_fixed_text(file: Path, text: str, original: str) -> None:
-    """Put a text in the place of the one that was opened, in one step.
+    """Replace the text of a file atomically.
 
     Raises:
-        ChangedMeanwhileError: The file holds another text by now.
-        OSError: It cannot be written.
+        FileModifiedError: The file no longer contains `original`.
+        OSError: The file cannot be written.
     """
     try:
         now = read_file_text(file)
@@ -57,18 +57,17 @@ def write_fixed_text(file: Path, text: str, original: str) -> None:
 
 
 def _line_starts(text: str) -> list[int]:
-    """The character at which each line begins, as the reader counts lines."""
+    """The offset of each line; only newline characters end a line, as in the YAML reader."""
     starts = [0]
     starts += [at + 1 for at, char in enumerate(text) if char == "\n"]
     return starts
 
 
 def _mark(text: str, starts: list[int], finding: Finding) -> CodeMark:
-    place = finding.location
-    assert place is not None
-    line = max(1, min(place.line, len(starts)))
-    start = min(starts[line - 1] + max(0, place.column - 1), len(text))
-    end = min(start + max(1, place.length), len(text))
-    mend = f" – {finding.fix}" if finding.fix else ""
-    message = f"{finding.message}{mend}"
-    return CodeMark(start=start, end=end, severity=str(finding.severity), message=message, line=line)
+    location = finding.location
+    assert location is not None
+    line = max(1, min(location.line, len(starts)))
+    start = min(starts[line - 1] + max(0, location.column - 1), len(text))
+    end = min(start + max(1, location.length), len(text))
+    severity, message = str(finding.severity), message_with_fix(finding)
+    return CodeMark(start=start, end=end, severity=severity, message=message, line=line)

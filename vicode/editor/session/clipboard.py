@@ -1,6 +1,6 @@
-"""Parts of designs as texts for the clipboard of the system, and texts from there as parts of designs.
+"""Copy, duplicate and paste parts of a design.
 
-The text is a design file with only what was selected. What comes back may have been written by anybody.
+The system clipboard holds them as the text of a design file that contains only the selection. Pasted text is untrusted.
 """
 
 import re
@@ -9,6 +9,7 @@ from dataclasses import replace
 from typing import Any
 
 from vicode.diagram import complete_layout
+from vicode.editor.session import messages
 from vicode.editor.session.document import DocumentSession
 from vicode.editor.session.gestures import EditResult, parse_point
 from vicode.editor.view import ItemRef, parse_transition_key, transition_key
@@ -29,42 +30,41 @@ from vicode.store import read_design, save_design
 MAX_CHARACTERS = 400_000
 _HEAD = "vicode: 1\ncomponent: Part\n"
 _SECTION = re.compile(r"^(states|common|uses) *:", re.MULTILINE)
-_NOTHING = "the clipboard holds no part of a design"
 _PASTE_OFFSET = (40, 90)
 _GRID = 10
 
 
 def copy_as_text(design: Design, items: Iterable[Mapping[str, Any]]) -> str | None:
-    """The selected things as text; None when there is nothing among them that can be copied."""
-    part = _with_places(extract_fragment(design, _parse_selection(items)), design)
+    """The selected items as text; None if none of them can be copied."""
+    part = _with_positions(extract_fragment(design, _parse_selection(items)), design)
     if not part.states and not part.common.transitions:
         return None
     try:
         return save_design(part)
     except ValueError:
-        # Two states of one name, which the findings tell already.
+        # Two states have the same name, which is a finding already.
         return None
 
 
 def duplicate_items(document: DocumentSession, payload: Mapping[str, Any]) -> EditResult:
-    """Make the selected states once more, a little beside, or else the selected transitions."""
+    """Duplicate the selected states at an offset, or else the selected transitions."""
     design = document.design
     wanted = _parse_selection(payload["items"])
-    part = _with_places(extract_fragment(design, replace(wanted, common=False, aliases=())), design)
+    part = _with_positions(extract_fragment(design, replace(wanted, common=False, aliases=())), design)
     if part.states:
         joined = insert_fragment(design, part, available=(), offset=_free_offset(design, part, _PASTE_OFFSET))
-        document.edit(f"duplicate {_describe_inserted(joined)}", lambda _design: joined.design)
+        document.edit(messages.insert_states("duplicate", joined.states), lambda _design: joined.design)
         return _select_inserted(joined)
     paths = sorted((path for path in wanted.decisions if find_decision(design, path)), key=str, reverse=True)
     if not paths:
-        return EditResult(error="select states or transitions to duplicate them")
+        return EditResult(error=messages.SELECT_TO_DUPLICATE)
 
     def change(old: Design) -> Design:
         for path in paths:
             old = duplicate_decision(old, path)
         return old
 
-    document.edit("duplicate transition" if len(paths) == 1 else f"duplicate {len(paths)} transitions", change)
+    document.edit(messages.duplicate_transitions(len(paths)), change)
     if len(paths) > 1:
         return EditResult()
     return EditResult(
@@ -75,13 +75,13 @@ def duplicate_items(document: DocumentSession, payload: Mapping[str, Any]) -> Ed
 def paste(
     document: DocumentSession, payload: Mapping[str, Any], known_components: Collection[str], targets: Iterable[ItemRef]
 ) -> EditResult:
-    """Put a text from the clipboard into the design, its middle where the hand is.
+    """Insert a text from the clipboard, centered at the pointer.
 
     Args:
-        document: where it goes.
-        payload: the text and the place.
-        known_components: the components of the project.
-        targets: what is selected; transitions that have left their state go to the states among it.
+        document: The target.
+        payload: The text, and the position of the pointer.
+        known_components: The components of the project.
+        targets: The selection; transitions copied without their state are added to the selected states.
     """
     part = _read_part(payload["text"])
     if isinstance(part, str):
@@ -89,40 +89,42 @@ def paste(
     design = document.design
     if not part.states and part.common.at is None:
         return _paste_decisions(
-            document, part, known_components, [each.id for each in targets if each.kind == "states"]
+            document, part, known_components, [target.id for target in targets if target.kind == "states"]
         )
-    placed = _with_places(part, part)
-    middle = _middle([state.at for state in placed.states if state.at is not None])
+    positioned = _with_positions(part, part)
+    middle = _middle([state.at for state in positioned.states if state.at is not None])
     x, y = parse_point(payload)
     by = (_to_grid(x - middle[0]), _to_grid(y - middle[1]))
-    joined = insert_fragment(design, placed, available=known_components, offset=_free_offset(design, placed, by))
-    document.edit(f"paste {_describe_inserted(joined)}", lambda _design: joined.design)
+    joined = insert_fragment(
+        design, positioned, available=known_components, offset=_free_offset(design, positioned, by)
+    )
+    document.edit(messages.insert_states("paste", joined.states), lambda _design: joined.design)
     return _select_inserted(joined)
 
 
 def _paste_decisions(document: DocumentSession, part: Design, known: Collection[str], names: list[str]) -> EditResult:
     names = [name for name in names if document.design.state(name) is not None]
     if not names:
-        return EditResult(error="select the states that shall get these transitions, then paste")
+        return EditResult(error=messages.SELECT_TO_PASTE)
     joined = append_decisions(document.design, part, names, available=known)
-    document.edit("paste transitions", lambda _design: joined.design)
+    document.edit(messages.PASTE_TRANSITIONS, lambda _design: joined.design)
     return replace(_select_inserted(joined), new_selection=None)
 
 
 def _read_part(text: object) -> Design | str:
-    """The design a text holds, or in words why it holds none."""
+    """The design in a text, or the error message."""
     if not isinstance(text, str) or len(text) > MAX_CHARACTERS or not _SECTION.search(text):
-        return _NOTHING
+        return messages.NOTHING_TO_PASTE
     read = read_design(text if re.search(r"^vicode *:", text, re.MULTILINE) else _HEAD + text, "clipboard")
     errors = [finding for finding in read.findings if finding.severity is Severity.ERROR]
     if read.design is None or errors:
-        return f"{_NOTHING}: {errors[0].message}" if errors else _NOTHING
+        return f"{messages.NOTHING_TO_PASTE}: {errors[0].message}" if errors else messages.NOTHING_TO_PASTE
     design = read.design
-    wrong = [each.name for each in design.states if not is_valid_state_name(each.name)]
+    wrong = [state.name for state in design.states if not is_valid_state_name(state.name)]
     wrong += [use.alias for use in design.uses if not is_valid_name(use.alias)]
     if wrong:
-        return f"{_NOTHING}: '{wrong[0][:40]}' is no name"
-    return design if design.states or design.common.transitions else _NOTHING
+        return f"{messages.NOTHING_TO_PASTE}: {messages.invalid_name(wrong[0])}"
+    return design if design.states or design.common.transitions else messages.NOTHING_TO_PASTE
 
 
 def _parse_selection(items: Iterable[Mapping[str, Any]]) -> FragmentSelection:
@@ -137,16 +139,16 @@ def _parse_selection(items: Iterable[Mapping[str, Any]]) -> FragmentSelection:
     )
 
 
-def _with_places(part: Design, whole: Design) -> Design:
-    """The part with places for all that the file leaves to the drawing."""
-    places = complete_layout(whole)
-    states = (replace(state, at=_rounded(places.states[state.name])) for state in part.states)
-    uses = (replace(use, at=_rounded(places.uses[use.alias])) for use in part.uses)
+def _with_positions(part: Design, design: Design) -> Design:
+    """The part with explicit positions, computed where the design has none."""
+    layout = complete_layout(design)
+    states = (replace(state, at=_rounded(layout.states[state.name])) for state in part.states)
+    uses = (replace(use, at=_rounded(layout.uses[use.alias])) for use in part.uses)
     return replace(part, states=tuple(states), uses=tuple(uses))
 
 
 def _free_offset(design: Design, part: Design, by: Point) -> Point:
-    """A shift that hides no state exactly behind the pasted ones."""
+    """The first offset, in steps from `by`, at which no pasted state covers another exactly."""
     taken = {_rounded(at) for at in complete_layout(design).states.values()}
     while any(state.at is not None and (state.at[0] + by[0], state.at[1] + by[1]) in taken for state in part.states):
         by = (by[0] + _PASTE_OFFSET[0], by[1] + _PASTE_OFFSET[1])
@@ -168,17 +170,6 @@ def _to_grid(value: float) -> float:
     return round(value / _GRID) * _GRID
 
 
-def _describe_inserted(joined: InsertResult) -> str:
-    match joined.states:
-        case []:
-            return "common transitions"
-        case [name]:
-            return name
-        case names:
-            return f"{len(names)} states"
-
-
 def _select_inserted(joined: InsertResult) -> EditResult:
-    words = ", ".join(dict.fromkeys(joined.missing))
-    note = f"Not to be had in this project: {words}" if words else ""
+    note = messages.missing_components(dict.fromkeys(joined.missing))
     return EditResult(new_selection=tuple(ItemRef(kind="states", id=name) for name in joined.states), note=note)

@@ -1,10 +1,11 @@
-"""What the button Generate does: checks, generates, shows what would change, guards what was edited by hand, writes."""
+"""The Generate command: checks and generates, shows the differences, protects hand edits, and writes the files."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 from vicode.check import check_project
+from vicode.editor.session import messages
 from vicode.findings import Finding, Severity
 from vicode.model.project import Project
 from vicode.output import FileDiff, FileStatus, apply_diffs, back_up_edited, compare_files
@@ -14,7 +15,7 @@ from vicode.sync import find_hand_edits_by_file
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class GenerationResult:
-    """What came of it, in words; `files` were written."""
+    """The message for the user, and the files that were written."""
 
     message: str
     is_complete: bool
@@ -23,7 +24,7 @@ class GenerationResult:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class GenerationInput:
-    """What to generate from: a project, its files by component, and what was wrong with them when they were read."""
+    """A project with its source files and parse findings, both by component."""
 
     project: Project
     source_paths: Mapping[str, str]
@@ -32,9 +33,10 @@ class GenerationInput:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PendingOutput:
-    """What would be written into a folder; `error` says why nothing would, `manual_edits` what a person edited there.
+    """The files that Generate would write to a folder.
 
-    `skipped` says why a language is left out where others are not.
+    `error` is why nothing can be generated; `skipped` why some languages are left out; `manual_edits` the hand edits in
+    the files on disk, by path.
     """
 
     folder: Path
@@ -45,12 +47,12 @@ class PendingOutput:
 
     @property
     def changes(self) -> tuple[FileDiff, ...]:
-        """The files that are not yet as they should be."""
-        return tuple(each for each in self.differences if each.status is not FileStatus.UNCHANGED)
+        """The files that differ from those on disk."""
+        return tuple(diff for diff in self.differences if diff.status is not FileStatus.UNCHANGED)
 
 
 def prepare_output(folder: Path, job: GenerationInput, component: str) -> PendingOutput:
-    """Find out what generating a component, and all it uses, would write into a folder; nothing is written.
+    """Generate a component and all it uses without writing.
 
     Raises:
         OSError: A file cannot be read.
@@ -59,19 +61,22 @@ def prepare_output(folder: Path, job: GenerationInput, component: str) -> Pendin
 
     project = job.project
     wanted = collect_components(project, (component,))
-    read = [finding for name in ("", *wanted) for finding in job.parse_findings.get(name, ())]
-    errors = [each for each in (*read, *check_project(project, wanted)) if each.severity is Severity.ERROR]
-    languages = [each for each in GENERATORS if each in project.languages]
-    sound = [each for each in languages if not any(error.applies_to(each) for error in errors)]
+    parse_findings = [finding for name in ("", *wanted) for finding in job.parse_findings.get(name, ())]
+    findings = [*parse_findings, *check_project(project, wanted)]
+    errors = [finding for finding in findings if finding.severity is Severity.ERROR]
+    languages = [language for language in GENERATORS if language in project.languages]
+    sound = [language for language in languages if not any(error.applies_to(language) for error in errors)]
     reason = _reason(errors, component) if errors else ""
     if errors and not sound:
-        return PendingOutput(folder=folder, error=f"Nothing generated. {reason}", manual_edits={})
+        return PendingOutput(folder=folder, error=messages.nothing_generated(reason), manual_edits={})
     files = generate(project, components=(component,), languages=sound, sources=job.source_paths)
     differences = compare_files(files, folder, kept_paths=list_outputs(project), is_generated=has_header)
-    left_out = [each for each in languages if each not in sound]
-    spared = f"Nothing generated for {' and '.join(left_out)}. {reason}" if left_out else ""
+    skipped = [language for language in languages if language not in sound]
     return PendingOutput(
-        folder=folder, skipped=spared, differences=differences, manual_edits=find_hand_edits_by_file(differences)
+        folder=folder,
+        skipped=messages.nothing_generated(reason, skipped) if skipped else "",
+        differences=differences,
+        manual_edits=find_hand_edits_by_file(differences),
     )
 
 
@@ -83,7 +88,7 @@ def _reason(errors: Sequence[Finding], component: str) -> str:
 
 
 def write_output(prepared: PendingOutput, *, is_forced: bool = False) -> GenerationResult:
-    """Write all of it, or nothing if a person's edits would be lost; with force those are set aside first.
+    """Write all files, or none if hand edits would be lost; with `is_forced` edited files are backed up first.
 
     Raises:
         OSError: A file cannot be written.
@@ -92,13 +97,14 @@ def write_output(prepared: PendingOutput, *, is_forced: bool = False) -> Generat
         return GenerationResult(message=prepared.error, is_complete=False)
     if prepared.manual_edits and not is_forced:
         first = next(iter(prepared.manual_edits.values()))[0]
-        return GenerationResult(message=f"Nothing generated. {first.message}: {first.fix}", is_complete=False)
+        message = messages.nothing_generated(f"{first.message}: {first.fix}")
+        return GenerationResult(message=message, is_complete=False)
     for path in prepared.manual_edits:
         back_up_edited(prepared.folder / path)
-    touched = apply_diffs(prepared.differences, prepared.folder)
-    words = f"Generated code in {prepared.folder.name} is up to date"
-    if touched:
-        names = ", ".join(path.name for path in touched[:4]) + (", …" if len(touched) > 4 else "")
-        words = f"Generated {names} in {touched[0].parent}"
-    words = f"{words}. {prepared.skipped}" if prepared.skipped else words
-    return GenerationResult(message=words, is_complete=not prepared.skipped, files=touched)
+    files = apply_diffs(prepared.differences, prepared.folder)
+    message = messages.up_to_date(prepared.folder.name)
+    if files:
+        message = messages.generated([path.name for path in files], files[0].parent)
+    if prepared.skipped:
+        message = f"{message}. {prepared.skipped}"
+    return GenerationResult(message=message, is_complete=not prepared.skipped, files=files)

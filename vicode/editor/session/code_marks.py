@@ -1,4 +1,4 @@
-"""Where in the text of a field something is wrong: from findings and lint to marks under characters."""
+"""Marks under the characters of a text field, from findings and lint warnings."""
 
 import re
 from collections.abc import Iterable, Iterator
@@ -12,29 +12,29 @@ _PAIR = re.compile(r"[ \t]*(?P<name>[^=:\n]*?)[ \t]*[=:][ \t]*(?P<value>.*?)[ \t
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CodeMark:
-    """Characters of a text with what is wrong there."""
+    """A range of characters with a message."""
 
     start: int
     end: int
     severity: str
     message: str
     line: int
-    """The line it begins on, counted from 1."""
+    """The line of `start`, from 1."""
 
 
 def mark_text(
     text: str, path: DesignPath, findings: Iterable[Finding], lints: Iterable[LintWarning] = ()
 ) -> tuple[CodeMark, ...]:
-    """The marks in a text that a path, or one below it, leads to."""
+    """The marks in the text at `path`, from findings at or below that path."""
     marks = [_mark(text, span, finding) for finding in findings if (span := _span_in(text, path, finding))]
     marks += [
-        _placed(text, (lint.start, lint.end), Severity.WARNING, f"{lint.message} ({lint.code})") for lint in lints
+        _make_mark(text, (lint.start, lint.end), Severity.WARNING, f"{lint.message} ({lint.code})") for lint in lints
     ]
     return tuple(sorted(dict.fromkeys(marks), key=lambda mark: (mark.start, mark.end)))
 
 
 def mark_assignments(text: str, path: DesignPath, findings: Iterable[Finding]) -> tuple[CodeMark, ...]:
-    """The marks in lines `name = expression`; a path leads to the value of each name."""
+    """The marks in lines `name = expression`; findings are at `path` plus the name."""
     places = {found["name"]: (found.span("name"), found.start("value")) for found in _PAIR.finditer(text)}
     return tuple(_marks_of_pairs(text, path, findings, places))
 
@@ -60,12 +60,15 @@ def _span_in(text: str, path: DesignPath, finding: Finding) -> tuple[int, int] |
     return thing.span or (0, len(text))
 
 
+def message_with_fix(finding: Finding) -> str:
+    return f"{finding.message} – {finding.fix}" if finding.fix else finding.message
+
+
 def _mark(text: str, span: tuple[int, int], finding: Finding) -> CodeMark:
-    mend = f" – {finding.fix}" if finding.fix else ""
-    return _placed(text, span, finding.severity, f"{finding.message}{mend}")
+    return _make_mark(text, span, finding.severity, message_with_fix(finding))
 
 
-def _placed(text: str, span: tuple[int, int], severity: str, message: str) -> CodeMark:
+def _make_mark(text: str, span: tuple[int, int], severity: str, message: str) -> CodeMark:
     start = max(0, min(span[0], len(text)))
     end = max(start, min(span[1], len(text)))
     return CodeMark(start=start, end=end, severity=str(severity), message=message, line=text.count("\n", 0, start) + 1)

@@ -1,9 +1,10 @@
-"""The generated code of a design that may still have mistakes: every file, and what its lines come from."""
+"""A preview of the code generated from a design, with the origin of each line."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
+from vicode.editor.session import messages
 from vicode.editor.view import ItemRef, item_at_path
 from vicode.generators import GENERATORS, Origin, UnsoundDesignError, generate, list_origins
 from vicode.model.design import Design
@@ -14,7 +15,7 @@ from vicode.regions import compute_checksum, find_regions, get_comment_prefix, h
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PreviewFile:
-    """A file as it would be written; `edited_regions` are the regions that were edited by hand in the one on disk."""
+    """A generated file; `edited_regions` are the ids of the regions edited by hand in the file on disk."""
 
     path: str
     language: str
@@ -22,20 +23,19 @@ class PreviewFile:
     origins: tuple[Origin, ...] = ()
     edited_regions: tuple[str, ...] = ()
 
-    def item_lines(self, thing: ItemRef) -> tuple[int, int]:
-        """First and last line of what a thing of the drawing became, (0, 0) if it is not in here."""
-        found = [origin for origin in self.origins if item_at_path(origin.path) == thing]
-        # A state's lines hold those of its code; a transition has its own.
-        return (found[0].first, found[0].last) if found else (0, 0)
+    def item_lines(self, item: ItemRef) -> tuple[int, int]:
+        """The first and last line generated from an item, (0, 0) if there are none."""
+        origin = next((origin for origin in self.origins if item_at_path(origin.path) == item), None)
+        return (origin.first, origin.last) if origin else (0, 0)
 
     def item_at(self, line: int) -> ItemRef | None:
-        """The smallest thing of the drawing that a line comes from."""
+        """The smallest item that a line was generated from."""
         around = [origin for origin in self.origins if origin.first <= line <= origin.last]
         smallest = min(around, key=lambda origin: origin.last - origin.first, default=None)
         return item_at_path(smallest.path) if smallest else None
 
     def edited_lines(self) -> tuple[int, ...]:
-        """The lines of the regions that are another text on disk."""
+        """The lines of the regions that were edited on disk."""
         regions = (
             region
             for region in find_regions(self.text, get_comment_prefix(self.path)).regions
@@ -46,7 +46,7 @@ class PreviewFile:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CodePreview:
-    """The files to choose from, the component's own first; `note` says why there are none, or none of a language."""
+    """The generated files, the component's own first; `note` is why files of a language are missing."""
 
     note: str = ""
     files: tuple[PreviewFile, ...] = field(default=())
@@ -55,34 +55,33 @@ class CodePreview:
 def preview_code(
     project: Project, design: Design, sources: Mapping[str, str], folder: Path | None = None
 ) -> CodePreview:
-    """What `vicode gen` would write for a design; no file is written.
+    """Generate the files of a design without writing them.
 
     Args:
-        project: What surrounds the design.
-        design: As it is now, in place of the one of its name in the project.
-        sources: The files of the designs by component, as the generated text names them.
-        folder: Where generated code stands, to tell what was edited there; None: nobody wants to know.
+        project: The project of the design.
+        design: Replaces the design of the same component in the project.
+        sources: The source files by component, named in the generated text.
+        folder: The folder of generated code to search for hand edits; None skips the search.
     """
-    designs = tuple(design if each.component == design.component else each for each in project.designs)
-    whole = replace(project, designs=designs)
+    designs = tuple(design if other.component == design.component else other for other in project.designs)
+    project = replace(project, designs=designs)
     languages = [language for language in GENERATORS if language in project.languages]
     if not languages:
-        return CodePreview(note=f"No code: this project generates {', '.join(project.languages) or 'nothing'}")
+        return CodePreview(note=messages.no_generator(project.languages))
     files: list[PreviewFile] = []
     notes: list[str] = []
     for language in languages:
         try:
-            files += _files(whole, design.component, language, sources)
+            files += _files(project, design.component, language, sources)
         except UnsoundDesignError as error:
-            which = f" for {language}" if len(languages) > 1 else ""
-            notes.append(f"No code{which} yet: {error}")
+            notes.append(messages.no_code(error, language if len(languages) > 1 else ""))
     edited = (replace(file, edited_regions=_edited(file, folder)) if folder else file for file in files)
     return CodePreview(note="; ".join(dict.fromkeys(notes)), files=tuple(edited))
 
 
 def _files(project: Project, component: str, language: str, sources: Mapping[str, str]) -> list[PreviewFile]:
-    """The files of a component in a language, then those that all components share."""
-    others = {each.component for each in project.designs} - {component}
+    """The files of a component in a language, followed by those that all components share."""
+    others = {design.component for design in project.designs} - {component}
 
     def write(without: set[str]) -> tuple[OutputFile, ...]:
         return generate(project, components=(component,), exclude=without, languages=(language,), sources=sources)
@@ -100,7 +99,7 @@ def _files(project: Project, component: str, language: str, sources: Mapping[str
 
 
 def _edited(file: PreviewFile, folder: Path) -> tuple[str, ...]:
-    """The regions of the file on disk that hold other code than was generated, and than the design has."""
+    """The regions on disk that were edited and differ from the code generated now."""
     try:
         old = (folder / file.path).read_bytes().decode("utf-8")
     except (OSError, UnicodeDecodeError):

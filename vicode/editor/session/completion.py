@@ -1,4 +1,4 @@
-"""What can be written at a place of an expression or of code: the names that exist here, with type, unit and doc."""
+"""Completion of expressions and code: the names in scope, with type, unit and doc."""
 
 import re
 from collections.abc import Iterable, Iterator
@@ -9,14 +9,14 @@ from vicode.model.design import Declaration, Design
 from vicode.model.expressions import FUNCTIONS, Scope, build_scope
 from vicode.model.project import Enumeration, Interface, Project
 
-# What is being typed: a name, perhaps with what stands before its dots.
+# The name being typed, with the qualified name before its dot.
 _TYPED = re.compile(r"(?:(?P<owner>[A-Za-z_][\w.]*)\.)?(?P<word>[A-Za-z_]\w*)?\Z", re.ASCII)
 _LINE_START = re.compile(r"\s*(?P<word>[A-Za-z_][\w.]*)?\Z", re.ASCII)
 
 _TIMES = (("state_time", "time in the state"), ("component_time", "time since the component started"))
 _STATUSES = (
-    ("action_done", "whether a design that the state calls is done"),
-    ("conflict", "whether as many robots of the team are in the state as may be"),
+    ("action_done", "whether a component called by the state is done"),
+    ("conflict", "whether the state holds its maximum number of robots of the team"),
 )
 _KEYWORDS = ("and", "or", "not", "if", "else", "True", "False")
 _RUNTIME_MEMBERS = ("is_done", "state", "state_time", "component_time", "step", "restart")
@@ -24,7 +24,7 @@ _RUNTIME_MEMBERS = ("is_done", "state", "state_time", "component_time", "step", 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CompletionOption:
-    """A name to choose; `kind` picks its icon, `detail` stands beside it, `doc` explains it."""
+    """A proposed name; `kind` selects the icon, `detail` is shown next to the name."""
 
     label: str
     kind: str
@@ -34,14 +34,14 @@ class CompletionOption:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CompletionResult:
-    """The names that fit from the character `start` to where was asked."""
+    """The proposals for the text from `start` to the cursor."""
 
     start: int
     options: tuple[CompletionOption, ...]
 
 
 def complete_expression(project: Project, design: Design, text: str, offset: int) -> CompletionResult:
-    """What an expression may say at a character."""
+    """Complete an expression at an offset."""
     scope = build_scope(project, design)
     typed = _typed_before(text, offset)
     owner, start = typed["owner"], offset - len(typed["word"] or "")
@@ -55,18 +55,20 @@ def complete_expression(project: Project, design: Design, text: str, offset: int
 def complete_assignments(
     project: Project, design: Design, settable: Iterable[Declaration], text: str, offset: int
 ) -> CompletionResult:
-    """What a line `name = expression` may say: a name that can be given a value, or an expression behind the sign."""
+    """Complete a line `name = expression`: a settable name, or the expression after the sign."""
     before = text[:offset].rpartition("\n")[2]
     if "=" in before or ":" in before:
         return complete_expression(project, design, text, offset)
     word = _LINE_START.search(before)
     start = offset - len((word and word["word"]) or "")
     scope = build_scope(project, design)
-    return CompletionResult(start=start, options=tuple(_declared(each, scope, "variable") for each in settable))
+    return CompletionResult(
+        start=start, options=tuple(_declaration_option(declaration, scope, "variable") for declaration in settable)
+    )
 
 
 def complete_python(project: Project, design: Design, text: str, offset: int) -> CompletionResult:
-    """What Python code may say of this design; the language's own words come from the editor."""
+    """Complete the names of a design in Python code; the browser's code editor adds those of the language."""
     scope = build_scope(project, design)
     typed = _typed_before(text, offset)
     owner, start = typed["owner"], offset - len(typed["word"] or "")
@@ -77,7 +79,7 @@ def complete_python(project: Project, design: Design, text: str, offset: int) ->
             start=start, options=tuple(_owner_members(owner.removeprefix("self."), scope, project, in_code=True))
         )
     if owner:
-        return CompletionResult(start=start, options=tuple(_below_name(owner, project)))
+        return CompletionResult(start=start, options=tuple(_elements(owner, project)))
     shared = [*_constants(project, scope), *_enumerations(project)]
     return CompletionResult(
         start=start, options=(CompletionOption(label="self", kind="keyword", detail="this component"), *shared)
@@ -86,13 +88,13 @@ def complete_python(project: Project, design: Design, text: str, offset: int) ->
 
 def _typed_before(text: str, offset: int) -> re.Match[str]:
     typed = _TYPED.search(text[max(0, offset - 200) : offset])
-    assert typed is not None, "the pattern matches nothing at all, too"
+    assert typed is not None, "the pattern matches the empty text"
     return typed
 
 
 def _names_in_expressions(project: Project, design: Design, scope: Scope) -> Iterator[CompletionOption]:
     for section, declaration in design.declarations():
-        yield _declared(declaration, scope, "variable", section.removesuffix("s"))
+        yield _declaration_option(declaration, scope, "variable", section.removesuffix("s"))
     yield from _aliases(design, scope)
     yield from _constants(project, scope)
     yield from _enumerations(project)
@@ -101,16 +103,15 @@ def _names_in_expressions(project: Project, design: Design, scope: Scope) -> Ite
     yield from (CompletionOption(label=name, kind="property", detail="bool", doc=doc) for name, doc in _STATUSES)
     yield CompletionOption(label="done", kind="function", detail="(component) bool", doc="whether a component is done")
     for function in FUNCTIONS.values():
-        takes = ", ".join(function.parameter_types) + (", …" if function.is_variadic else "")
-        yield CompletionOption(
-            label=function.name, kind="function", detail=f"({takes}) {function.return_type}", doc=function.doc
-        )
+        parameters = ", ".join(function.parameter_types) + (", …" if function.is_variadic else "")
+        detail = f"({parameters}) {function.return_type}"
+        yield CompletionOption(label=function.name, kind="function", detail=detail, doc=function.doc)
     yield from (CompletionOption(label=word, kind="keyword") for word in _KEYWORDS)
 
 
 def _members(design: Design, scope: Scope) -> Iterator[CompletionOption]:
     for section, declaration in design.declarations():
-        yield _declared(declaration, scope, "property", section.removesuffix("s"))
+        yield _declaration_option(declaration, scope, "property", section.removesuffix("s"))
     yield from _aliases(design, scope)
     yield from _runtime_members()
 
@@ -130,36 +131,38 @@ def _aliases(design: Design, scope: Scope) -> Iterator[CompletionOption]:
 
 
 def _owner_members(owner: str, scope: Scope, project: Project, *, in_code: bool = False) -> Iterator[CompletionOption]:
-    """What stands behind the dot of a used component or an enumeration."""
+    """The members of a used component or an enumeration."""
     interface: Interface | None = scope.uses.get(owner)
     if interface is not None:
-        yield from (_declared(output, scope, "property", "output") for output in interface.outputs)
-        yield from (_declared(variable, scope, "property", "variable") for variable in interface.variables)
+        yield from (_declaration_option(output, scope, "property", "output") for output in interface.outputs)
+        yield from (_declaration_option(variable, scope, "property", "variable") for variable in interface.variables)
         if in_code:
-            yield from (_declared(each, scope, "property", "parameter") for each in interface.parameters)
+            yield from (
+                _declaration_option(parameter, scope, "property", "parameter") for parameter in interface.parameters
+            )
             yield from _runtime_members()
     elif not in_code:
-        yield from _below_name(owner, project)
+        yield from _elements(owner, project)
 
 
-def _below_name(owner: str, project: Project) -> Iterator[CompletionOption]:
+def _elements(owner: str, project: Project) -> Iterator[CompletionOption]:
     enumeration: Enumeration | None = project.enumeration(owner)
     for name, doc in enumeration.elements if enumeration else ():
         yield CompletionOption(label=name, kind="enum", detail=owner, doc=doc)
 
 
 def _constants(project: Project, scope: Scope) -> Iterator[CompletionOption]:
-    return (_declared(constant, scope, "constant", f"= {constant.initial}") for constant in project.constants)
+    return (_declaration_option(constant, scope, "constant", f"= {constant.initial}") for constant in project.constants)
 
 
 def _enumerations(project: Project) -> Iterator[CompletionOption]:
     return (
-        CompletionOption(label=each.name, kind="enum", detail="enumeration", doc=each.doc)
-        for each in project.enumerations
+        CompletionOption(label=enumeration.name, kind="enum", detail="enumeration", doc=enumeration.doc)
+        for enumeration in project.enumerations
     )
 
 
-def _declared(declaration: Declaration, scope: Scope, kind: str, what: str = "") -> CompletionOption:
+def _declaration_option(declaration: Declaration, scope: Scope, kind: str, what: str = "") -> CompletionOption:
     facts = (scope.type_of(declaration), declaration.unit, what)
     detail = " ".join(fact for fact in facts if fact)
     doc = declaration.doc

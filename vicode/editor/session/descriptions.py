@@ -1,4 +1,4 @@
-"""Says in a person's words what a path leads to, and what stands there."""
+"""Describes paths, values and presences in words."""
 
 from dataclasses import fields, is_dataclass
 
@@ -13,59 +13,67 @@ _KINDS = {
     "outputs": "output",
     "variables": "variable",
 }
-_ATTRIBUTES = {"at": "place", "to": "target", "doc": "doc", "frequency": "frequency"}
-_LONGEST = 400
+_ITEM_KINDS = {
+    "transitions": "transition",
+    "then": "decision",
+    "else": "decision",
+    "enter": "enter action",
+    "actions": "action",
+    "leave": "leave action",
+}
+_ATTRIBUTES = {"at": "position", "to": "target"}
+_MAX_VALUE_LENGTH = 400
 
 
 def describe_path(path: DesignPath) -> str:
-    """What a path leads to: "doc of state Kick", "transition 2 of state Kick, when"."""
+    """The subject of a path, such as "doc of state Kick" or "transition 2 of state Kick, when"."""
     if not path:
         return "the design"
     section, *rest = path
     if section in _KINDS and rest:
         return _within(rest[1:], f"{_KINDS[str(section)]} {rest[0]}")
     if section == "common":
-        return _within(rest, "the common ones")
+        return _within(rest, "the common section")
     return _within(list(path), "the design")
 
 
 def describe_presence(presence: Presence) -> str:
-    """What somebody is at: the field being typed in, else what is selected; nothing if neither."""
+    """The field a user edits, else the selection; empty if neither."""
     if presence.editing_path:
-        return f"types {describe_path(presence.editing_path)}"
+        return f"edits {describe_path(presence.editing_path)}"
     if len(presence.selected) > 1:
-        return f"{len(presence.selected)} things"
-    return next((_words_of_thing(thing) for thing in presence.selected), "")
+        return f"{len(presence.selected)} items"
+    return next((_describe_item(item) for item in presence.selected), "")
 
 
 def describe_value(value: object) -> str:
-    """A value as a short text; of a thing only what is said of it."""
+    """A value as a short text; records list only their non-default fields."""
     if value is None:
         return "(removed)"
     text = _text(value)
-    return text if len(text) <= _LONGEST else f"{text[:_LONGEST]} …"
+    return text if len(text) <= _MAX_VALUE_LENGTH else f"{text[:_MAX_VALUE_LENGTH]} …"
 
 
-def _words_of_thing(thing: ItemRef) -> str:
-    match thing.kind:
+def _describe_item(item: ItemRef) -> str:
+    match item.kind:
         case "states":
-            return f"state {thing.id}"
+            return f"state {item.id}"
         case "components":
-            return f"component {thing.id}"
+            return f"component {item.id}"
         case "transitions":
-            return describe_path(parse_transition_key(thing.id))
+            return describe_path(parse_transition_key(item.id))
         case _:
             return ""
 
 
-def _within(steps: list[str | int], thing: str) -> str:
+def _within(steps: list[str | int], owner: str) -> str:
     if not steps:
-        return thing
+        return owner
     if len(steps) > 1 and isinstance(steps[1], int):
-        kind = {"transitions": "transition", "then": "decision", "else": "decision"}.get(str(steps[0]), f"{steps[0]}")
-        inner = f"{kind} {steps[1] + 1} of {thing}"
+        kind = _ITEM_KINDS.get(str(steps[0]), str(steps[0]))
+        inner = f"{kind} {steps[1] + 1} of {owner}"
         return ", ".join([inner, *(_attribute(step) for step in steps[2:])])
-    return f"{', '.join(_attribute(step) for step in steps)} of {thing}"
+    return f"{', '.join(_attribute(step) for step in steps)} of {owner}"
 
 
 def _attribute(step: str | int) -> str:
@@ -74,9 +82,9 @@ def _attribute(step: str | int) -> str:
 
 def _text(value: object) -> str:
     if is_dataclass(value) and not isinstance(value, type):
-        parts = ((each.name, getattr(value, each.name)) for each in fields(value))
-        said = ((name, _text(part)) for name, part in parts if part not in ("", (), None, False))
-        return "\n".join(f"{name}: {text}" for name, text in said if text)
+        parts = ((field.name, getattr(value, field.name)) for field in fields(value))
+        texts = ((name, _text(part)) for name, part in parts if part not in ("", (), None, False))
+        return "\n".join(f"{name}: {text}" for name, text in texts if text)
     if isinstance(value, tuple):
         if value and all(isinstance(part, int | float) for part in value):
             return ", ".join(f"{part:g}" for part in value)
@@ -85,5 +93,5 @@ def _text(value: object) -> str:
 
 
 def error_reason(error: OSError | ValueError) -> str:
-    """Why something could not be done, in words."""
+    """The reason of an error, without the file that an OSError appends."""
     return (error.strerror or str(error)) if isinstance(error, OSError) else str(error)

@@ -1,4 +1,4 @@
-"""What the documentation of a project is about while the project is being edited: unsaved work is part of it."""
+"""The input of a project's documentation site while the project is edited, including unsaved designs."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
@@ -22,7 +22,7 @@ from vicode.store import (
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class UnsavedDesign:
-    """A design with changes that no file holds, and the text of its file."""
+    """A design with unsaved changes, and the text of its file."""
 
     design: Design
     disk_text: str
@@ -30,7 +30,7 @@ class UnsavedDesign:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class DocsSnapshot:
-    """A project at one moment. Equal ones have the same documentation, as far as the editor knows of its files."""
+    """The state of a project; equal snapshots have equal documentation."""
 
     folder: Path
     file_signatures: object
@@ -39,20 +39,20 @@ class DocsSnapshot:
 
 
 def take_snapshot(workspace: Workspace) -> DocsSnapshot:
-    """The project as it is now."""
+    """Capture the current project."""
     drafts = {
-        each.design.component: UnsavedDesign(design=each.design, disk_text=each.shared.disk_text)
-        for each in workspace.documents
-        if not each.is_saved
+        document.design.component: UnsavedDesign(design=document.design, disk_text=document.shared.disk_text)
+        for document in workspace.documents
+        if not document.is_saved
     }
     return DocsSnapshot(folder=workspace.folder, file_signatures=workspace.file_signatures, unsaved_designs=drafts)
 
 
 def load_docs_subject(snapshot: DocsSnapshot) -> SiteInput:
-    """Read the files and lay the drafts over them; takes a moment, and is safe beside the event loop.
+    """Read the project with its unsaved designs; slow, and safe in a worker thread.
 
     Raises:
-        OSError: The folder is gone.
+        OSError: The folder no longer exists.
     """
     opened = open_project(snapshot.folder)
     for name, draft in snapshot.unsaved_designs.items():
@@ -60,21 +60,21 @@ def load_docs_subject(snapshot: DocsSnapshot) -> SiteInput:
             opened = _with_draft(opened, name, draft)
     project = opened.project
     findings = locate_findings([*opened.findings, *check_project(project)], opened)
-    errors = [each for each in findings if each.severity is Severity.ERROR]
+    errors = [finding for finding in findings if finding.severity is Severity.ERROR]
     faulty = {
-        language: find_faulty_components([each for each in errors if each.applies_to(language)], opened)
+        language: find_faulty_components([error for error in errors if error.applies_to(language)], opened)
         for language in project.languages
     }
     return make_site_input(opened, project, findings, faulty)
 
 
 def _with_draft(opened: OpenProject, name: str, draft: UnsavedDesign) -> OpenProject:
-    designs = tuple(draft.design if each.component == name else each for each in opened.project.designs)
+    designs = tuple(draft.design if design.component == name else design for design in opened.project.designs)
     project = replace(opened.project, designs=designs)
     try:
         text = save_design(draft.design, draft.disk_text)
     except ValueError:
-        # No file can hold it as it is now: the lines of the last one have to do.
+        # This design cannot be saved: keep the lines of the text on disk.
         return replace(opened, project=project)
     read = read_design(text, opened.sources[name].file)
     owned = zip(opened.findings, iter_owning_components(opened.findings, opened), strict=True)

@@ -1,4 +1,4 @@
-"""One open design: the sheet that all windows share, and the hold of one person on it."""
+"""An open design: the document that all windows share, and the session of one user on it."""
 
 import time
 from collections import deque
@@ -7,6 +7,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
+from vicode.editor.session import messages
 from vicode.editor.session.descriptions import describe_path
 from vicode.editor.session.history import CompoundEdit, HistoryEntry, UndoConflict, UndoHistory
 from vicode.editor.session.presence import DISK_USER, PresenceRoom, UserDirectory
@@ -24,7 +25,7 @@ _MAX_RECENT_DESIGNS = 60
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class DiskVersion:
-    """What a file holds: its text, the design in it (None when there is none), what was wrong with the text."""
+    """The content of a file; `design` is None if it cannot be read as one."""
 
     text: str
     design: Design | None
@@ -33,10 +34,7 @@ class DiskVersion:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class FileTransaction:
-    """What somebody here did to the files of several designs, as their histories tell it.
-
-    `undone_edit` is the edit that it takes back.
-    """
+    """An edit by a user of the files of several designs; `undone_edit` is the edit that it undoes."""
 
     files: frozenset[Path]
     label: str
@@ -47,7 +45,7 @@ class FileTransaction:
 
 @dataclass(frozen=True, slots=True)
 class ChangeNotice:
-    """What somebody did to the whole design, to be told to the others."""
+    """An announcement to the other users of a design."""
 
     text: str = ""
     user_id: str = ""
@@ -56,11 +54,11 @@ class ChangeNotice:
 
 @dataclass(eq=False, kw_only=True)
 class SharedDocument:
-    """What all windows on a design share: its history, what is wrong with it, who watches it, who is here.
+    """The state of a design that all its windows share.
 
-    `rev` counts the changes. `disk_text` is the text last read from or written to `file`, `saved` the design in it,
-    `parse_findings` what is wrong with it: keys that mean nothing are not in the design, but they are in the file. `disk_conflict` is
-    what another program wrote into the file where unsaved work is, until somebody chooses.
+    `rev` counts the changes. `disk_text` is the text last read from or written to `file`, `saved` the design in it, and
+    `parse_findings` the findings about that text. `disk_conflict` is a version by another program that conflicts with
+    unsaved edits, until a user resolves the conflict.
     """
 
     file: Path
@@ -84,12 +82,11 @@ class SharedDocument:
     )
 
     def __post_init__(self) -> None:
-        """Begin with what is on disk."""
         self.history = UndoHistory.begin(self.saved, self.clock())
         self.findings = self._find()
 
     def set_history(self, history: UndoHistory, origin: "DocumentSession") -> None:
-        """Go on with another history, and tell everybody."""
+        """Replace the history and notify the listeners."""
         if history is self.history:
             return
         self._recent_designs[self.rev] = self.history.current.design
@@ -100,7 +97,7 @@ class SharedDocument:
         self.notify_listeners(origin)
 
     def scene(self, project: Project) -> Scene:
-        """What the canvas draws; worked out once for all windows."""
+        """The scene of the canvas, cached for all windows."""
         drawn = self._drawn
         if drawn is None or drawn[0] is not project or drawn[1] is not self.findings or drawn[2]["rev"] != self.rev:
             scene = make_scene(project, self.history.current.design, self.findings, self.rev)
@@ -108,7 +105,7 @@ class SharedDocument:
         return drawn[2]
 
     def scene_diff(self, before: Scene, now: Scene) -> dict[str, Any]:
-        """What differs between two scenes; worked out once for all windows that show the first."""
+        """The difference of two scenes, cached for all windows that show the first."""
         for old, new, changes in self._differences:
             if old is before and new is now:
                 return changes
@@ -117,38 +114,34 @@ class SharedDocument:
         return changes
 
     def design_at(self, rev: int) -> Design:
-        """The design as it was at a recent `rev`, as it is now for any other."""
+        """The design at a recent `rev`; the current design for any other."""
         return self._recent_designs.get(rev, self.history.current.design)
 
     def mark_saved(self, disk: DiskVersion) -> None:
-        """Note what the file holds now."""
+        """Record the content of the file."""
         assert disk.design is not None
-        self.saved, self.disk_text, self.parse_findings, self.disk_conflict = (
-            disk.design,
-            disk.text,
-            disk.parse_findings,
-            None,
-        )
+        self.saved, self.disk_text, self.parse_findings = disk.design, disk.text, disk.parse_findings
+        self.disk_conflict = None
         self.findings = self._find()
 
     @property
     def conflicts(self) -> tuple[Conflict, ...]:
-        """What both sides of a clash touched by now: whoever works on may touch more, or take something back."""
+        """The conflicts between unsaved edits and `disk_conflict`, which change as editing continues."""
         if self.disk_conflict is None or self.disk_conflict.design is None:
             return ()
         return merge_designs(self.saved, self.history.current.design, self.disk_conflict.design).conflicts
 
     def recheck(self) -> None:
-        """Check once more, because another design of the project has changed."""
+        """Check the design again after a change of another design."""
         findings = self._find()
         if findings != self.findings:
             self.findings = findings
             self.notify_listeners(DocumentSession(self, DISK_USER))
 
     def notify_listeners(self, origin: "DocumentSession") -> None:
-        """Tell every watcher that `origin` changed something."""
-        for watcher in tuple(self.listeners):
-            watcher(origin)
+        """Call all listeners with the session that made the change."""
+        for listener in tuple(self.listeners):
+            listener(origin)
 
     def _find(self) -> tuple[Finding, ...]:
         return tuple(dict.fromkeys((*self.parse_findings, *self.check(self.history.current.design))))
@@ -156,190 +149,198 @@ class SharedDocument:
 
 @dataclass(eq=False)
 class DocumentSession:
-    """An open design in the hands of one person; what others do to the sheet is seen here at once.
-
-    Every change goes through `edit`, `undo`, `redo` or `jump_to`; watchers are told after each.
-    """
+    """The session of one user on a shared document; edits of other users are visible at once."""
 
     shared: SharedDocument
     user_id: str = ""
 
     @property
     def design(self) -> Design:
-        """The design as it is now."""
         return self.shared.history.current.design
 
     @property
     def history(self) -> UndoHistory:
-        """Where it has been."""
         return self.shared.history
 
     @property
     def findings(self) -> tuple[Finding, ...]:
-        """What is wrong with it."""
         return self.shared.findings
 
     @property
     def rev(self) -> int:
-        """How often it has changed."""
         return self.shared.rev
 
     @property
     def file(self) -> Path:
-        """Where it is saved."""
         return self.shared.file
 
     @property
     def is_file_missing(self) -> bool:
-        """Whether there is no such file any more, or nothing in it; one that is no text is there."""
+        """Whether the file does not exist or is empty."""
         return not self.file.is_file() or not self.file.stat().st_size
 
     @property
     def is_saved(self) -> bool:
-        """Whether the file holds the design as it is now."""
         return self.design == self.shared.saved
 
     def edit(self, label: str, change: Callable[[Design], Design], *, coalesce_key: str = "") -> None:
-        """Change the design; `label` names the edit in the history.
+        """Change the design.
 
-        A person's edits that follow each other with the same `coalesce_key` (a field being typed in) are one step of it.
+        Args:
+            label: The label in the undo history.
+            change: Maps the current design to the new one.
+            coalesce_key: Consecutive edits of a user with the same key, such as a field being typed in, are one entry.
         """
-        self._append(self._step(label, change(self.design), coalesce_key))
+        self._append(self._new_entry(label, change(self.design), coalesce_key))
 
     def undo(self) -> str:
-        """Take one's own last edit back; returns why not, if what it did was changed by another since."""
-        step = self.history.next_undo(self.user_id)
-        if step is not None and step.compound is not None:
-            return self.undo_compound(step.compound)
-        return self._adopt_history(self.history.undo(self.user_id, self.shared.clock()), "taken back")
+        """Undo the user's latest edit; returns an error message if it conflicts with later edits of others."""
+        entry = self.history.next_undo(self.user_id)
+        if entry is not None and entry.compound is not None:
+            return self.undo_compound(entry.compound)
+        outcome = self.history.undo(self.user_id, self.shared.clock())
+        return self._adopt_history(outcome, messages.cannot_undo)
 
     def redo(self) -> str:
-        """Do again what undo took back; returns why not."""
-        step = self.history.next_redo(self.user_id)
-        if step is not None and step.compound is not None:
-            refused = step.compound.redo(self.user_id)
-            if not refused:
-                self.record_compound(step.compound, f"redo {step.compound.label}")
-            return refused
-        return self._adopt_history(self.history.redo(self.user_id, self.shared.clock()), "done again")
+        """Redo the user's latest undone edit; returns an error message if it conflicts with later edits of others."""
+        entry = self.history.next_redo(self.user_id)
+        if entry is not None and entry.compound is not None:
+            error = entry.compound.redo(self.user_id)
+            if not error:
+                self.record_compound(entry.compound, messages.redo_label(entry.compound.label))
+            return error
+        outcome = self.history.redo(self.user_id, self.shared.clock())
+        return self._adopt_history(outcome, messages.cannot_redo)
 
-    def undo_compound(self, whole: CompoundEdit) -> str:
-        """Take an edit of other files back, as a step if it was one here; returns why not."""
-        refused = whole.undo(self.user_id)
-        step = next((each for each in reversed(self.history.compound_entries()) if each.compound == whole), None)
-        if not refused and step is not None:
-            self._append(replace(self._step(f"undo {whole.label}", self.design), undone_id=step.id))
-        return refused
+    def undo_compound(self, compound: CompoundEdit) -> str:
+        """Undo an edit of several files, and record that if this history contains it; returns an error message."""
+        error = compound.undo(self.user_id)
+        entries = reversed(self.history.compound_entries())
+        undone = next((entry for entry in entries if entry.compound == compound), None)
+        if not error and undone is not None:
+            label = messages.undo_label(compound.label)
+            self._append(replace(self._new_entry(label, self.design), undone_id=undone.id))
+        return error
 
-    def record_compound(self, whole: CompoundEdit, label: str = "") -> None:
-        """Have an edit of other files that was done from here as a step, if it is none yet."""
-        if all(each.compound != whole for each in self.history.compound_entries()):
-            self._append(replace(self._step(label or whole.label, self.design), compound=whole))
+    def record_compound(self, compound: CompoundEdit, label: str = "") -> None:
+        """Add an entry for an edit of several files, unless the history contains it already."""
+        if all(entry.compound != compound for entry in self.history.compound_entries()):
+            self._append(replace(self._new_entry(label or compound.label, self.design), compound=compound))
 
     @property
     def undo_label(self) -> str:
-        """What undo would take back, empty if nothing."""
-        step = self.history.next_undo(self.user_id)
-        return step.label if step else ""
+        """The label of the edit that undo would revert, empty if there is none."""
+        entry = self.history.next_undo(self.user_id)
+        return entry.label if entry else ""
 
     @property
     def redo_label(self) -> str:
-        """What redo would do again, empty if nothing."""
-        step = self.history.next_redo(self.user_id)
-        return step.label if step else ""
+        """The label of the edit that redo would restore, empty if there is none."""
+        entry = self.history.next_redo(self.user_id)
+        return entry.label if entry else ""
 
-    def jump_to(self, step: int) -> str:
-        """Go to any point of the history; what is left stays in it, one jump away.
+    def jump_to(self, entry_id: int) -> str:
+        """Jump to any entry of the history; all entries are kept.
 
-        What was one edit of several files on the way is taken back, or done again, in all of them; returns why not.
-        One that changed nothing of this design keeps nobody from going: that it stays as it is, is told.
+        Edits of several files between the two entries are undone or redone in all files. If one fails, the jump fails,
+        unless the edit changes only other files: then it is kept.
+
+        Returns:
+            Messages for the user: the error, or the edits that were kept.
         """
         start = self.history.current_id
-        before, after = self.history.compound_entries(), self.history.moved_to(step).compound_entries()
-        left = [each for each in reversed(before) if each.compound not in {other.compound for other in after}]
-        entered = [each for each in after if each.compound not in {other.compound for other in before}]
-        told: list[str] = []
-        for number, each in enumerate((*left, *entered)):
-            refused = self._undo_or_redo(each, is_back=number < len(left))
-            if refused and each.compound and self._changes_only_other_files(each):
-                told.append(f"{each.compound.label} stays as it is. {refused}")
-            elif refused:
+        before, after = self.history.compound_entries(), self.history.moved_to(entry_id).compound_entries()
+        undone = [entry for entry in reversed(before) if entry.compound not in {other.compound for other in after}]
+        redone = [entry for entry in after if entry.compound not in {other.compound for other in before}]
+        notes: list[str] = []
+        for number, entry in enumerate((*undone, *redone)):
+            error = self._undo_or_redo(entry, is_undo=number < len(undone))
+            if error and entry.compound and self._changes_only_other_files(entry):
+                notes.append(messages.edit_kept(entry.compound.label, error))
+            elif error:
                 if not number:
                     self.shared.set_history(self.history.moved_to(start), self)
-                return refused
-        self.post_notice(
-            f"{self.shared.users.name_of(self.user_id)} went to “{self.history.moved_to(step).current.label}”"
-        )
-        self.shared.set_history(self.history.moved_to(step), self)
-        return "; ".join(told)
+                return error
+        target = self.history.moved_to(entry_id)
+        self.post_notice(messages.user_jumped(self.shared.users.name_of(self.user_id), target.current.label))
+        self.shared.set_history(target, self)
+        return "; ".join(notes)
 
-    def _changes_only_other_files(self, step: HistoryEntry) -> bool:
-        """Whether a step changed other files alone."""
-        parent = self.history.entries.get(step.parent)
-        return parent is not None and parent.design == step.design
+    def _changes_only_other_files(self, entry: HistoryEntry) -> bool:
+        parent = self.history.entries.get(entry.parent)
+        return parent is not None and parent.design == entry.design
 
-    def _undo_or_redo(self, step: HistoryEntry, *, is_back: bool) -> str:
-        """Take an edit of several files back, or do it again: from here, or where the design is as the file has it."""
-        assert step.compound is not None
-        if not self.is_saved and not self._changes_only_other_files(step):
-            self.shared.set_history(self.history.moved_to(step.id if is_back else step.parent), self)
-        return step.compound.undo(self.user_id) if is_back else step.compound.redo(self.user_id)
+    def _undo_or_redo(self, entry: HistoryEntry, *, is_undo: bool) -> str:
+        assert entry.compound is not None
+        if not self.is_saved and not self._changes_only_other_files(entry):
+            # The edit applies to the saved design, which is the one next to it in the history.
+            self.shared.set_history(self.history.moved_to(entry.id if is_undo else entry.parent), self)
+        return entry.compound.undo(self.user_id) if is_undo else entry.compound.redo(self.user_id)
 
     def adopt_disk_version(self, disk: DiskVersion, label: str, design: Design | None = None) -> None:
-        """Note what the file holds now, and go on with that, or with `design`; the file's own stays in the history."""
+        """Record the content of the file and continue with its design, or with `design`.
+
+        In the second case the version on disk is added to the history as a branch.
+        """
         assert disk.design is not None
         self.shared.mark_saved(disk)
         history = self.history
         if design is not None and design != disk.design:
-            theirs = HistoryEntry(
-                user_id=DISK_USER, label="as it was on disk", at_s=self.shared.clock(), design=disk.design
+            history = history.append_branch(
+                replace(self._new_entry(messages.VERSION_ON_DISK, disk.design), user_id=DISK_USER)
             )
-            history = history.append_branch(theirs)
-            self.post_notice(f"Merged with what another program wrote into {self.file.name}")
-        grown = history.append(self._step(label, design if design is not None else disk.design))
-        if grown is self.history:
-            self.shared.notify_listeners(self)
-        else:
-            self.shared.set_history(grown, self)
-
-    def apply_transaction(self, act: FileTransaction, design: Design) -> None:
-        """Go on with what an edit of several files made of this one, as a step of who did it."""
-        undone = next(
-            (step.id for step in reversed(self.history.compound_entries()) if step.compound == act.undone_edit), 0
+            self.post_notice(messages.merged_from_disk(self.file.name))
+        self._set_history_or_notify(
+            history.append(self._new_entry(label, design if design is not None else disk.design))
         )
-        whole = None if undone else act.compound
-        step = replace(self._step(act.label, design), user_id=act.user_id, compound=whole, undone_id=undone)
-        grown = self.history.append(step)
-        if grown is self.history:
-            self.shared.notify_listeners(self)
-        else:
-            self.shared.set_history(grown, self)
+
+    def apply_transaction(self, transaction: FileTransaction, design: Design) -> None:
+        """Record the result of an edit of several files as an entry of the user who made it."""
+        entries = reversed(self.history.compound_entries())
+        undone_id = next((entry.id for entry in entries if entry.compound == transaction.undone_edit), 0)
+        entry = replace(
+            self._new_entry(transaction.label, design),
+            user_id=transaction.user_id,
+            compound=None if undone_id else transaction.compound,
+            undone_id=undone_id,
+        )
+        self._set_history_or_notify(self.history.append(entry))
 
     def has_decision(self, key: str) -> bool:
-        """Whether there is a decision with this canvas id."""
+        """Whether a decision with this canvas id exists."""
         return find_decision(self.design, parse_transition_key(key)) is not None
 
     def post_notice(self, text: str) -> None:
-        """Say to the others what was done to the whole design."""
+        """Announce a change of the whole design to the other users."""
         self.shared.notice = ChangeNotice(text, self.user_id, self.shared.rev)
 
-    def subscribe(self, watcher: DocumentListener) -> Callable[[], None]:
-        """Tell `watcher` after every change, and by whom; what is returned ends it."""
-        watchers = self.shared.listeners
-        watchers.append(watcher)
-        return lambda: watchers.remove(watcher) if watcher in watchers else None
+    def subscribe(self, listener: DocumentListener) -> Callable[[], None]:
+        """Call `listener` after every change with the session that made it; returns a function that unsubscribes."""
+        listeners = self.shared.listeners
+        listeners.append(listener)
+        return lambda: listeners.remove(listener) if listener in listeners else None
 
-    def _step(self, label: str, design: Design, typing_in: str = "") -> HistoryEntry:
+    def _new_entry(self, label: str, design: Design, coalesce_key: str = "") -> HistoryEntry:
         return HistoryEntry(
-            user_id=self.user_id, label=label, at_s=self.shared.clock(), coalesce_key=typing_in, design=design
+            user_id=self.user_id, label=label, at_s=self.shared.clock(), coalesce_key=coalesce_key, design=design
         )
 
-    def _append(self, step: HistoryEntry) -> None:
-        self.shared.set_history(self.history.append(step), self)
+    def _append(self, entry: HistoryEntry) -> None:
+        self.shared.set_history(self.history.append(entry), self)
 
-    def _adopt_history(self, outcome: UndoHistory | UndoConflict, done: str) -> str:
+    def _set_history_or_notify(self, history: UndoHistory) -> None:
+        """Listeners also show whether the design is saved, which changes without a new entry."""
+        if history is self.history:
+            self.shared.notify_listeners(self)
+        else:
+            self.shared.set_history(history, self)
+
+    def _adopt_history(
+        self, outcome: UndoHistory | UndoConflict, describe_conflict: Callable[[str, str, str, str], str]
+    ) -> str:
         if isinstance(outcome, UndoConflict):
-            who, what = self.shared.users.name_of(outcome.blocking_entry.user_id), describe_path(outcome.path)
-            return f"“{outcome.entry.label}” cannot be {done}: {who} changed {what} since (“{outcome.blocking_entry.label}”)"
+            blocking, place = outcome.blocking_entry, describe_path(outcome.path)
+            user = self.shared.users.name_of(blocking.user_id)
+            return describe_conflict(outcome.entry.label, user, place, blocking.label)
         self.shared.set_history(outcome, self)
         return ""

@@ -1,4 +1,4 @@
-"""What one person types meets what others changed in the same value meanwhile."""
+"""Merges the text that a user types into a field with concurrent edits of the same value."""
 
 from dataclasses import dataclass, field, replace
 from typing import Any
@@ -10,21 +10,24 @@ _MAX_SENT = 64
 
 @dataclass(slots=True)
 class FieldMerge:
-    """One field in one window: the value it shows, and what the design would hold if that alone had been written."""
+    """One field in one window: the value it shows, and how the design would store that value alone."""
 
     shown: Any = None
     own_value: Any = field(default=None)
 
     def set_shown(self, value: Any) -> None:
-        """The design's value is shown."""
+        """Record that the field shows the value of the design."""
         self.shown = self.own_value = value
 
     def merge_typed(self, typed: Any, now: Any) -> Any:
-        """The value to write: what was typed since, together with what others made of the design's value.
+        """The value to write: the typed one merged with the edits of others.
 
-        What others typed is in the design from the first time on, but is not shown as long as one types: it is brought
-        in with every value that is written. The design may spell a value in a way of its own (blanks around a sign):
-        that is nobody's change.
+        Edits of others are in the design, but the field does not show them while its user types; each written value
+        merges them again. The design may normalize a value (spaces around an operator), which is not an edit.
+
+        Args:
+            typed: The value in the field.
+            now: The value in the design.
         """
         if now == self.own_value:
             return typed
@@ -32,20 +35,20 @@ class FieldMerge:
             theirs = merge_characters(str(self.own_value), self.shown, now)
             return merge_characters(self.shown, typed, theirs)
         if isinstance(typed, list) and isinstance(self.shown, list) and isinstance(now, list):
-            kept = [each for each in now if each in typed or each not in self.shown]
-            return kept + [each for each in typed if each not in self.shown and each not in kept]
+            kept = [value for value in now if value in typed or value not in self.shown]
+            return kept + [value for value in typed if value not in self.shown and value not in kept]
         return typed
 
     def record_sent(self, typed: Any, alone: Any) -> None:
-        """The browser shows what was typed; `own_value` is how the design spells that, without what others made of it."""
+        """Record that the browser shows `typed`, which the design without others' edits would store as `alone`."""
         self.shown, self.own_value = typed, alone
 
 
 @dataclass(slots=True)
 class SentValues:
-    """What a browser shows in a field, as far as is known: one of the values that were sent to it lately.
+    """The values recently sent to a field of a browser, one of which it shows.
 
-    What somebody types tells which one it was. Those sent since are not shown.
+    A typed value carries the number of the value it was typed over, which selects the base of the merge.
     """
 
     field_merge: FieldMerge = field(default_factory=FieldMerge)
@@ -53,7 +56,7 @@ class SentValues:
     _latest: int = -1
 
     def record_shown(self, value: Any, number: int = 0) -> None:
-        """A value of the design is sent with a number, a greater one than any before, or is what was sent last."""
+        """Record that a value is sent; `number` increases with each message, or repeats the latest one."""
         if number > self._latest:
             self._latest = number
             self.field_merge = self._sent[number] = FieldMerge()
@@ -62,12 +65,12 @@ class SentValues:
         self.field_merge.set_shown(value)
 
     def select_base(self, number: int) -> None:
-        """Something is typed on what was sent with a number."""
+        """Record that the user types over the value sent with `number`."""
         known = self._sent.get(number)
         if known is not None:
             self.field_merge, self._sent = known, {number: known}
 
     def transfer_input_from(self, other: "SentValues") -> None:
-        """Whatever of it is shown, what is typed goes on from what the other one showed."""
+        """Continue from the value that another field showed."""
         self.field_merge = replace(other.field_merge)
         self._sent = dict.fromkeys(self._sent, self.field_merge)

@@ -1,4 +1,4 @@
-"""The findings of a design as a list to work through: ordered, filtered, one after the other."""
+"""Sorts, groups, filters and steps through the findings of a design."""
 
 from collections.abc import Collection, Sequence
 from itertools import groupby
@@ -10,7 +10,7 @@ FindingsOfSeverity = tuple[Severity, tuple[Finding, ...]]
 
 
 def sort_findings(findings: Collection[Finding]) -> tuple[Finding, ...]:
-    """The worst first; of one severity what is about one thing together, else as they were found."""
+    """Sort by severity, grouping the findings of one item, otherwise stable."""
     firsts: dict[tuple[Severity, ItemRef | None], int] = {}
     for at, finding in enumerate(findings):
         firsts.setdefault(_key(finding), at)
@@ -19,23 +19,23 @@ def sort_findings(findings: Collection[Finding]) -> tuple[Finding, ...]:
 
 
 def group_by_severity(findings: Collection[Finding]) -> tuple[FindingsOfSeverity, ...]:
-    """The ordered findings by severity."""
+    """The sorted findings by severity."""
     groups = groupby(sort_findings(findings), key=lambda each: each.severity)
     return tuple((severity, tuple(found)) for severity, found in groups)
 
 
 def filter_findings(findings: Collection[Finding], text: str, hidden: Collection[Severity]) -> tuple[Finding, ...]:
-    """The findings of a severity that is not hidden, in whose words, code or place every word of a text is found."""
+    """The findings of visible severities that contain every word of `text` in message, fix, code or path."""
     words = text.casefold().split()
     return tuple(
-        each
-        for each in findings
-        if each.severity not in hidden and all(word in _searchable_text(each) for word in words)
+        finding
+        for finding in findings
+        if finding.severity not in hidden and all(word in _searchable_text(finding) for word in words)
     )
 
 
 def next_finding(findings: Sequence[Finding], current: Finding | None, step: int) -> Finding | None:
-    """The finding that is `step` (1 or -1) further, round and round; None if there are none."""
+    """The finding `step` (1 or -1) after the current one, wrapping around; None if there are none."""
     listed = sort_findings(findings)
     if not listed:
         return None
@@ -50,5 +50,5 @@ def _key(finding: Finding) -> tuple[Severity, ItemRef | None]:
 
 def _searchable_text(finding: Finding) -> str:
     path = finding.subject.path if finding.subject else ()
-    said = (finding.severity, finding.rule.code, finding.rule.name, finding.message, finding.fix, *path)
-    return " ".join(map(str, said)).casefold()
+    parts = (finding.severity, finding.rule.code, finding.rule.name, finding.message, finding.fix, *path)
+    return " ".join(map(str, parts)).casefold()

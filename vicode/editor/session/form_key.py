@@ -1,4 +1,4 @@
-"""The outline of a thing: what of it decides which fields its form has, as opposed to what stands in them."""
+"""Structure keys: the parts of an item that determine which fields its form has."""
 
 from collections.abc import Iterable
 
@@ -8,14 +8,14 @@ from vicode.model.design import Action, Call, Decision, DecisionGroup, Design
 from vicode.model.traversal import find_decision, iter_decisions
 
 MAX_STATES_IN_MENU = 60
-"""Of more, one is found by typing instead of in a menu."""
+"""With more states, the target of a transition is a text field with completion instead of a menu."""
 
 
-def form_structure_key(design: Design, thing: ItemRef | None) -> object:
-    """A value that changes exactly when the form of `thing` must be built anew (None: the form of the design)."""
+def form_structure_key(design: Design, item: ItemRef | None) -> object:
+    """A value that changes exactly when the form of `item` must be rebuilt (None: the form of the design)."""
     uses = tuple((use.alias, use.component) for use in design.uses)
     is_crowded = len(design.states) > MAX_STATES_IN_MENU
-    match thing:
+    match item:
         case ItemRef(kind="states", id=name):
             state = design.state(name)
             if state is None:
@@ -35,7 +35,7 @@ def form_structure_key(design: Design, thing: ItemRef | None) -> object:
 
 
 def has_same_structure(before: Design, now: Design, path: DesignPath) -> bool:
-    """Whether nothing came, went or moved where a path leads; names alone may have changed."""
+    """Whether nothing was added, removed or moved at a path; one declaration may have been renamed."""
     match path:
         case (("parameters" | "outputs" | "variables") as section, *_):
             old, new = ([each.name for each in getattr(design, section)] for design in (before, now))
@@ -45,7 +45,7 @@ def has_same_structure(before: Design, now: Design, path: DesignPath) -> bool:
 
 
 def _order_around(design: Design, path: DesignPath) -> object:
-    """What the numbers in a path count."""
+    """The lists that the indices in a path refer to."""
     match path:
         case ("states", name, ("enter" | "actions" | "leave") as phase, *_):
             state = design.state(str(name))
@@ -71,6 +71,6 @@ def _decision(decision: Decision) -> object:
 
 
 def _declarations(design: Design) -> tuple[object, ...]:
-    """How many there are, and which arguments functions take; a name, or any other value, changes no field."""
-    functions = (None if each.arguments is None else len(each.arguments) for each in design.outputs)
+    """The number of declarations and of function arguments; their names and values do not affect the fields."""
+    functions = (None if output.arguments is None else len(output.arguments) for output in design.outputs)
     return (len(design.parameters), tuple(functions), len(design.variables))

@@ -1,4 +1,4 @@
-"""Fuzzy ranking: the letters of a query in the order of a text, best where words begin and letters follow each other.
+"""Fuzzy matching: finds the letters of a query in order, preferring word starts and consecutive letters.
 
 The scores are those of fzy (John Hawthorn, https://github.com/jhawthorn/fzy/blob/master/ALGORITHM.md).
 """
@@ -14,20 +14,20 @@ _MAX_TEXT_LENGTH = 120
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Alignment:
-    """How well a query fits, and which letters of the text it took."""
+    """The score of a match, and the positions of the matched letters."""
 
     score: float
     positions: tuple[int, ...]
 
 
 def subsequence_pattern(word: str) -> re.Pattern[str]:
-    """Finds the letters of a word in their order in small letters, without ever going back."""
+    """A pattern that finds the letters of a word in order in lowercase text, without backtracking."""
     letters = [re.escape(letter) for letter in word]
     return re.compile("".join(f"[^{letter}\n]*{letter}" for letter in letters))
 
 
 def align(word: str, text: str) -> Alignment | None:
-    """The best way to find the letters of a word (in small letters) in a text; None if there is none."""
+    """The best alignment of a lowercase word with a text; None if its letters do not occur in order."""
     text = text[:_MAX_TEXT_LENGTH]
     low = text.lower()
     if len(low) != len(text) or not subsequence_pattern(word).match(low):
@@ -46,7 +46,7 @@ def align(word: str, text: str) -> Alignment | None:
 def _row(
     letter: str, low: str, bonus: list[float], above: tuple[list[float], list[float]] | None, *, gap: float
 ) -> tuple[list[float], list[float]]:
-    """For every place of the text: the best score that ends there, and the best up to there."""
+    """For each position: the best score of a match ending there, and the best score up to there."""
     end, best = [], []
     running = -math.inf
     for at, found in enumerate(low):
@@ -63,18 +63,18 @@ def _row(
 
 
 def _trace_positions(ends: list[list[float]], bests: list[list[float]]) -> tuple[int, ...]:
-    """Walk back from the best end, letter by letter."""
-    places: list[int] = []
+    """Trace the best alignment back from the last letter."""
+    positions: list[int] = []
     at = len(ends[0]) - 1
     must = False
     for row in range(len(ends) - 1, -1, -1):
         while not (ends[row][at] > -math.inf and (must or ends[row][at] == bests[row][at])):
             at -= 1
-        # Whether the letter before has to stand right before this one.
+        # Whether the previous letter must be directly before this one.
         must = row > 0 and at > 0 and bests[row][at] == ends[row - 1][at - 1] + _MATCH_CONSECUTIVE
-        places.append(at)
+        positions.append(at)
         at -= 1
-    return tuple(reversed(places))
+    return tuple(reversed(positions))
 
 
 def _bonuses(text: str) -> list[float]:

@@ -1,4 +1,4 @@
-"""Where a design has been: a tree of steps, each with who made it; undo takes back a person's own steps only."""
+"""The undo history of a design: a tree of entries by all users, in which each user undoes their own edits only."""
 
 from bisect import bisect_left
 from collections.abc import Mapping
@@ -6,6 +6,7 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Protocol
 
+from vicode.editor.session import messages
 from vicode.findings import DesignPath
 from vicode.model.design import Design
 from vicode.model.merge import merge_designs
@@ -16,31 +17,31 @@ _COALESCE_TIMEOUT_S = 60.0
 
 
 class CompoundEdit(Protocol):
-    """An edit of other files, too, or of others alone; a step that has one is its part in one design.
+    """An edit of several files; each history entry that refers to it is its part in one design.
 
-    Equal ones are the same. The design of the step may be that of the step before.
+    Compound edits are compared by value. An entry may leave its design unchanged.
     """
 
     @property
     def label(self) -> str:
-        """What the histories call it."""
+        """The label in the undo history."""
         ...
 
-    def undo(self, person: str) -> str:
-        """Take it back in all files; returns why not."""
+    def undo(self, user_id: str) -> str:
+        """Undo the edit in all files; returns an error message or an empty string."""
         ...
 
-    def redo(self, person: str) -> str:
-        """Do it again in all files; returns why not."""
+    def redo(self, user_id: str) -> str:
+        """Redo the edit in all files; returns an error message or an empty string."""
         ...
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class HistoryEntry:
-    """A design with the edit that made it.
+    """A design and the edit that led to it.
 
-    `undone_id` is the step whose change it takes out although others worked since, 0 for none; `coalesce_key` the field
-    it was typed into; `at_s` the time of day, in seconds since 1970; `compound` the edit of several files it is part of.
+    `undone_id` is the entry that this one reverts while keeping later edits, 0 for none. Consecutive edits with the
+    same `coalesce_key` are merged into one entry. `at_s` is in seconds since the epoch.
     """
 
     id: int = 0
@@ -56,7 +57,7 @@ class HistoryEntry:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class UndoConflict:
-    """Why a step cannot be taken back: `by` changed, at `path`, what `entry` had done."""
+    """`blocking_entry` has changed, at `path`, what `entry` had changed, so that `entry` cannot be undone or redone."""
 
     entry: HistoryEntry
     blocking_entry: HistoryEntry
@@ -65,10 +66,7 @@ class UndoConflict:
 
 @dataclass(frozen=True, kw_only=True)
 class UndoHistory:
-    """All steps by id, and the one the design is `at`. `redo_stacks` holds what each person may do again, newest last.
-
-    The first step has id 0.
-    """
+    """All entries by id; the first has id 0. `redo_stacks` holds ids by user, the next to redo last."""
 
     entries: Mapping[int, HistoryEntry]
     current_id: int = 0
@@ -76,154 +74,150 @@ class UndoHistory:
 
     @staticmethod
     def begin(design: Design, at_s: float = 0.0) -> "UndoHistory":
-        """A history with nothing but a start."""
-        return UndoHistory(entries={0: HistoryEntry(label="open", design=design, at_s=at_s)})
+        """A history that contains only the opened design."""
+        return UndoHistory(entries={0: HistoryEntry(label=messages.OPEN, design=design, at_s=at_s)})
 
     @property
     def current(self) -> HistoryEntry:
-        """The step that holds the design as it is now."""
         return self.entries[self.current_id]
 
     @cached_property
     def path(self) -> tuple[HistoryEntry, ...]:
-        """The steps from the start to now."""
+        """The entries from the first to the current one."""
         path = [self.current]
         while path[-1].parent in self.entries:
             path.append(self.entries[path[-1].parent])
         return tuple(reversed(path))
 
-    def append(self, step: HistoryEntry) -> "UndoHistory":
-        """The history after an edit; what is typed into one field goes on as one step."""
-        if step.design == self.current.design and not (step.compound or step.undone_id):
+    def append(self, entry: HistoryEntry) -> "UndoHistory":
+        """The history after an edit, which is merged into the user's previous one if both coalesce."""
+        if entry.design == self.current.design and not (entry.compound or entry.undone_id):
             return self
-        going_on = self._coalesced(step) if step.coalesce_key else None
-        taken_back = {**self.redo_stacks, step.user_id: self._remaining_redo_ids(step)}
-        return replace(going_on or self._appended(step), redo_stacks=taken_back)
+        coalesced = self._coalesced(entry) if entry.coalesce_key else None
+        redo_stacks = {**self.redo_stacks, entry.user_id: self._remaining_redo_ids(entry)}
+        return replace(coalesced or self._appended(entry), redo_stacks=redo_stacks)
 
-    def append_branch(self, step: HistoryEntry) -> "UndoHistory":
-        """The history with a step that leads nowhere: a design that somebody may want to go back to."""
-        appended = self._appended(step)
+    def append_branch(self, entry: HistoryEntry) -> "UndoHistory":
+        """The history with an additional branch, a design to which users may jump; the current entry stays."""
+        appended = self._appended(entry)
         return replace(appended, current_id=self.current_id)
 
     def moved_to(self, entry_id: int) -> "UndoHistory":
-        """The history at another of its steps."""
+        """The history with another current entry; unchanged if there is none with this id."""
         return replace(self, current_id=entry_id) if entry_id in self.entries else self
 
-    def undo(self, person: str, at_s: float = 0.0) -> "UndoHistory | UndoConflict":
-        """One's own newest step taken back: by going back to before it, or out of what others did since."""
-        step = self.next_undo(person)
-        if step is None:
+    def undo(self, user_id: str, at_s: float = 0.0) -> "UndoHistory | UndoConflict":
+        """Undo the user's latest edit: move to its parent, or revert it while keeping the later edits of others."""
+        entry = self.next_undo(user_id)
+        if entry is None:
             return self
-        taken_back = {**self.redo_stacks, person: (*self.redo_stacks.get(person, ()), step.id)}
-        if step.id == self.current_id:
-            return replace(self, current_id=step.parent, redo_stacks=taken_back)
-        parent = self.entries[step.parent]
-        merged = merge_designs(step.design, self.current.design, parent.design)
+        redo_stacks = {**self.redo_stacks, user_id: (*self.redo_stacks.get(user_id, ()), entry.id)}
+        if entry.id == self.current_id:
+            return replace(self, current_id=entry.parent, redo_stacks=redo_stacks)
+        parent = self.entries[entry.parent]
+        merged = merge_designs(entry.design, self.current.design, parent.design)
         if merged.conflicts:
             return UndoConflict(
-                entry=step, blocking_entry=self._first_conflicting(step, parent), path=merged.conflicts[0].path
+                entry=entry, blocking_entry=self._first_conflicting(entry, parent), path=merged.conflicts[0].path
             )
-        undoing = HistoryEntry(
-            user_id=person, label=f"undo {step.label}", at_s=at_s, undone_id=step.id, design=merged.design
-        )
-        return replace(self._appended(undoing), redo_stacks=taken_back)
+        label = messages.undo_label(entry.label)
+        reverted = HistoryEntry(user_id=user_id, label=label, at_s=at_s, undone_id=entry.id, design=merged.design)
+        return replace(self._appended(reverted), redo_stacks=redo_stacks)
 
-    def redo(self, person: str, at_s: float = 0.0) -> "UndoHistory | UndoConflict":
-        """What a person took back last, done again: by going forward to it, or into what others did since."""
-        step = self.next_redo(person)
-        if step is None:
+    def redo(self, user_id: str, at_s: float = 0.0) -> "UndoHistory | UndoConflict":
+        """Redo the user's latest undone edit: move to its entry, or merge it with the later edits of others."""
+        entry = self.next_redo(user_id)
+        if entry is None:
             return self
-        stack = self.redo_stacks.get(person, ())
-        taken_back = {**self.redo_stacks, person: stack[: stack.index(step.id)]}
-        if step.parent == self.current_id:
-            return replace(self, current_id=step.id, redo_stacks=taken_back)
-        parent = self.entries[step.parent]
-        merged = merge_designs(parent.design, self.current.design, step.design)
+        stack = self.redo_stacks.get(user_id, ())
+        redo_stacks = {**self.redo_stacks, user_id: stack[: stack.index(entry.id)]}
+        if entry.parent == self.current_id:
+            return replace(self, current_id=entry.id, redo_stacks=redo_stacks)
+        parent = self.entries[entry.parent]
+        merged = merge_designs(parent.design, self.current.design, entry.design)
         if merged.conflicts:
-            return UndoConflict(entry=step, blocking_entry=self.current, path=merged.conflicts[0].path)
-        again = HistoryEntry(user_id=person, label=f"redo {step.label}", at_s=at_s, design=merged.design)
-        return replace(self._appended(again), redo_stacks=taken_back)
+            return UndoConflict(entry=entry, blocking_entry=self.current, path=merged.conflicts[0].path)
+        label = messages.redo_label(entry.label)
+        redone = HistoryEntry(user_id=user_id, label=label, at_s=at_s, design=merged.design)
+        return replace(self._appended(redone), redo_stacks=redo_stacks)
 
-    def next_undo(self, person: str) -> HistoryEntry | None:
-        """What undo would take back for a person."""
+    def next_undo(self, user_id: str) -> HistoryEntry | None:
+        """The entry that undo would revert for a user."""
         path = self.path[1:]
-        gone = {step.undone_id for step in path}
-        own = (step for step in reversed(path) if step.user_id == person and not step.undone_id and step.id not in gone)
-        return next(own, None)
+        undone = {entry.undone_id for entry in path}
+        own = (entry for entry in reversed(path) if entry.user_id == user_id and not entry.undone_id)
+        return next((entry for entry in own if entry.id not in undone), None)
 
-    def next_redo(self, person: str) -> HistoryEntry | None:
-        """What redo would do again for a person."""
+    def next_redo(self, user_id: str) -> HistoryEntry | None:
+        """The entry that redo would restore for a user."""
         path = self.path
-        undone = {step.undone_id for step in path}
-        done = {step.id for step in path} - undone
-        stack = (self.entries.get(id_) for id_ in reversed(self.redo_stacks.get(person, ())))
-        return next((step for step in stack if step and step.id not in done and step.parent in self.entries), None)
+        undone = {entry.undone_id for entry in path}
+        done = {entry.id for entry in path} - undone
+        stack = (self.entries.get(id_) for id_ in reversed(self.redo_stacks.get(user_id, ())))
+        return next((entry for entry in stack if entry and entry.id not in done and entry.parent in self.entries), None)
 
     def compound_entries(self) -> tuple[HistoryEntry, ...]:
-        """The steps on the way to now that edited several files, and were not taken back."""
-        gone = {step.undone_id for step in self.path}
-        return tuple(step for step in self.path if step.compound and not step.undone_id and step.id not in gone)
+        """The entries of compound edits on the current path that are not undone."""
+        undone = {entry.undone_id for entry in self.path}
+        return tuple(entry for entry in self.path if entry.compound and not entry.undone_id and entry.id not in undone)
 
-    def _remaining_redo_ids(self, step: HistoryEntry) -> tuple[int, ...]:
-        """What the person may do again after a step; doing something new gives up the rest."""
-        stack = self.redo_stacks.get(step.user_id, ())
-        if step.undone_id:
-            return (*stack, step.undone_id)
-        known = (
-            at for at, each in enumerate(stack) if each in self.entries and self.entries[each].compound == step.compound
-        )
-        again = max(known, default=0) if step.compound else 0
-        return stack[:again]
+    def _remaining_redo_ids(self, edit: HistoryEntry) -> tuple[int, ...]:
+        """The redo stack of a user after their edit: a new edit clears it, a redone compound edit shortens it."""
+        stack = self.redo_stacks.get(edit.user_id, ())
+        if edit.undone_id:
+            return (*stack, edit.undone_id)
+        if edit.compound is None:
+            return ()
+        entries = ((index, self.entries.get(id_)) for index, id_ in enumerate(stack))
+        same = (index for index, entry in entries if entry is not None and entry.compound == edit.compound)
+        return stack[: max(same, default=0)]
 
-    def _appended(self, step: HistoryEntry) -> "UndoHistory":
+    def _appended(self, entry: HistoryEntry) -> "UndoHistory":
         id_ = max(self.entries) + 1
-        steps = {**self.entries, id_: replace(step, id=id_, parent=self.current_id)}
-        return replace(self, entries=_without_oldest(steps, id_), current_id=id_)
+        entries = {**self.entries, id_: replace(entry, id=id_, parent=self.current_id)}
+        return replace(self, entries=_without_oldest(entries, id_), current_id=id_)
 
-    def _coalesced(self, step: HistoryEntry) -> "UndoHistory | None":
-        """The history in which `entry` belongs to the person's last one, if that was typed into the same field.
+    def _coalesced(self, edit: HistoryEntry) -> "UndoHistory | None":
+        """The history with an edit merged into the user's last entry; None if the two do not coalesce.
 
-        What others typed meanwhile stands above it, so each of their steps is given the new text, too.
+        Entries that others typed since are based on that entry, so the edit is merged into each of them, too.
         """
-        since: list[HistoryEntry] = []
+        later: list[HistoryEntry] = []
         for last in reversed(self.path[-_MAX_COALESCE_DEPTH:]):
-            if last.user_id == step.user_id:
+            if last.user_id == edit.user_id:
                 break
-            since.append(last)
-        goes_on = (last.user_id, last.coalesce_key) == (
-            step.user_id,
-            step.coalesce_key,
-        ) and step.at_s - last.at_s < _COALESCE_TIMEOUT_S
-        has_branch = any(each.parent == self.current_id for each in self.entries.values())
-        if not goes_on or has_branch or not all(each.coalesce_key for each in since):
+            later.append(last)
+        is_same_field = (last.user_id, last.coalesce_key) == (edit.user_id, edit.coalesce_key)
+        is_recent = edit.at_s - last.at_s < _COALESCE_TIMEOUT_S
+        has_branch = any(entry.parent == self.current_id for entry in self.entries.values())
+        if not is_same_field or not is_recent or has_branch or not all(entry.coalesce_key for entry in later):
             return None
-        grown = {}
-        for each in (last, *since[1:]):
-            merged = merge_designs(self.current.design, each.design, step.design)
+        changed = {}
+        for entry in (last, *later[1:]):
+            merged = merge_designs(self.current.design, entry.design, edit.design)
             if merged.conflicts:
                 return None
-            grown[each.id] = replace(each, design=merged.design)
-        grown[last.id] = replace(grown[last.id], at_s=step.at_s)
-        grown[self.current_id] = replace(grown.get(self.current_id, self.current), design=step.design)
-        return replace(self, entries={**self.entries, **grown})
+            changed[entry.id] = replace(entry, design=merged.design)
+        changed[last.id] = replace(changed[last.id], at_s=edit.at_s)
+        changed[self.current_id] = replace(changed.get(self.current_id, self.current), design=edit.design)
+        return replace(self, entries={**self.entries, **changed})
 
-    def _first_conflicting(self, step: HistoryEntry, parent: HistoryEntry) -> HistoryEntry:
-        """The first later step with which `entry` can no longer be taken out."""
-        later = [each for each in self.path if each.id > step.id]
+    def _first_conflicting(self, entry: HistoryEntry, parent: HistoryEntry) -> HistoryEntry:
+        """The first later entry that prevents reverting `entry`."""
+        later = [other for other in self.path if other.id > entry.id]
 
-        def touches(each: HistoryEntry) -> bool:
-            return bool(merge_designs(step.design, each.design, parent.design).conflicts)
+        def touches(other: HistoryEntry) -> bool:
+            return bool(merge_designs(entry.design, other.design, parent.design).conflicts)
 
         return later[min(bisect_left(later, True, key=touches), len(later) - 1)]
 
 
-def _without_oldest(steps: dict[int, HistoryEntry], newest: int) -> dict[int, HistoryEntry]:
-    """The steps without the oldest, once there are too many; the next one becomes the start of its branch."""
-    if len(steps) <= MAX_ENTRIES:
-        return steps
+def _without_oldest(entries: dict[int, HistoryEntry], newest: int) -> dict[int, HistoryEntry]:
+    """Drop the oldest entry if there are too many, preferring those outside the path to the newest."""
+    if len(entries) <= MAX_ENTRIES:
+        return entries
     path = [newest]
-    while steps[path[-1]].parent in steps:
-        path.append(steps[path[-1]].parent)
-    # A step beside the way that leads here is given up first.
-    oldest = min(steps, key=lambda id_: (id_ in path, id_))
-    return {id_: step for id_, step in steps.items() if id_ != oldest}
+    while entries[path[-1]].parent in entries:
+        path.append(entries[path[-1]].parent)
+    oldest = min(entries, key=lambda id_: (id_ in path, id_))
+    return {id_: entry for id_, entry in entries.items() if id_ != oldest}

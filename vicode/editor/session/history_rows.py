@@ -1,4 +1,4 @@
-"""The history as lines of a list: the newest first, branches indented."""
+"""The undo history as rows of a list, newest first, with branches indented."""
 
 from dataclasses import dataclass
 
@@ -7,7 +7,7 @@ from vicode.editor.session.history import HistoryEntry, UndoHistory
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class HistoryRow:
-    """One step: `depth` is 0 on the way to where the design is, more on branches beside it."""
+    """One entry; `depth` is 0 on the current path and its continuation, more on other branches."""
 
     entry: HistoryEntry
     depth: int
@@ -16,9 +16,9 @@ class HistoryRow:
 
 
 def list_history_rows(history: UndoHistory, limit: int) -> tuple[HistoryRow, ...]:
-    """The newest steps, at most so many, and always where the design is."""
-    newest_child = {step.parent: step.id for step in sorted(history.entries.values(), key=lambda each: each.id)}
-    before = {step.id for step in history.path}
+    """The newest entries up to `limit`, and always the current one."""
+    newest_child = {entry.parent: entry.id for _id, entry in sorted(history.entries.items())}
+    before = {entry.id for entry in history.path}
     ahead: list[int] = []
     at = history.current_id
     while at in newest_child:
@@ -26,9 +26,9 @@ def list_history_rows(history: UndoHistory, limit: int) -> tuple[HistoryRow, ...
         ahead.append(at)
     main = before | set(ahead)
     depths: dict[int, int] = {}
-    for id_, step in sorted(history.entries.items()):
-        goes_on = step.parent not in main and newest_child.get(step.parent) == id_
-        depths[id_] = 0 if id_ in main else depths.get(step.parent, 0) + (0 if goes_on else 1)
+    for id_, entry in sorted(history.entries.items()):
+        continues_branch = entry.parent not in main and newest_child.get(entry.parent) == id_
+        depths[id_] = 0 if id_ in main else depths.get(entry.parent, 0) + (0 if continues_branch else 1)
     shown = sorted(history.entries, reverse=True)[:limit]
     if history.current_id not in shown:
         shown.append(history.current_id)

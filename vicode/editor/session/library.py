@@ -1,4 +1,4 @@
-"""All projects below the folder that the editor was opened on."""
+"""All projects in the folder that the editor was opened on."""
 
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -11,7 +11,7 @@ from vicode.store import find_projects
 
 @dataclass(eq=False)
 class Library:
-    """The projects of a folder, or the one project of a design file; `initial_design` is what to open first."""
+    """The projects in a folder, or the one project of a design file."""
 
     path: Path
     users: UserDirectory = field(init=False, default_factory=UserDirectory)
@@ -19,32 +19,30 @@ class Library:
     _overviews: dict[str, ProjectOverview] = field(init=False, default_factory=dict)
 
     def __post_init__(self) -> None:
-        """Read them all."""
         found = find_projects(self.path)
-        self.workspaces = [Workspace(each, _key(each, self.folder), self.users) for each in found]
+        self.workspaces = [Workspace(item, _key(item, self.folder), self.users) for item in found]
 
     def workspace(self, key: str) -> Workspace | None:
-        """The project of a key."""
-        return next((each for each in self.workspaces if each.key == key), None)
+        return next((workspace for workspace in self.workspaces if workspace.key == key), None)
 
     def overview(self, workspace: Workspace) -> ProjectOverview:
-        """What the home page shows of a project, shared by all windows."""
+        """The overview of a project, shared by all windows."""
         return self._overviews.setdefault(workspace.key, ProjectOverview(workspace))
 
     def ensure_project(self) -> Workspace:
-        """The project of a folder that holds none yet."""
+        """The first project, created if the folder contains none."""
         if not self.workspaces:
             self.workspaces.append(Workspace(self.folder, _key(self.folder, self.folder), self.users))
         return self.workspaces[0]
 
     @property
     def folder(self) -> Path:
-        """The folder that was opened, or that holds the file that was."""
+        """The opened folder, or the folder of the opened file."""
         return self.path if self.path.is_dir() else self.path.parent
 
     @property
     def initial_design(self) -> tuple[Workspace, str] | None:
-        """The design to open first: the file given, else the first agent's root, else any design."""
+        """The design to open first: the given file, else the root of the first agent, else any design."""
         for workspace in self.workspaces:
             component = workspace.component_in_file(self.path) if self.path.is_file() else None
             if component:
@@ -60,10 +58,10 @@ class Library:
 
 
 def _key(project: Path, folder: Path) -> str:
-    """A short name of a project in addresses."""
-    inside = project if project.is_dir() else project.parent
+    """The name of a project in URLs."""
+    root = project if project.is_dir() else project.parent
     try:
-        parts = inside.resolve().relative_to(folder.resolve()).parts
+        parts = root.resolve().relative_to(folder.resolve()).parts
     except ValueError:
-        parts = (inside.name,)
+        parts = (root.name,)
     return "~".join(parts) or folder.resolve().name

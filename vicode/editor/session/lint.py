@@ -1,6 +1,7 @@
-"""What a linter says of the Python in a design: the pieces stand in one module as they will when generated.
+"""Lints the Python code in a design.
 
-The linter reads that module from a pipe and runs no code of it; a map of lines brings its words back to the pieces.
+All code blocks are placed in one module, as in generated code. The linter reads the module from standard input without
+running it; its warnings are mapped back to the blocks by line.
 """
 
 import json
@@ -17,15 +18,15 @@ from vicode.model.project import Project
 from vicode.model.traversal import LocatedCode, iter_code
 
 TIME_LIMIT_S = 2.0
-_MAXIMUM_LENGTH = 400_000
+_MAX_LENGTH = 400_000
 _RULES = "F,E7,E9,B,PLE,W605"
-# Code of one piece may use what another one imports, and a piece may be there to be continued.
+# A block may import a name for other blocks, and may be an unfinished expression.
 _IGNORED = "F401,F811,B018"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LintWarning:
-    """A remark about characters of one piece of code."""
+    """A warning about a range of characters in a code block."""
 
     start: int
     end: int
@@ -35,7 +36,7 @@ class LintWarning:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class _CodeBlock:
-    """A piece of code in the module: where its lines begin there, and how far each was moved."""
+    """A code block in the module: the index of its first line there, and the added indentation of each line."""
 
     path: DesignPath
     text: str
@@ -45,33 +46,35 @@ class _CodeBlock:
 
 @dataclass(slots=True)
 class _Module:
-    """The module as it grows."""
+    """The module under construction."""
 
     lines: list[str] = field(default_factory=list)
     blocks: list[_CodeBlock] = field(default_factory=list)
 
-    def add(self, placed: LocatedCode, text: str, indent: str) -> None:
-        """Add a piece, indented, without the margin it has by itself."""
+    def add(self, located: LocatedCode, text: str, indent: str) -> None:
+        """Add a dedented block at another indentation."""
         lines = text.replace("\r\n", "\n").split("\n")
-        straight = textwrap.dedent("\n".join(lines)).split("\n")
-        shifts = tuple(len(indent) - (len(old) - len(new)) for old, new in zip(lines, straight, strict=True))
-        path = (*placed.path, "python")
+        dedented = textwrap.dedent("\n".join(lines)).split("\n")
+        shifts = tuple(len(indent) - (len(old) - len(new)) for old, new in zip(lines, dedented, strict=True))
+        path = (*located.path, "python")
         self.blocks.append(_CodeBlock(path=path, text=text, first=len(self.lines), shifts=shifts))
-        self.lines += [indent + line if line.strip() else "" for line in straight]
+        self.lines += [indent + line if line.strip() else "" for line in dedented]
 
 
 LintWarnings = Mapping[DesignPath, tuple[LintWarning, ...]]
 Linter = Callable[[str, tuple[str, ...]], str]
-"""Lints a module with further names that are known in it; the linter's JSON, empty if there is none."""
+"""Lints a module with additional builtin names; returns the linter's JSON, empty if no linter is available."""
 
 
 def lint_design(project: Project, design: Design, run: Linter | None = None) -> LintWarnings:
-    """The remarks on every piece of Python in a design, by its path; none where the linter cannot be had."""
+    """The warnings about each Python block of a design, by path; empty if no linter is available."""
     module = _module_of(design)
     source = "\n".join(module.lines) + "\n"
-    if not module.blocks or len(source) > _MAXIMUM_LENGTH:
+    if not module.blocks or len(source) > _MAX_LENGTH:
         return {}
-    known = [each.name for each in project.enumerations] + [each.name for each in project.constants]
+    known = [enumeration.name for enumeration in project.enumerations] + [
+        constant.name for constant in project.constants
+    ]
     known += [use.component for use in design.uses] + ["arithmetic", "Component", "State", "Root"]
     found: dict[DesignPath, list[LintWarning]] = {}
     for row in _rows((run or run_ruff)(source, tuple(known))):
@@ -81,9 +84,9 @@ def lint_design(project: Project, design: Design, run: Linter | None = None) -> 
 
 
 def run_ruff(source: str, known: tuple[str, ...]) -> str:
-    """Ask ruff about a text; it reads and writes no file and no configuration."""
+    """Lint a text with ruff, isolated from files and configuration."""
     try:
-        from ruff import find_ruff_bin  # noqa: PLC0415 - without it there are no remarks, but there is an editor
+        from ruff import find_ruff_bin  # noqa: PLC0415 - optional: the editor works without it
 
         command = [find_ruff_bin(), "check", "--isolated", "--no-cache", "--quiet", "--output-format=json"]
     except (ImportError, FileNotFoundError):
@@ -101,21 +104,21 @@ def run_ruff(source: str, known: tuple[str, ...]) -> str:
 
 
 def _module_of(design: Design) -> _Module:
-    """The code of a design as a module; what does not parse is left out, as a finding tells of it."""
+    """The code of a design as a module, without blocks that do not parse: those are findings."""
     module = _Module()
-    placed = [(each, each.code.in_language("python")) for each in iter_code(design)]
-    sound = [(each, text) for each, text in placed if text is not None and validate_python(text, each.role) is None]
-    for each, text in sound:
-        if each.role == "module":
-            module.add(each, text, "")
+    blocks = [(located, located.code.in_language("python")) for located in iter_code(design)]
+    sound = [(code, text) for code, text in blocks if text is not None and validate_python(text, code.role) is None]
+    for code, text in sound:
+        if code.role == "module":
+            module.add(code, text, "")
     module.lines += ["", "", f"class {_class_name(design)}:", "    pass", ""]
-    for each, text in sound:
-        if each.role == "members":
-            module.add(each, text, "    ")
-    for number, (each, text) in enumerate(sound):
-        if each.role in ("action", "predicate"):
-            module.lines += ["", f"    def _piece_{number}(self):", "        pass"]
-            module.add(each, text, "        ")
+    for code, text in sound:
+        if code.role == "members":
+            module.add(code, text, "    ")
+    for number, (code, text) in enumerate(sound):
+        if code.role in ("action", "predicate"):
+            module.lines += ["", f"    def _block_{number}(self):", "        pass"]
+            module.add(code, text, "        ")
     return module
 
 
@@ -132,27 +135,27 @@ def _rows(text: str) -> list[Mapping[str, object]]:
 
 
 def _map_to_code(row: Mapping[str, object], module: _Module) -> Iterator[tuple[DesignPath, LintWarning]]:
-    """The remark at its characters of the piece it is about; what is about our own lines is nobody's."""
-    begin, end = _point(row.get("location")), _point(row.get("end_location"))
-    for piece in module.blocks:
-        if begin is not None and piece.first <= begin[0] - 1 < piece.first + len(piece.shifts):
-            start = _offset(piece, *begin)
-            stop = _offset(piece, *end) if end is not None else start + 1
+    """The warning at its range in a block; warnings about lines between blocks are dropped."""
+    begin, end = _position(row.get("location")), _position(row.get("end_location"))
+    for block in module.blocks:
+        if begin is not None and block.first <= begin[0] - 1 < block.first + len(block.shifts):
+            start = _offset(block, *begin)
+            stop = _offset(block, *end) if end is not None else start + 1
             code, message = str(row.get("code") or "E999"), str(row.get("message", ""))
-            yield piece.path, LintWarning(start=start, end=max(start + 1, stop), code=code, message=message)
+            yield block.path, LintWarning(start=start, end=max(start + 1, stop), code=code, message=message)
             return
 
 
-def _point(place: object) -> tuple[int, int] | None:
-    if not isinstance(place, dict):
+def _position(location: object) -> tuple[int, int] | None:
+    if not isinstance(location, dict):
         return None
-    row, column = place.get("row"), place.get("column")
+    row, column = location.get("row"), location.get("column")
     return (row, column) if isinstance(row, int) and isinstance(column, int) else None
 
 
-def _offset(piece: _CodeBlock, row: int, column: int) -> int:
-    """The character of a piece for a row and a column, both from 1, of the module."""
-    lines = piece.text.split("\n")
-    at = min(row - 1 - piece.first, len(lines) - 1)
-    inside = max(0, min(column - 1 - piece.shifts[at], len(lines[at])))
-    return sum(len(line) + 1 for line in lines[:at]) + inside
+def _offset(block: _CodeBlock, row: int, column: int) -> int:
+    """The offset in a block of a row and column of the module, both from 1."""
+    lines = block.text.split("\n")
+    index = min(row - 1 - block.first, len(lines) - 1)
+    offset = max(0, min(column - 1 - block.shifts[index], len(lines[index])))
+    return sum(len(line) + 1 for line in lines[:index]) + offset

@@ -1,49 +1,49 @@
-"""Numbers as a person types them."""
+"""Parses, validates and formats numbers in text fields. Each `validate_` function returns an error message or ""."""
 
 import math
 
-_LONGEST_COUNT = 6
+from vicode.editor.session import messages
+
+_MAX_COUNT_LENGTH = 6
 
 
 def validate_frequency(text: str) -> str:
-    """Why a text is no frequency, in words; nothing if it is one, or empty."""
     if not text.strip():
         return ""
     try:
         value = float(text)
     except ValueError:
-        return f"'{text[:20]}' is no number: write Hz, such as 10 or 0.5"
-    return "" if math.isfinite(value) and value > 0 else "a frequency is above 0 Hz"
+        return messages.invalid_frequency(text)
+    return "" if math.isfinite(value) and value > 0 else messages.FREQUENCY_TOO_LOW
 
 
 def parse_frequency(text: str) -> float | None:
-    """Hz from a text that `validate_frequency` takes, None for an empty one."""
+    """The frequency in Hz in a valid text, None for an empty one."""
     return float(text) if text.strip() else None
 
 
 def format_number(value: float | None) -> str:
-    """The shortest text of a number; whole ones without a point."""
+    """The shortest text of a number; integers have no decimal point."""
     if value is None:
         return ""
     return str(int(value)) if value == int(value) else repr(value)
 
 
 def validate_range(text: str) -> str:
-    """Why a text is no range, in words; nothing if it is one, or empty."""
     parts = text.replace("[", " ").replace("]", " ").split(",")
     if not text.strip():
         return ""
     try:
         values = [float(part) for part in parts]
     except ValueError:
-        return "write the lowest and the highest value, such as 0, 9000"
+        return messages.INVALID_RANGE
     if len(values) != 2 or not all(math.isfinite(value) for value in values):
-        return "write the lowest and the highest value, such as 0, 9000"
-    return "" if values[0] <= values[1] else "the lowest value comes first"
+        return messages.INVALID_RANGE
+    return "" if values[0] <= values[1] else messages.RANGE_REVERSED
 
 
 def parse_range(text: str) -> tuple[float, float] | None:
-    """The range in a text that `validate_range` takes, None for an empty one."""
+    """The range in a valid text, None for an empty one."""
     if not text.strip():
         return None
     low, high = text.replace("[", " ").replace("]", " ").split(",")
@@ -51,17 +51,15 @@ def parse_range(text: str) -> tuple[float, float] | None:
 
 
 def format_range(value: tuple[float, float] | None) -> str:
-    """A range as it is typed."""
     return "" if value is None else f"{format_number(value[0])}, {format_number(value[1])}"
 
 
 def validate_count(text: str) -> str:
-    """Why a text is no number of robots, in words; nothing if it is one, or empty."""
     number = text.strip()
-    is_count = number.isascii() and number.isdecimal() and len(number) <= _LONGEST_COUNT
-    return "" if is_count or not number else "write a whole number of robots, such as 1, or nothing"
+    is_count = number.isascii() and number.isdecimal() and len(number) <= _MAX_COUNT_LENGTH
+    return "" if is_count or not number else messages.INVALID_COUNT
 
 
 def parse_count(text: str) -> float | None:
-    """A number of robots from a text that `validate_count` takes, None for an empty one."""
+    """The number of robots in a valid text, None for an empty one."""
     return float(text) if text.strip() else None

@@ -1,4 +1,4 @@
-"""Who is here: people with a name and a colour, and what each window of theirs is at."""
+"""Presence: the users of the editor, and what each of their windows selects and edits."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
@@ -9,7 +9,7 @@ from vicode.findings import DesignPath
 from vicode.model.design import Point
 
 DISK_USER = "disk"
-"""Stands for the person where another program changed the file."""
+"""The user id of edits by other programs."""
 
 COLOUR_COUNT = 8
 _MAX_NAME_LENGTH = 24
@@ -18,7 +18,7 @@ _MAX_USERS = 1000
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class User:
-    """Somebody at a browser; `colour` is the number of one of the colours that tell people apart."""
+    """A user in a browser; `colour` is an index below COLOUR_COUNT."""
 
     id: str
     name: str
@@ -27,7 +27,7 @@ class User:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Presence:
-    """What somebody is at in one window: what is selected, the field being typed in, where the pointer is."""
+    """One window of a user: the selection, the path of the edited field, the position of the pointer."""
 
     window: str
     user: User
@@ -38,12 +38,12 @@ class Presence:
 
 @dataclass(eq=False)
 class UserDirectory:
-    """Everybody who came since the editor was started; names are chosen, or "Guest 2"."""
+    """All users since the start of the server, under chosen names or names such as "Guest 2"."""
 
     _known: dict[str, User] = field(default_factory=dict)
 
     def get_or_create_user(self, id_: str, name: str = "") -> User:
-        """The person of an id, by the name given now, else the one from before."""
+        """The user of an id, renamed if `name` is given."""
         wanted = clean_name(name)
         known = self._known.get(id_)
         if known is None:
@@ -57,62 +57,60 @@ class UserDirectory:
         return known
 
     def name_of(self, id_: str) -> str:
-        """The name of a person in a sentence."""
+        """The name of a user in a sentence."""
         if id_ == DISK_USER:
             return "another program"
         known = self._known.get(id_)
-        return known.name if known else "somebody"
+        return known.name if known else "someone"
 
 
 @dataclass(eq=False)
 class PresenceRoom:
-    """The windows that are open on one design; watchers are told when one comes, goes or turns to another thing."""
+    """The open windows of one design; listeners are called after every change."""
 
-    _here: dict[str, Presence] = field(default_factory=dict)
+    _presences: dict[str, Presence] = field(default_factory=dict)
     _listeners: list[Callable[[], None]] = field(default_factory=list)
 
-    def join(self, window: str, person: User) -> None:
-        """A window was opened."""
-        self._here[window] = Presence(window=window, user=person)
-        self._tell()
+    def join(self, window: str, user: User) -> None:
+        self._presences[window] = Presence(window=window, user=user)
+        self._notify()
 
     def leave(self, window: str) -> None:
-        """A window was closed."""
-        if self._here.pop(window, None) is not None:
-            self._tell()
+        if self._presences.pop(window, None) is not None:
+            self._notify()
 
     def update(self, window: str, **changes: Any) -> None:
-        """Somebody turned to other things: `user`, `selected`, `editing_path` or `pointer` of the presence change."""
-        before = self._here.get(window)
+        """Change `user`, `selected`, `editing_path` or `pointer` of a window."""
+        before = self._presences.get(window)
         if before is not None and (now := replace(before, **changes)) != before:
-            self._here[window] = now
-            self._tell()
+            self._presences[window] = now
+            self._notify()
 
     @property
     def presences(self) -> tuple[Presence, ...]:
-        """Every window, in the order in which they came."""
-        return tuple(self._here.values())
+        """All windows in the order of joining."""
+        return tuple(self._presences.values())
 
     def others(self, window: str) -> tuple[Presence, ...]:
-        """All windows but one, those of the same person too."""
-        return tuple(each for each in self._here.values() if each.window != window)
+        """All windows but one, including those of the same user."""
+        return tuple(presence for presence in self._presences.values() if presence.window != window)
 
     def names_editing(self, path: DesignPath, window: str) -> tuple[str, ...]:
-        """The names of those who type in a field in other windows."""
-        names = (each.user.name for each in self.others(window) if path and each.editing_path == path)
+        """The names of the users who edit a field in other windows."""
+        names = (other.user.name for other in self.others(window) if path and other.editing_path == path)
         return tuple(dict.fromkeys(names))
 
-    def subscribe(self, watcher: Callable[[], None]) -> Callable[[], None]:
-        """Tell `watcher` after every change; what is returned ends it."""
-        self._listeners.append(watcher)
-        return lambda: self._listeners.remove(watcher) if watcher in self._listeners else None
+    def subscribe(self, listener: Callable[[], None]) -> Callable[[], None]:
+        """Call `listener` after every change; returns a function that unsubscribes."""
+        self._listeners.append(listener)
+        return lambda: self._listeners.remove(listener) if listener in self._listeners else None
 
-    def _tell(self) -> None:
-        for watcher in tuple(self._listeners):
-            watcher()
+    def _notify(self) -> None:
+        for listener in tuple(self._listeners):
+            listener()
 
 
 def clean_name(name: str) -> str:
-    """A name as it may be shown: in one line, of letters that can be seen, not too long."""
-    seen = "".join(letter if letter.isprintable() else " " for letter in name)
-    return " ".join(seen.split())[:_MAX_NAME_LENGTH].strip()
+    """A name on one line, of printable characters, of limited length."""
+    printable = "".join(letter if letter.isprintable() else " " for letter in name)
+    return " ".join(printable.split())[:_MAX_NAME_LENGTH].strip()

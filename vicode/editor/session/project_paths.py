@@ -1,4 +1,4 @@
-"""Things that project.yaml declares, by their numbers in it, which stay when their names change."""
+"""Paths to the nodes of project.yaml by index, which stay valid when names change."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -13,95 +13,91 @@ NodeUpdate = Callable[[Any], Any]
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ProjectNodePath:
-    """Where a thing stands: the keys that lead to it, each with a number, such as ("components", 0), ("outputs", 3).
+    """The path to a node as pairs of section and index, such as ("components", 0), ("outputs", 3).
 
-    None lead to the project itself.
-
-    What stands there is an enumeration, a constant, a component, an agent, another declaration, or an element with
-    what it means.
+    The empty path is the project. A node is an enumeration, a constant, a component, an agent, another declaration, or
+    a pair of an element and its doc.
     """
 
     steps: tuple[tuple[str, int], ...]
 
     @staticmethod
     def top_level(section: str, number: int) -> "ProjectNodePath":
-        """A thing of the project itself."""
         return ProjectNodePath(steps=((section, number),))
 
     def child(self, section: str, number: int) -> "ProjectNodePath":
-        """A thing that stands in this one."""
         return ProjectNodePath(steps=(*self.steps, (section, number)))
 
     @property
     def section(self) -> str:
-        """The key that it stands below; "" for the project itself."""
+        """The section that contains the node; "" for the project."""
         return self.steps[-1][0] if self.steps else ""
 
     @property
     def kind(self) -> str:
-        """What it is, in a word."""
+        """The section in the singular."""
         return self.section.removesuffix("s")
 
     def get(self, project: Project) -> Any:
-        """The thing; None when it is gone."""
-        thing: Any = project
+        """The node; None if it no longer exists."""
+        node: Any = project
         for section, number in self.steps:
-            things = getattr(thing, section) or ()
-            if number >= len(things):
+            nodes = getattr(node, section) or ()
+            if number >= len(nodes):
                 return None
-            thing = things[number]
-        return thing
+            node = nodes[number]
+        return node
 
     def name(self, project: Project) -> str:
-        """Its name; "" when it is gone."""
+        """The name of the node; "" if it no longer exists."""
         return _name_of(self.get(project))
 
     def names(self, project: Project) -> tuple[str, ...]:
-        """The names of all that it stands in, and its own."""
-        ways = (ProjectNodePath(steps=self.steps[: end + 1]) for end in range(len(self.steps)))
-        return tuple(way.name(project) for way in ways)
+        """The names of all nodes on the path."""
+        paths = (ProjectNodePath(steps=self.steps[: end + 1]) for end in range(len(self.steps)))
+        return tuple(path.name(project) for path in paths)
 
     def path(self, project: Project) -> DesignPath:
-        """Where it stands in the file."""
+        """The path by names, as used in findings."""
         names = self.names(project)
         return tuple(step for (section, _), name in zip(self.steps, names, strict=True) for step in (section, name))
 
     def update(self, project: Project, change: NodeUpdate) -> Project:
-        """The project with another thing there."""
+        """The project with the node replaced by `change(node)`."""
         changed: Project = _updated(project, self.steps, change)
         return changed
 
     def remove(self, project: Project) -> Project:
-        """The project without the thing."""
+        """The project without the node."""
         *outer, (section, number) = self.steps
         name = self.name(project)
 
         def change(holder: Any) -> Any:
-            rest = tuple(each for at, each in enumerate(getattr(holder, section) or ()) if at != number)
+            rest = tuple(node for index, node in enumerate(getattr(holder, section) or ()) if index != number)
             changes: dict[str, Any] = {section: rest}
             if section == "elements":
-                changes["xabsl_elements"] = tuple(each for each in holder.xabsl_elements if each[0] != name)
+                changes["xabsl_elements"] = tuple(pair for pair in holder.xabsl_elements if pair[0] != name)
             return replace(holder, **changes)
 
         changed: Project = _updated(project, tuple(outer), change)
         return changed
 
     def move_up(self, project: Project) -> Project:
-        """The project with the thing before the one that stands before it; the first stays."""
+        """The project with the node moved up by one in its section."""
         *outer, (section, number) = self.steps
 
         def change(holder: Any) -> Any:
-            things = list(getattr(holder, section) or ())
-            if 0 < number < len(things):
-                things[number - 1 : number + 1] = things[number], things[number - 1]
-            changes: dict[str, Any] = {section: tuple(things)}
+            nodes = list(getattr(holder, section) or ())
+            if 0 < number < len(nodes):
+                nodes[number - 1 : number + 1] = nodes[number], nodes[number - 1]
+            changes: dict[str, Any] = {section: tuple(nodes)}
             return replace(holder, **changes)
 
         changed: Project = _updated(project, tuple(outer), change)
         return changed
 
     def symbol_ref(self, project: Project) -> SymbolRef:
-        """It as a thing that can be renamed, and is said elsewhere."""
+        """The node as a symbol that can be renamed."""
         names = self.names(project)
         match [section for section, _number in self.steps]:
             case ["enumerations", "elements"]:
@@ -115,31 +111,31 @@ class ProjectNodePath:
 
 
 def project_structure_key(project: Project) -> object:
-    """What decides which fields the forms of a project have, as opposed to what stands in them."""
+    """A value that changes when the forms of the project need other fields."""
     parts = (
         (
-            len(each.parameters),
-            tuple(each.arguments and len(each.arguments) for each in each.outputs),
-            len(each.variables),
+            len(interface.parameters),
+            tuple(output.arguments and len(output.arguments) for output in interface.outputs),
+            len(interface.variables),
         )
-        for each in project.components
+        for interface in project.components
     )
-    elements = tuple(len(each.elements) for each in project.enumerations)
+    elements = tuple(len(enumeration.elements) for enumeration in project.enumerations)
     return (elements, len(project.constants), tuple(parts), len(project.agents))
 
 
-def _name_of(thing: Any) -> str:
-    if isinstance(thing, tuple):
-        return str(thing[0])
-    if isinstance(thing, Interface):
-        return thing.component
-    return thing.name if thing is not None else ""
+def _name_of(node: Any) -> str:
+    if isinstance(node, tuple):
+        return str(node[0])
+    if isinstance(node, Interface):
+        return node.component
+    return node.name if node is not None else ""
 
 
-def _updated(thing: Any, steps: tuple[tuple[str, int], ...], change: NodeUpdate) -> Any:
+def _updated(node: Any, steps: tuple[tuple[str, int], ...], change: NodeUpdate) -> Any:
     if not steps:
-        return change(thing)
+        return change(node)
     (section, number), rest = steps[0], steps[1:]
-    inner = enumerate(getattr(thing, section) or ())
-    changes = {section: tuple(_updated(each, rest, change) if at == number else each for at, each in inner)}
-    return replace(thing, **changes)
+    children = enumerate(getattr(node, section) or ())
+    updated = tuple(_updated(child, rest, change) if index == number else child for index, child in children)
+    return replace(node, **{section: updated})

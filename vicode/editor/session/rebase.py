@@ -1,4 +1,4 @@
-"""Finds a thing again after others renamed, moved or removed things: selections and late gestures stay with it."""
+"""Rebases selections and gestures onto a newer design in which others renamed, moved or removed items."""
 
 from collections.abc import Mapping
 from typing import Any
@@ -9,43 +9,44 @@ from vicode.model.design import COMMON, Decision, DecisionGroup, Design
 from vicode.model.merge import find_renamed_states, find_renamed_uses, match_items
 
 
-def rebase_selection(thing: ItemRef, old: Design, new: Design) -> ItemRef | None:
-    """The same thing in a later design; None when it is gone."""
+def rebase_selection(item: ItemRef, old: Design, new: Design) -> ItemRef | None:
+    """The same item in a newer design; None if it no longer exists."""
     if old == new:
-        return thing
-    match thing.kind:
+        return item
+    match item.kind:
         case "states":
-            name = _state(thing.id, old, new)
+            name = _state(item.id, old, new)
             return ItemRef(kind="states", id=name) if name else None
         case "components":
-            alias = _use(thing.id, old, new)
+            alias = _use(item.id, old, new)
             return ItemRef(kind="components", id=alias) if alias else None
         case "links":
-            kind, state, alias = (*thing.id.split("/"), "", "")[:3]
-            found = (kind, _state(state, old, new), _use(alias, old, new))
-            return ItemRef(kind="links", id="/".join(found)) if all(found) else None
+            kind, state, alias = (*item.id.split("/"), "", "")[:3]
+            parts = (kind, _state(state, old, new), _use(alias, old, new))
+            return ItemRef(kind="links", id="/".join(parts)) if all(parts) else None
         case "transitions":
-            key = _decision(thing.id, old, new)
+            key = _decision(item.id, old, new)
             return ItemRef(kind="transitions", id=key) if key else None
         case _:
-            return thing
+            return item
 
 
 def rebase_gesture(payload: Mapping[str, Any], old: Design, new: Design) -> dict[str, Any] | None:
-    """A gesture made on an older drawing as it is meant now; None when what it was made on is gone."""
-    late = dict(payload)
+    """A gesture made on an older design, adapted to a newer one; None if its item no longer exists."""
+    rebased = dict(payload)
     kind = {"reconnect": "transitions"}.get(str(payload.get("kind")), str(payload.get("of", "")))
-    if "id" in late and kind:
-        found = rebase_selection(ItemRef(kind=kind, id=str(late["id"])), old, new)
+    if "id" in rebased and kind:
+        found = rebase_selection(ItemRef(kind=kind, id=str(rebased["id"])), old, new)
         if found is None:
             return None
-        late["id"] = found.id
-    if isinstance(late.get("items"), list):
-        late["items"] = [each for each in (_item(item, old, new) for item in late["items"]) if each is not None]
+        rebased["id"] = found.id
+    if isinstance(rebased.get("items"), list):
+        items = (_item(item, old, new) for item in rebased["items"])
+        rebased["items"] = [item for item in items if item is not None]
     for name in ("source", "target", "state"):
-        if isinstance(late.get(name), str) and late[name] != COMMON:
-            late[name] = _state(late[name], old, new)
-    return late
+        if isinstance(rebased.get(name), str) and rebased[name] != COMMON:
+            rebased[name] = _state(rebased[name], old, new)
+    return rebased
 
 
 def _item(item: Any, old: Design, new: Design) -> Any:
@@ -83,13 +84,13 @@ def _decision(key: str, old: Design, new: Design) -> str:
 
 
 def _steps(steps: DesignPath, before: tuple[Decision, ...], after: tuple[Decision, ...]) -> DesignPath:
-    """The way to a decision within a list and the groups in it; nothing when it is gone."""
+    """The relative path of a decision in a list with nested groups; empty if it no longer exists."""
     if not steps:
         return ()
     at, rest = steps[0], steps[1:]
     if not isinstance(at, int) or at >= len(before):
         return ()
-    # One that was changed beyond recognition stands where it stood, if nothing came or went.
+    # An unrecognizable decision keeps its index if the length of the list is unchanged.
     to = match_items(before, after, is_keyed=False).get(at, at if len(before) == len(after) else -1)
     if to < 0 or not rest:
         return (to,) if to >= 0 else ()

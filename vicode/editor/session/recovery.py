@@ -1,4 +1,4 @@
-"""Unsaved work that outlives a killed server: a journal a design, outside the project, offered at the next start."""
+"""Journals of unsaved designs, outside the project, from which work is recovered after a server was killed."""
 
 import contextlib
 import fcntl
@@ -25,7 +25,7 @@ _MAX_JOURNALS = 200
 
 
 def state_folder(environment: Mapping[str, str] = os.environ) -> Path:
-    """Where the editor keeps what outlives it: VICODE_STATE, else `vicode` in the user's state folder."""
+    """The folder of persistent state: VICODE_STATE, else `vicode` in the user's state folder."""
     given = environment.get(STATE_VARIABLE)
     if given:
         return Path(given)
@@ -34,7 +34,7 @@ def state_folder(environment: Mapping[str, str] = os.environ) -> Path:
 
 
 def open_recovery_store() -> "RecoveryStore":
-    """The journals in the state folder; in one for temporary files where nothing else can be written."""
+    """Open the store in the state folder, or in a temporary folder if that cannot be written."""
     try:
         return RecoveryStore(state_folder())
     except OSError:
@@ -43,7 +43,7 @@ def open_recovery_store() -> "RecoveryStore":
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RecoverableDesign:
-    """Unsaved work that a server left behind: `base_text` is what its file held, `text` what the design became."""
+    """Unsaved work left by a server: `base_text` is the text of its file, `text` that of the unsaved design."""
 
     journal: Path
     component: str
@@ -54,7 +54,7 @@ class RecoverableDesign:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class JournalSnapshot:
-    """What is to be written into a journal; no design: nothing is unsaved any more."""
+    """The content of a journal; `design` is None if nothing is unsaved and the journal is to be removed."""
 
     project: Path
     component: str
@@ -65,7 +65,13 @@ class JournalSnapshot:
 
 @dataclass(eq=False)
 class RecoveryStore:
-    """The journals of this server, and those that servers left which are gone."""
+    """The journals of this server and of servers that no longer run.
+
+    Each server holds a lock on its folder while it runs.
+
+    Raises:
+        OSError: The folder cannot be written.
+    """
 
     folder: Path
     _own_folder: Path = field(init=False)
@@ -73,37 +79,34 @@ class RecoveryStore:
     _seen: dict[tuple[Path, str], tuple[Design, str]] = field(init=False, default_factory=dict)
 
     def __post_init__(self) -> None:
-        """Make a folder for this server; it is known to be alive by the lock that it holds.
-
-        Raises:
-            OSError: Nothing can be written there.
-        """
         self._own_folder = self.folder / "unsaved" / secrets.token_hex(8)
         self._own_folder.mkdir(parents=True, mode=0o700)
         self._lock = (self._own_folder / "lock").open("w")
         fcntl.flock(self._lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
 
-    def next_snapshot(self, project: Path, component: str, sheet: SharedDocument) -> JournalSnapshot | None:
-        """What a journal must be told of a design, None when it knows."""
-        design, key = sheet.history.current.design, (project, component)
-        is_saved = design == sheet.saved
+    def next_snapshot(self, project: Path, component: str, shared: SharedDocument) -> JournalSnapshot | None:
+        """The snapshot to write for a design, None if its journal is up to date."""
+        current, key = shared.history.current, (project, component)
+        is_saved = current.design == shared.saved
         last = self._seen.get(key)
-        if (last is None and is_saved) or last == (design, sheet.disk_text):
+        if (last is None and is_saved) or last == (current.design, shared.disk_text):
             return None
-        self._seen[key] = (design, sheet.disk_text)
+        self._seen[key] = (current.design, shared.disk_text)
         if is_saved:
             del self._seen[key]
-        wanted = None if is_saved else design
-        at_s = sheet.history.current.at_s
         return JournalSnapshot(
-            project=project, component=component, at_s=at_s, base_text=sheet.disk_text, design=wanted
+            project=project,
+            component=component,
+            at_s=current.at_s,
+            base_text=shared.disk_text,
+            design=None if is_saved else current.design,
         )
 
     def write(self, snapshot: JournalSnapshot) -> None:
-        """Bring a journal up to date; slow for large designs, and safe beside the event loop.
+        """Write a journal; slow for large designs, and safe in a worker thread.
 
         Raises:
-            OSError: It cannot be written; it is due again then.
+            OSError: The journal cannot be written; `next_snapshot` returns it again.
         """
         try:
             self._write(snapshot)
@@ -112,7 +115,7 @@ class RecoveryStore:
             raise
 
     def recoverable(self, project: Path) -> tuple[RecoverableDesign, ...]:
-        """The unsaved work on a project that was left behind, the newest of each design, by component."""
+        """The newest unsaved work on each design of a project, sorted by component."""
         wanted, found = str(project.resolve()), dict[str, RecoverableDesign]()
         for journal in self._orphaned_journals():
             lost = _read(journal, wanted)
@@ -121,33 +124,33 @@ class RecoveryStore:
         return tuple(found[name] for name in sorted(found))
 
     def discard(self, lost: RecoverableDesign) -> None:
-        """Give up what was recovered or discarded."""
+        """Remove a journal after its work was recovered or discarded."""
         lost.journal.unlink(missing_ok=True)
         self._remove_if_empty(lost.journal.parent)
 
     def close(self) -> None:
-        """End in order: what is still unsaved stays to be recovered."""
+        """Release the lock; journals of unsaved designs stay for recovery."""
         self._lock.close()
         self._remove_if_empty(self._own_folder)
 
     @property
     def autosaved_projects(self) -> frozenset[str]:
-        """The projects that are saved by themselves, as they were noted last."""
+        """The folders of the projects with autosave."""
         try:
             return frozenset((self.folder / _AUTOSAVED).read_text(encoding="utf-8").splitlines())
         except (OSError, UnicodeDecodeError):
             return frozenset()
 
     def set_autosave(self, project: Path, *, is_on: bool) -> None:
-        """Note for the next servers whether a project is saved by itself.
+        """Store the autosave setting of a project.
 
         Raises:
-            OSError: It cannot be written.
+            OSError: The setting cannot be written.
         """
         own = frozenset({str(project.resolve())})
         known = self.autosaved_projects
-        noted = known | own if is_on else known - own
-        write_atomically(self.folder / _AUTOSAVED, "".join(f"{each}\n" for each in sorted(noted)))
+        projects = known | own if is_on else known - own
+        write_atomically(self.folder / _AUTOSAVED, "".join(f"{project}\n" for project in sorted(projects)))
 
     def _write(self, snapshot: JournalSnapshot) -> None:
         file = self._own_folder / _name(snapshot.project, snapshot.component)
@@ -157,19 +160,19 @@ class RecoveryStore:
         try:
             text = save_design(snapshot.design, snapshot.base_text)
         except ValueError:
-            # Two things of one name, which no file can hold: the journal keeps what it had until that is mended.
+            # Duplicate names cannot be saved: the journal keeps its last content until the user fixes them.
             return
-        said = {
+        content = {
             "project": str(snapshot.project.resolve()),
             "component": snapshot.component,
             "at": snapshot.at_s,
             "base": snapshot.base_text,
             "text": text,
         }
-        write_atomically(file, json.dumps(said))
+        write_atomically(file, json.dumps(content))
 
     def _orphaned_journals(self) -> list[Path]:
-        """The journals in folders that no living server holds."""
+        """The journals in folders that no running server has locked."""
         journals: list[Path] = []
         for folder in (self.folder / "unsaved").iterdir():
             if folder != self._own_folder and _is_abandoned(folder):
@@ -195,15 +198,15 @@ def _is_abandoned(folder: Path) -> bool:
 
 
 def _read(journal: Path, project: str) -> RecoverableDesign | None:
-    """The work in a journal of a project; None for one of another, and for a file that is none."""
+    """The work in a journal; None if it belongs to another project or is damaged."""
     try:
         if journal.stat().st_size > _MAX_JOURNAL_BYTES:
             return None
-        said = json.loads(journal.read_text(encoding="utf-8"))
-        if said["project"] != project:
+        content = json.loads(journal.read_text(encoding="utf-8"))
+        if content["project"] != project:
             return None
-        texts = {name: str(said[name]) for name in ("component", "base", "text")}
-        at_s = float(said["at"])
+        texts = {name: str(content[name]) for name in ("component", "base", "text")}
+        at_s = float(content["at"])
     except (OSError, ValueError, KeyError, TypeError):
         return None
     return RecoverableDesign(

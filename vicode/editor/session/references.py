@@ -1,4 +1,4 @@
-"""Where a declared thing is said: what another name for it would change."""
+"""Finds the references to a symbol, as the places that a rename would change."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -16,32 +16,32 @@ _SECTIONS = ("parameters", "outputs", "variables")
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ReferenceLocation:
-    """A place that says a thing: in a design, or with no component in project.yaml."""
+    """A reference in a design, or in project.yaml if `component` is empty."""
 
     component: str = ""
     description: str
 
 
-def find_references(project: Project, thing: SymbolRef) -> tuple[ReferenceLocation, ...]:
-    """Everywhere a thing is said, but where it is declared; each place once."""
-    other = unique_name(f"{thing.name}_another", set(sibling_names(project, thing)))
-    renamed = rename_symbol(project, thing, other)
+def find_references(project: Project, symbol: SymbolRef) -> tuple[ReferenceLocation, ...]:
+    """All references to a symbol except its declaration, without duplicates."""
+    other = unique_name(f"{symbol.name}_another", set(sibling_names(project, symbol)))
+    renamed = rename_symbol(project, symbol, other)
     before, after = _own_texts(project), _own_texts(renamed)
     found = [
-        ReferenceLocation(description=words)
-        for (words, text), (_, now) in zip(before, after, strict=True)
+        ReferenceLocation(description=description)
+        for (description, text), (_, now) in zip(before, after, strict=True)
         if text != now
     ]
     for design, now_design in zip(project.designs, renamed.designs, strict=True):
         if design != now_design:
             pairs = zip(_texts(design), _texts(now_design), strict=True)
-            places = (path for (path, text), (other_path, now) in pairs if text != now or path != other_path)
-            found += [ReferenceLocation(component=design.component, description=describe_path(path)) for path in places]
+            paths = (path for (path, text), (other_path, now) in pairs if text != now or path != other_path)
+            found += [ReferenceLocation(component=design.component, description=describe_path(path)) for path in paths]
     return tuple(dict.fromkeys(found))
 
 
 def _texts(design: Design) -> Iterator[tuple[DesignPath, str]]:
-    """All that a design may say of others, each with its place."""
+    """All texts of a design that may contain references, with their paths."""
     for use in design.uses:
         yield ("uses", use.alias), use.component
     for section, declaration in design.declarations():
@@ -50,8 +50,8 @@ def _texts(design: Design) -> Iterator[tuple[DesignPath, str]]:
     for expression in iter_expressions(design):
         if expression.path[0] not in _SECTIONS:
             yield expression.path, expression.text
-    for placed in iter_code(design):
-        yield placed.path, repr(placed.code.texts)
+    for located in iter_code(design):
+        yield located.path, repr(located.code.texts)
 
 
 def _declaration_texts(declaration: Declaration) -> Iterator[tuple[str, str]]:
@@ -62,13 +62,15 @@ def _declaration_texts(declaration: Declaration) -> Iterator[tuple[str, str]]:
 
 
 def _own_texts(project: Project) -> list[tuple[str, str]]:
-    """All that project.yaml says of its own things, each with words for its place."""
+    """All texts of project.yaml that may contain references, with descriptions of their places."""
     found = [
-        (f"{key} of constant {each.name}", text) for each in project.constants for key, text in _declaration_texts(each)
+        (f"{key} of constant {constant.name}", text)
+        for constant in project.constants
+        for key, text in _declaration_texts(constant)
     ]
-    for part in project.components:
+    for interface in project.components:
         for section in _SECTIONS:
-            for each in getattr(part, section):
-                place = f"{section.removesuffix('s')} {each.name} of {part.component}"
-                found += [(f"{key} of {place}", text) for key, text in _declaration_texts(each)]
-    return found + [(f"root of agent {each.name}", each.root) for each in project.agents]
+            for declaration in getattr(interface, section):
+                place = f"{section.removesuffix('s')} {declaration.name} of {interface.component}"
+                found += [(f"{key} of {place}", text) for key, text in _declaration_texts(declaration)]
+    return found + [(f"root of agent {agent.name}", agent.root) for agent in project.agents]

@@ -1,22 +1,23 @@
-"""Renames a component with everything in its project that names it; planned first, then written file by file."""
+"""Renames a component with all references in its project: first a plan, then the files are written."""
 
 from collections.abc import Collection
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+from vicode.editor.session import messages
 from vicode.editor.session.document import FileTransaction
 from vicode.editor.session.presence import DISK_USER
 from vicode.editor.session.rename_symbol_xabsl import rename_in_xabsl
 from vicode.editor.session.workspace import Workspace
 from vicode.model.design import Design
-from vicode.model.names import is_valid_name, name_from_text, snake_case
+from vicode.model.names import is_valid_name, snake_case
 from vicode.model.project import Project
 from vicode.store import find_project_file, is_read_only, read_project_file, save_design, save_project_file, write_text
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class FileChange:
-    """A file that is written, `old` its text now (None: it is new), `new` its text then; `summary` say what changes."""
+    """A file to write: its current text (None: it is new), its new text, and a summary for the user."""
 
     file: Path
     old: str | None
@@ -26,10 +27,10 @@ class FileChange:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ComponentRenamePlan:
-    """A plan. `error` says in words why it cannot be done; else `changes` in the order in which they are written.
+    """The changes of a rename in the order of writing, or the error message.
 
-    The new file comes first and the old one goes last: whoever is killed in the middle leaves a project in which
-    every name still means something, and can rename again.
+    The new file is written first and the old one removed last, so that an interrupted rename leaves no dangling
+    reference and can be repeated.
     """
 
     old: str
@@ -40,36 +41,36 @@ class ComponentRenamePlan:
 
 
 def plan_component_rename(workspace: Workspace, old: str, new: str) -> ComponentRenamePlan:
-    """What renaming a component would change; nothing is touched."""
+    """Plan the rename of a component; no file is written."""
     project = workspace.project
-    refused = _validate_name(workspace, old, new)
-    renamed = {} if refused else _renamed(project, old, new)
+    error = _validate_name(workspace, old, new)
+    renamed = {} if error else _renamed(project, old, new)
     touched = [name for name, design in renamed.items() if project.design(name) != design]
-    refused = refused or validate_writable(workspace, touched)
+    error = error or validate_writable(workspace, touched)
     file = workspace.files.get(old)
     design = project.design(old)
-    if refused or file is None or design is None:
-        return ComponentRenamePlan(old=old, new=new, error=refused or f"there is no design of {old}")
+    if error or file is None or design is None:
+        return ComponentRenamePlan(old=old, new=new, error=error or messages.no_design(old))
     target = file.with_name(f"{snake_case(new)}{file.suffix}")
     is_moved = target.resolve() != file.resolve()
     if is_moved and target.exists():
-        return ComponentRenamePlan(old=old, new=new, error=f"there is already a file {target.name}")
+        return ComponentRenamePlan(old=old, new=new, error=messages.file_exists(target.name))
     own = _own_change(renamed[old], file, target if is_moved else file, (old, new))
     users = [_user_change(renamed[name], workspace.files[name], new) for name in touched if name != old]
-    of_project = _project_change(workspace.folder, (old, new))
-    changes = (own, *users, *([of_project] if of_project else []))
+    project_change = _project_change(workspace.folder, (old, new))
+    changes = (own, *users, *([project_change] if project_change else []))
     return ComponentRenamePlan(old=old, new=new, changes=changes, removed=file if is_moved else None)
 
 
 def apply_component_rename(workspace: Workspace, plan: ComponentRenamePlan) -> str:
-    """Carry a plan out; returns why not, in words, if the files are no longer what it was made for.
+    """Execute a plan; returns an error message if the files have changed since it was made.
 
     Raises:
-        OSError: A file cannot be written; what was written before stays, and the old design too.
+        OSError: A file cannot be written; files written before keep their new text, and the old design is kept.
     """
-    again = plan_component_rename(workspace, plan.old, plan.new)
-    if again != plan:
-        return again.error or "a file has changed meanwhile: look at the list once more"
+    current = plan_component_rename(workspace, plan.old, plan.new)
+    if current != plan:
+        return current.error or messages.PLAN_OUTDATED
     for change in plan.changes:
         write_text(change.file, change.new)
     if plan.removed is not None:
@@ -77,22 +78,21 @@ def apply_component_rename(workspace: Workspace, plan: ComponentRenamePlan) -> s
     workspace.drop_document(plan.old, renamed_to=plan.new)
     files = frozenset(change.file for change in plan.changes)
     workspace.sync_from_disk(
-        FileTransaction(files=files, label=f"rename component {plan.old} to {plan.new}", user_id=DISK_USER)
+        FileTransaction(files=files, label=messages.rename(f"component {plan.old}", plan.new), user_id=DISK_USER)
     )
     return ""
 
 
 def _validate_name(workspace: Workspace, old: str, new: str) -> str:
-    """Why a renaming cannot be done, in words; empty if it can."""
     if not is_valid_name(new):
-        return f"a component is named in letters, digits and underscores, such as {name_from_text(new) or 'FollowBall'}"
+        return messages.invalid_component_name(new)
     if new == old:
-        return "that is its name already"
-    return f"there is already a component {new}" if workspace.project.interface(new) is not None else ""
+        return messages.NAME_UNCHANGED
+    return messages.name_exists("component", new) if workspace.project.interface(new) is not None else ""
 
 
 def _renamed(project: Project, old: str, new: str) -> dict[str, Design]:
-    """The designs as they would be, by the names that they have; hand-written XABSL follows where it is certain."""
+    """The renamed designs by their current names; hand-written XABSL follows where its meaning is certain."""
 
     def renamed(design: Design) -> Design:
         uses = (replace(use, component=new) if use.component == old else use for use in design.uses)
@@ -104,32 +104,33 @@ def _renamed(project: Project, old: str, new: str) -> dict[str, Design]:
 
 
 def validate_writable(workspace: Workspace, components: Collection[str]) -> str:
-    """Why the files of some designs cannot be written just now, in words; empty if they can."""
+    """An error message if the files of designs cannot be written, else an empty string."""
     unsaved = sorted(set(components) & set(workspace.unsaved_components))
     if unsaved:
-        return f"{', '.join(unsaved)} {'has' if len(unsaved) == 1 else 'have'} unsaved changes: save or undo them first"
+        return messages.unsaved_changes(unsaved)
     names = sorted(components)
     locked = [workspace.files[name].name for name in names if is_read_only(workspace.files[name])]
     if locked:
-        return f"{', '.join(locked)} cannot be changed: read-only"
+        return messages.read_only(locked)
     stale = [name for name in names if not workspace.is_file_unchanged(name)]
-    return f"{workspace.files[stale[0]].name} was just changed by another program: look again" if stale else ""
+    return messages.changed_on_disk(workspace.files[stale[0]].name) if stale else ""
 
 
 def _own_change(design: Design, file: Path, target: Path, names: tuple[str, str]) -> FileChange:
     text = _read(file)
     new = save_design(design, text)
-    words = f"component {names[0]} → {names[1]}"
+    summary = messages.component_summary(*names)
     if target == file:
-        return FileChange(file=file, old=text, new=new, summary=words)
-    return FileChange(file=target, old=None, new=new, summary=f"{words}; {file.name} becomes {target.name}")
+        return FileChange(file=file, old=text, new=new, summary=summary)
+    summary = f"{summary}; {messages.file_summary(file.name, target.name)}"
+    return FileChange(file=target, old=None, new=new, summary=summary)
 
 
 def _user_change(design: Design, file: Path, new: str) -> FileChange:
     aliases = [use.alias for use in design.uses if use.component == new]
     text = _read(file)
-    words = f"{design.component} uses {new} as {', '.join(aliases)}" if aliases else f"{design.component} says {new}"
-    return FileChange(file=file, old=text, new=save_design(design, text), summary=words)
+    summary = messages.user_summary(design.component, new, aliases)
+    return FileChange(file=file, old=text, new=save_design(design, text), summary=summary)
 
 
 def _project_change(folder: Path, names: tuple[str, str]) -> FileChange | None:
@@ -144,7 +145,7 @@ def _project_change(folder: Path, names: tuple[str, str]) -> FileChange | None:
         return None
     renamed = tuple(replace(agent, root=new) if agent.root == old else agent for agent in project.agents)
     changed = save_project_file(replace(project, agents=renamed), text)
-    return FileChange(file=file, old=text, new=changed, summary=f"agent {', '.join(agents)} begins with {new}")
+    return FileChange(file=file, old=text, new=changed, summary=messages.agent_summary(agents, new))
 
 
 def _read(file: Path) -> str:

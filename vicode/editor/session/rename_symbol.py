@@ -1,4 +1,4 @@
-"""Another name for something that is declared: an edit where one design says it, else planned and written to files."""
+"""Renames a symbol: an edit if only one design refers to it, else a plan that is written to several files."""
 
 from collections import Counter
 from collections.abc import Collection, Iterator
@@ -7,6 +7,7 @@ from difflib import SequenceMatcher
 from pathlib import Path
 
 from vicode.check import check_project
+from vicode.editor.session import messages
 from vicode.editor.session.descriptions import describe_path, error_reason
 from vicode.editor.session.document import DocumentSession, FileTransaction
 from vicode.editor.session.rename_component import FileChange, validate_writable
@@ -14,7 +15,7 @@ from vicode.editor.session.rename_symbol_xabsl import collect_xabsl_renames, cou
 from vicode.editor.session.workspace import Workspace
 from vicode.findings import Finding, Severity
 from vicode.model.design import Design
-from vicode.model.names import is_valid_name, name_from_text
+from vicode.model.names import is_valid_name
 from vicode.model.project import Project
 from vicode.model.rename import ReferenceKind, ReferenceRename, SymbolRef, is_declared, rename_symbol, sibling_names
 from vicode.model.rename.cpp import count_identifier_in_cpp, has_reference_in_cpp
@@ -22,16 +23,16 @@ from vicode.model.rename.python import has_reference_in_python
 from vicode.model.traversal import iter_code
 from vicode.store import find_project_file, is_read_only, read_project_file, save_design, save_project_file, write_text
 
-_WORDS = {"uses": "alias", "elements": "element", "enumerations": "enumeration"}
+_KINDS = {"uses": "alias"}
 _PROJECT_SECTIONS = ("enumerations", "constants", "components", "agents")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SymbolRenamePlan:
-    """What a new name would change. `error` says in words why it cannot be done.
+    """The changes of a rename, or the error message.
 
-    Else `design` is the one design that says it, as it would be; or it is None, and `changes` are the files of all
-    that do. `note` tells what nobody but a person can change.
+    If only one design refers to the symbol, `design` is that design after the rename; else `changes` are the files to
+    write. `note` describes what must be renamed by hand.
     """
 
     symbol: SymbolRef
@@ -41,70 +42,66 @@ class SymbolRenamePlan:
     changes: tuple[FileChange, ...] = ()
     note: str = ""
     ambiguous_places: tuple[str, ...] = ()
-    """Where code says the name and it is not certain what it means there."""
+    """Where code contains the name with an uncertain meaning."""
     is_declaration_only: bool = False
-    """Whether nothing says the name but the line of project.yaml that declares it."""
+    """Whether only the declaration in project.yaml changes."""
 
 
-def describe_symbol(thing: SymbolRef) -> str:
-    """What it is, and its name."""
-    return f"{_kind(thing)} {thing.name}"
+def describe_symbol(symbol: SymbolRef) -> str:
+    return f"{_kind(symbol)} {symbol.name}"
 
 
 def validate_identifier(name: str) -> str:
-    """Why a text is no name of anything, in words; empty if it is one."""
+    """An error message if a text is not a valid name, else an empty string."""
     wanted = name.strip()
     if not wanted:
-        return "it needs a name"
-    if is_valid_name(wanted):
-        return ""
-    example = name_from_text(wanted)
-    like = f", such as {example[:1].lower() + example[1:]}" if example else ""
-    return f"use letters, digits and underscores, a letter first{like}"
+        return messages.NAME_MISSING
+    return "" if is_valid_name(wanted) else messages.invalid_identifier(wanted)
 
 
-def plan_symbol_rename(workspace: Workspace, thing: SymbolRef, new: str) -> SymbolRenamePlan:
-    """What another name for a thing would change; nothing is touched."""
+def plan_symbol_rename(workspace: Workspace, symbol: SymbolRef, new: str) -> SymbolRenamePlan:
+    """Plan the rename of a symbol; nothing is changed."""
     project = workspace.project
-    refused = _validate_name(project, thing, new)
-    if refused:
-        return SymbolRenamePlan(symbol=thing, new=new, error=refused)
-    renamed = rename_in_xabsl(project, rename_symbol(project, thing, new))
-    by_hand = tuple(_find_ambiguous_uses(project, renamed, thing))
+    error = _validate_name(project, symbol, new)
+    if error:
+        return SymbolRenamePlan(symbol=symbol, new=new, error=error)
+    renamed = rename_in_xabsl(project, rename_symbol(project, symbol, new))
+    ambiguous = tuple(_find_ambiguous_uses(project, renamed, symbol))
     touched = [design.component for design in renamed.designs if project.design(design.component) != design]
     is_shared = any(getattr(renamed, section) != getattr(project, section) for section in _PROJECT_SECTIONS)
-    refused = describe_new_errors(project, renamed, touched if thing.component and not is_shared else None)
-    refused = refused or _validate_code(project, thing, new)
-    if not refused and not is_shared and touched == [thing.component]:
-        return SymbolRenamePlan(symbol=thing, new=new, design=renamed.design(thing.component), ambiguous_places=by_hand)
+    error = describe_new_errors(project, renamed, touched if symbol.component and not is_shared else None)
+    error = error or _validate_code(project, symbol, new)
+    if not error and not is_shared and touched == [symbol.component]:
+        return SymbolRenamePlan(
+            symbol=symbol, new=new, design=renamed.design(symbol.component), ambiguous_places=ambiguous
+        )
     file = find_project_file(workspace.folder) if is_shared else None
-    refused = refused or validate_writable(workspace, touched) or _validate_project_file(project, file)
-    if refused or (is_shared and file is None):
-        return SymbolRenamePlan(symbol=thing, new=new, error=refused or "there is no project.yaml")
+    error = error or validate_writable(workspace, touched) or _validate_project_file(project, file)
+    if error or (is_shared and file is None):
+        return SymbolRenamePlan(symbol=symbol, new=new, error=error or messages.PROJECT_FILE_MISSING)
     changes = [_design_change(workspace, design) for design in renamed.designs if design.component in touched]
     if file is not None:
         changes.append(_project_change(file, renamed))
     plan = SymbolRenamePlan(
-        symbol=thing, new=new, changes=tuple(changes), note=_manual_step(project, thing), ambiguous_places=by_hand
+        symbol=symbol, new=new, changes=tuple(changes), note=_manual_step(project, symbol), ambiguous_places=ambiguous
     )
     only = changes[0] if len(changes) == 1 and file is not None else None
-    is_alone = only is not None and not plan.note and not by_hand and _changed_lines(only.old or "", only.new) == 1
+    is_alone = only is not None and not plan.note and not ambiguous and _changed_lines(only.old or "", only.new) == 1
     return replace(plan, is_declaration_only=is_alone)
 
 
-def apply_symbol_rename(workspace: Workspace, plan: SymbolRenamePlan, person: str = "") -> str:
-    """Write what a plan says; returns why not, if the files are no longer what it was made for.
+def apply_symbol_rename(workspace: Workspace, plan: SymbolRenamePlan, user_id: str = "") -> str:
+    """Execute a plan; returns an error message if the files have changed since it was made.
 
     Raises:
-        OSError: A file cannot be written; those written before are as they were again.
+        OSError: A file cannot be written; files written before are restored.
     """
-    again = plan_symbol_rename(workspace, plan.symbol, plan.new)
-    if again != plan:
-        return again.error or "a file has changed meanwhile: look at the list once more"
-    whole = RenameEdit(workspace=workspace, symbol=plan.symbol, new=plan.new)
-    _write_all(
-        workspace, plan, FileTransaction(files=_files_of(plan), label=whole.label, user_id=person, compound=whole)
-    )
+    current = plan_symbol_rename(workspace, plan.symbol, plan.new)
+    if current != plan:
+        return current.error or messages.PLAN_OUTDATED
+    edit = RenameEdit(workspace=workspace, symbol=plan.symbol, new=plan.new)
+    transaction = FileTransaction(files=_files_of(plan), label=edit.label, user_id=user_id, compound=edit)
+    _write_all(workspace, plan, transaction)
     return ""
 
 
@@ -118,35 +115,30 @@ class RenameEdit:
 
     @property
     def label(self) -> str:
-        """What the histories call it."""
-        return f"rename {self.symbol.name} to {self.new}"
+        return messages.rename(self.symbol.name, self.new)
 
-    def undo(self, person: str) -> str:
-        """Give the thing its old name again; returns why not."""
+    def undo(self, user_id: str) -> str:
         plan = plan_symbol_rename(self.workspace, replace(self.symbol, name=self.new), self.symbol.name)
-        return self._apply(
-            plan, FileTransaction(files=_files_of(plan), label=f"undo {self.label}", user_id=person, undone_edit=self)
-        )
+        files, label = _files_of(plan), messages.undo_label(self.label)
+        return self._apply(plan, FileTransaction(files=files, label=label, user_id=user_id, undone_edit=self))
 
-    def redo(self, person: str) -> str:
-        """Give it the new name once more; returns why not."""
+    def redo(self, user_id: str) -> str:
         plan = plan_symbol_rename(self.workspace, self.symbol, self.new)
-        return self._apply(
-            plan, FileTransaction(files=_files_of(plan), label=f"redo {self.label}", user_id=person, compound=self)
-        )
+        files, label = _files_of(plan), messages.redo_label(self.label)
+        return self._apply(plan, FileTransaction(files=files, label=label, user_id=user_id, compound=self))
 
-    def _apply(self, plan: SymbolRenamePlan, act: FileTransaction) -> str:
+    def _apply(self, plan: SymbolRenamePlan, transaction: FileTransaction) -> str:
         if plan.error:
             return plan.error[:1].upper() + plan.error[1:]
         document = self.workspace.open_document(self.symbol.component)
         if plan.design is not None and document is not None:
-            # Nobody else says it any more.
-            DocumentSession(document.shared, act.user_id).apply_transaction(act, plan.design)
+            # Only this design still refers to the symbol.
+            DocumentSession(document.shared, transaction.user_id).apply_transaction(transaction, plan.design)
             return ""
         try:
-            _write_all(self.workspace, plan, act)
+            _write_all(self.workspace, plan, transaction)
         except (OSError, ValueError) as error:
-            return f"Not done: {error_reason(error)}"
+            return messages.not_done(error_reason(error))
         return ""
 
 
@@ -154,8 +146,8 @@ def _files_of(plan: SymbolRenamePlan) -> frozenset[Path]:
     return frozenset(change.file for change in plan.changes)
 
 
-def _write_all(workspace: Workspace, plan: SymbolRenamePlan, act: FileTransaction) -> None:
-    """Write all files of a plan, or none of them; open designs follow, and who is at them hears of it."""
+def _write_all(workspace: Workspace, plan: SymbolRenamePlan, transaction: FileTransaction) -> None:
+    """Write all files of a plan or none, synchronize the open designs, and notify their users."""
     written: list[FileChange] = []
     try:
         for change in plan.changes:
@@ -166,67 +158,66 @@ def _write_all(workspace: Workspace, plan: SymbolRenamePlan, act: FileTransactio
             write_text(change.file, change.old or "")
         raise
     finally:
-        workspace.sync_from_disk(act)
-    who = workspace.users.name_of(act.user_id) if act.user_id else "Somebody"
+        workspace.sync_from_disk(transaction)
+    user = workspace.users.name_of(transaction.user_id) if transaction.user_id else "Someone"
+    notice = messages.user_renamed(user, describe_symbol(plan.symbol), plan.new, len(transaction.files))
     for document in workspace.documents:
-        hand = DocumentSession(document.shared, act.user_id)
-        if document.file in act.files:
-            hand.post_notice(f"{who} renamed {describe_symbol(plan.symbol)} to {plan.new} in {_count_files(act.files)}")
-        # The form of every design shows what the project declares.
-        document.shared.notify_listeners(hand)
+        session = DocumentSession(document.shared, transaction.user_id)
+        if document.file in transaction.files:
+            session.post_notice(notice)
+        # The form of every design shows the declarations of the project.
+        document.shared.notify_listeners(session)
 
 
-def _kind(thing: SymbolRef) -> str:
-    return _WORDS.get(thing.section, thing.section.removesuffix("s"))
+def _kind(symbol: SymbolRef) -> str:
+    return _KINDS.get(symbol.section, symbol.section.removesuffix("s"))
 
 
-def _count_files(files: Collection[Path]) -> str:
-    return "1 file" if len(files) == 1 else f"{len(files)} files"
-
-
-def _validate_name(project: Project, thing: SymbolRef, new: str) -> str:
-    """Why nothing can have such a name here, or is not there to get it."""
-    kind = _kind(thing)
-    shape = validate_identifier(new)
-    if shape:
-        return shape
-    if not is_declared(project, thing):
-        return f"there is no {describe_symbol(thing)} any more"
-    if new in sibling_names(project, thing):
-        return f"there is already {'an' if kind[0] in 'aeo' else 'a'} {kind} {new}"
-    if thing.section == "components" and project.interface(new) is not None:
-        return f"there is already a component {new}"
+def _validate_name(project: Project, symbol: SymbolRef, new: str) -> str:
+    invalid = validate_identifier(new)
+    if invalid:
+        return invalid
+    if not is_declared(project, symbol):
+        return messages.symbol_gone(describe_symbol(symbol))
+    if new in sibling_names(project, symbol):
+        return messages.name_exists(_kind(symbol), new)
+    if symbol.section == "components" and project.interface(new) is not None:
+        return messages.name_exists("component", new)
     return ""
 
 
-def _validate_code(project: Project, thing: SymbolRef, new: str) -> str:
-    """Whether code of the design already says `self.NEW`, or `this->NEW`: it would mean something else then."""
-    design, said = project.design(thing.component), ReferenceRename(kind=ReferenceKind.OWN, old=new, new=f"{new}_")
-    if design is None or thing.section == "arguments":
+def _validate_code(project: Project, symbol: SymbolRef, new: str) -> str:
+    """An error message if code of the design already refers to `self.NEW` or `this->NEW`."""
+    design = project.design(symbol.component)
+    reference = ReferenceRename(kind=ReferenceKind.OWN, old=new, new=f"{new}_")
+    if design is None or symbol.section == "arguments":
         return ""
-    for language, says, me in (("python", has_reference_in_python, "self."), ("cpp", has_reference_in_cpp, "this->")):
-        texts = ((placed.code.in_language(language) or "", placed.role) for placed in iter_code(design))
-        if any(says(text, role, said) for text, role in texts):
-            return f"the code of {thing.component} says {me}{new} already, and means something else"
+    for language, has_reference, prefix in (
+        ("python", has_reference_in_python, "self."),
+        ("cpp", has_reference_in_cpp, "this->"),
+    ):
+        texts = ((located.code.in_language(language) or "", located.role) for located in iter_code(design))
+        if any(has_reference(text, role, reference) for text, role in texts):
+            return messages.name_used_in_code(symbol.component, f"{prefix}{new}")
     return ""
 
 
 def describe_new_errors(project: Project, renamed: Project, components: Collection[str] | None) -> str:
-    """What errors a change would bring to the project or to designs of it (None: to all), in words."""
-    before, after = (find_errors(each, components) for each in (project, renamed))
-    grown = Counter(each.rule.code for each in after) - Counter(each.rule.code for each in before)
-    known = {each.message for each in before}
-    found = next((each for each in after if each.rule.code in grown and each.message not in known), None)
-    if found is None:
+    """The message of the first error that a change adds to the project or to `components` (None: all), or ""."""
+    before, after = find_errors(project, components), find_errors(renamed, components)
+    new_codes = Counter(error.rule.code for error in after) - Counter(error.rule.code for error in before)
+    known = {error.message for error in before}
+    added = next((error for error in after if error.rule.code in new_codes and error.message not in known), None)
+    if added is None:
         return ""
-    where = found.subject.component if found.subject and components is None else ""
-    return f"{found.message}{f', in {where}' if where else ''}"
+    component = added.subject.component if added.subject and components is None else ""
+    return f"{added.message}{f', in {component}' if component else ''}"
 
 
 def find_errors(project: Project, components: Collection[str] | None = None) -> list[Finding]:
     """The errors of a project and all its designs, or those of `components`."""
-    found = [each for each in check_project(project, components) if each.severity is Severity.ERROR]
-    # What is wrong with a name itself comes first: it says most.
+    found = [finding for finding in check_project(project, components) if finding.severity is Severity.ERROR]
+    # Errors of the name itself come first: they are the most specific.
     return sorted(found, key=lambda each: each.rule.code not in ("D404", "D405", "D406", "D407"))
 
 
@@ -234,10 +225,10 @@ def _validate_project_file(project: Project, file: Path | None) -> str:
     if file is None:
         return ""
     if is_read_only(file):
-        return f"{file.name} cannot be changed: read-only"
+        return messages.read_only([file.name])
     read = read_project_file(_read(file), str(file)).project
     if read is None or any(getattr(read, section) != getattr(project, section) for section in _PROJECT_SECTIONS):
-        return f"{file.name} was just changed by another program, or cannot be read: look again"
+        return messages.changed_or_unreadable(file.name)
     return ""
 
 
@@ -245,7 +236,9 @@ def _design_change(workspace: Workspace, design: Design) -> FileChange:
     file = workspace.files[design.component]
     text = _read(file)
     new = save_design(design, text)
-    return FileChange(file=file, old=text, new=new, summary=f"{design.component}: {_count_lines(text, new)}")
+    return FileChange(
+        file=file, old=text, new=new, summary=messages.line_summary(design.component, _changed_lines(text, new))
+    )
 
 
 def _project_change(file: Path, renamed: Project) -> FileChange:
@@ -260,7 +253,7 @@ def _project_change(file: Path, renamed: Project) -> FileChange:
         agents=renamed.agents,
     )
     new = save_project_file(changed, text)
-    return FileChange(file=file, old=text, new=new, summary=f"the project: {_count_lines(text, new)}")
+    return FileChange(file=file, old=text, new=new, summary=messages.line_summary(file.name, _changed_lines(text, new)))
 
 
 def _changed_lines(old: str, new: str) -> int:
@@ -268,38 +261,33 @@ def _changed_lines(old: str, new: str) -> int:
     return sum(max(block[2] - block[1], block[4] - block[3]) for block in blocks if block[0] != "equal")
 
 
-def _count_lines(old: str, new: str) -> str:
-    count = _changed_lines(old, new)
-    return "1 line" if count == 1 else f"{count} lines"
-
-
-def _find_ambiguous_uses(project: Project, renamed: Project, thing: SymbolRef) -> Iterator[str]:
-    """Where C++ and XABSL still say the old name: there a person must look."""
-    words = collect_xabsl_renames(project, renamed).old_names
-    in_xabsl = {*words, thing.name} if words else set()
+def _find_ambiguous_uses(project: Project, renamed: Project, symbol: SymbolRef) -> Iterator[str]:
+    """The places where C++ and XABSL code still contains the old name, for the user to check."""
+    old_names = collect_xabsl_renames(project, renamed).old_names
+    in_xabsl = {*old_names, symbol.name} if old_names else set()
     for design in renamed.designs:
         used = [use.component for use in design.uses]
-        if thing.component and thing.component not in (design.component, *used):
+        if symbol.component and symbol.component not in (design.component, *used):
             continue
-        for placed in iter_code(design):
-            for language, text in placed.code.texts:
+        for located in iter_code(design):
+            for language, text in located.code.texts:
                 name, count = {
-                    "cpp": ("C++", count_identifier_in_cpp(text, thing.name)),
+                    "cpp": ("C++", count_identifier_in_cpp(text, symbol.name)),
                     "xabsl": ("XABSL", count_names_in_xabsl(text, in_xabsl)),
                 }.get(language, ("", 0))
                 if count:
-                    often = f", {count} times" if count > 1 else ""
-                    yield f"{design.component}: {describe_path(placed.path[:-1] or placed.path)}, {name}{often}"
+                    times = f", {count} times" if count > 1 else ""
+                    yield f"{design.component}: {describe_path(located.path[:-1] or located.path)}, {name}{times}"
 
 
-def _manual_step(project: Project, thing: SymbolRef) -> str:
-    """What stays to be done by hand: a class that somebody wrote has the name, too."""
-    interface = project.interface(thing.component or thing.name)
+def _manual_step(project: Project, symbol: SymbolRef) -> str:
+    """The note about a hand-written class that contains the name, too."""
+    interface = project.interface(symbol.component or symbol.name)
     if interface is None or ":" not in interface.implementation:
         return ""
-    if thing.section == "components":
-        return f"{interface.implementation} keeps its name: it is the class, and written by hand."
-    return f"Rename it in {interface.implementation}, too: that class is written by hand."
+    if symbol.section == "components":
+        return messages.class_keeps_name(interface.implementation)
+    return messages.rename_in_class(interface.implementation)
 
 
 def _read(file: Path) -> str:

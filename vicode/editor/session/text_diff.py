@@ -1,4 +1,4 @@
-"""Two texts side by side, line by line, with long equal parts left out."""
+"""A side-by-side diff of two texts, without long unchanged parts."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -7,7 +7,7 @@ from enum import StrEnum
 
 
 class LineStatus(StrEnum):
-    """What became of a line."""
+    """The status of a row; GAP stands for omitted unchanged lines."""
 
     SAME = "same"
     CHANGED = "changed"
@@ -18,9 +18,9 @@ class LineStatus(StrEnum):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class DiffRow:
-    """A line of the old text beside one of the new; a number is 0 where there is no line.
+    """A line of the old text next to one of the new text; a number is 0 if there is no line.
 
-    A gap says in `old` how many lines are left out.
+    The text of a gap is in `old`.
     """
 
     status: LineStatus
@@ -31,9 +31,9 @@ class DiffRow:
 
 
 def side_by_side(old: str, new: str, context: int = 3) -> tuple[DiffRow, ...]:
-    """The changed lines with some unchanged ones around; nothing for equal texts."""
+    """The changed lines with `context` unchanged lines around them; empty for equal texts."""
     olds, news = old.splitlines(), new.splitlines()
-    # Without its guesses about frequent lines: generated code is full of them.
+    # autojunk would ignore frequent lines, of which generated code has many.
     matcher = SequenceMatcher(None, olds, news, autojunk=False)
     rows: list[DiffRow] = []
     before = 0

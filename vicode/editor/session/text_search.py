@@ -1,4 +1,4 @@
-"""Search and replace in every text of a design: code, expressions and docs."""
+"""Search and replace in the texts of a design: code, expressions and docs."""
 
 from collections.abc import Collection, Iterator
 from dataclasses import dataclass, field
@@ -6,6 +6,7 @@ from time import monotonic
 
 import regex
 
+from vicode.editor.session import messages
 from vicode.findings import DesignPath
 from vicode.model.design import Design
 from vicode.model.texts import LocatedText, TextKind, iter_texts, rewrite_text
@@ -17,7 +18,7 @@ _MAX_CONTEXT_LENGTH = 36
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TextQuery:
-    """What is searched for, and where."""
+    """A text or regular expression, and the kinds of texts to search."""
 
     text: str
     is_pattern: bool = False
@@ -28,7 +29,7 @@ class TextQuery:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TextMatch:
-    """A place that was found: characters `start` to `end` of a text, and the line around them."""
+    """A match: the characters `start` to `end` of a text, and the line around them."""
 
     path: DesignPath
     kind: TextKind
@@ -42,7 +43,7 @@ class TextMatch:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TextSearchResult:
-    """All hits in the order of the design; `error` says in words why there are none, or not all."""
+    """All matches in the order of the design; `error` is why there are none, or not all."""
 
     matches: tuple[TextMatch, ...] = ()
     error: str = ""
@@ -50,7 +51,7 @@ class TextSearchResult:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ReplaceResult:
-    """The design with the replacements, how many there were, and a mistake if there is none."""
+    """The design with `count` replacements, or the error message."""
 
     design: Design
     count: int = 0
@@ -58,73 +59,72 @@ class ReplaceResult:
 
 
 class _SearchError(Exception):
-    """A mistake of the person who searches, in words."""
+    """An invalid query, with a message for the user."""
 
 
 @dataclass(slots=True)
 class _Search:
-    """A pattern with the time that is left for it."""
+    """A compiled pattern with a deadline."""
 
     pattern: "regex.Pattern[str]"
     until: float = field(default_factory=lambda: monotonic() + TIME_LIMIT_S)
 
     def matches(self, text: str) -> "Iterator[regex.Match[str]]":
-        """The matches that are not empty.
+        """The non-empty matches.
 
         Raises:
-            _MistakeError: It took too long: some patterns try more ways than there is time for.
+            _SearchError: The deadline has passed; some patterns backtrack exponentially.
         """
-        # No time left is a very short time: then the first step of a match ends it.
+        # The timeout must be positive.
         left = max(0.001, self.until - monotonic())
         try:
-            # Other threads go on meanwhile; the limit holds within a single match, too.
+            # `concurrent` releases the GIL; the timeout also interrupts a single match.
             for match in self.pattern.finditer(text, timeout=left, concurrent=True):
                 if match.end() > match.start():
                     yield match
         except TimeoutError:
-            raise _SearchError("this pattern takes too long: make it simpler") from None
+            raise _SearchError(messages.SEARCH_TIMEOUT) from None
 
 
 def find_text(design: Design, query: TextQuery) -> TextSearchResult:
-    """Every place where a design says what is searched for."""
+    """Find all matches of a query in a design."""
     if not query.text:
         return TextSearchResult()
-    hits: list[TextMatch] = []
+    matches: list[TextMatch] = []
     try:
         search = _Search(_compiled(query))
-        for placed in _texts(design, query):
-            hits += [_hit(placed, *match.span()) for match in search.matches(placed.text)]
-            if len(hits) > MAX_MATCHES:
-                return TextSearchResult(
-                    matches=tuple(hits[:MAX_MATCHES]), error=f"only the first {MAX_MATCHES} are listed"
-                )
-    except _SearchError as mistake:
-        return TextSearchResult(matches=tuple(hits), error=str(mistake))
-    return TextSearchResult(matches=tuple(hits))
+        for located in _texts(design, query):
+            matches += [_make_match(located, *match.span()) for match in search.matches(located.text)]
+            if len(matches) > MAX_MATCHES:
+                error = messages.too_many_matches(MAX_MATCHES)
+                return TextSearchResult(matches=tuple(matches[:MAX_MATCHES]), error=error)
+    except _SearchError as invalid:
+        return TextSearchResult(matches=tuple(matches), error=str(invalid))
+    return TextSearchResult(matches=tuple(matches))
 
 
 def replace_matches(
     design: Design, query: TextQuery, replacement: str, only: Collection[tuple[DesignPath, int]] | None = None
 ) -> ReplaceResult:
-    r"""Put a text in the place of every hit, or of those that begin at a character of a path.
+    r"""Replace all matches, or `only` those that start at given offsets of given paths.
 
-    In the replacement of a pattern `\1` and `\g<name>` stand for groups; else it is taken as it is written.
+    The replacement of a regular expression may refer to groups as `\1` and `\g<name>`.
     """
     if not query.text:
         return ReplaceResult(design=design)
     changed, count = design, 0
     try:
         search = _Search(_compiled(query))
-        for placed in _texts(design, query):
+        for located in _texts(design, query):
             wanted = [
-                match for match in search.matches(placed.text) if only is None or (placed.path, match.start()) in only
+                match for match in search.matches(located.text) if only is None or (located.path, match.start()) in only
             ]
             if wanted:
-                text = _replaced(placed.text, wanted, query, replacement)
-                changed = _with_text(changed, placed.path, text)
+                text = _replaced(located.text, wanted, query, replacement)
+                changed = _with_text(changed, located.path, text)
                 count += len(wanted)
-    except _SearchError as mistake:
-        return ReplaceResult(design=design, error=str(mistake))
+    except _SearchError as invalid:
+        return ReplaceResult(design=design, error=str(invalid))
     return ReplaceResult(design=changed, count=count)
 
 
@@ -133,7 +133,7 @@ def _with_text(design: Design, path: DesignPath, text: str) -> Design:
 
 
 def _texts(design: Design, query: TextQuery) -> Iterator[LocatedText]:
-    return (placed for placed in iter_texts(design) if placed.kind in query.kinds)
+    return (located for located in iter_texts(design) if located.kind in query.kinds)
 
 
 def _compiled(query: TextQuery) -> "regex.Pattern[str]":
@@ -144,7 +144,7 @@ def _compiled(query: TextQuery) -> "regex.Pattern[str]":
     try:
         return regex.compile(source, flags)
     except (regex.error, RecursionError, OverflowError) as error:
-        raise _SearchError(f"this is no pattern: {getattr(error, 'msg', error)}") from None
+        raise _SearchError(messages.invalid_pattern(getattr(error, "msg", error))) from None
 
 
 def _replaced(text: str, matches: "list[regex.Match[str]]", query: TextQuery, replacement: str) -> str:
@@ -161,17 +161,17 @@ def _expanded(match: "regex.Match[str]", query: TextQuery, replacement: str) -> 
     try:
         return str(match.expand(replacement))
     except (regex.error, IndexError, KeyError, ValueError) as error:
-        raise _SearchError(f"this cannot be put in: {getattr(error, 'msg', error)}") from None
+        raise _SearchError(messages.invalid_replacement(getattr(error, "msg", error))) from None
 
 
-def _hit(placed: LocatedText, start: int, end: int) -> TextMatch:
-    text = placed.text
+def _make_match(located: LocatedText, start: int, end: int) -> TextMatch:
+    text = located.text
     line_start = text.rfind("\n", 0, start) + 1
     line_end = text.find("\n", end)
     line_end = len(text) if line_end < 0 else line_end
     return TextMatch(
-        path=placed.path,
-        kind=placed.kind,
+        path=located.path,
+        kind=located.kind,
         start=start,
         end=end,
         line=text.count("\n", 0, start) + 1,
@@ -182,5 +182,5 @@ def _hit(placed: LocatedText, start: int, end: int) -> TextMatch:
 
 
 def _shortened(text: str) -> str:
-    """The end of a text, so that what was found behind it is in view."""
+    """The end of a text, so that the match after it stays visible."""
     return text if len(text) <= _MAX_CONTEXT_LENGTH else f"…{text[-_MAX_CONTEXT_LENGTH:]}"

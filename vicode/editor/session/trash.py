@@ -1,83 +1,80 @@
-"""Takes design files away into the system's trash, and makes new ones from old; nothing is lost either way."""
+"""Moves design files to the system trash, restores them, and duplicates designs."""
 
 from dataclasses import replace
 
+from vicode.editor.session import messages
 from vicode.editor.session.workspace import TrashedDesign, Workspace
 from vicode.model.edits import unique_name
-from vicode.model.names import is_valid_name, name_from_text, snake_case
+from vicode.model.names import is_valid_name, snake_case
 from vicode.store import save_design, write_text
 
 
 def validate_move_to_trash(workspace: Workspace, component: str) -> str:
-    """Why a design cannot be taken away, in words; empty if it can."""
+    """An error message if a design cannot be moved to the trash, else an empty string."""
     if workspace.project.design(component) is None:
-        return f"there is no design of {component} any more"
-    if component in workspace.unsaved_components:
-        return f"{component} has unsaved changes: save or undo them first, so that what is in the trash is whole"
-    return ""
+        return messages.no_design(component)
+    return messages.unsaved_changes([component]) if component in workspace.unsaved_components else ""
 
 
 def find_dependents(workspace: Workspace, component: str) -> tuple[str, ...]:
-    """The components whose designs use this one."""
+    """The components whose designs use a component."""
     designs = workspace.project.designs
-    return tuple(each.component for each in designs if any(use.component == component for use in each.uses))
+    return tuple(design.component for design in designs if any(use.component == component for use in design.uses))
 
 
 def move_to_trash(workspace: Workspace, component: str) -> TrashedDesign:
     """Move the file of a design to the trash.
 
     Raises:
-        OSError: There is no trash for that file, or it cannot be moved; it stays where it is.
+        OSError: There is no trash for the file, or the file cannot be moved.
     """
-    from send2trash import send2trash  # type: ignore[import-untyped]  # noqa: PLC0415 - slow, and wanted rarely
+    from send2trash import send2trash  # type: ignore[import-untyped]  # noqa: PLC0415 - slow to import, rarely used
 
     file = workspace.files[component]
-    thrown = TrashedDesign(component=component, file=file, content=file.read_bytes())
+    trashed = TrashedDesign(component=component, file=file, content=file.read_bytes())
     send2trash(file.resolve())
-    workspace.trashed_designs[component] = thrown
+    workspace.trashed_designs[component] = trashed
     workspace.drop_document(component)
     workspace.sync_from_disk()
-    return thrown
+    return trashed
 
 
-def restore_from_trash(workspace: Workspace, thrown: TrashedDesign) -> str:
-    """Put a design back where it was; returns why not, in words.
+def restore_from_trash(workspace: Workspace, trashed: TrashedDesign) -> str:
+    """Restore a design; returns an error message or an empty string.
 
     Raises:
         OSError: The file cannot be written.
     """
-    if thrown.file.exists():
-        return f"there is another {thrown.file.name} now; {thrown.component} is still in the trash"
-    write_text(thrown.file, thrown.content.decode("utf-8"))
-    workspace.trashed_designs.pop(thrown.component, None)
+    if trashed.file.exists():
+        return messages.cannot_restore(trashed.file.name, trashed.component)
+    write_text(trashed.file, trashed.content.decode("utf-8"))
+    workspace.trashed_designs.pop(trashed.component, None)
     workspace.sync_from_disk()
     return ""
 
 
 def copy_name(workspace: Workspace, component: str) -> str:
-    """A free name for a copy."""
+    """An unused name for a copy of a component."""
     return unique_name(component, set(workspace.project.interfaces()))
 
 
 def validate_component_name(workspace: Workspace, name: str) -> str:
-    """Why a new design cannot be called so, in words; empty if it can."""
+    """An error message if a new design cannot have this name, else an empty string."""
     if not is_valid_name(name):
-        return (
-            f"a component is named in letters, digits and underscores, such as {name_from_text(name) or 'FollowBall'}"
-        )
+        return messages.invalid_component_name(name)
     if workspace.project.interface(name) is not None:
-        return f"there is already a component {name}"
+        return messages.name_exists("component", name)
     file = workspace.folder / f"{snake_case(name)}.yaml"
-    return f"there is already a file {file.name}" if file.exists() else ""
+    return messages.file_exists(file.name) if file.exists() else ""
 
 
 def duplicate_design(workspace: Workspace, component: str, name: str) -> None:
-    """Make a copy of a design as it is now, under another name and in a file of its own.
+    """Copy the current design under another name to a separate file.
 
     Raises:
-        OSError: The file cannot be written, or there is one already.
+        OSError: The file cannot be written, or already exists.
     """
     design = workspace.project.design(component)
-    assert design is not None, "only a design that is there can be copied"
+    assert design is not None, "only an existing design can be copied"
     text = workspace.files[component].read_bytes().decode("utf-8")
     workspace.create(name, save_design(replace(design, component=name), text))

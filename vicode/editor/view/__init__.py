@@ -1,4 +1,4 @@
-"""From a design and its findings to the plain dicts that the canvas draws, and their difference."""
+"""View models: the scene of the canvas, the table, tooltips and labels, independent of NiceGUI."""
 
 from vicode.diagram.transition_labels import guard_label, transition_label
 from vicode.editor.view.item_labels import item_label, part_label

@@ -1,4 +1,4 @@
-"""What happened in an iteration, in lines to read: who activated whom, and what went wrong."""
+"""View models of an iteration: the activation tree, values and code errors."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -15,7 +15,7 @@ _LINKS = {"requires": "requires", "modulates": "modulates"}
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ActivationRow:
-    """One step of a component; `depth` in the activation tree."""
+    """One step of a component; `depth` is the level in the activation tree."""
 
     depth: int
     link: str
@@ -27,14 +27,14 @@ class ActivationRow:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CodeErrorView:
-    """An error of user code in words, and the thing of the design it belongs to (None: it is elsewhere)."""
+    """An error of user code, and the item it belongs to (None: it is in another component)."""
 
     text: str
     item: ItemRef | None = None
 
 
 def activation_rows(tree: Sequence[Mapping[str, Any]]) -> tuple[ActivationRow, ...]:
-    """The steps of an iteration, each below the one that it was made by."""
+    """The steps of an iteration, each one level below the component that activated it."""
     depths: dict[str, int] = {}
     rows = []
     for step in tree:
@@ -55,13 +55,13 @@ def activation_rows(tree: Sequence[Mapping[str, Any]]) -> tuple[ActivationRow, .
 
 
 def code_error_view(design: Design, record: Mapping[str, Any]) -> CodeErrorView:
-    """An error record in words: component, state, body and line, without the names of generated files."""
+    """Describe an error record by component, state, body and line instead of the generated file."""
     component, state = str(record.get("component", "")), str(record.get("state", ""))
     region, body, line = (str(record.get(name, "")) for name in ("region", "body", "line"))
     decision = find_decision(design, parse_transition_key(region)) if region and component == design.component else None
-    where = region or body if decision is None else f"guard of {item_label(design, decision.path)}"
-    words = ", ".join(part for part in (component, f"state {state}" if state else "", where) if part)
-    text = f"{words}, line {line}: {record.get('message', '')}"
+    place = region or body if decision is None else f"guard of {item_label(design, decision.path)}"
+    location = ", ".join(part for part in (component, f"state {state}" if state else "", place) if part)
+    text = f"{location}, line {line}: {record.get('message', '')}"
     if component != design.component:
         return CodeErrorView(text=text)
     if decision is not None:
@@ -71,11 +71,11 @@ def code_error_view(design: Design, record: Mapping[str, Any]) -> CodeErrorView:
 
 def value_rows(tree: Sequence[Mapping[str, Any]], component: str) -> tuple[tuple[str, str], ...]:
     """The values of a component after its latest step in an iteration."""
-    found: Mapping[str, Any] = {}
+    values: Mapping[str, Any] = {}
     for step in tree:
         if step.get("component") == component:
-            found = step.get("values") or {}
-    return tuple((name, format_value(value)) for name, value in found.items())
+            values = step.get("values") or {}
+    return tuple((name, format_value(value)) for name, value in values.items())
 
 
 def _pairs(values: Any) -> str:

@@ -1,4 +1,4 @@
-"""The guards of a state as rows to read: what is tested, whether it holds, and which values say so."""
+"""The guards of a state as rows: the condition, whether it holds, and the values it reads."""
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
@@ -26,12 +26,12 @@ class GuardRow:
 
 
 def list_guard_rows(design: Design, state: str, guards: Mapping[str, Any]) -> tuple[GuardRow, ...]:
-    """The decisions that are tested in a state, in their order: the common ones first.
+    """The enabled decisions of a state in the order of evaluation, the common ones first.
 
     Args:
-        design: As it is run.
-        state: The active one.
-        guards: What the running process says of them, by decision; nothing is "unknown".
+        design: The design that runs.
+        state: The active state.
+        guards: The evaluated guards from the process, by decision; missing ones are "unknown".
     """
     tested = (located for located in iter_decisions(design) if located.source in (COMMON, state))
     off = disabled_states(design)
@@ -40,16 +40,16 @@ def list_guard_rows(design: Design, state: str, guards: Mapping[str, Any]) -> tu
 
 def _row(located: LocatedDecision, guards: Mapping[str, Any], unit: str) -> GuardRow:
     decision, key = located.decision, transition_key(located.path)
-    told = guards.get(key)
-    held = told if isinstance(told, dict) else {}
-    holds = True if decision.guard.is_empty else held.get("holds")
+    record = guards.get(key)
+    result = record if isinstance(record, dict) else {}
+    holds = True if decision.guard.is_empty else result.get("holds")
     return GuardRow(
         key=key,
         depth=len(located.groups),
         outcome=_outcome(decision),
         text=_branch(located) + (guard_label(decision.guard, unit) or "always"),
         holds="unknown" if holds is None else format_value(bool(holds)),
-        reads=_reads(decision.guard, held),
+        reads=_reads(decision.guard, result),
         is_common=located.source == COMMON,
         can_have_breakpoint=isinstance(decision, Transition),
     )
@@ -66,21 +66,21 @@ def _outcome(decision: Decision) -> str:
 
 
 def _branch(located: LocatedDecision) -> str:
-    """Whether it stands on the other side of the group around it."""
+
     return "" if not located.groups or located.groups[-1][1] else "else: "
 
 
-def _reads(guard: Guard, held: Mapping[str, Any]) -> str:
-    pairs = [f"{name} = {format_value(value)}" for name, value in (held.get("reads") or {}).items()]
+def _reads(guard: Guard, result: Mapping[str, Any]) -> str:
+    pairs = [f"{name} = {format_value(value)}" for name, value in (result.get("reads") or {}).items()]
     if guard.code is not None:
-        parts = held.get("parts") or [None]
+        parts = result.get("parts") or [None]
         returned = parts[-1]
-        pairs.append("code was not tested" if returned is None else f"code returned {format_value(returned)}")
+        pairs.append("code was not evaluated" if returned is None else f"code returned {format_value(returned)}")
     return ", ".join(pairs)
 
 
 def format_value(value: Any) -> str:
-    """A value of a running component in few characters."""
+    """A short text of a value of a running component."""
     if value is None:
         return "unknown"
     if isinstance(value, bool):
@@ -92,5 +92,5 @@ def format_value(value: Any) -> str:
 
 def find_read_outputs(rows: Iterable[GuardRow], guards: Mapping[str, Any]) -> frozenset[str]:
     """The names, as `alias.output`, that the guards of these rows read."""
-    told = (guards.get(row.key) for row in rows)
-    return frozenset(name for each in told if isinstance(each, dict) for name in each.get("reads") or {})
+    results = (guards.get(row.key) for row in rows)
+    return frozenset(name for result in results if isinstance(result, dict) for name in result.get("reads") or {})

@@ -1,4 +1,4 @@
-"""What a path inside a design leads to, in words for lists and dialogs."""
+"""Labels of items and their parts for lists and dialogs."""
 
 from vicode.editor.view.selection import decision_path
 from vicode.findings import DesignPath
@@ -21,10 +21,10 @@ _SECTIONS = {"parameters": "parameter", "outputs": "output", "variables": "varia
 
 
 def item_label(design: Design, path: DesignPath) -> str:
-    """The thing that a path leads to: "Kick → Wait", "state Kick", "variable tries"."""
+    """The label of the item at a path, such as "Kick → Wait", "state Kick" or "variable tries"."""
     match path:
         case ("states", _, "transitions", int(), *_) | ("common", "transitions", int(), *_):
-            return _words_of_decision(design, decision_path(path))
+            return _decision_label(design, decision_path(path))
         case ("states", str(name), *_):
             return f"state {name}"
         case ("common", *_):
@@ -40,13 +40,13 @@ def item_label(design: Design, path: DesignPath) -> str:
 
 
 def part_label(path: DesignPath) -> str:
-    """Which text of the thing a path leads to: "guard", "enter", "code"; empty where the thing says it."""
+    """The label of the text within the item, such as "guard", "enter" or "code"; empty if the item is one text."""
     named = [_PARTS[str(part)] for part in path if isinstance(part, str) and part in _PARTS]
     is_code = "code" in path[1:]
     return " ".join([*named[-1:], *(["code"] if is_code else [])])
 
 
-def _words_of_decision(design: Design, path: DesignPath) -> str:
+def _decision_label(design: Design, path: DesignPath) -> str:
     located = find_decision(design, path)
     if located is None:
         return "a transition"

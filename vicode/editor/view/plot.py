@@ -1,4 +1,4 @@
-"""Values over time as an SVG drawing: a strip for each, the states as a band below, a line at what is shown."""
+"""An SVG plot of values over time: a strip per value, a band of states, and a cursor."""
 
 import math
 from collections.abc import Callable, Sequence
@@ -7,7 +7,7 @@ from html import escape
 
 WIDTH, STRIP, GAP, BAND = 600, 52, 6, 18
 _NAME_HEIGHT = 14
-"""The room above each curve for its name."""
+"""The space above each curve for its name."""
 _MAX_POINTS = 300
 _MIN_LABEL_WIDTH = 46
 _COLOURS = 6
@@ -15,7 +15,7 @@ _COLOURS = 6
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PlotSeries:
-    """One value over all moments, nan where it was not there."""
+    """One value per iteration, nan where it is missing."""
 
     name: str
     values: Sequence[float]
@@ -23,9 +23,9 @@ class PlotSeries:
 
 
 def render_plot(curves: Sequence[PlotSeries], states: Sequence[str], cursor: int) -> str:
-    """Draw curves and states; `cursor` is the number of the moment that is shown, 0 before the first.
+    """Render curves and states; `cursor` is the number of the current iteration, 0 before the first.
 
-    The drawing has a fixed width that is stretched; texts stand outside of what is stretched.
+    The drawing has a fixed width and is stretched by the browser, so it contains no text elements.
     """
     count = max(len(states), 1)
     height = len(curves) * (STRIP + GAP) + BAND
@@ -33,10 +33,10 @@ def render_plot(curves: Sequence[PlotSeries], states: Sequence[str], cursor: int
     parts.append(_band(states, len(curves) * (STRIP + GAP), count))
     x = WIDTH * max(cursor - 0.5, 0) / count
     parts.append(f'<line class="plot-cursor" x1="{x:.1f}" x2="{x:.1f}" y1="0" y2="{height}"/>')
-    words = f"{len(curves)} values over {len(states)} iterations"
+    label = f"{len(curves)} values over {len(states)} iterations"
     return (
         f'<svg class="plot" viewBox="0 0 {WIDTH} {height}" preserveAspectRatio="none" '
-        f'style="height:{height}px" role="img" aria-label="{words}">{"".join(parts)}</svg>'
+        f'style="height:{height}px" role="img" aria-label="{label}">{"".join(parts)}</svg>'
     )
 
 
@@ -56,7 +56,7 @@ def _strip(curve: PlotSeries, index: int, count: int) -> str:
 
 
 def _path(values: Sequence[float], count: int, y_of: Callable[[float], float]) -> str:
-    """Steps, since a value holds until the next iteration; of many moments the lowest and highest of each part."""
+    """A step curve, as a value holds until the next iteration."""
     commands: list[str] = []
     pen_down = False
     for number, value in _downsample(values):
@@ -70,6 +70,7 @@ def _path(values: Sequence[float], count: int, y_of: Callable[[float], float]) -
 
 
 def _downsample(values: Sequence[float]) -> list[tuple[int, float]]:
+    """The values with their indices; of long series only the minimum and maximum of each part."""
     if len(values) <= _MAX_POINTS:
         return list(enumerate(values))
     size = math.ceil(len(values) / (_MAX_POINTS / 2))
@@ -83,7 +84,7 @@ def _downsample(values: Sequence[float]) -> list[tuple[int, float]]:
 
 
 def state_runs(states: Sequence[str]) -> list[tuple[str, int, int]]:
-    """Stretches of the same state: its name, the first moment's index and the one after the last."""
+    """Runs of equal states: the name, the first index, and the index after the last."""
     runs: list[tuple[str, int, int]] = []
     for index, state in enumerate(states):
         if runs and runs[-1][0] == state:
@@ -107,7 +108,7 @@ def _band(states: Sequence[str], top: int, count: int) -> str:
 
 
 def band_labels(states: Sequence[str]) -> list[tuple[str, float]]:
-    """Names for the band where there is room, each with its left end in percent."""
+    """The names of the runs that are wide enough for a label, each with its left end in percent."""
     count = max(len(states), 1)
     return [
         (state, 100 * start / count)

@@ -1,4 +1,4 @@
-"""The scene of a design: what the canvas draws, as plain dicts with finished texts."""
+"""The scene of a design: the items that the canvas draws, as JSON values with formatted texts."""
 
 from collections import Counter, defaultdict
 from collections.abc import Iterable
@@ -18,32 +18,32 @@ _Findings = dict[ItemRef, list[Finding]]
 
 
 def make_scene(project: Project, design: Design, findings: Iterable[Finding], rev: int) -> Scene:
-    """Draw a design: {"rev", "component", "doc", "states", "transitions", "components", "links", "common"}."""
-    by_thing: _Findings = defaultdict(list)
+    """The scene as {"rev", "component", "doc", "states", "transitions", "components", "links", "common"}."""
+    by_item: _Findings = defaultdict(list)
     for finding in findings:
         if finding.subject is not None and finding.subject.component == design.component:
-            by_thing[item_at_path(finding.subject.path)].append(finding)
-    placement = complete_layout(design)
+            by_item[item_at_path(finding.subject.path)].append(finding)
+    layout = complete_layout(design)
     transitions = list(iter_transitions(design))
     return {
         "rev": rev,
         "component": design.component,
         "doc": design.doc,
-        "states": [{**_state(design, state, by_thing), **_at(placement.states[state.name])} for state in design.states],
-        "transitions": list(_transitions(design, transitions, by_thing)),
+        "states": [{**_state(design, state, by_item), **_at(layout.states[state.name])} for state in design.states],
+        "transitions": list(_transitions(design, transitions, by_item)),
         "components": [
             {
                 "id": use.alias,
                 "name": use.component,
                 "design": project.design(use.component) is not None,
                 "parameters": _parameters(project, use.component),
-                **_marks(by_thing, ItemRef(kind="components", id=use.alias)),
-                **_at(placement.uses[use.alias]),
+                **_marks(by_item, ItemRef(kind="components", id=use.alias)),
+                **_at(layout.uses[use.alias]),
             }
             for use in design.uses
         ],
         "links": list(_links(design)),
-        "common": _common(design, by_thing, placement.common),
+        "common": _common(design, by_item, layout.common),
     }
 
 
@@ -56,15 +56,15 @@ def _at(point: tuple[float, float]) -> dict[str, float]:
     return {"x": point[0], "y": point[1]}
 
 
-def _marks(by_thing: _Findings, thing: ItemRef) -> dict[str, Any]:
-    found = by_thing.get(thing)
-    if found is None:
+def _marks(by_item: _Findings, item: ItemRef) -> dict[str, Any]:
+    findings = by_item.get(item)
+    if findings is None:
         return {"severity": None, "messages": []}
-    severity: Severity | None = worst_severity(found)
-    return {"severity": str(severity) if severity else None, "messages": [finding.message for finding in found]}
+    severity: Severity | None = worst_severity(findings)
+    return {"severity": str(severity) if severity else None, "messages": [finding.message for finding in findings]}
 
 
-def _state(design: Design, state: State, by_thing: _Findings) -> dict[str, Any]:
+def _state(design: Design, state: State, by_item: _Findings) -> dict[str, Any]:
     called = {action.alias for action in state.all_actions if isinstance(action, Call)}
     return {
         "id": state.name,
@@ -78,11 +78,11 @@ def _state(design: Design, state: State, by_thing: _Findings) -> dict[str, Any]:
         "requires": len(state.requires),
         "modulates": len(called),
         "doc": state.doc,
-        **_marks(by_thing, ItemRef(kind="states", id=state.name)),
+        **_marks(by_item, ItemRef(kind="states", id=state.name)),
     }
 
 
-def _transitions(design: Design, transitions: list[LocatedDecision], by_thing: _Findings) -> Iterable[dict[str, Any]]:
+def _transitions(design: Design, transitions: list[LocatedDecision], by_item: _Findings) -> Iterable[dict[str, Any]]:
     counts = Counter(located.source for located in transitions)
     orders: Counter[str] = Counter()
     off, unit = disabled_states(design), design.time_unit
@@ -102,7 +102,7 @@ def _transitions(design: Design, transitions: list[LocatedDecision], by_thing: _
             "label_at": list(transition.label_at) if transition.label_at else None,
             "kind": str(guard_kind(located)),
             "doc": "\n".join(part for part in (transition_label(located, unit), transition.doc) if part),
-            **_marks(by_thing, ItemRef(kind="transitions", id=key)),
+            **_marks(by_item, ItemRef(kind="transitions", id=key)),
         }
 
 
@@ -116,10 +116,10 @@ def _links(design: Design) -> Iterable[dict[str, str]]:
                     yield {"id": f"{kind}/{state.name}/{alias}", "kind": kind, "state": state.name, "component": alias}
 
 
-def _common(design: Design, by_thing: _Findings, at: tuple[float, float]) -> dict[str, Any] | None:
+def _common(design: Design, by_item: _Findings, at: tuple[float, float]) -> dict[str, Any] | None:
     common = design.common
     if not common.transitions and not common.actions:
         return None
     count = sum(1 for located in iter_transitions(design) if located.source == COMMON)
-    marks = _marks(by_thing, ItemRef(kind="common", id="@common"))
+    marks = _marks(by_item, ItemRef(kind="common", id="@common"))
     return {**_at(at), "transitions": count, "actions": bool(common.actions), **marks}

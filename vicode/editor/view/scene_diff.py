@@ -1,4 +1,4 @@
-"""What changed between two scenes."""
+"""The difference of two scenes."""
 
 from typing import Any
 

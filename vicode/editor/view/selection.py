@@ -1,4 +1,4 @@
-"""Which drawn thing a path inside a design belongs to."""
+"""Items: the parts of a design that can be selected, their ids, and the item at a path."""
 
 from dataclasses import dataclass
 
@@ -7,14 +7,14 @@ from vicode.findings import DesignPath
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ItemRef:
-    """A thing that can be selected: `of` is states, transitions, components, links, common or design."""
+    """A selectable item; `kind` is states, transitions, components, links, common or design."""
 
     kind: str
     id: str = ""
 
 
 def item_at_path(path: DesignPath) -> ItemRef:
-    """The smallest drawn thing that holds what a path leads to."""
+    """The smallest item that contains a path."""
     match path:
         case ("states", _, "transitions", int(), *_) | ("common", "transitions", int(), *_):
             return ItemRef(kind="transitions", id=transition_key(decision_path(path)))
@@ -29,7 +29,7 @@ def item_at_path(path: DesignPath) -> ItemRef:
 
 
 def decision_path(path: DesignPath) -> DesignPath:
-    """The path cut behind the innermost decision in it."""
+    """The path of the innermost decision on a path."""
     last = max(index for index, part in enumerate(path) if isinstance(part, int))
     return path[: last + 1]
 

@@ -1,4 +1,4 @@
-"""The table of a design: a row for every state and every decision, as plain dicts with finished texts."""
+"""The table of a design: a row for each state and each decision, as JSON values with formatted texts."""
 
 from collections import defaultdict
 from collections.abc import Iterable
@@ -17,10 +17,10 @@ _PHASES = ("enter", "actions", "leave")
 
 
 def make_table(design: Design, findings: Iterable[Finding]) -> TableData:
-    """Tabulate a design: {"rows", "states", "uses"}, the rows in the order in which decisions are tested.
+    """The table as {"rows", "states", "uses"}, with the rows in the order in which decisions are evaluated.
 
-    A row is {"id", "kind", "level", "lead", "cells", "severity", "messages"}. A cell that is left out means nothing
-    in this kind of row; `lead` stands before the name and cannot be changed.
+    A row is {"id", "kind", "level", "lead", "cells", "severity", "messages"}. Cells that do not apply to a kind of row
+    are missing; `lead` is a read-only text before the name.
     """
     found: dict[ItemRef, list[Finding]] = defaultdict(list)
     for finding in findings:
@@ -42,7 +42,7 @@ def make_table(design: Design, findings: Iterable[Finding]) -> TableData:
 
 
 def diff_tables(old: TableData, new: TableData) -> TableData:
-    """What changed between two tables: {"upsert", "remove", "order"?, "states"?, "uses"?}."""
+    """The changes from one table to the next: {"upsert", "remove", "order"?, "states"?, "uses"?}."""
     before = {row["id"]: row for row in old["rows"]}
     after = {row["id"]: row for row in new["rows"]}
     changes: TableData = {
@@ -55,27 +55,25 @@ def diff_tables(old: TableData, new: TableData) -> TableData:
     return changes
 
 
-def item_row_id(thing: ItemRef) -> str:
-    """The id of the row that shows a thing."""
-    return f"{thing.kind}/{thing.id}"
+def item_row_id(item: ItemRef) -> str:
+    return f"{item.kind}/{item.id}"
 
 
 def parse_row_id(row: str) -> ItemRef:
-    """The thing a row shows."""
-    of, _slash, identity = row.partition("/")
-    return ItemRef(kind=of, id=identity)
+    kind, _slash, id_ = row.partition("/")
+    return ItemRef(kind=kind, id=id_)
 
 
-def _row(thing: ItemRef, kind: str, cells: dict[str, Any], found: dict[ItemRef, list[Finding]]) -> RowData:
-    severity = worst_severity(found.get(thing, ()))
+def _row(item: ItemRef, kind: str, cells: dict[str, Any], found: dict[ItemRef, list[Finding]]) -> RowData:
+    severity = worst_severity(found.get(item, ()))
     return {
-        "id": item_row_id(thing),
+        "id": item_row_id(item),
         "kind": kind,
         "level": 1,
         "lead": "",
         "cells": cells,
         "severity": str(severity) if severity else None,
-        "messages": [finding.message for finding in found.get(thing, ())],
+        "messages": [finding.message for finding in found.get(item, ())],
     }
 
 
@@ -119,7 +117,7 @@ def _kind(decision: Decision) -> str:
 
 
 def _lead(path: DesignPath, decision: Decision) -> str:
-    """Order number, side of its group, and what is decided: "2 →", "else 1 →", "3 stay"."""
+    """Branch, order number and kind of a decision, such as "2 →", "else 1 →" or "3 stay"."""
     index = path[-1]
     assert isinstance(index, int)
     side = "else " if path[-2] == "else" else ""

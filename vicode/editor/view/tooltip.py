@@ -1,4 +1,4 @@
-"""What is told of a thing that the pointer rests on, beyond what its drawing says."""
+"""The tooltip of an item: its code, which the drawing does not show."""
 
 from collections.abc import Iterable, Sequence
 
@@ -11,19 +11,19 @@ _MAX_LINES = 12
 _MAX_LINE_LENGTH = 90
 
 
-def tooltip_sections(design: Design, thing: ItemRef, languages: Sequence[str]) -> Sections:
-    """The code of a state, a transition or the common part: sections {"name", "text"} no longer than a card."""
-    if thing.kind == "transitions":
-        return _guard(design, thing.id, languages)
-    texts = ((name, "\n".join(_lines(actions, languages))) for name, actions in _phases(design, thing))
+def tooltip_sections(design: Design, item: ItemRef, languages: Sequence[str]) -> Sections:
+    """The code of a state, a transition or the common section, as shortened sections {"name", "text"}."""
+    if item.kind == "transitions":
+        return _guard(design, item.id, languages)
+    texts = ((name, "\n".join(_lines(actions, languages))) for name, actions in _phases(design, item))
     return [{"name": name, "text": _cut(text)} for name, text in texts if text]
 
 
-def _phases(design: Design, thing: ItemRef) -> tuple[tuple[str, tuple[Action, ...]], ...]:
-    state = design.state(thing.id) if thing.kind == "states" else None
+def _phases(design: Design, item: ItemRef) -> tuple[tuple[str, tuple[Action, ...]], ...]:
+    state = design.state(item.id) if item.kind == "states" else None
     if state is not None:
         return (("enter", state.enter), ("do", state.all_actions), ("leave", state.leave))
-    return (("do", design.common.actions),) if thing.kind == "common" else ()
+    return (("do", design.common.actions),) if item.kind == "common" else ()
 
 
 def _guard(design: Design, key: str, languages: Sequence[str]) -> Sections:
@@ -44,7 +44,7 @@ def _lines(actions: Iterable[Action], languages: Sequence[str]) -> Iterable[str]
 
 
 def _text(code: Code, languages: Sequence[str]) -> str:
-    """In the first language there is a text for."""
+    """The text in the first language that has one."""
     written = (code.in_language(language) for language in languages)
     return next((text for text in written if text), "").strip("\n")
 

@@ -1,4 +1,4 @@
-"""Quick fixes: for a finding whose mend is certain, the edits that make it vanish, each with a label."""
+"""Quick fixes: edits that resolve a finding, each with a label."""
 
 from collections import Counter
 from collections.abc import Callable, Mapping
@@ -22,58 +22,58 @@ FIXERS: Mapping[str, Callable[[FixContext], list[Fix]]] = {
     **uses.FIXERS,
 }
 
-_IN_THE_FILE = "the mistake is in the text of the file, which is mended there"
-_IN_THE_PROJECT = "the mistake is in project.yaml, which no fix writes"
-_ONLY_A_PERSON = "only a person knows what was meant"
+_DESIGN_FILE = "the error is in the text of the file"
+_PROJECT_FILE = "the error is in project.yaml, which quick fixes do not change"
+_AMBIGUOUS = "the intended meaning is not certain"
 
 UNFIXABLE: Mapping[str, str] = {
-    **dict.fromkeys(("Y101", "Y102", "Y103", "Y104", "Y105", "Y106", "Y107", "Y108", "Y109", "Y110"), _IN_THE_FILE),
-    **dict.fromkeys(("Y111", "Y112"), _IN_THE_FILE),
-    **dict.fromkeys(("P203", "P207", "P208"), _IN_THE_PROJECT),
-    "P201": "renaming a component is a change of other designs, too",
-    **dict.fromkeys(("E301", "E302", "E304", "E305", "E308", "E309"), _ONLY_A_PERSON),
-    "D407": "which of two things a name was meant for, only a person knows",
-    "D408": "which component can do without the next, only a person knows",
-    "D412": _ONLY_A_PERSON,
-    "D414": "code is not translated by itself",
-    **dict.fromkeys(("L701", "L702"), "how else it could be said for one language, only a person knows"),
-    "L703": "a name in XABSL is what a robot's program has, too",
-    "L704": _ONLY_A_PERSON,
-    "D425": "where to step a component once, only a person knows",
-    **dict.fromkeys(("G501", "G502", "G503"), "generated files are shown, and written, by Generate"),
+    **dict.fromkeys(("Y101", "Y102", "Y103", "Y104", "Y105", "Y106", "Y107", "Y108", "Y109", "Y110"), _DESIGN_FILE),
+    **dict.fromkeys(("Y111", "Y112"), _DESIGN_FILE),
+    **dict.fromkeys(("P203", "P207", "P208"), _PROJECT_FILE),
+    "P201": "renaming a component also changes other designs",
+    **dict.fromkeys(("E301", "E302", "E304", "E305", "E308", "E309"), _AMBIGUOUS),
+    "D407": "which of the two declarations to rename is not certain",
+    "D408": "which use in the cycle to remove is not certain",
+    "D412": _AMBIGUOUS,
+    "D414": "code cannot be translated automatically",
+    **dict.fromkeys(("L701", "L702"), "there is no general replacement in the language"),
+    "L703": "the robot's program uses the XABSL name, too",
+    "L704": _AMBIGUOUS,
+    "D425": "where to step the component is not certain",
+    **dict.fromkeys(("G501", "G502", "G503"), "Generate shows and writes generated files"),
 }
-"""Why there is no fix, for every rule without one."""
+"""The reason for every rule without a quick fix."""
 
 
 def is_fixable(finding: Finding) -> bool:
-    """Whether it is worth asking for fixes; asking is what takes time."""
+    """Whether a finding may have fixes; unlike `find_fixes` this is fast."""
     return finding.rule.code in FIXERS and finding.subject is not None
 
 
 def find_fixes(project: Project, design: Design, finding: Finding) -> tuple[Fix, ...]:
-    """The certain mends of a finding about a design, the likeliest first; none where only a person can tell.
+    """The quick fixes of a finding, the most likely first; empty if the intended meaning is not certain.
 
-    Each was tried: the finding vanishes, and no error comes in its place.
+    Each fix is verified: it resolves the finding and introduces no error.
     """
     fixer = FIXERS.get(finding.rule.code)
-    thing = finding.subject
-    if fixer is None or thing is None or thing.component != design.component:
+    subject = finding.subject
+    if fixer is None or subject is None or subject.component != design.component:
         return ()
-    proposed = fixer(FixContext(project=project, design=design, finding=finding, path=thing.path))
-    before = _counted(project, design)
+    proposed = fixer(FixContext(project=project, design=design, finding=finding, path=subject.path))
+    before = _count_findings(project, design)
     key = _key(finding)
-    return tuple(fix for fix in proposed if _resolves(key, before, _counted(project, fix.edit(design))))
+    return tuple(fix for fix in proposed if _resolves(key, before, _count_findings(project, fix.edit(design))))
 
 
 Key = tuple[str, str]
 
 
 def _key(finding: Finding) -> Key:
-    # Without its place: a fix may move what stands behind it.
+    # Without the path, which a fix may shift for later findings.
     return (finding.rule.code, finding.message)
 
 
-def _counted(project: Project, design: Design) -> Counter[Key]:
+def _count_findings(project: Project, design: Design) -> Counter[Key]:
     return Counter(map(_key, check_design(project, design)))
 
 

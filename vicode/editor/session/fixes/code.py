@@ -1,4 +1,4 @@
-"""Mends of hand-written code: languages that do not exist, predicates that hold nothing."""
+"""Fixes of hand-written code: unknown languages, empty predicates."""
 
 from dataclasses import replace
 
@@ -10,26 +10,26 @@ from vicode.model.traversal import find_decision, iter_actions, iter_code
 
 
 def fix_unknown_language(case: FixContext) -> list[Fix]:
-    """P204, of code; in a project file it is mended there."""
+    """P204 in code; a project file is fixed by hand."""
     meant, wrong = case.suggested_name, str(case.path[-1])
-    placed = next((each for each in iter_code(case.design) if each.path == case.path[:-1]), None)
-    if placed is None or not meant or placed.code.in_language(meant) is not None:
+    located = next((located for located in iter_code(case.design) if located.path == case.path[:-1]), None)
+    if located is None or not meant or located.code.in_language(meant) is not None:
         return []
-    texts = tuple((meant if language == wrong else language, text) for language, text in placed.code.texts)
+    texts = tuple((meant if language == wrong else language, text) for language, text in located.code.texts)
     code = Code(texts=texts)
-    return [Fix(label=f"It is written in {meant}", edit=lambda old: _with_code(old, placed.path, code))]
+    return [Fix(label=f"Change the language to {meant}", edit=lambda old: _with_code(old, located.path, code))]
 
 
 def fix_empty_predicate(case: FixContext) -> list[Fix]:
-    """D415: without its code a decision would always hold, which is said."""
+    """D415."""
     located = case.decision()
     if located is None:
         return []
     path, old = located.path, located.decision
     without = replace(old, guard=replace(old.guard, code=None))
     return [
-        Fix(label="Remove the transition, which never holds", edit=lambda design: remove_decisions(design, [path])),
-        Fix(label="Leave it without code", edit=lambda design: replace_decision(design, path, without)),
+        Fix(label="Remove the transition", edit=lambda design: remove_decisions(design, [path])),
+        Fix(label="Remove the empty code", edit=lambda design: replace_decision(design, path, without)),
     ]
 
 
@@ -43,7 +43,7 @@ def _with_code(design: Design, path: DesignPath, code: Code) -> Design:
     if located is not None:
         guard = replace(located.decision.guard, code=code)
         return replace_decision(design, where, replace(located.decision, guard=guard))
-    action = next((each.action for each in iter_actions(design) if each.path == where), None)
+    action = next((located.action for located in iter_actions(design) if located.path == where), None)
     return replace_action(design, where, replace(action, code=code)) if isinstance(action, RunCode) else design
 
 

@@ -1,4 +1,4 @@
-"""What a fixer is given, and what it gives."""
+"""The input and output of the functions that propose fixes."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -13,7 +13,7 @@ DesignEdit = Callable[[Design], Design]
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Fix:
-    """One mend: what it does in words, and the edit."""
+    """A labelled edit."""
 
     label: str
     edit: DesignEdit
@@ -30,26 +30,26 @@ class FixContext:
 
     @property
     def suggested_name(self) -> str:
-        """The known name that was probably meant, empty if none is near."""
+        """The nearest known name, empty if none is similar."""
         return suggested_name(self.finding.fix)
 
     def decision(self) -> LocatedDecision | None:
-        """The innermost decision that the path leads into."""
+        """The innermost decision on the path."""
         indices = [at for at, part in enumerate(self.path) if isinstance(part, int)]
         is_below = self.path[:2] == ("common", "transitions") or self.path[2:3] == ("transitions",)
         return find_decision(self.design, self.path[: indices[-1] + 1]) if indices and is_below else None
 
     def state_name(self) -> str:
-        """The state that the path leads into, empty if it leads into none."""
+        """The state on the path, empty if there is none."""
         return str(self.path[1]) if self.path[:1] == ("states",) and len(self.path) > 1 else ""
 
     def is_used_elsewhere(self) -> bool:
-        """Whether another design uses this component, so that what it declares may be read or set from there."""
+        """Whether another design uses this component and may read or set its declarations."""
         own = self.design.component
         return any(
             use.component == own for design in self.project.designs if design.component != own for use in design.uses
         )
 
     def target_names(self) -> set[str]:
-        """The names that transitions lead to."""
+        """The targets of all transitions."""
         return {getattr(located.decision, "to", "") for located in iter_decisions(self.design)}

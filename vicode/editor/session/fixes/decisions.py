@@ -1,4 +1,4 @@
-"""Mends of decisions that are never tested or change nothing."""
+"""Fixes of decisions that are shadowed or have no effect."""
 
 from dataclasses import replace
 
@@ -10,15 +10,19 @@ from vicode.model.traversal import find_decision
 
 
 def fix_shadowed_decision(case: FixContext) -> list[Fix]:
-    """D423: of a decision, of the `else` of a group, or of all decisions of a state."""
+    """D423 for a decision, the `else` branch of a group, or all decisions of a state."""
     path = case.path
     if path[-1] == "else":
-        return [Fix(label="Remove the else side", edit=lambda old: _without_else(old, path[:-1]))]
+        return [Fix(label="Remove the else branch", edit=lambda old: _without_else(old, path[:-1]))]
     if path[-1] == "transitions":
         name = case.state_name()
         label = f"Remove the transitions of {name}"
-        return [Fix(label=label, edit=lambda old: update_state(old, name, lambda each: replace(each, transitions=())))]
-    return [Fix(label="Remove the dead transition", edit=lambda old: remove_decisions(old, [path]))]
+
+        def remove_transitions(design: Design) -> Design:
+            return update_state(design, name, lambda state: replace(state, transitions=()))
+
+        return [Fix(label=label, edit=remove_transitions)]
+    return [Fix(label="Remove the shadowed transition", edit=lambda old: remove_decisions(old, [path]))]
 
 
 def fix_no_effect(case: FixContext) -> list[Fix]:
@@ -29,7 +33,7 @@ def fix_no_effect(case: FixContext) -> list[Fix]:
     path, old = located.path, located.decision
     stay = Stay(guard=old.guard, doc=old.doc, id=old.id)
     return [
-        Fix(label="Make it a stay", edit=lambda design: replace_decision(design, path, stay)),
+        Fix(label="Replace it with a stay", edit=lambda design: replace_decision(design, path, stay)),
         Fix(label="Remove the transition", edit=lambda design: remove_decisions(design, [path])),
     ]
 

@@ -1,4 +1,4 @@
-"""Mends of declarations: types, ranges, frequencies, what nothing uses."""
+"""Fixes of declarations: types, ranges, frequencies, unused declarations."""
 
 from collections.abc import Callable
 from dataclasses import replace
@@ -29,31 +29,31 @@ def fix_bad_range(case: FixContext) -> list[Fix]:
     low, high = declaration.range
     if high < low:
         swap = _declaration_edit(case.path, lambda old: replace(old, range=(high, low)))
-        return [Fix(label=f"Swap the ends: {high:g} to {low:g}", edit=swap)]
+        return [Fix(label=f"Swap the limits: {high:g} to {low:g}", edit=swap)]
     remove = _declaration_edit(case.path, lambda old: replace(old, range=None))
     return [Fix(label="Remove the range", edit=remove)]
 
 
 def fix_bad_frequency(_case: FixContext) -> list[Fix]:
     """D416."""
-    return [Fix(label="Work at every step", edit=lambda old: replace(old, frequency_hz=None))]
+    return [Fix(label="Run at every step", edit=lambda old: replace(old, frequency_hz=None))]
 
 
 def fix_unused_declaration(case: FixContext) -> list[Fix]:
-    """D424; what other designs may read or set is not removed."""
+    """D424; parameters and outputs of a component used by other designs are kept."""
     section, name = str(case.path[0]), str(case.path[1])
     if section != "variables" and case.is_used_elsewhere():
         return []
 
     def change(design: Design) -> Design:
-        kept = tuple(each for each in getattr(design, section) if each.name != name)
+        kept = tuple(declaration for declaration in getattr(design, section) if declaration.name != name)
         return set_declarations(design, section, kept)
 
     return [Fix(label=f"Remove the {section.removesuffix('s')} {name}", edit=change)]
 
 
 def fix_outside_range(case: FixContext) -> list[Fix]:
-    """D427: the end of the range that is nearer."""
+    """D427: set the nearer limit of the range."""
     receiver = _target_declaration(case)
     span = case.finding.subject.span if case.finding.subject else None
     if receiver is None or receiver.range is None or span is None:
@@ -61,7 +61,7 @@ def fix_outside_range(case: FixContext) -> list[Fix]:
     low, high = receiver.range
     is_low = _value_of(case) < low
     text = f"{low if is_low else high:g}"
-    words = f"to {text}, the {'lowest' if is_low else 'highest'}"
+
     if build_scope(case.project, case.design).type_of(receiver) == "int" and not float(text).is_integer():
         return []
     start, end = span
@@ -69,18 +69,18 @@ def fix_outside_range(case: FixContext) -> list[Fix]:
     def change(design: Design) -> Design:
         return rewrite_text(design, case.path, lambda old: old[:start] + text + old[end:])
 
-    return [Fix(label=f"Set it {words}", edit=change)]
+    return [Fix(label=f"Set it to {text}, the {'minimum' if is_low else 'maximum'}", edit=change)]
 
 
 def _value_of(case: FixContext) -> float:
-    """The value that the finding begins with."""
+    """The value at the start of the message."""
     return float(case.finding.message.split(" ", 1)[0])
 
 
 def _target_declaration(case: FixContext) -> Declaration | None:
-    """The declaration that a value at the path goes to."""
+    """The declaration that receives the value at the path."""
     design, path = case.design, case.path
-    own = {each.name: each for _section, each in design.declarations()}
+    own = {declaration.name: declaration for _section, declaration in design.declarations()}
     if path[0] in ("parameters", "outputs", "variables"):
         return own.get(str(path[1])) if "arguments" not in path else None
     if "set" in path:
@@ -92,7 +92,7 @@ def _target_declaration(case: FixContext) -> Declaration | None:
 
 
 def _called(design: Design, path: DesignPath) -> str:
-    """The alias of the call that a path leads into."""
+    """The alias of the call on a path."""
     at = next((index for index, part in enumerate(path) if isinstance(part, int)), None)
     if at is None:
         return ""
@@ -103,26 +103,26 @@ def _called(design: Design, path: DesignPath) -> str:
 
 
 def _declaration_at(design: Design, path: DesignPath) -> Declaration | None:
-    found = (each for section, each in design.declarations() if (section, each.name) == path[:2])
+    found = (declaration for section, declaration in design.declarations() if (section, declaration.name) == path[:2])
     declaration = next(found, None)
     if declaration is None or path[2:3] != ("arguments",):
         return declaration
-    return next((each for each in declaration.arguments or () if each.name == path[3]), None)
+    return next((argument for argument in declaration.arguments or () if argument.name == path[3]), None)
 
 
 def _declaration_edit(path: DesignPath, change: Callable[[Declaration], Declaration]) -> DesignEdit:
-    """Changes the declaration, or the argument of one, that a path leads into."""
+    """An edit of the declaration, or of its argument, on a path."""
     section, name = str(path[0]), path[1]
     argument = path[3] if path[2:3] == ("arguments",) else None
 
     def changed(declaration: Declaration) -> Declaration:
         if argument is None:
             return change(declaration)
-        arguments = (change(each) if each.name == argument else each for each in declaration.arguments or ())
+        arguments = (change(item) if item.name == argument else item for item in declaration.arguments or ())
         return replace(declaration, arguments=tuple(arguments))
 
     def apply(design: Design) -> Design:
-        declarations = (changed(each) if each.name == name else each for each in getattr(design, section))
+        declarations = (changed(item) if item.name == name else item for item in getattr(design, section))
         return set_declarations(design, section, tuple(declarations))
 
     return apply

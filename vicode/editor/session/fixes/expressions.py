@@ -1,4 +1,4 @@
-"""Mends of names in expressions: the nearest known name, or the declaration that is missing."""
+"""Fixes of unknown names in expressions: the nearest known name, or a new declaration."""
 
 from dataclasses import replace
 
@@ -23,30 +23,30 @@ from vicode.model.traversal import iter_actions, iter_expressions
 
 
 def fix_unknown_name(case: FixContext) -> list[Fix]:
-    """E303, E306: in an expression, or as the name that `set` gives a value."""
-    thing = case.finding.subject
-    if thing is None or thing.span is None:
+    """E303, E306 in an expression, or in a name that `set` assigns."""
+    subject = case.finding.subject
+    if subject is None or subject.span is None:
         return _fix_set(case)
-    start, end = thing.span
-    text = next((each.text for each in iter_texts(case.design) if each.path == case.path), "")
-    guilty = text[start:end]
+    start, end = subject.span
+    text = next((located.text for located in iter_texts(case.design) if located.path == case.path), "")
+    name = text[start:end]
     fixes = []
     if case.suggested_name:
-        # Of `ball.sen` only what follows the dot is wrong.
-        head, dot, _tail = guilty.rpartition(".")
-        mended = f"{text[:start]}{head}{dot}{case.suggested_name}{text[end:]}"
+        # In `ball.sen` only the part after the dot is wrong.
+        head, dot, _tail = name.rpartition(".")
+        fixed = f"{text[:start]}{head}{dot}{case.suggested_name}{text[end:]}"
         label = f"Replace with {head}{dot}{case.suggested_name}"
-        fixes.append(Fix(label=label, edit=lambda old: rewrite_text(old, case.path, lambda _text: mended)))
+        fixes.append(Fix(label=label, edit=lambda old: rewrite_text(old, case.path, lambda _text: fixed)))
     follows = text[end : end + 1]
-    if is_valid_name(guilty) and follows == ".":
-        fixes += add_use_fixes(case, guilty)
-    elif is_valid_name(guilty) and "is not declared" in case.finding.message:
-        fixes += _declare_from_expression(case, guilty, text)
+    if is_valid_name(name) and follows == ".":
+        fixes += add_use_fixes(case, name)
+    elif is_valid_name(name) and "is not declared" in case.finding.message:
+        fixes += _declare_from_expression(case, name, text)
     return fixes
 
 
 def _fix_set(case: FixContext) -> list[Fix]:
-    """E303, E307: a name that cannot be set."""
+    """E303, E307 in a name that `set` assigns."""
     if "set" not in case.path:
         return []
     old, fixes = str(case.path[-1]), []
@@ -54,7 +54,7 @@ def _fix_set(case: FixContext) -> list[Fix]:
         new = case.suggested_name
         fixes.append(Fix(label=f"Set {new} instead", edit=lambda design: _renamed_in_set(design, case.path, new)))
     if case.finding.rule.code == "E303" and is_valid_name(old):
-        text = next((each.text for each in iter_expressions(case.design) if each.path == case.path), "")
+        text = next((located.text for located in iter_expressions(case.design) if located.path == case.path), "")
         parsed = parse_expression(text, build_scope(case.project, case.design))
         type_ = parsed.tree.type if parsed.tree and not parsed.diagnostics else ""
         fixes += _declare(case, old, type_)
@@ -62,9 +62,9 @@ def _fix_set(case: FixContext) -> list[Fix]:
 
 
 def _declare_from_expression(case: FixContext, name: str, text: str) -> list[Fix]:
-    """A variable of the first type with which the expression has no mistake any more."""
+    """Declare a variable of the first type for which the expression has no error."""
     scope = build_scope(case.project, case.design)
-    expected = next((each.expected for each in iter_expressions(case.design) if each.path == case.path), "")
+    expected = next((located.expected for located in iter_expressions(case.design) if located.path == case.path), "")
     for type_ in (FLOAT, BOOL, INT, *scope.enumerations):
         symbol = ScopeSymbol(kind=ScopeSymbolKind.VARIABLE, type=type_, declaration=Declaration(name=name))
         wider = Scope(symbols={**scope.symbols, name: symbol}, uses=scope.uses, enumerations=scope.enumerations)
@@ -78,7 +78,7 @@ def _declare(case: FixContext, name: str, type_: str) -> list[Fix]:
     first = {BOOL: "False", INT: "0", FLOAT: "0.0"}.get(type_)
     if first is None:
         first = f"{type_}.{elements[type_][0]}" if elements.get(type_) else None
-    # Where only constants may stand a variable would be the next mistake.
+    # These places accept constants only.
     if first is None or case.path[0] in ("parameters", "outputs", "variables") or case.path[-1] == "after":
         return []
     declaration = Declaration(name=name, initial=first)
@@ -91,13 +91,13 @@ def _declare(case: FixContext, name: str, type_: str) -> list[Fix]:
 
 
 def _renamed_in_set(design: Design, path: DesignPath, new: str) -> Design:
-    """The design with another name set at a path that ends in the old name."""
+    """Rename the assigned variable at a path that ends in the old name."""
     from_name, where = str(path[-1]), path[:-2]
-    placed = next((each for each in iter_actions(design) if each.path == where), None)
-    if placed is None or not isinstance(placed.action, Assign):
+    located = next((located for located in iter_actions(design) if located.path == where), None)
+    if located is None or not isinstance(located.action, Assign):
         return design
-    values = tuple((new if name == from_name else name, text) for name, text in placed.action.values)
-    return replace_action(design, where, replace(placed.action, values=values))
+    values = tuple((new if name == from_name else name, text) for name, text in located.action.values)
+    return replace_action(design, where, replace(located.action, values=values))
 
 
 FIXERS = {"E303": fix_unknown_name, "E306": fix_unknown_name, "E307": fix_unknown_name}

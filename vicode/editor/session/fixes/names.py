@@ -1,4 +1,4 @@
-"""Mends of names and ids that cannot be used: the nearest spelling that can."""
+"""Fixes of invalid names and ids: the nearest valid spelling."""
 
 import re
 from dataclasses import replace
@@ -12,18 +12,18 @@ from vicode.model.traversal import find_decision, iter_actions
 
 
 def fix_bad_name(case: FixContext) -> list[Fix]:
-    """D404 to D406, of states, aliases and ids; other names are also said in code, which no edit can follow surely."""
+    """D404 to D406 for states, aliases and ids; code may refer to other names, which no edit can rename reliably."""
     match case.path:
         case (*_, "id"):
             return fix_bad_id(case)
         case ("states", str(name)):
             taken = {state.name for state in case.design.states}
-            new = unique_name(_usable(case, name), taken)
+            new = unique_name(_valid_name(case, name), taken)
             return [Fix(label=f"Rename to {new}", edit=lambda old: rename_state(old, name, new))]
         case ("uses", str(alias)):
             taken = {use.alias for use in case.design.uses}
-            taken |= {each.name for _section, each in case.design.declarations()}
-            new = unique_name(_usable(case, alias), taken)
+            taken |= {declaration.name for _section, declaration in case.design.declarations()}
+            new = unique_name(_valid_name(case, alias), taken)
             return [Fix(label=f"Rename to {new}", edit=lambda old: rename_use(old, alias, new))]
         case _:
             return []
@@ -34,8 +34,8 @@ def fix_bad_id(case: FixContext) -> list[Fix]:
     return [Fix(label="Remove the id", edit=lambda old: _without_id(old, case.path[:-1]))]
 
 
-def _usable(case: FixContext, name: str) -> str:
-    """A name like the one that is refused."""
+def _valid_name(case: FixContext, name: str) -> str:
+    """A valid name similar to an invalid one."""
     if case.finding.rule.code == "D406":
         return f"my_{name}"
     if case.finding.rule.code == "D405" and is_valid_state_name(name) and not name.startswith("_"):
@@ -52,7 +52,7 @@ def _without_id(design: Design, path: DesignPath) -> Design:
     located = find_decision(design, path)
     if located is not None:
         return replace_decision(design, path, replace(located.decision, id=""))
-    action = next((each.action for each in iter_actions(design) if each.path == path), None)
+    action = next((located.action for located in iter_actions(design) if located.path == path), None)
     return replace_action(design, path, replace(action, id="")) if isinstance(action, RunCode) else design
 
 

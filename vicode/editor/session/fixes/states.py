@@ -1,4 +1,4 @@
-"""Mends of what is wrong with states: missing, unreachable, without a way out, no initial one."""
+"""Fixes of states: unknown or unreachable states, dead ends, a missing initial state."""
 
 from dataclasses import replace
 
@@ -10,13 +10,13 @@ from vicode.model.names import is_valid_state_name
 
 def fix_no_states(_case: FixContext) -> list[Fix]:
     """D411."""
-    return [Fix(label="Add a state Start", edit=_with_start)]
+    return [Fix(label="Add the state Start", edit=_with_start)]
 
 
 def fix_no_initial_state(case: FixContext) -> list[Fix]:
     """D401."""
     names = list(dict.fromkeys([case.suggested_name or case.design.states[0].name, case.design.states[0].name]))
-    return [Fix(label=f"Start in {name}", edit=_initial_state_edit(name)) for name in names]
+    return [Fix(label=f"Make {name} the initial state", edit=_initial_state_edit(name)) for name in names]
 
 
 def fix_disabled_initial_state(case: FixContext) -> list[Fix]:
@@ -29,7 +29,7 @@ def fix_disabled_initial_state(case: FixContext) -> list[Fix]:
     others = [state.name for state in case.design.states if not state.disabled][:1]
     return [
         Fix(label=f"Enable {name}", edit=enable),
-        *(Fix(label=f"Start in {other}", edit=_initial_state_edit(other)) for other in others),
+        *(Fix(label=f"Make {other} the initial state", edit=_initial_state_edit(other)) for other in others),
     ]
 
 
@@ -41,12 +41,13 @@ def fix_unknown_state(case: FixContext) -> list[Fix]:
     transition, path = located.decision, located.path
     fixes = []
     if case.suggested_name:
-        mended = replace(transition, to=case.suggested_name)
-        fixes.append(Fix(label=f"Lead to {case.suggested_name}", edit=lambda old: replace_decision(old, path, mended)))
+        fixed = replace(transition, to=case.suggested_name)
+        label = f"Change the target to {case.suggested_name}"
+        fixes.append(Fix(label=label, edit=lambda old: replace_decision(old, path, fixed)))
     if is_valid_state_name(transition.to):
         label = f"Create the state {transition.to}"
-        beside = located.source
-        fixes.append(Fix(label=label, edit=lambda old: add_state(old, _new_state(old, transition.to, beside))))
+        source = located.source
+        fixes.append(Fix(label=label, edit=lambda old: add_state(old, _new_state(old, transition.to, source))))
     fixes.append(Fix(label="Remove the transition", edit=lambda old: remove_decisions(old, [path])))
     return fixes
 
@@ -75,10 +76,10 @@ def _initial_state_edit(name: str) -> DesignEdit:
     return lambda design: replace(design, initial=name)
 
 
-def _new_state(design: Design, name: str, beside: str) -> State:
-    """A state to the right of the one that leads to it, if that has a place."""
-    source = design.state(beside) if beside != COMMON else None
-    return State(name=name, at=(source.at[0] + 240, source.at[1] + 40) if source and source.at else None)
+def _new_state(design: Design, name: str, source: str) -> State:
+    """A state to the right of its source, if that has a position."""
+    state = design.state(source) if source != COMMON else None
+    return State(name=name, at=(state.at[0] + 240, state.at[1] + 40) if state and state.at else None)
 
 
 FIXERS = {

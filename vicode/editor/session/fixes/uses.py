@@ -1,4 +1,4 @@
-"""Mends of what is wrong with used components: unknown, unused, called wrongly or at the wrong place."""
+"""Fixes of used components: unknown or unused components, wrong or misplaced calls."""
 
 from dataclasses import replace
 
@@ -11,10 +11,10 @@ from vicode.model.traversal import iter_actions
 
 
 def fix_unknown_component(case: FixContext) -> list[Fix]:
-    """P202, of a use."""
+    """P202 for a use."""
     alias, meant = str(case.path[1]), case.suggested_name
     fixes = []
-    # To use oneself would be the next mistake.
+    # A component cannot use itself.
     if meant and meant != case.design.component:
         label = f"Use the component {meant}"
         fixes.append(Fix(label=label, edit=lambda old: _with_component(old, alias, meant)))
@@ -22,7 +22,7 @@ def fix_unknown_component(case: FixContext) -> list[Fix]:
 
 
 def fix_unknown_alias(case: FixContext) -> list[Fix]:
-    """D403, of a requirement, a call or a modulation."""
+    """D403 for a requirement, a call or a modulation."""
     alias, meant = _alias_at(case), case.suggested_name
     fixes = []
     if meant:
@@ -33,7 +33,7 @@ def fix_unknown_alias(case: FixContext) -> list[Fix]:
 
 
 def add_use_fixes(case: FixContext, alias: str) -> list[Fix]:
-    """Use the component whose name gives an alias, if the project has one."""
+    """Add a use of the component whose name corresponds to an unknown alias."""
     own = case.design.component
     known = [name for name in case.project.interfaces() if snake_case(name) == alias and name != own]
     if len(known) != 1 or not is_valid_name(alias) or case.design.use(alias):
@@ -48,8 +48,10 @@ def fix_unknown_parameter(case: FixContext) -> list[Fix]:
     name, meant = str(case.path[-1]), case.suggested_name
     fixes = []
     if meant:
-        fixes.append(Fix(label=f"Give {meant} instead", edit=lambda old: _with_parameter(old, case.path, meant)))
-    fixes.append(Fix(label=f"Remove {name}", edit=lambda old: _with_parameter(old, case.path, "")))
+        fixes.append(
+            Fix(label=f"Rename the argument to {meant}", edit=lambda old: _with_parameter(old, case.path, meant))
+        )
+    fixes.append(Fix(label=f"Remove the argument {name}", edit=lambda old: _with_parameter(old, case.path, "")))
     return fixes
 
 
@@ -57,7 +59,7 @@ def fix_misplaced_call(case: FixContext) -> list[Fix]:
     """D410."""
     where = case.path[:-1]
     name = case.state_name()
-    call = next((each.action for each in iter_actions(case.design) if each.path == where), None)
+    call = next((located.action for located in iter_actions(case.design) if located.path == where), None)
     if not isinstance(call, Call):
         return []
 
@@ -71,12 +73,12 @@ def fix_misplaced_call(case: FixContext) -> list[Fix]:
 
 
 def fix_missing_requirement(case: FixContext) -> list[Fix]:
-    """D426: the state that reads a component requires it."""
+    """D426: the state requires the component that it reads."""
     name, span = case.state_name(), case.finding.subject.span if case.finding.subject else None
     alias = case.finding.message.split("'")[1]
     if not name or span is None:
         return []
-    return [Fix(label=f"{name} requires {alias}", edit=lambda old: add_requirement(old, name, alias))]
+    return [Fix(label=f"Require {alias} in {name}", edit=lambda old: add_requirement(old, name, alias))]
 
 
 def fix_unused_use(case: FixContext) -> list[Fix]:
@@ -98,18 +100,18 @@ def _alias_at(case: FixContext) -> str:
         case ("states", _, "modulates", str(alias)):
             return alias
         case _:
-            found = (each.action for each in iter_actions(case.design) if each.path == case.path[:-1])
+            found = (located.action for located in iter_actions(case.design) if located.path == case.path[:-1])
             return next((action.alias for action in found if isinstance(action, Call)), "")
 
 
 def _with_alias(design: Design, path: DesignPath, alias: str) -> Design:
-    """Another alias where a path leads; one that the state has already is not taken twice."""
+    """Replace the alias at a path; the result contains no alias twice."""
     match path:
         case ("states", str(name), "requires", int(index)):
 
             def required(state: State) -> State:
-                wanted = (alias if at == index else each for at, each in enumerate(state.requires))
-                return replace(state, requires=tuple(dict.fromkeys(wanted)))
+                aliases = (alias if at == index else other for at, other in enumerate(state.requires))
+                return replace(state, requires=tuple(dict.fromkeys(aliases)))
 
             return update_state(design, name, required)
         case ("states", str(name), "modulates", str(old)):
@@ -126,7 +128,7 @@ def _with_alias(design: Design, path: DesignPath, alias: str) -> Design:
 
 
 def _with_call(design: Design, where: DesignPath, alias: str) -> Design:
-    call = next((each.action for each in iter_actions(design) if each.path == where), None)
+    call = next((located.action for located in iter_actions(design) if located.path == where), None)
     return replace_action(design, where, replace(call, alias=alias)) if isinstance(call, Call) else design
 
 
@@ -149,7 +151,7 @@ def _without_link(design: Design, path: DesignPath) -> Design:
 
 
 def _with_parameter(design: Design, path: DesignPath, new: str) -> Design:
-    """The argument at a path under another name, or left out where that is empty or given already."""
+    """Rename the argument at a path; an empty or already present name removes it."""
     old = str(path[-1])
 
     def changed(call: Call) -> Call:
@@ -168,7 +170,7 @@ def _with_parameter(design: Design, path: DesignPath, new: str) -> Design:
 
         return update_state(design, str(path[1]), modulated)
     where = path[:-2]
-    call = next((each.action for each in iter_actions(design) if each.path == where), None)
+    call = next((located.action for located in iter_actions(design) if located.path == where), None)
     return replace_action(design, where, changed(call)) if isinstance(call, Call) else design
 
 

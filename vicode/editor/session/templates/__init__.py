@@ -1,4 +1,4 @@
-"""Designs to begin with: files beside this one, which the reader of designs reads."""
+"""Templates for new designs, stored as design files in this folder."""
 
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -12,13 +12,13 @@ from vicode.store import read_design, save_design
 
 _FOLDER = Path(__file__).parent
 _NAMES = ("empty", "two_states", "timer_and_retry", "follow_what_is_seen")
-# What the template that follows something calls the component that sees, and its output.
+# The alias and the output of the sensor in the template `follow_what_is_seen`.
 _SENSE, _SEEN = "sense", "seen"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Template:
-    """A design to begin with; `title` and `doc` are for the one who chooses."""
+    """A template; `title` and `doc` are shown to the user."""
 
     name: str
     title: str
@@ -28,12 +28,12 @@ class Template:
 
 
 def list_templates() -> tuple[Template, ...]:
-    """All of them, the simplest first."""
+    """All templates, the simplest first."""
     return tuple(_template(name) for name in _NAMES)
 
 
 def instantiate_template(template: Template, component: str, project: Project) -> str:
-    """The text of a new design of that name: the template's, with its comments and order."""
+    """The text of a new design, with the comments and the order of the template."""
     design = replace(template.design, component=component)
     if design.use(_SENSE) is not None:
         design = _bind_sensor(design, project)
@@ -49,23 +49,28 @@ def _template(name: str) -> Template:
 
 
 def _bind_sensor(design: Design, project: Project) -> Design:
-    """The design on the first component of the project that tells whether something holds; as it is without one."""
+    """Replace the sensor by the first component of the project with a boolean output; unchanged if there is none."""
     found = next(
-        ((each, seen) for each in project.interfaces().values() if (seen := _first_boolean_output(each))), None
+        (
+            (interface, seen)
+            for interface in project.interfaces().values()
+            if (seen := _first_boolean_output(interface))
+        ),
+        None,
     )
     if found is None:
         return design
     interface, seen = found
     uses = tuple(replace(use, component=interface.component) for use in design.uses)
     design = replace(design, uses=uses)
-    for placed in iter_texts(design):
-        if placed.kind is TextKind.EXPRESSION:
+    for located in iter_texts(design):
+        if located.kind is TextKind.EXPRESSION:
             design = rewrite_text(
-                design, placed.path, lambda text: text.replace(f"{_SENSE}.{_SEEN}", f"{_SENSE}.{seen}")
+                design, located.path, lambda text: text.replace(f"{_SENSE}.{_SEEN}", f"{_SENSE}.{seen}")
             )
     return rename_use(design, _SENSE, snake_case(interface.component))
 
 
 def _first_boolean_output(interface: Interface) -> str:
-    """The first output that is true or false and asks for nothing, empty if there is none."""
-    return next((each.name for each in interface.outputs if each.type == "bool" and not each.arguments), "")
+    """The first boolean output without arguments, empty if there is none."""
+    return next((output.name for output in interface.outputs if output.type == "bool" and not output.arguments), "")

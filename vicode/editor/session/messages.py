@@ -1,0 +1,387 @@
+"""The texts of the session that users read: labels of the undo history, errors and notes.
+
+Labels are verb phrases in lower case. Errors start in lower case, as findings do; they say what is wrong, then what to
+do. Notes and announcements are sentences. The labels of quick fixes stand next to the edits, in `session/fixes`.
+"""
+
+from collections.abc import Collection, Sequence
+
+from vicode.model.names import name_from_text
+
+MAX_NAME_LENGTH = 80
+_MAX_QUOTED_LENGTH = 40
+
+# Labels of the undo history.
+
+OPEN = "open"
+SAVE = "save"
+RELOAD = "reload from disk"
+MERGE = "merge from disk"
+RESOLVE_CONFLICT = "resolve conflict with disk"
+VERSION_ON_DISK = "version on disk"
+RECOVER = "recover unsaved changes"
+MOVE_LABEL = "move label"
+REORDER_STATES = "reorder states"
+REORDER_TRANSITIONS = "reorder transitions"
+REMOVE_TRANSITION = "remove transition"
+PASTE_TRANSITIONS = "paste transitions"
+ALIGNMENTS = {
+    "align-left": "align left sides",
+    "align-centre": "align centres",
+    "align-right": "align right sides",
+    "align-top": "align tops",
+    "align-middle": "align middles",
+    "align-bottom": "align bottoms",
+    "distribute-across": "distribute horizontally",
+    "distribute-down": "distribute vertically",
+}
+
+
+def undo_label(label: str) -> str:
+    return f"undo {label}"
+
+
+def redo_label(label: str) -> str:
+    return f"redo {label}"
+
+
+def add_state(name: str) -> str:
+    return f"add state {name}"
+
+
+def remove(name: str) -> str:
+    return f"remove {name}"
+
+
+def rename(old: str, new: str) -> str:
+    return f"rename {old} to {new}"
+
+
+def move_items(count: int, name: str) -> str:
+    return f"move {name}" if count == 1 else f"move {count} items"
+
+
+def delete_items(count: int) -> str:
+    return "delete" if count == 1 else f"delete {count} items"
+
+
+def set_disabled(names: Sequence[str], transition_count: int, *, disabled: bool) -> str:
+    verb = "disable" if disabled else "enable"
+    match names, transition_count:
+        case [name], 0:
+            return f"{verb} {name}"
+        case [], 1:
+            return f"{verb} transition"
+        case _:
+            return f"{verb} {len(names) + transition_count} items"
+
+
+def connect(source: str, target: str) -> str:
+    return f"connect {source.lstrip('@')} to {target}"
+
+
+def change_target(state: str) -> str:
+    return f"change target to {state}"
+
+
+def change_source(state: str) -> str:
+    return f"change source to {state}"
+
+
+def set_initial(state: str) -> str:
+    return f"make {state} the initial state"
+
+
+def set_final(state: str, *, final: bool) -> str:
+    return f"mark {state} as final" if final else f"mark {state} as not final"
+
+
+def add_link(state: str, kind: str, alias: str) -> str:
+    return f"{state} {kind} {alias}"
+
+
+def duplicate_transitions(count: int) -> str:
+    return "duplicate transition" if count == 1 else f"duplicate {count} transitions"
+
+
+def insert_states(verb: str, names: Sequence[str]) -> str:
+    match names:
+        case []:
+            return f"{verb} common transitions"
+        case [name]:
+            return f"{verb} {name}"
+        case _:
+            return f"{verb} {len(names)} states"
+
+
+def edit_cell(column: str) -> str:
+    return f"edit {'To' if column == 'name' else column.capitalize()}"
+
+
+def edit_project_file(summary: str) -> str:
+    return f"project.yaml: {summary}"
+
+
+# Names.
+
+
+def invalid_name(name: str) -> str:
+    return f"'{_quoted(name)}' is not a valid name"
+
+
+def invalid_state_name(name: str) -> str:
+    if len(name) > MAX_NAME_LENGTH:
+        return f"{invalid_name(name)}: use at most {MAX_NAME_LENGTH} characters"
+    return f"{invalid_name(name)}: use letters, digits and underscores{_example(name_from_text(name))}"
+
+
+def invalid_alias(name: str) -> str:
+    return f"{invalid_name(name)}: start with a letter, then use letters, digits and underscores"
+
+
+def invalid_component_name(name: str) -> str:
+    return f"use letters, digits and underscores for a component{_example(name_from_text(name) or 'FollowBall')}"
+
+
+def invalid_identifier(name: str) -> str:
+    example = name_from_text(name)
+    return f"use letters, digits and underscores, a letter first{_example(example[:1].lower() + example[1:])}"
+
+
+def name_exists(kind: str, name: str) -> str:
+    return f"there is already {'an' if kind[0] in 'aeo' else 'a'} {kind} {name}"
+
+
+def alias_exists(name: str) -> str:
+    return f"there is already a component with the alias {name}"
+
+
+NAME_MISSING = "enter a name"
+NAME_UNCHANGED = "this is already its name"
+
+# Gestures, the clipboard and the table.
+
+INVALID_REQUEST = "the editor cannot read this request: reload the page"
+TRANSITION_GONE = "this transition no longer exists"
+TREE_SOURCE = "a branch of a decision tree starts at the state of its tree"
+TREE_ORDER = "a transition in a decision tree can only be reordered within its branch"
+SELECT_TO_DISABLE = "select states or transitions to disable"
+SELECT_TO_DUPLICATE = "select states or transitions to duplicate"
+SELECT_TO_PASTE = "select the states to add these transitions to, then paste"
+NOTHING_TO_PASTE = "the clipboard contains no part of a design"
+CELL_TOO_LONG = "this text is too long for a cell"
+CELL_READ_ONLY = "this cannot be changed here"
+CELL_IN_INSPECTOR = "edit this in the inspector"
+ROW_GONE = "this row no longer exists"
+ROW_NOT_REMOVABLE = "this row cannot be removed"
+ROW_NOT_MOVABLE = "this row cannot be moved"
+NO_TARGET = "only a transition has a target"
+NO_STATE_TO_CONNECT = "there is no state to connect to: add one first"
+INITIAL_REQUIRED = "a design needs an initial state: mark another state instead"
+
+
+def unused_alias(alias: str) -> str:
+    return f"this design no longer uses '{_quoted(alias)}'"
+
+
+def unknown_alias(alias: str, known: Collection[str]) -> str:
+    return f"this design uses no component '{_quoted(alias)}' (it uses: {', '.join(known) or 'none'})"
+
+
+def unknown_state(name: str) -> str:
+    return f"there is no state '{_quoted(name)}'"
+
+
+def cell_changed(value: str) -> str:
+    return f"the cell has changed to '{value[:60]}': press Enter again to overwrite it"
+
+
+def missing_components(names: Collection[str]) -> str:
+    return f"Not in this project: {', '.join(names)}" if names else ""
+
+
+# Numbers.
+
+FREQUENCY_TOO_LOW = "enter a frequency above 0 Hz"
+INVALID_RANGE = "enter the minimum and the maximum, such as 0, 9000"
+RANGE_REVERSED = "enter the minimum before the maximum"
+INVALID_COUNT = "enter a whole number of robots, such as 1, or leave this empty"
+
+
+def invalid_frequency(text: str) -> str:
+    return f"'{text[:20]}' is not a number: enter Hz, such as 10 or 0.5"
+
+
+# Search.
+
+SEARCH_TIMEOUT = "the search took too long: simplify the pattern"
+
+
+def too_many_matches(limit: int) -> str:
+    return f"only the first {limit} matches are listed"
+
+
+def invalid_pattern(reason: object) -> str:
+    return f"invalid pattern: {reason}"
+
+
+def invalid_replacement(reason: object) -> str:
+    return f"invalid replacement: {reason}"
+
+
+# Undo and redo.
+
+
+def cannot_undo(label: str, user: str, place: str, blocking_label: str) -> str:
+    return f"Cannot undo “{label}”: {user} has since changed {place} (“{blocking_label}”)"
+
+
+def cannot_redo(label: str, user: str, place: str, blocking_label: str) -> str:
+    return f"Cannot redo “{label}”: {user} has since changed {place} (“{blocking_label}”)"
+
+
+def edit_kept(label: str, reason: str) -> str:
+    return f"“{label}” was kept. {reason}"
+
+
+def not_done(reason: str) -> str:
+    return f"Not done: {reason}"
+
+
+# Files.
+
+PROJECT_FILE_MISSING = "there is no project.yaml"
+PROJECT_LINES_CHANGED = "the same lines of project.yaml have changed since"
+PLAN_OUTDATED = "a file has changed: check the list again"
+NO_READABLE_DESIGN = "the file contains no readable design"
+
+
+def cannot_save(file: str, reason: str) -> str:
+    return f"{file} cannot be saved: {reason}"
+
+
+def not_representable(reason: object) -> str:
+    return f"this cannot be saved in a file: {reason}"
+
+
+def read_only(files: Collection[str]) -> str:
+    return f"{', '.join(files)} cannot be changed: read-only"
+
+
+def unsaved_changes(components: Sequence[str]) -> str:
+    verb = "has" if len(components) == 1 else "have"
+    return f"{', '.join(components)} {verb} unsaved changes: save or undo them first"
+
+
+def changed_on_disk(file: str) -> str:
+    return f"another program has just changed {file}: check it and try again"
+
+
+def changed_or_unreadable(file: str) -> str:
+    return f"another program has just changed {file}, or it cannot be read: check it and try again"
+
+
+def project_file_unreadable(reason: str) -> str:
+    return f"project.yaml cannot be read{f': {reason}' if reason else ''}"
+
+
+def file_exists(file: str) -> str:
+    return f"there is already a file {file}"
+
+
+def no_design(component: str) -> str:
+    return f"there is no design of {component}"
+
+
+def design_gone(file: str, component: str) -> str:
+    return f"{file} no longer contains a design of {component}"
+
+
+def cannot_restore(file: str, component: str) -> str:
+    return f"there is a new {file}: {component} stays in the trash"
+
+
+# Renaming.
+
+
+def symbol_gone(symbol: str) -> str:
+    return f"there is no {symbol} any more"
+
+
+def name_used_in_code(component: str, expression: str) -> str:
+    return f"the code of {component} already uses {expression} for something else"
+
+
+def class_keeps_name(implementation: str) -> str:
+    return f"The hand-written class {implementation} keeps its name."
+
+
+def rename_in_class(implementation: str) -> str:
+    return f"Rename it in the hand-written class {implementation}, too."
+
+
+def component_summary(old: str, new: str) -> str:
+    return f"component {old} → {new}"
+
+
+def file_summary(old: str, new: str) -> str:
+    return f"{old} is renamed to {new}"
+
+
+def user_summary(component: str, used: str, aliases: Collection[str]) -> str:
+    return f"{component} uses {used} as {', '.join(aliases)}" if aliases else f"{component} refers to {used}"
+
+
+def agent_summary(agents: Collection[str], root: str) -> str:
+    return f"agent {', '.join(agents)} starts with {root}"
+
+
+def line_summary(what: str, count: int) -> str:
+    return f"{what}: {count} line{'s' * (count != 1)}"
+
+
+# Announcements to the other users of a design.
+
+
+def user_jumped(user: str, label: str) -> str:
+    return f"{user} went to “{label}” in the undo history"
+
+
+def user_renamed(user: str, symbol: str, new: str, file_count: int) -> str:
+    return f"{user} renamed {symbol} to {new} in {file_count} file{'s' * (file_count != 1)}"
+
+
+def merged_from_disk(file: str) -> str:
+    return f"Merged changes that another program wrote to {file}"
+
+
+# Generate.
+
+
+def nothing_generated(reason: str, languages: Collection[str] = ()) -> str:
+    scope = f" for {' and '.join(languages)}" if languages else ""
+    return f"Nothing generated{scope}. {reason}"
+
+
+def generated(files: Sequence[str], folder: object) -> str:
+    return f"Generated {', '.join(files[:4])}{', …' if len(files) > 4 else ''} in {folder}"
+
+
+def up_to_date(folder: str) -> str:
+    return f"Generated code in {folder} is up to date"
+
+
+def no_generator(languages: Collection[str]) -> str:
+    return f"No code: this project generates {', '.join(languages) or 'nothing'}"
+
+
+def no_code(reason: object, language: str) -> str:
+    return f"No code{f' for {language}' if language else ''} yet: {reason}"
+
+
+def _quoted(text: str) -> str:
+    return text[:_MAX_QUOTED_LENGTH]
+
+
+def _example(name: str) -> str:
+    return f", such as {name}" if name else ""
