@@ -1,4 +1,4 @@
-"""A slow and plain interpreter of programs, written from the description of the original engine, to compare with."""
+"""A simple interpreter of programs, written from the specification of the original engine. It is the test oracle."""
 
 import math
 from typing import Any
@@ -8,7 +8,7 @@ from vicode.xabsl.engine.symbols import SymbolList
 
 
 class Oracle:
-    """Runs a program on inputs without parameters; `inputs` are values by symbol, enums as full names."""
+    """Runs a program whose inputs have no parameters. `inputs` are values by symbol, enums as qualified names."""
 
     def __init__(self, program: Program, symbols: SymbolList) -> None:
         self.options = {option.name: option for option in program.options}
@@ -18,7 +18,7 @@ class Oracle:
         for symbol in symbols.symbols:
             if symbol.role != "input":
                 self.values[symbol.name] = self._zero(symbol.kind, symbol.enum)
-        self.behaviors = {each.name: each.parameters for each in symbols.behaviors}
+        self.behaviors = {behavior.name: behavior.parameters for behavior in symbols.behaviors}
         self.state = {name: option.initial for name, option in self.options.items()}
         self.since = dict.fromkeys(self.options, 0)
         self.activated: dict[str, int] = {}
@@ -30,7 +30,7 @@ class Oracle:
         self.twice: list[str] = []
 
     def cycle(self, now: int, inputs: dict[str, Any]) -> list[Any]:
-        """The nodes of one cycle."""
+        """Run one cycle and return its trace nodes."""
         self.now, self.inputs, self.is_active, self.twice = now, inputs, set(), []
         nodes: list[Any] = []
         self._call(("o", self.root, ()), None, nodes)
@@ -40,14 +40,16 @@ class Oracle:
     def _zero(self, kind: str, enum: str) -> Any:
         return {"d": 0.0, "b": False}.get(kind, self.elements.get(enum, ("",))[0])
 
-    def _call(self, action: Term, place: tuple[CompiledOption, CompiledState] | None, nodes: list[Any]) -> None:
-        _letter, name, given = action
+    def _call(self, action: Term, caller: tuple[CompiledOption, CompiledState] | None, nodes: list[Any]) -> None:
+        _letter, name, arguments = action
         slots = self.options[name].parameters if action[0] == "o" else self.behaviors[name]
-        values = {each[-2]: each for each in given}
-        for slot in sorted(slots, key=lambda each: "dbe".index(each.kind)):
-            each = values.get(slot.name)
+        values = {argument[-2]: argument for argument in arguments}
+        for slot in sorted(slots, key=lambda slot: "dbe".index(slot.kind)):
+            argument = values.get(slot.name)
             self.parameters[slot.name] = (
-                self._value(each[-1], slot.kind, place) if each and place else self._zero(slot.kind, slot.enum)
+                self._value(argument[-1], slot.kind, caller)
+                if argument and caller
+                else self._zero(slot.kind, slot.enum)
             )
         key = f"{action[0]} {name}"
         if key not in self.was:
@@ -66,11 +68,11 @@ class Oracle:
             self.twice.append(name)
         if key not in self.was:
             self.state[name], self.since[name] = option.initial, self.now
-        state = next(each for each in option.states if each.name == self.state[name])
+        state = next(candidate for candidate in option.states if candidate.name == self.state[name])
         target = self._decide(state.decision, (option, state))
         if target != state.name:
             self.state[name], self.since[name] = target, self.now
-            state = next(each for each in option.states if each.name == target)
+            state = next(candidate for candidate in option.states if candidate.name == target)
         inner: list[Any] = []
         for action in state.actions:
             if action[0] in "oa":
@@ -82,52 +84,52 @@ class Oracle:
         times = [self.now - self.activated[key], self.now - self.since[name]]
         node += [self.state[name], *times, parameters, inner]
 
-    def _decide(self, tree: Term, place: tuple[CompiledOption, CompiledState]) -> str:
+    def _decide(self, tree: Term, caller: tuple[CompiledOption, CompiledState]) -> str:
         while tree[0] == "i":
-            tree = tree[2] if self._value(tree[1], "b", place) else tree[3]
+            tree = tree[2] if self._value(tree[1], "b", caller) else tree[3]
         return str(tree[1])
 
     def _is_done(self, state: CompiledState) -> bool:
         called = [self.options[action[1]] for action in state.actions if action[0] == "o"]
         return any(
             f"o {option.name}" in self.was
-            and next(each for each in option.states if each.name == self.state[option.name]).is_target
+            and next(candidate for candidate in option.states if candidate.name == self.state[option.name]).is_target
             for option in called
         )
 
-    def _value(self, term: Term, kind: str, place: tuple[CompiledOption, CompiledState]) -> Any:
+    def _value(self, term: Term, kind: str, caller: tuple[CompiledOption, CompiledState]) -> Any:
         letter = term[0]
-        found = {"i": self.inputs, "o": self.values, "p": self.parameters}.get(letter)
-        if found is not None:
-            return found[term[1]]
+        values = {"i": self.inputs, "o": self.values, "p": self.parameters}.get(letter)
+        if values is not None:
+            return values[term[1]]
         if letter == "v":
             return term[1]
         if letter == "q":
-            return self._value(term[2] if self._value(term[1], "b", place) else term[3], kind, place)
-        return self._decimal(term, place) if kind == "d" else self._boolean(term, place)
+            return self._value(term[2] if self._value(term[1], "b", caller) else term[3], kind, caller)
+        return self._decimal(term, caller) if kind == "d" else self._boolean(term, caller)
 
-    def _boolean(self, term: Term, place: tuple[CompiledOption, CompiledState]) -> bool:
+    def _boolean(self, term: Term, caller: tuple[CompiledOption, CompiledState]) -> bool:
         letter = term[0]
         if letter == "t":
-            return self._is_done(place[1])
+            return self._is_done(caller[1])
         if letter in "!&|":
-            parts = (self._value(each, "b", place) for each in term[1:])
+            parts = (self._value(operand, "b", caller) for operand in term[1:])
             return not next(parts) if letter == "!" else all(parts) if letter == "&" else any(parts)
-        of = "e" if letter == "c" else "d"
-        left, right = (self._value(each, of, place) for each in term[1:])
+        kind = "e" if letter == "c" else "d"
+        left, right = (self._value(operand, kind, caller) for operand in term[1:])
         if letter in "c=n":
             return bool((left == right) != (letter == "n"))
         return bool({"<": left < right, "l": left <= right, ">": left > right, "g": left >= right}[letter])
 
-    def _decimal(self, term: Term, place: tuple[CompiledOption, CompiledState]) -> float:
+    def _decimal(self, term: Term, caller: tuple[CompiledOption, CompiledState]) -> float:
         letter = term[0]
         if letter == "c":
             return float(term[1])
         if letter == "s":
-            return self.now - self.since[place[0].name]
+            return self.now - self.since[caller[0].name]
         if letter == "t":
-            return self.now - self.activated[f"o {place[0].name}"]
-        left, right = (self._value(each, "d", place) for each in term[1:])
+            return self.now - self.activated[f"o {caller[0].name}"]
+        left, right = (self._value(operand, "d", caller) for operand in term[1:])
         if letter == "d":
             return left / (right or 0.0000001)
         if letter == "%":

@@ -1,4 +1,4 @@
-"""Tiny programs are judged as the original compiler judged them, or better; what is better is listed."""
+"""Small programs are accepted or rejected as by the original compiler, except for the listed improvements."""
 
 import pytest
 
@@ -9,13 +9,14 @@ from vicode.xabsl.engine.code_writer import write_code
 
 PROBES = read_probes()
 
-# Verdicts that differ, and why: what the original refused by a slip of its lexer, and what it let pass.
-BETTER = {
-    "empty_block_comment": "X651",  # it opens a description there, which is never closed
-    "cycle": "X636",  # it compiles, and no engine loads it
+# Probes with a different result: rejected by a defect in the lexer of the original, or accepted although no engine can
+# load them.
+IMPROVEMENTS = {
+    "empty_block_comment": "X651",  # the original reads the start of a description
+    "cycle": "X636",  # the original compiles it, but no engine loads it
 }
-# The class of each message of the original, and ours for it.
-OURS = {
+# Message classes of the original with the corresponding codes.
+CODES = {
     "X2537": {"X604", "X634", "X651"},
     "X2555": {"X605"},
     "X2573": {"X601"},
@@ -36,52 +37,52 @@ def compile_probe(probe: Probe) -> CompileResult:
 
 
 @pytest.mark.parametrize("probe", PROBES, ids=lambda probe: probe.name)
-def test_the_verdict_is_the_originals_or_better(probe: Probe) -> None:
+def test_result_matches_the_original_compiler(probe: Probe) -> None:
     compiled = compile_probe(probe)
-    if probe.name in BETTER:
+    if probe.name in IMPROVEMENTS:
         assert (compiled.program is None) == probe.accepted
-        assert BETTER[probe.name] in {each.rule.code for each in compiled.findings}
+        assert IMPROVEMENTS[probe.name] in {finding.rule.code for finding in compiled.findings}
     else:
-        assert (compiled.program is not None) == probe.accepted, [each.message for each in compiled.findings]
+        assert (compiled.program is not None) == probe.accepted, [finding.message for finding in compiled.findings]
 
 
-@pytest.mark.parametrize("probe", [each for each in PROBES if each.message], ids=lambda probe: probe.name)
-def test_every_class_of_message_has_its_like(probe: Probe) -> None:
-    code = min((code for code in OURS if code in probe.message), key=probe.message.index)
-    found = [each for each in compile_probe(probe).findings if each.rule.code in OURS[code]]
-    assert found, code
-    if probe.name not in BETTER:
-        assert _line_of(probe.message) in {_place(each) for each in found}
+@pytest.mark.parametrize("probe", [probe for probe in PROBES if probe.message], ids=lambda probe: probe.name)
+def test_every_message_class_has_a_finding_at_the_same_line(probe: Probe) -> None:
+    code = min((code for code in CODES if code in probe.message), key=probe.message.index)
+    findings = [finding for finding in compile_probe(probe).findings if finding.rule.code in CODES[code]]
+    assert findings, code
+    if probe.name not in IMPROVEMENTS:
+        assert _original_location(probe.message) in {_location(finding) for finding in findings}
 
 
-def _line_of(message: str) -> str:
-    """File and line that a message begins with: "ERROR    X5552 root.xabsl:4" or "root.xabsl(3) : error …"."""
+def _original_location(message: str) -> str:
+    """File and line of a message like "ERROR    X5552 root.xabsl:4" or "root.xabsl(3) : error …"."""
     first = message.split("\n", maxsplit=1)[0]
     if " : error" in first:
         return first.split(" : error")[0].replace("(", ":").rstrip(")")
     return first.split()[2] if ":" in first.split()[2] else f"{first.split()[2]}:1"
 
 
-def _place(finding: Finding) -> str:
+def _location(finding: Finding) -> str:
     assert finding.location
-    # The original tells no line where a file ends too early.
+    # The original reports no line for an unexpected end of file.
     return f"{finding.location.file}:{0 if finding.rule.code == 'X605' else finding.location.line}"
 
 
-@pytest.mark.parametrize("probe", [each for each in PROBES if each.code], ids=lambda probe: probe.name)
-def test_the_code_is_the_originals(probe: Probe) -> None:
+@pytest.mark.parametrize("probe", [probe for probe in PROBES if probe.code], ids=lambda probe: probe.name)
+def test_intermediate_code_matches_the_original_compiler(probe: Probe) -> None:
     program = compile_probe(probe).program
-    if probe.name in BETTER:
+    if probe.name in IMPROVEMENTS:
         assert program is None
         return
     assert program
-    root = parse_words(write_code(program))
-    wanted = parse_words(probe.code)
-    assert any(root[at : at + len(wanted)] == wanted for at in range(len(root)))
+    words = parse_words(write_code(program))
+    expected = parse_words(probe.code)
+    assert any(words[start : start + len(expected)] == expected for start in range(len(words)))
 
 
 @pytest.mark.parametrize("probe", PROBES, ids=lambda probe: probe.name)
-def test_every_message_stands_in_its_file(probe: Probe) -> None:
+def test_every_finding_is_located_inside_its_file(probe: Probe) -> None:
     for finding in compile_probe(probe).findings:
         assert finding.location
         lines = probe.files[finding.location.file].split("\n")

@@ -1,4 +1,4 @@
-"""The language server as a text editor sees it: a process, messages on its standard input and output."""
+"""The language server as a child process, driven over standard input and output."""
 
 import json
 import subprocess
@@ -20,7 +20,7 @@ agent player("Player", play);
 """,
     "symbols.xabsl": """namespace symbols("Symbols") {
   enum side { left, right };
-  /** how far it is */
+  /** distance to the ball */
   float input ball.distance [0..5000] "mm";
   enum side input ball.side;
   float input angle(float x; float y;);
@@ -61,18 +61,26 @@ agent player("Player", play);
 
 
 class LspClient:
-    """A text editor: asks, and keeps the diagnostics that it is told."""
+    """A minimal client: sends requests and records published diagnostics and messages."""
 
-    def __init__(self, folder: Path) -> None:
+    def __init__(self) -> None:
         command = [sys.executable, "-m", "vicode", "xabsl", "lsp"]
         self.process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE)
+        self.number = 0
+        self.start_session(Path.cwd())
+        self.request("initialize", {"processId": None, "rootUri": None, "capabilities": {}})
+        self.notify("initialized", {})
+
+    def start_session(self, folder: Path) -> None:
         self.folder = folder
         self.diagnostics: dict[str, list[dict[str, Any]]] = {}
-        self.said: list[str] = []
-        self.number = 0
+        self.shown_messages: list[str] = []
         self.versions: dict[str, int] = {}
-        self.can = self.request("initialize", {"processId": None, "rootUri": folder.as_uri(), "capabilities": {}})
-        self.notify("initialized", {})
+
+    def close_documents(self) -> None:
+        for name in self.versions:
+            self.notify("textDocument/didClose", {"textDocument": {"uri": self.uri(name)}})
+        self.wait_for_diagnostics()
 
     def send(self, message: dict[str, Any]) -> None:
         assert self.process.stdin
@@ -103,7 +111,7 @@ class LspClient:
             name = message["params"]["uri"].removeprefix(f"{self.folder.as_uri()}/")
             self.diagnostics[name] = message["params"]["diagnostics"]
         elif message.get("method") == "window/showMessage":
-            self.said.append(message["params"]["message"])
+            self.shown_messages.append(message["params"]["message"])
         return message
 
     def uri(self, name: str) -> str:
@@ -112,94 +120,101 @@ class LspClient:
     def open(self, name: str) -> None:
         text = (self.folder / name).read_text(encoding="utf-8")
         document = {"uri": self.uri(name), "languageId": "xabsl", "version": 1, "text": text}
+        self.versions[name] = 1
         self.notify("textDocument/didOpen", {"textDocument": document})
         self.wait_for_diagnostics()
 
     def change(self, name: str, text: str) -> None:
-        self.versions[name] = self.versions.get(name, 1) + 1
+        self.versions[name] += 1
         document = {"uri": self.uri(name), "version": self.versions[name]}
         self.notify("textDocument/didChange", {"textDocument": document, "contentChanges": [{"text": text}]})
         self.wait_for_diagnostics()
 
     def wait_for_diagnostics(self) -> None:
-        """Wait until everything told so far was worked on."""
+        """Wait until the server has processed all previous notifications."""
         self.request("textDocument/documentSymbol", {"textDocument": {"uri": self.uri("agents.xabsl")}})
 
     def at(self, name: str, text: str, word: str, *, end: bool = False) -> dict[str, Any]:
-        """Parameters that point to the first place of a word in a text."""
+        """Parameters with the position of the first occurrence of a word in a text."""
         offset = text.index(word) + (len(word) if end else 1)
         line = text.count("\n", 0, offset)
         character = offset - (text.rfind("\n", 0, offset) + 1)
         return {"textDocument": {"uri": self.uri(name)}, "position": {"line": line, "character": character}}
 
-    def complete(self, name: str, text: str, behind: str) -> list[str]:
-        """What is offered behind the first place of a word, once the file has this text."""
+    def complete(self, name: str, text: str, after: str) -> list[str]:
+        """Change the file to a text and return the completions after the first occurrence of a word."""
         self.change(name, text)
-        return [
-            each["label"] for each in self.request("textDocument/completion", self.at(name, text, behind, end=True))
-        ]
+        return [item["label"] for item in self.request("textDocument/completion", self.at(name, text, after, end=True))]
+
+
+@pytest.fixture(scope="module")
+def client() -> Iterator[LspClient]:
+    """One server for all tests, since a process takes longer to start than a test to run."""
+    client = LspClient()
+    yield client
+    client.request("shutdown", {})
+    client.notify("exit", {})
+    assert client.process.stdin
+    client.process.stdin.close()
+    client.process.wait(20)
+    assert client.process.stdout
+    client.process.stdout.close()
 
 
 @pytest.fixture
-def editor(tmp_path: Path) -> Iterator[LspClient]:
+def editor(client: LspClient, tmp_path: Path) -> Iterator[LspClient]:
     (tmp_path / "options").mkdir()
     for name, text in FILES.items():
         (tmp_path / name).write_text(text, encoding="utf-8")
-    editor = LspClient(tmp_path)
-    yield editor
-    editor.request("shutdown", {})
-    editor.notify("exit", {})
-    assert editor.process.stdin
-    editor.process.stdin.close()
-    editor.process.wait(20)
-    assert editor.process.stdout
-    editor.process.stdout.close()
+    client.start_session(tmp_path)
+    yield client
+    client.close_documents()
 
 
-def locations(found: list[dict[str, Any]]) -> list[tuple[str, int]]:
-    return [(each["uri"].rsplit("/", 1)[1], each["range"]["start"]["line"] + 1) for each in found]
+def locations(results: list[dict[str, Any]]) -> list[tuple[str, int]]:
+    return [(result["uri"].rsplit("/", 1)[1], result["range"]["start"]["line"] + 1) for result in results]
 
 
-def test_an_editor_is_served(editor: LspClient) -> None:
+def test_hover_definition_references_outline_and_rename(editor: LspClient) -> None:
     play, kick = FILES["options/play.xabsl"], FILES["options/kick.xabsl"]
     editor.open("options/play.xabsl")
     assert not any(editor.diagnostics.values())
 
     hover = editor.request("textDocument/hover", editor.at("options/play.xabsl", play, "ball.distance"))
     assert 'float input ball.distance [0..5000] "mm"' in hover["contents"]["value"]
-    assert "how far it is" in hover["contents"]["value"]
+    assert "distance to the ball" in hover["contents"]["value"]
 
-    found = editor.request("textDocument/definition", editor.at("options/play.xabsl", play, "kick(power"))
-    assert locations([found]) == [("kick.xabsl", 1)]
-    asked = {**editor.at("options/play.xabsl", play, "ball.distance"), "context": {"includeDeclaration": True}}
-    found = editor.request("textDocument/references", asked)
-    assert locations(found) == [("symbols.xabsl", 4), ("play.xabsl", 4), ("play.xabsl", 16)]
+    result = editor.request("textDocument/definition", editor.at("options/play.xabsl", play, "kick(power"))
+    assert locations([result]) == [("kick.xabsl", 1)]
+    params = {**editor.at("options/play.xabsl", play, "ball.distance"), "context": {"includeDeclaration": True}}
+    result = editor.request("textDocument/references", params)
+    assert locations(result) == [("symbols.xabsl", 4), ("play.xabsl", 4), ("play.xabsl", 16)]
 
-    found = editor.request("textDocument/documentSymbol", {"textDocument": {"uri": editor.uri("options/play.xabsl")}})
-    assert [(each["name"], [child["name"] for child in each["children"]]) for each in found] == [
+    result = editor.request("textDocument/documentSymbol", {"textDocument": {"uri": editor.uri("options/play.xabsl")}})
+    assert [(symbol["name"], [child["name"] for child in symbol["children"]]) for symbol in result] == [
         ("play", ["wait", "go"])
     ]
 
     rename = {**editor.at("options/kick.xabsl", kick, "@power"), "newName": "strength"}
     edit = editor.request("textDocument/rename", rename)["changes"]
-    assert {uri.rsplit("/", 1)[1]: [each["newText"] for each in edits] for uri, edits in edit.items()} == {
+    assert {uri.rsplit("/", 1)[1]: [change["newText"] for change in edits] for uri, edits in edit.items()} == {
         "kick.xabsl": ["@strength", "@strength"],
         "play.xabsl": ["strength"],
     }
     rename = {**editor.at("symbols.xabsl", FILES["symbols.xabsl"], "side"), "newName": "foot.side"}
     edit = editor.request("textDocument/rename", rename)["changes"]
-    assert [each["newText"] for each in edit[editor.uri("options/play.xabsl")]] == ["foot.side.right"]
-    taken = {**editor.at("symbols.xabsl", FILES["symbols.xabsl"], "speed"), "newName": "foot"}
-    assert editor.request("textDocument/rename", taken) is None
-    assert editor.said == ["there is already a decimal output foot"]
+    assert [change["newText"] for change in edit[editor.uri("options/play.xabsl")]] == ["foot.side.right"]
+    params = {**editor.at("symbols.xabsl", FILES["symbols.xabsl"], "speed"), "newName": "foot"}
+    assert editor.request("textDocument/rename", params) is None
+    assert editor.shown_messages == ["there is already a decimal output foot"]
 
 
-def test_mistakes_are_told_in_every_file_while_one_types(editor: LspClient) -> None:
+def test_diagnostics_of_all_files_follow_each_change(editor: LspClient) -> None:
     symbols = FILES["symbols.xabsl"]
     editor.open("symbols.xabsl")
-    editor.change("symbols.xabsl", "// 😀 before\n" + symbols.replace("ball.distance", "ball.range"))
-    found = editor.diagnostics["options/play.xabsl"]
-    assert [(each["code"], each["range"]["start"]) for each in found] == [
+    editor.change("symbols.xabsl", "// 😀 comment\n" + symbols.replace("ball.distance", "ball.range"))
+    diagnostics = editor.diagnostics["options/play.xabsl"]
+    assert [(diagnostic["code"], diagnostic["range"]["start"]) for diagnostic in diagnostics] == [
         ("X621", {"line": 3, "character": 10}),
         ("X621", {"line": 15, "character": 31}),
     ]
@@ -208,11 +223,11 @@ def test_mistakes_are_told_in_every_file_while_one_types(editor: LspClient) -> N
     editor.change(
         "symbols.xabsl", symbols.replace("float output speed;", "/* 😀 */ float output speed; float output speed;")
     )
-    (found,) = editor.diagnostics["symbols.xabsl"]
-    assert (found["code"], found["range"]["start"]["character"]) == ("X623", 44)
+    (diagnostics,) = editor.diagnostics["symbols.xabsl"]
+    assert (diagnostics["code"], diagnostics["range"]["start"]["character"]) == ("X623", 44)
 
 
-def test_what_is_offered_depends_on_the_place(editor: LspClient) -> None:
+def test_completions_depend_on_the_context(editor: LspClient) -> None:
     play = FILES["options/play.xabsl"]
     name = "options/play.xabsl"
     editor.open(name)
@@ -220,23 +235,27 @@ def test_what_is_offered_depends_on_the_place(editor: LspClient) -> None:
     assert editor.complete(name, play.replace("== left", "== "), "ball.side == ")[:2] == ["left", "right"]
     assert editor.complete(name, play.replace("foot = side.right;", "foot = ;"), "foot = ")[:2] == ["left", "right"]
     assert editor.complete(name, play.replace("kick(power = 3);", "kick();"), "kick(") == ["power"]
-    offered = editor.complete(name, play.replace("      foot = side.right;\n", "      \n"), "action {\n      ")
-    assert set(offered) == {"speed", "foot", "play", "kick"}
+    labels = editor.complete(name, play.replace("      foot = side.right;\n", "      \n"), "action {\n      ")
+    assert set(labels) == {"speed", "foot", "play", "kick"}
     assert "if" in editor.complete(name, play.replace("goto go;\n", "\n").replace("stay;", ""), "decision {\n")
+    editor.open("options/kick.xabsl")
     assert "@power" in editor.complete(
         "options/kick.xabsl", FILES["options/kick.xabsl"].replace("@power;\n  ", "@power;\n  "), "speed = "
     )
 
 
-def test_a_file_is_laid_out(editor: LspClient) -> None:
+def test_formatting(editor: LspClient) -> None:
     editor.open("options/kick.xabsl")
-    crowded = "option kick { float @power; initial state only { action { speed = @power; } } }"
-    editor.change("options/kick.xabsl", crowded)
-    asked = {"textDocument": {"uri": editor.uri("options/kick.xabsl")}, "options": {"tabSize": 2, "insertSpaces": True}}
-    (edit,) = editor.request("textDocument/formatting", asked)
+    unformatted = "option kick { float @power; initial state only { action { speed = @power; } } }"
+    editor.change("options/kick.xabsl", unformatted)
+    params = {
+        "textDocument": {"uri": editor.uri("options/kick.xabsl")},
+        "options": {"tabSize": 2, "insertSpaces": True},
+    }
+    (edit,) = editor.request("textDocument/formatting", params)
     assert edit["newText"].split("\n")[1] == "  float @power;"
 
 
-def test_every_word_of_the_language_is_coloured() -> None:
-    told = " ".join(each.get("match", "") for each in grammar()["patterns"])
-    assert all(word in told for word in KEYWORDS)
+def test_the_grammar_contains_every_keyword() -> None:
+    patterns = " ".join(pattern.get("match", "") for pattern in grammar()["patterns"])
+    assert all(keyword in patterns for keyword in KEYWORDS)

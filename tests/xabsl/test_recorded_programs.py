@@ -1,4 +1,4 @@
-"""Whole behaviors compile to the original's code, and run as its engine ran them."""
+"""Complete behaviors compile to the code of the original compiler, and run as recorded from the original engine."""
 
 import json
 
@@ -18,7 +18,7 @@ def compiled_case(name: str) -> CompileResult:
 
 
 @pytest.mark.parametrize("name", PROGRAMS)
-def test_code_and_symbols_are_the_originals(name: str) -> None:
+def test_code_and_symbol_list_match_the_original(name: str) -> None:
     compiled = compiled_case(name)
     assert compiled.program
     assert parse_words(write_code(compiled.program)) == parse_words(read_case(name, "intermediate.dat"))
@@ -26,7 +26,7 @@ def test_code_and_symbols_are_the_originals(name: str) -> None:
 
 
 @pytest.mark.parametrize("name", PROGRAMS)
-def test_what_is_written_is_read_again(name: str) -> None:
+def test_code_is_read_back_as_the_same_program(name: str) -> None:
     program = read_code(read_case(name, "intermediate.dat"))
     assert read_code(write_code(program)) == program
     compiled = compiled_case(name).program
@@ -35,10 +35,10 @@ def test_what_is_written_is_read_again(name: str) -> None:
 
 
 @pytest.mark.parametrize("name", PROGRAMS)
-def test_every_cycle_is_the_original_engines(name: str) -> None:
+def test_every_cycle_matches_the_original_engine(name: str) -> None:
     program, symbols = read_code(read_case(name, "intermediate.dat")), read_symbols(read_case(name, "symbols.txt"))
     rows = read_rows(read_case(name, "inputs.csv").splitlines())
-    wanted = [json.loads(line) for line in read_case(name, "trace.jsonl").splitlines()]
-    assert len(rows) == len(wanted)
-    for line, want in zip(replay(program, symbols, rows), wanted, strict=True):
-        assert json.loads(line) == want
+    expected_lines = [json.loads(line) for line in read_case(name, "trace.jsonl").splitlines()]
+    assert len(rows) == len(expected_lines)
+    for line, expected in zip(replay(program, symbols, rows), expected_lines, strict=True):
+        assert json.loads(line) == expected

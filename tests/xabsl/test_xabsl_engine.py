@@ -1,4 +1,4 @@
-"""The engine on worlds of its own: what the original's traces do not show."""
+"""The engine with custom worlds: behavior that the traces of the original engine do not cover."""
 
 import json
 import shutil
@@ -44,18 +44,18 @@ ACTS = (
 
 
 def compiled(*options: str, agents: str = 'agent main("Main", main);\n') -> tuple[Program, SymbolList]:
-    """A program of options, the first called main."""
+    """Compile options, the first of them named main."""
     files = {"symbols.xabsl": SYMBOLS, "acts.xabsl": ACTS}
     files |= {f"option{number}.xabsl": text + "\n" for number, text in enumerate(options)}
     files["agents.xabsl"] = "".join(f'include "{name}";\n' for name in files) + agents
     result = compile_source(load_texts(files))
-    assert result.program, [(each.location, each.message) for each in result.findings]
+    assert result.program, [(finding.location, finding.message) for finding in result.findings]
     return result.program, declared_symbols(result.table)
 
 
 @dataclass
 class Robot:
-    """A world as a robot program has it: attributes, getters and skills."""
+    """A world with attributes, functions and basic behaviors."""
 
     ball_distance: float = 1000.0
     ball_side: str = "right"
@@ -63,7 +63,7 @@ class Robot:
     led: bool = False
     chosen: str = "left"
     now: int = 0
-    done: list[Any] = field(default_factory=list)
+    calls: list[Any] = field(default_factory=list)
 
     @property
     def ball_seen(self) -> bool:
@@ -76,27 +76,27 @@ class Robot:
         return {"left": "right", "right": "left"}[of]
 
     def walk(self, speed: float, foot: str, fast: bool) -> None:
-        self.done.append((speed, foot, fast))
+        self.calls.append((speed, foot, fast))
 
     def stand(self) -> None:
-        self.done.append("stand")
+        self.calls.append("stand")
 
 
-def engine_of(*options: str, robot: Robot | None = None, **more: Any) -> tuple[Engine, Robot]:
+def make_engine(*options: str, robot: Robot | None = None, **more: Any) -> tuple[Engine, Robot]:
     world = robot or Robot()
     program, symbols = compiled(*options)
     return Engine(program, world, symbols=symbols, clock=lambda: world.now, **more), world
 
 
-def test_symbols_are_attributes_and_getters_and_behaviors_are_called() -> None:
-    engine, robot = engine_of(
+def test_symbols_are_attributes_and_methods_and_behaviors_are_called() -> None:
+    engine, robot = make_engine(
         """option main {
   initial state far { decision { if (ball.seen) goto near; else stay; } action { walk(speed = ball.distance / 10); } }
   state near { action { chosen = other(of = ball.side); led = !led; speed = add(x = 1, y = 2); count = count + 1; } }
 }"""
     )
     engine.execute()
-    assert robot.done == [(100.0, "left", False)]
+    assert robot.calls == [(100.0, "left", False)]
     robot.ball_distance = 3
     robot.ball_side = "left"
     engine.execute()
@@ -104,54 +104,54 @@ def test_symbols_are_attributes_and_getters_and_behaviors_are_called() -> None:
     assert [view.state for view in engine.active_options] == ["near"]
 
 
-def test_times_are_of_the_state_and_of_the_option() -> None:
-    engine, robot = engine_of(
+def test_state_time_and_option_time() -> None:
+    engine, robot = make_engine(
         """option main {
   initial state one { decision { if (state_time >= 100) goto two; else stay; } action { speed = state_time; } }
   state two { action { speed = state_time; count = option_time; } }
 }"""
     )
-    seen = []
+    observed = []
     for robot.now in (1000, 1050, 1100, 1130):
         engine.execute()
-        seen.append((engine.options[0].state, robot.speed, engine.options[0].option_time))
-    assert seen == [("one", 0.0, 0), ("one", 50.0, 50), ("two", 0.0, 100), ("two", 30.0, 130)]
+        observed.append((engine.options[0].state, robot.speed, engine.options[0].option_time))
+    assert observed == [("one", 0.0, 0), ("one", 50.0, 50), ("two", 0.0, 100), ("two", 30.0, 130)]
 
 
-def test_a_clock_that_begins_again_after_32_bits_goes_on() -> None:
-    engine, robot = engine_of("option main { initial state one { action { speed = state_time; } } }")
+def test_times_survive_a_wraparound_of_the_clock() -> None:
+    engine, robot = make_engine("option main { initial state one { action { speed = state_time; } } }")
     for robot.now in (2**32 - 20, 2**32 + 30):
         engine.execute()
     assert robot.speed == 50
 
 
-def test_the_shared_parameters_of_a_function_are_imitated() -> None:
+def test_calls_of_a_function_share_its_parameters() -> None:
     action = "speed = add(x = 1, y = add(x = 5, y = 6)); count = add(x = add(x = 5, y = 6), y = 1);"
-    engine, robot = engine_of(f"option main {{ initial state one {{ action {{ {action} }} }} }}")
+    engine, robot = make_engine(f"option main {{ initial state one {{ action {{ {action} }} }} }}")
     engine.execute()
-    # 5 + 2 × 17 instead of 1 + 2 × 17: the inner call has changed what the outer was given.
+    # 5 + 2 × 17 instead of 1 + 2 × 17: the inner call overwrites the parameter x of the outer call.
     assert robot.speed == 39
     assert engine.memory.v0 == 19
 
 
-def test_division_and_remainder_are_the_originals() -> None:
+def test_division_and_remainder_match_the_original() -> None:
     action = "speed = 1 / (ball.distance - 1000); count = -7.9 % 3.9;"
-    engine, robot = engine_of(f"option main {{ initial state one {{ action {{ {action} }} }} }}")
+    engine, robot = make_engine(f"option main {{ initial state one {{ action {{ {action} }} }} }}")
     engine.execute()
     assert robot.speed == 1 / 0.0000001
     assert engine.memory.v0 == -1
-    engine, robot = engine_of("option main { initial state one { action { speed = 5 % (ball.distance - 1000); } } }")
+    engine, robot = make_engine("option main { initial state one { action { speed = 5 % (ball.distance - 1000); } } }")
     engine.execute()
     assert robot.speed == 0
 
 
-def test_a_choice_between_bools_runs() -> None:
-    engine, robot = engine_of("option main { initial state one { action { led = ball.seen ? led : true; } } }")
+def test_a_conditional_expression_of_bools() -> None:
+    engine, robot = make_engine("option main { initial state one { action { led = ball.seen ? led : true; } } }")
     engine.execute()
     assert robot.led is True
 
 
-def test_what_is_not_called_in_a_cycle_begins_anew() -> None:
+def test_an_option_not_called_in_a_cycle_restarts() -> None:
     main = """option main {
   initial state with { decision { if (state_time > 30) goto without; else stay; } action { sub(x = 1); } }
   state without { decision { goto with; } action { stand(); } }
@@ -160,12 +160,12 @@ def test_what_is_not_called_in_a_cycle_begins_anew() -> None:
   initial state s { decision { if (state_time >= 20) goto t; else stay; } action { speed = @x; } }
   target state t { action { speed = 7; } }
 }"""
-    engine, robot = engine_of(main, sub)
-    seen = []
+    engine, robot = make_engine(main, sub)
+    observed = []
     for robot.now in range(0, 120, 20):
         engine.execute()
-        seen.append([view.state for view in engine.active_options])
-    assert seen == [["with", "s"], ["with", "t"], ["without"], ["with", "s"], ["with", "t"], ["without"]]
+        observed.append([view.state for view in engine.active_options])
+    assert observed == [["with", "s"], ["with", "t"], ["without"], ["with", "s"], ["with", "t"], ["without"]]
 
 
 TWICE = (
@@ -176,8 +176,8 @@ TWICE = (
 )
 
 
-def test_two_executions_in_a_cycle_are_an_error_that_goes_on() -> None:
-    engine, _robot = engine_of(*TWICE)
+def test_two_executions_in_a_cycle_are_reported_and_run() -> None:
+    engine, _robot = make_engine(*TWICE)
     engine.execute()
     assert engine.errors_occurred
     assert 'option "sub" is executed multiple times' in engine.errors[0]
@@ -185,16 +185,16 @@ def test_two_executions_in_a_cycle_are_an_error_that_goes_on() -> None:
     assert not engine.errors_occurred
 
 
-def test_the_second_version_refuses_what_may_be_active_twice() -> None:
+def test_strict_engines_reject_double_activation() -> None:
     with pytest.raises(LoadError, match="another possible activation tree"):
-        engine_of(*TWICE, strict=True)
+        make_engine(*TWICE, strict=True)
 
 
-def test_all_that_is_missing_is_told_at_once() -> None:
+def test_the_load_error_lists_all_missing_symbols() -> None:
     program, symbols = compiled(
         "option main { initial state one { action { walk(speed = 1); speed = ball.distance; } } }"
     )
-    fewer = SymbolList(symbols=tuple(each for each in symbols.symbols if each.name != "ball.distance"))
+    fewer = SymbolList(symbols=tuple(symbol for symbol in symbols.symbols if symbol.name != "ball.distance"))
     with pytest.raises(LoadError) as caught:
         Engine(program, Robot(), symbols=fewer)
     assert set(caught.value.problems) == {
@@ -214,7 +214,7 @@ def test_agents_and_roots() -> None:
     )
     robot = Robot()
     engine = Engine(program, robot, symbols=symbols)
-    assert not engine.select("nobody")
+    assert not engine.select("unknown")
     engine.execute()
     assert (engine.agent, robot.speed) == ("main", 1)
     assert engine.select("other")
@@ -223,17 +223,17 @@ def test_agents_and_roots() -> None:
     engine.set_root("other", x=4.0)
     engine.add_root("walk", speed=9.0, foot="left", fast=True)
     engine.execute()
-    assert (robot.speed, robot.done) == (4, [(9.0, "left", True)])
+    assert (robot.speed, robot.calls) == (4, [(9.0, "left", True)])
 
 
-def test_the_engine_runs_without_the_robots_symbol_list() -> None:
+def test_the_engine_runs_without_a_symbol_list() -> None:
     program, _symbols = compiled(
         "option main { initial state one { action { walk(speed = ball.distance, fast = true); } } }"
     )
-    done: list[dict[str, Any]] = []
-    engine = Engine(program, Robot(), behaviors={"walk": lambda **given: done.append(given)})
+    calls: list[dict[str, Any]] = []
+    engine = Engine(program, Robot(), behaviors={"walk": lambda **arguments: calls.append(arguments)})
     engine.execute()
-    assert done == [{"speed": 1000.0, "fast": True}]
+    assert calls == [{"speed": 1000.0, "fast": True}]
 
 
 COOPERATIVE = """option main {
@@ -243,26 +243,26 @@ COOPERATIVE = """option main {
 }"""
 
 
-def test_a_team_enters_together_and_one_at_a_time() -> None:
+def test_synchronized_and_capacity_states_of_a_team() -> None:
     program, symbols = compiled(COOPERATIVE)
     columns = ["time", *(f"{robot}:ball.seen" for robot in range(3))]
     rows = [",".join(columns)] + [f"{20 * number},{int(number > 1)},{int(number > 5)},0" for number in range(20)]
     lines = [json.loads(line) for line in replay_team(program, symbols, read_rows(rows), 3, 2)]
     states = [[line["tree"][0][2] for line in lines if line["r"] == robot] for robot in range(3)]
-    # Nobody is ready alone; robots that know of each other go on in the same cycle, and then only one may kick.
+    # Robot 2 executes the option but never wants to enter, so no robot becomes ready.
     assert states[2] == ["wait"] * 20
     assert not any("ready" in robot for robot in states)
     rows = [",".join(columns)] + [f"{20 * number},{int(number > 1)},{int(number > 5)},1" for number in range(20)]
     lines = [json.loads(line) for line in replay_team(program, symbols, read_rows(rows), 3, 2)]
     states = [[line["tree"][0][2] for line in lines if line["r"] == robot] for robot in range(3)]
     entered = [robot.index("ready") for robot in states]
-    # Whoever comes last waits for answers, too.
+    # The last robot also waits for answers, so all enter within one cycle. Only one at a time may kick.
     assert max(entered) - min(entered) <= 1
     assert all(sum(robot[cycle] == "kick" for robot in states) <= 1 for cycle in range(20))
     assert states[2][-1] == "kick"
 
 
-def test_the_folder_runs_when_it_is_copied_alone(tmp_path: Path) -> None:
+def test_a_copy_of_the_folder_runs_without_vicode(tmp_path: Path) -> None:
     shutil.copytree(Path(vicode.xabsl.engine.__file__).parent, tmp_path / "engine")
     program = CASES / "programs" / "drive_circle"
     script = f"""
@@ -293,25 +293,25 @@ assert not any(name.startswith("vicode") for name in sys.modules)
         "0 0 1 o 0 1 s n s 0 0 " + "i ! " * 500,
     ],
 )
-def test_what_is_no_code_is_told(text: str) -> None:
+def test_invalid_code_is_rejected(text: str) -> None:
     with pytest.raises(CodeError, match="word "):
         read_code(text)
 
 
-@pytest.mark.parametrize("text", ["0 0 1 o 0 1 s n s 0 0 t nowhere 0", "0 0 1 o 0 1 s n s 0 1 o o2 0 t s 1 a nobody"])
-def test_code_that_leads_nowhere_does_not_load(text: str) -> None:
+@pytest.mark.parametrize("text", ["0 0 1 o 0 1 s n s 0 0 t nowhere 0", "0 0 1 o 0 1 s n s 0 1 o o2 0 t s 1 a unknown"])
+def test_code_with_missing_states_or_options_does_not_load(text: str) -> None:
     with pytest.raises(LoadError, match=r"there is no option|has no state"):
         Engine(read_code(text), object())
 
 
-def test_words_of_strangers_do_not_become_code() -> None:
-    evil = "__import__('os').system('true')"
-    code = f"0 0 1 o 0 1 s n s 0 1 d {evil} i {evil} 0 t s 1 a o"
+def test_names_in_the_code_are_never_executed() -> None:
+    expression = "__import__('os').system('true')"
+    code = f"0 0 1 o 0 1 s n s 0 1 d {expression} i {expression} 0 t s 1 a o"
     with pytest.raises(LoadError, match="the world has no"):
         Engine(read_code(code), object())
 
 
 @pytest.mark.parametrize("text", ["din", "din x 1 d", "enum e 2 a", "zin x 0", "bb b 1 d x y"])
-def test_what_is_no_symbol_list_is_told(text: str) -> None:
+def test_invalid_symbol_lists_are_rejected(text: str) -> None:
     with pytest.raises(SymbolListError, match="line 1: "):
         read_symbols(text)

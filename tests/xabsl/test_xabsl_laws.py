@@ -1,4 +1,4 @@
-"""Laws on random behaviors: what is printed is read again, what compiles is read again, and runs as a plain reading."""
+"""Properties of random behaviors: printing and code are reversible, and the engine agrees with the oracle."""
 
 import random
 from typing import Any
@@ -23,13 +23,13 @@ from vicode.xabsl.printer import print_file
 
 def compiled(files: dict[str, tree.FileNode]) -> tuple[Program, SymbolList]:
     result = compile_source(load_texts({name: print_file(file) for name, file in files.items()}))
-    errors = [each for each in result.findings if each.severity is Severity.ERROR]
+    errors = [finding for finding in result.findings if finding.severity is Severity.ERROR]
     assert result.program, errors
     return result.program, declared_symbols(result.table)
 
 
 @given(behaviors())
-def test_a_printed_tree_is_read_as_the_same(files: dict[str, tree.FileNode]) -> None:
+def test_a_printed_tree_is_parsed_as_the_same_tree(files: dict[str, tree.FileNode]) -> None:
     for file in files.values():
         printed = print_file(file)
         parsed = parse(printed)
@@ -39,14 +39,14 @@ def test_a_printed_tree_is_read_as_the_same(files: dict[str, tree.FileNode]) -> 
 
 
 @given(behaviors())
-def test_code_and_symbols_are_read_again(files: dict[str, tree.FileNode]) -> None:
+def test_code_and_symbols_are_read_back(files: dict[str, tree.FileNode]) -> None:
     program, symbols = compiled(files)
     assert read_code(write_code(program)) == program
     assert read_symbols(write_symbols(symbols)).behaviors == symbols.behaviors
 
 
 @given(behaviors(), st.integers(0, 10_000))
-def test_the_engine_does_what_a_plain_reading_says(files: dict[str, tree.FileNode], seed: int) -> None:
+def test_the_engine_agrees_with_the_oracle(files: dict[str, tree.FileNode], seed: int) -> None:
     program, symbols = compiled(files)
     robot, oracle, rng = ReplayRobot(program, symbols), Oracle(program, symbols), random.Random(seed)
     elements = dict(symbols.enums)["side"]
@@ -61,20 +61,20 @@ def test_the_engine_does_what_a_plain_reading_says(files: dict[str, tree.FileNod
                     else rng.choice((0, 1, 3.5) if symbol.kind == "d" else (0, 1))
                 )
                 robot.world.set_input(symbol.name, number)
-                of = {"d": float, "b": bool, "e": lambda at: elements[int(at)]}[symbol.kind]
-                inputs[symbol.name] = of(number)
+                convert = {"d": float, "b": bool, "e": lambda at: elements[int(at)]}[symbol.kind]
+                inputs[symbol.name] = convert(number)
         robot.engine.execute()
-        wanted = oracle.cycle(robot.now, inputs)
+        expected = oracle.cycle(robot.now, inputs)
         assert len(robot.engine.errors) == len(oracle.twice)
-        assert _plain(robot.engine.trace.nodes) == _plain(wanted)
+        assert _plain(robot.engine.trace.nodes) == _plain(expected)
 
 
 def _plain(value: Any) -> Any:
-    """Nodes with elements without their enumeration, and numbers as texts, so that nan is nan."""
+    """Normalize nodes: elements without their enumeration, numbers as texts, so that nan equals nan."""
     if isinstance(value, list | tuple):
-        return [_plain(each) for each in value]
+        return [_plain(item) for item in value]
     if isinstance(value, dict):
-        return {key: _plain(each) for key, each in value.items()}
+        return {key: _plain(item) for key, item in value.items()}
     if isinstance(value, str):
         return value.removeprefix("side.")
     return repr(float(value))

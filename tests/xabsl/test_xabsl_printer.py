@@ -1,4 +1,4 @@
-"""Printing a tree gives its tokens and comments again, in one layout that does not change when it is printed again."""
+"""The printer keeps all tokens and comments, and its output is a fixed point."""
 
 import pytest
 
@@ -10,7 +10,7 @@ FILES = sorted(path for name in PROGRAMS for path in (CASES / "programs" / name)
 TEXTS = [text for probe in read_probes() if probe.accepted for text in probe.files.values()]
 
 
-def assert_prints_the_same(text: str) -> None:
+def assert_printing_is_stable(text: str) -> None:
     parsed = parse(text)
     printed = print_file(parsed.file)
     again = parse(printed)
@@ -21,30 +21,30 @@ def assert_prints_the_same(text: str) -> None:
 
 
 @pytest.mark.parametrize("name", PROGRAMS)
-def test_whole_behaviors(name: str) -> None:
+def test_complete_behaviors_are_printed(name: str) -> None:
     for path in (CASES / "programs" / name).rglob("*.xabsl"):
-        assert_prints_the_same(path.read_text(encoding="utf-8"))
+        assert_printing_is_stable(path.read_text(encoding="utf-8"))
 
 
-def test_probes() -> None:
+def test_probes_are_printed() -> None:
     for text in dict.fromkeys(TEXTS):
-        assert_prints_the_same(text)
+        assert_printing_is_stable(text)
 
 
-CROWDED = """// first of all
+COMMENTED = """// first of all
 /***
 Title: not the first any more */
-include "a.xabsl"; // behind an include
+include "a.xabsl"; // after an include
 // before an option
-option crowded { // behind a brace
-  float @x /* in the middle */ [0..1] "m"; /** said */ /* and not */ bool @y;
+option crowded { // after a brace
+  float @x /* in the middle */ [0..1] "m"; /** doc */ /* no doc */ bool @y;
   common decision { if (a // why
     && b /* and */ || !c) /* here */ goto one; /* open */ }
   common action { /* nothing */ }
   initial target state one capacity 3 { decision { /** d */ else /** e */ if (x) { stay; } /** f */ else /* g */ stay; }
     // before the actions
 
-    action { go(x = - 3, y = f(a = 1,),); // far behind
+    action { go(x = - 3, y = f(a = 1,),); // trailing
 
       /* alone */
     } /* after actions */ }
@@ -53,9 +53,9 @@ option crowded { // behind a brace
 // at the end of the file"""
 
 
-def test_comments_come_back_wherever_they_stood() -> None:
-    assert_prints_the_same(CROWDED)
-    printed = print_file(parse(CROWDED).file)
+def test_all_comments_are_kept() -> None:
+    assert_printing_is_stable(COMMENTED)
+    printed = print_file(parse(COMMENTED).file)
     for comment in (
         "// first of all",
         "/* in the middle */",
@@ -68,15 +68,15 @@ def test_comments_come_back_wherever_they_stood() -> None:
 
 
 def test_a_long_condition_is_broken_before_its_operators() -> None:
-    long = " && ".join(f"some.symbol.number{number} > {number}" for number in range(8))
-    text = f"option o {{ initial state s {{ decision {{ if ({long}) stay; else stay; }} action {{ }} }} }}\n"
-    assert_prints_the_same(text)
+    condition = " && ".join(f"some.symbol.number{number} > {number}" for number in range(8))
+    text = f"option o {{ initial state s {{ decision {{ if ({condition}) stay; else stay; }} action {{ }} }} }}\n"
+    assert_printing_is_stable(text)
     lines = print_file(parse(text).file).split("\n")
     assert max(map(len, lines)) < 60
     assert sum(line.strip().startswith("&&") for line in lines) == 7
 
 
-def test_windows_line_ends_are_no_part_of_texts() -> None:
+def test_windows_line_endings_are_not_part_of_texts() -> None:
     text = "/** two\r\nlines */\r\noption o {\r\n  initial state s {\r\n    action { /* a\r\nb */ }\r\n  }\r\n}\r\n"
     assert "\r" not in print_file(parse(text).file)
     assert parse(text).file == parse(text.replace("\r", "")).file

@@ -1,4 +1,4 @@
-"""Cases from the original compiler and engine: tiny programs with its verdicts, whole behaviors with its traces."""
+"""Recorded cases of the original compiler and engine: small programs with results, complete behaviors with traces."""
 
 import gzip
 import json
@@ -6,7 +6,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from vicode.xabsl.source_loader import ProgramSource, load_source
+from vicode.xabsl.parser import parse
+from vicode.xabsl.source_loader import ParseText, ProgramSource, load_source
 
 CASES = Path(__file__).parent / "cases"
 PROGRAMS = sorted(path.name for path in (CASES / "programs").iterdir())
@@ -14,7 +15,7 @@ PROGRAMS = sorted(path.name for path in (CASES / "programs").iterdir())
 
 @dataclass(frozen=True)
 class Probe:
-    """A tiny program, and what the original compiler said of it."""
+    """A small program with the result of the original compiler."""
 
     name: str
     files: dict[str, str]
@@ -26,13 +27,13 @@ class Probe:
 def read_probes() -> list[Probe]:
     raw = json.loads((CASES / "probes.json").read_text(encoding="utf-8"))
     return [
-        Probe(each["name"], each["files"], each["accepted"], each["message"], each["code_of_states_one_and_two"])
-        for each in raw
+        Probe(entry["name"], entry["files"], entry["accepted"], entry["message"], entry["code_of_states_one_and_two"])
+        for entry in raw
     ]
 
 
-def load_texts(files: dict[str, str], main: str = "agents.xabsl") -> ProgramSource:
-    """Load a program whose files are texts."""
+def load_texts(files: dict[str, str], main: str = "agents.xabsl", parse_text: ParseText = parse) -> ProgramSource:
+    """Load a program from texts by file name."""
     root = Path("/behavior")
 
     def read(path: Path) -> str:
@@ -41,11 +42,11 @@ def load_texts(files: dict[str, str], main: str = "agents.xabsl") -> ProgramSour
             raise FileNotFoundError(2, "No such file or directory")
         return text
 
-    return load_source(root / main, read)
+    return load_source(root / main, read, parse_text)
 
 
 def read_case(program: str, name: str) -> str:
-    """A file of a whole behavior, packed or not."""
+    """Read a file of a recorded program, compressed or not."""
     path = CASES / "programs" / program / name
     if path.exists():
         return path.read_text(encoding="utf-8")
@@ -54,7 +55,7 @@ def read_case(program: str, name: str) -> str:
 
 
 def parse_words(code: str) -> list[Any]:
-    """Intermediate code, numbers as numbers."""
+    """Split intermediate code into words; numbers become floats."""
     plain = " ".join(line for line in code.splitlines() if not line.startswith("//"))
     return [_number(word) for word in plain.split()]
 
