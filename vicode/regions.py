@@ -60,8 +60,11 @@ def find_regions(text: str, comment: str = "#", *, file: str = "") -> ParsedRegi
     findings: list[Finding] = []
     index = 0
     while index < len(lines):
+        content = _mark_content(lines[index], comment) if "vicode" in lines[index] else ""
+        if not content:
+            index += 1
+            continue
         location = SourceLocation(file=file, line=index + 1, column=1, length=len(lines[index]))
-        content = _mark_content(lines[index], comment)
         begin = _BEGIN.match(content)
         region = _parse_region(lines, index, comment, begin) if begin else None
         if begin is None:

@@ -1,31 +1,57 @@
 """Who uses whom, and who steps whom, among the components of a project."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-
-import networkx as nx
 
 from vicode.findings import DesignPath
 from vicode.model.design import COMMON, Call, Design, State
 from vicode.model.project import Project
 
+Graph = Mapping[str, tuple[str, ...]]
+"""The successors of each node."""
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ComponentGraphs:
-    """Components as nodes; `uses` and `steps` lead from a design's component to those it names."""
+    """Components as nodes; the edges of a design lead to the components it uses or steps."""
 
-    uses: "nx.DiGraph[str]"
-    steps: "nx.DiGraph[str]"
+    uses: Graph
+    steps: Graph
 
     def transitive_steps(self, component: str) -> set[str]:
-        """All components that may work when this one is stepped, itself left out."""
-        return set(nx.descendants(self.steps, component)) if component in self.steps else set()
+        """Return all components that stepping a component may step, without the component itself."""
+        return find_descendants(self.steps, component)
 
     def is_in_cycle(self, component: str) -> bool:
-        """Whether stepping a component comes back to it, which is a mistake of its own."""
-        return component in self.steps and any(
-            nx.has_path(self.steps, following, component) for following in self.steps.successors(component)
-        )
+        """Whether stepping a component may step it again, which is reported as a cycle."""
+        return any(find_path(self.steps, successor, component) for successor in self.steps.get(component, ()))
+
+
+def find_descendants(graph: Graph, start: str) -> set[str]:
+    """Return the nodes that can be reached from a node, without the node itself."""
+    reached, pending = {start}, [start]
+    while pending:
+        for successor in graph.get(pending.pop(), ()):
+            if successor not in reached:
+                reached.add(successor)
+                pending.append(successor)
+    return reached - {start}
+
+
+def find_path(graph: Graph, start: str, goal: str) -> list[str]:
+    """Return the nodes of a shortest path, including both ends; empty if there is no path."""
+    previous, queue = {start: start}, [start]
+    for node in queue:
+        for successor in graph.get(node, ()):
+            if successor not in previous:
+                previous[successor] = node
+                queue.append(successor)
+    if goal not in previous:
+        return []
+    path = [goal]
+    while path[-1] != start:
+        path.append(previous[path[-1]])
+    return path[::-1]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -40,17 +66,15 @@ class StepSite:
 
 
 def build_graphs(project: Project) -> ComponentGraphs:
-    """Both graphs; of two designs with one name the first counts."""
-    uses: nx.DiGraph[str] = nx.DiGraph()
-    steps: nx.DiGraph[str] = nx.DiGraph()
-    for design in reversed(project.designs):
-        for graph in (uses, steps):
-            if design.component in graph:
-                graph.remove_edges_from(list(graph.out_edges(design.component)))
-            graph.add_node(design.component)
-        uses.add_edges_from((design.component, use.component) for use in design.uses)
-        steps.add_edges_from({(design.component, step.component) for step in iter_steps(design)})
-    return ComponentGraphs(uses=uses, steps=steps)
+    """Build both graphs; of two designs with the same name the first one counts."""
+    designs = {design.component: design for design in reversed(project.designs)}
+    return ComponentGraphs(
+        uses={name: tuple(dict.fromkeys(use.component for use in design.uses)) for name, design in designs.items()},
+        steps={
+            name: tuple(dict.fromkeys(step.component for step in iter_steps(design)))
+            for name, design in designs.items()
+        },
+    )
 
 
 def iter_steps(design: Design) -> Iterator[StepSite]:

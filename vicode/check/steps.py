@@ -5,10 +5,8 @@ from collections.abc import Callable, Collection, Iterable, Iterator
 from functools import cache, partial
 from itertools import combinations
 
-import networkx as nx
-
 from vicode.check.context import RuleContext
-from vicode.check.graphs import StepSite
+from vicode.check.graphs import StepSite, find_path
 from vicode.findings import Finding, Note
 from vicode.model.design import COMMON, Use
 from vicode.model.expressions import Done, OutputRef, walk
@@ -71,12 +69,8 @@ def _shared_descendants(context: RuleContext, first: str, second: str) -> frozen
     shared = ({first} | context.graphs.transitive_steps(first)) & ({second} | context.graphs.transitive_steps(second))
     working = {component for component in shared if not _has_frequency(context, component)}
     return frozenset(
-        each for each in working if not any(other != each and _has_path(graph, other, each) for other in working)
+        each for each in working if not any(other != each and find_path(graph, other, each) for other in working)
     )
-
-
-def _has_path(graph: "nx.DiGraph[str]", first: str, second: str) -> bool:
-    return first in graph and second in graph and nx.has_path(graph, first, second)
 
 
 def _has_frequency(context: RuleContext, component: str) -> bool:

@@ -2,9 +2,8 @@
 
 from collections.abc import Iterator
 
-import networkx as nx
-
 from vicode.check.context import RuleContext
+from vicode.check.graphs import find_path
 from vicode.findings import DesignPath, Finding, did_you_mean
 from vicode.model.design import Assign, Call
 
@@ -61,8 +60,8 @@ def find_cycles(context: RuleContext) -> Iterator[Finding]:
     """D408: components that use each other in a circle; the whole circle is named."""
     own, graph = context.design.component, context.graphs.uses
     for use in context.design.uses:
-        if use.component in graph and nx.has_path(graph, use.component, own):
-            circle = [own, *nx.shortest_path(graph, use.component, own)]
+        if path := find_path(graph, use.component, own):
+            circle = [own, *path]
             message = f"components use each other in a circle: {' → '.join(circle)}"
             yield context.make_finding("D408", ("uses", use.alias), message, "let one of them do without the next")
 

@@ -1,6 +1,8 @@
 """Writes the module of one component."""
 
-from dataclasses import dataclass, replace
+from collections.abc import Iterator, Set
+from dataclasses import dataclass
+from functools import cached_property
 
 from vicode.generators.plan import (
     CodePlan,
@@ -13,7 +15,7 @@ from vicode.generators.plan import (
 from vicode.generators.python.expression_doc import format_statement
 from vicode.generators.python.expression_printer import PythonExpressionPrinter, format_number, functions_by_output
 from vicode.generators.python.imports import Import, format_imports
-from vicode.generators.python.methods import BODY_INDENT, METHOD_INDENT, MethodWriter, python_code
+from vicode.generators.python.methods import BODY_INDENT, METHOD_INDENT, MethodWriter, method_code, python_code
 from vicode.generators.python.names import component_class_name, names_in_code
 from vicode.generators.python.parameters import modulate_method
 from vicode.generators.python.pretty_printer import (
@@ -31,7 +33,7 @@ from vicode.generators.python.views import ComponentModuleView, MethodView
 from vicode.regions import wrap_region
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True)
 class ComponentWriter:
     """Writes one component; `runtime` is the package of the runtime that the module imports."""
 
@@ -40,7 +42,7 @@ class ComponentWriter:
     names: dict[str, str]
     runtime: str
 
-    @property
+    @cached_property
     def expression_printer(self) -> PythonExpressionPrinter:
         return PythonExpressionPrinter(
             names=self.names,
@@ -57,9 +59,9 @@ class ComponentWriter:
             *modulate_method(plan.parameters, self.expression_printer),
             *MethodWriter(component=plan, expression_printer=self.expression_printer).write_states(),
         )
-        view = ComponentModuleView(
+        return ComponentModuleView(
             docstring=docstring(f"The component {plan.component} of the project {self.project.name}.", 0),
-            imports=(),
+            imports=self._list_imports(),
             imports_for_types=tuple(format_imports([Import(module=self.runtime, name="Root")])),
             module_code=_region_text(plan.module_code, ""),
             class_name=component_class_name(plan.component),
@@ -69,7 +71,6 @@ class ComponentWriter:
             methods=methods,
             members=_region_text(plan.members, " " * METHOD_INDENT),
         )
-        return replace(view, imports=self._list_imports(view))
 
     @property
     def _base(self) -> str:
@@ -111,9 +112,12 @@ class ComponentWriter:
     def _class_of(self, use: UsedComponent) -> str:
         return component_class_name(use.component)
 
-    def _list_imports(self, view: ComponentModuleView) -> tuple[tuple[str, ...], ...]:
-        """List the import sections: the runtime, hand-written modules, modules of the package."""
-        written = names_in_code([view.module_code, *self._class_source(view)])
+    def _list_imports(self) -> tuple[tuple[str, ...], ...]:
+        """List the import sections: the runtime, hand-written modules, modules of the package.
+
+        The methods must be written before, since their expressions determine the imports.
+        """
+        written = self.expression_printer.used_names | names_in_code(self._hand_written_code())
         runtime = [Import(module=self.runtime, name=name) for name in (self._base, "State")]
         if "arithmetic" in written:
             runtime.append(Import(module=self.runtime, name="arithmetic"))
@@ -124,12 +128,12 @@ class ComponentWriter:
         sections = ([], hand_written, [*runtime, *own]) if is_inside else (runtime, hand_written, own)
         return tuple(tuple(format_imports(imports)) for imports in sections if imports)
 
-    def _class_source(self, view: ComponentModuleView) -> list[str]:
-        """Return the code of the class, whose names determine the imports."""
-        methods = [f"{method.signature}\n{method.body}" for method in view.methods]
-        return ["\n".join([f"class {view.class_name}:", "    pass", *methods, view.members])]
+    def _hand_written_code(self) -> Iterator[str]:
+        for code in (self.component.module_code, self.component.members, *method_code(self.component)):
+            if code is not None:
+                yield python_code(code)
 
-    def _import_declarations(self, written: frozenset[str]) -> list[Import]:
+    def _import_declarations(self, written: Set[str]) -> list[Import]:
         shared = [*(item.name for item in self.project.enumerations), *(item.name for item in self.project.constants)]
         used = [name for name in dict.fromkeys(shared) if self.names[name] in written]
         return [Import(module=".declarations", name=self.names[name]) for name in used]

@@ -63,12 +63,14 @@ class PythonExpressionPrinter:
 
     Attributes:
         names: Names of constants and enumerations in the module.
+        used_names: Collects the printed names of `names`, from which the imports are derived.
         time_unit: "s" or "ms".
         functions: Outputs with arguments by alias and name.
         enclosing_calls: Functions whose arguments contain the printed expression.
     """
 
     names: Mapping[str, str]
+    used_names: set[str] = field(default_factory=set)
     nonzero_constants: frozenset[str] = frozenset()
     time_unit: str = "s"
     uses_xabsl_arithmetic: bool = False
@@ -83,9 +85,9 @@ class PythonExpressionPrinter:
             case Boolean(value=value):
                 return atom(str(value))
             case EnumElement(element=element, type=enumeration):
-                return atom(f"{self.names[enumeration]}.{element}")
+                return atom(f"{self.global_name(enumeration)}.{element}")
             case Variable(name=name, kind=kind):
-                return atom(self.names[name] if kind == ScopeSymbolKind.CONSTANT else f"self.{name}")
+                return atom(self.global_name(name) if kind == ScopeSymbolKind.CONSTANT else f"self.{name}")
             case ElapsedTime(kind=of):
                 return self._time_doc(of)
             case StatusFlag(name=of) | Done(alias=of):
@@ -94,6 +96,11 @@ class PythonExpressionPrinter:
                 return self._output_doc(node)
             case _:
                 return self._operation_doc(node)
+
+    def global_name(self, name: str) -> str:
+        """Return the name in the module and mark it as used."""
+        self.used_names.add(self.names[name])
+        return self.names[name]
 
     def conditions_to_doc(self, conditions: tuple[Condition, ...]) -> ExpressionDoc:
         """Join the conditions of a guard by `and`."""
@@ -169,7 +176,7 @@ class PythonExpressionPrinter:
             case FunctionCall(function=function, arguments=arguments):
                 name = (
                     _BUILTIN_FUNCTIONS.get(function)
-                    or f"{self.names['arithmetic']}.{_ARITHMETIC_NAMES.get(function, function)}"
+                    or f"{self.global_name('arithmetic')}.{_ARITHMETIC_NAMES.get(function, function)}"
                 )
                 return call_expression(name, [self.to_doc(argument).breakable for argument in arguments])
             case _:
@@ -179,7 +186,7 @@ class PythonExpressionPrinter:
         operator, left, right = node.operator, node.left, node.right
         guarded = _XABSL_OPERATORS if self.uses_xabsl_arithmetic else _SAFE_OPERATORS
         if operator in guarded and not self._is_nonzero(right, operator):
-            name = f"{self.names['arithmetic']}.{guarded[operator]}"
+            name = f"{self.global_name('arithmetic')}.{guarded[operator]}"
             return call_expression(name, [self.to_doc(left).breakable, self.to_doc(right).breakable])
         right_piece = self.to_doc(_as_float(right)) if operator in ("//", "%") else self.to_doc(right)
         level = ADDITION if operator in "+-" else MULTIPLICATION

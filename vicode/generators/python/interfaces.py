@@ -8,7 +8,7 @@ from vicode.generators.python.expression_doc import format_statement
 from vicode.generators.python.expression_printer import PythonExpressionPrinter
 from vicode.generators.python.imports import Import, format_imports
 from vicode.generators.python.methods import BODY_INDENT
-from vicode.generators.python.names import component_class_name, names_in_code
+from vicode.generators.python.names import component_class_name
 from vicode.generators.python.parameters import keyword_signature, modulate_method, type_name
 from vicode.generators.python.pretty_printer import Doc, call_doc, concat, render_doc
 from vicode.generators.python.text import declaration_description, docstring, section
@@ -28,10 +28,9 @@ def build_interfaces_view(plan: ProjectPlan, names: dict[str, str], runtime: str
     names = names | {name: f"declarations.{names[name]}" for name in shared}
     printer = PythonExpressionPrinter(names=names, nonzero_constants=plan.nonzero_constants)
     classes = tuple(_InterfaceWriter(item, printer).build_view() for item in plan.interfaces)
-    texts = [f"{method.signature}\n{method.body}" for view in classes for method in view.methods]
-    written = names_in_code(["\n".join(["class X:", "    pass", *texts])])
     imports = [Import(module=runtime, name="Component")]
-    own = [Import(module=".", name="declarations")] if "declarations" in written else []
+    uses_declarations = any(name.startswith("declarations.") for name in printer.used_names)
+    own = [Import(module=".", name="declarations")] if uses_declarations else []
     return InterfacesModuleView(
         docstring=docstring(f"World access and shared variables of the project {plan.name}.", 0),
         imports=tuple(tuple(format_imports(section)) for section in (imports, own) if section),

@@ -1,5 +1,6 @@
 """Writes the methods of a generated class: the decisions and actions of its states."""
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 from vicode.generators.plan import (
@@ -97,15 +98,10 @@ class MethodWriter:
                 return [_method(signature, "", self._steps(steps)), *self._actions(steps)]
 
     def _predicates(self, alternatives: tuple[DecisionPlan, ...]) -> list[MethodView]:
-        methods: list[MethodView] = []
-        for alternative in alternatives:
-            for condition in alternative.conditions:
-                if isinstance(condition, CodeCondition):
-                    body = condition.code
-                    methods.append(_method(f"_when_{body.stem}(self) -> bool", body.doc, [_region(body, BODY_INDENT)]))
-            if isinstance(alternative.outcome, Branch):
-                methods += self._predicates(alternative.outcome.then + alternative.outcome.otherwise)
-        return methods
+        return [
+            _method(f"_when_{body.stem}(self) -> bool", body.doc, [_region(body, BODY_INDENT)])
+            for body in _guard_code(alternatives)
+        ]
 
     def _actions(self, steps: tuple[ActionStep, ...]) -> list[MethodView]:
         bodies = [step.code for step in steps if isinstance(step, CodeStep)]
@@ -215,6 +211,25 @@ def _method(signature: str, doc: str, lines: list[str]) -> MethodView:
 
 def _region(body: CodePlan, indent: int) -> str:
     return wrap_region(body.region_id, python_code(body), indent=" " * indent).removesuffix("\n")
+
+
+def method_code(component: ComponentPlan) -> Iterator[CodePlan]:
+    """Yield the hand-written code of all methods."""
+    steps = [component.common_actions, *(part for state in component.states for part in _state_steps(state))]
+    yield from (step.code for part in steps for step in part if isinstance(step, CodeStep))
+    for decisions in (component.common_decisions, *(state.decisions for state in component.states)):
+        yield from _guard_code(decisions)
+
+
+def _state_steps(state: StatePlan) -> tuple[tuple[ActionStep, ...], ...]:
+    return (state.enter, state.actions, state.leave)
+
+
+def _guard_code(decisions: tuple[DecisionPlan, ...]) -> Iterator[CodePlan]:
+    for decision in decisions:
+        yield from (condition.code for condition in decision.conditions if isinstance(condition, CodeCondition))
+        if isinstance(decision.outcome, Branch):
+            yield from _guard_code((*decision.outcome.then, *decision.outcome.otherwise))
 
 
 def python_code(body: CodePlan) -> str:

@@ -71,7 +71,7 @@ def component_class_name(component: str) -> str:
 
 
 def names_in_code(texts: Iterable[str]) -> frozenset[str]:
-    """Return the names in Python code; every word if the code does not parse."""
+    """Return the names in pieces of Python code; every word of a piece that does not parse."""
     return frozenset(word for text in texts for word in _names_in(text))
 
 

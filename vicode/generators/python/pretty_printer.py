@@ -72,6 +72,9 @@ def call_doc(function: str, arguments: list[Doc], *, must_break: bool = False) -
 
 def render_doc(doc: Doc, indent: int = 0) -> list[str]:
     """Render a document to lines; the first line is indented too."""
+    flat = _flat_text(doc, in_group=False)
+    if flat is not None and indent + len(flat) <= LINE_WIDTH and "\n" not in flat:
+        return [" " * indent + flat]
     out: list[str] = [" " * indent]
     column = indent
     tasks: list[_Task] = [(indent, False, doc)]
@@ -94,6 +97,27 @@ def render_doc(doc: Doc, indent: int = 0) -> list[str]:
                 flat_now = is_flat or (not is_broken and _fits([(depth, True, inner)], tasks, LINE_WIDTH - column))
                 tasks.append((depth, flat_now, inner))
     return "".join(out).split("\n")
+
+
+def _flat_text(doc: Doc, *, in_group: bool) -> str | None:
+    """Return the document as one line; None if a line must break."""
+    if isinstance(doc, str):
+        return doc
+    if isinstance(doc, Concat):
+        parts = []
+        for part in doc.parts:
+            text = part if isinstance(part, str) else _flat_text(part, in_group=in_group)
+            if text is None:
+                return None
+            parts.append(text)
+        return "".join(parts)
+    if isinstance(doc, SoftLine):
+        return doc.flat if in_group else None
+    if isinstance(doc, DocGroup):
+        return None if doc.must_break else _flat_text(doc.inner, in_group=True)
+    if isinstance(doc, Indent):
+        return _flat_text(doc.inner, in_group=in_group)
+    return "" if in_group else None
 
 
 def _fits(first: list[_Task], rest: list[_Task], width: int) -> bool:

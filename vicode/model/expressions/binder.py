@@ -54,22 +54,11 @@ class ExpressionBinder:
 
     def bind(self, syntax: ast.expr) -> Expr | None:
         """The typed node of a piece of syntax, None after a mistake that leaves nothing to go on with."""
-        binders: dict[type[ast.expr], Callable[..., Expr | None]] = {
-            ast.Constant: self._bind_constant,
-            ast.Name: self._bind_name,
-            ast.Attribute: self._bind_attribute,
-            ast.Call: CallBinder(self).bind,
-            ast.UnaryOp: self._bind_unary,
-            ast.BinOp: self._bind_binary,
-            ast.BoolOp: self._bind_logic,
-            ast.Compare: self._bind_comparison,
-            ast.IfExp: self._bind_ternary,
-        }
-        binder = binders.get(type(syntax))
-        if binder is None:
+        bind = _BINDERS.get(type(syntax))
+        if bind is None:
             self.report("E302", "this is Python, but not part of expressions", "use a 'code' predicate for it", syntax)
             return None
-        return binder(syntax)
+        return bind(self, syntax)
 
     def require_type(self, node: Expr, expected: str) -> None:
         """Report a node whose type does not serve as `expected`."""
@@ -251,6 +240,19 @@ class ExpressionBinder:
         if type_ is None:
             self.report("E304", f"one side is {then.type}, the other {otherwise.type}", "give both one type", syntax)
         return Ternary(test=test, then=then, otherwise=otherwise, type=type_ or UNKNOWN, span=self.get_span(syntax))
+
+
+_BINDERS: dict[type[ast.expr], Callable[..., Expr | None]] = {
+    ast.Constant: ExpressionBinder._bind_constant,
+    ast.Name: ExpressionBinder._bind_name,
+    ast.Attribute: ExpressionBinder._bind_attribute,
+    ast.Call: lambda binder, syntax: CallBinder(binder).bind(syntax),
+    ast.UnaryOp: ExpressionBinder._bind_unary,
+    ast.BinOp: ExpressionBinder._bind_binary,
+    ast.BoolOp: ExpressionBinder._bind_logic,
+    ast.Compare: ExpressionBinder._bind_comparison,
+    ast.IfExp: ExpressionBinder._bind_ternary,
+}
 
 
 def is_assignable(type_: str, expected: str) -> bool:

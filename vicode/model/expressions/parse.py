@@ -67,7 +67,7 @@ def _parse_syntax(text: str) -> tuple[ast.expr | None, ExpressionDiagnostic | No
     if "\0" in text:
         return None, _not_an_expression("a null character", (0, len(text)))
     # A line break is a blank here; the copy keeps every offset. Leading blanks would be an indentation.
-    copy = "".join(" " if char.isspace() else char for char in text)
+    copy = text if text.isprintable() else "".join(" " if char.isspace() else char for char in text)
     lead = len(copy) - len(copy.lstrip())
     try:
         parsed = parse_single_expression(copy.strip())
@@ -76,7 +76,8 @@ def _parse_syntax(text: str) -> tuple[ast.expr | None, ExpressionDiagnostic | No
         return None, _not_an_expression(_format_syntax_error(error.msg), (start, min(start + 1, len(text))))
     except (ValueError, RecursionError, MemoryError):
         return None, _not_an_expression("too deeply nested", (0, len(text)))
-    if _is_too_deep(parsed):
+    # Each level takes at least one character.
+    if len(text) + 2 > MAX_DEPTH and _is_too_deep(parsed):
         return None, _not_an_expression("too deeply nested", (0, len(text)))
     return parsed, None
 
