@@ -134,7 +134,7 @@ def test_marks_are_told_apart_in_forced_colours_and_by_ear(editor: str, page: Pa
     # States are heard before the arrows between them, though they are painted after them.
     spoken = page.context.new_cdp_session(page).send("Accessibility.getFullAXTree")["nodes"]
     names = [each.get("name", {}).get("value", "") for each in spoken if each.get("role", {}).get("value") == "group"]
-    assert names.index("Drawing") < names.index("States and components") < names.index("Transitions")
+    assert names.index("Diagram") < names.index("States and components") < names.index("Transitions")
     box = page.locator('g[data-id="Kick"] rect.box')
     look = "(each) => [getComputedStyle(each).stroke, getComputedStyle(each).strokeWidth].join()"
     before = box.evaluate(look)

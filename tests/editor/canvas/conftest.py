@@ -126,9 +126,9 @@ class CanvasDriver:
             return str(answer.read().decode())
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture(scope="session")
 def canvas_address(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
-    """A server for the module; its scene is given by each test."""
+    """A server for all modules; each test sends its scene."""
     folder = tmp_path_factory.mktemp("canvas")
     scene_file = folder / "scene.json"
     scene_file.write_text(json.dumps(player()), encoding="utf-8")

@@ -54,17 +54,6 @@ def test_escape_puts_a_dragged_state_back(canvas: CanvasDriver) -> None:
     assert not canvas.gestures("move")
 
 
-def test_a_marquee_selects_and_the_selection_moves_together(canvas: CanvasDriver) -> None:
-    start = canvas.at("states", "SearchNet", -130, -60)
-    canvas.drag(start, canvas.at("states", "Fixmove", 100, 60))
-    assert canvas.selection() == {"states/SearchNet", "states/Fixmove", "transitions/SearchNet/0"}
-    x, y = canvas.at("states", "Fixmove")
-    canvas.drag((x, y), (x - 60, y + 20))
-    moved = {item["id"]: item for item in canvas.wait_for_gesture("move")["items"]}
-    assert set(moved) == {"SearchNet", "Fixmove"}
-    assert moved["SearchNet"]["x"] == moved["Fixmove"]["x"] < 760
-
-
 def test_the_common_badge_and_components_can_be_moved(canvas: CanvasDriver) -> None:
     x, y = canvas.at("common", "@common")
     canvas.drag((x, y), (x, y - 100))
@@ -74,22 +63,9 @@ def test_the_common_badge_and_components_can_be_moved(canvas: CanvasDriver) -> N
     canvas.wait_for("vicode.positions()['components/perception'].x > 480")
 
 
-def test_dragging_from_a_handle_connects(canvas: CanvasDriver) -> None:
-    canvas.drag_handle("states", "GiveUp", canvas.at("states", "KickLeft"))
-    assert canvas.wait_for_gesture("connect") == {"source": "GiveUp", "target": "KickLeft", "x": None, "y": None}
-
-
 def test_dragging_from_a_handle_to_the_same_node_adds_a_self_loop(canvas: CanvasDriver) -> None:
     canvas.drag_handle("states", "GiveUp", canvas.at("states", "GiveUp"))
     assert canvas.wait_for_gesture("connect")["target"] == "GiveUp"
-
-
-def test_dropping_a_connection_on_empty_space_requests_a_new_state(canvas: CanvasDriver) -> None:
-    canvas.drag_handle("states", "GiveUp", canvas.at("states", "GiveUp", 200, 60))
-    connect = canvas.wait_for_gesture("connect")
-    assert (connect["source"], connect["target"]) == ("GiveUp", None)
-    assert connect["x"] % 10 == 0
-    assert connect["x"] > 200
 
 
 def test_releasing_next_to_the_source_node_connects_nothing(canvas: CanvasDriver) -> None:
@@ -125,16 +101,6 @@ def test_a_component_without_parameters_can_only_be_required(show: Callable[[Map
         "state": "GiveUp",
         "component": "follow_ball",
     }
-
-
-def test_dragging_the_end_of_a_selected_transition_changes_its_target(canvas: CanvasDriver) -> None:
-    canvas.click(canvas.at("transitions", "Fixmove/0"))
-    canvas.wait_for_gesture("select", items=[{"of": "transitions", "id": "Fixmove/0"}])
-    canvas.page.mouse.move(*canvas.at("states", "KickLeft", 0, 150))
-    box = canvas.page.locator('circle[data-end="target"]').bounding_box()
-    assert box is not None
-    canvas.drag((box["x"] + box["width"] / 2, box["y"] + box["height"] / 2), canvas.at("states", "GetUp"))
-    assert canvas.wait_for_gesture("reconnect") == {"id": "Fixmove/0", "end": "target", "state": "GetUp"}
 
 
 def test_double_click_renames_a_state_in_place(canvas: CanvasDriver) -> None:

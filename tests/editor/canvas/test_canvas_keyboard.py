@@ -34,13 +34,6 @@ def test_ctrl_s_reaches_the_page(canvas: CanvasDriver, keys: tuple[str, ...]) ->
         assert canvas.wait_for_gesture("rename")["name"] == "Resign"
 
 
-def test_arrows_nudge_the_selection(canvas: CanvasDriver) -> None:
-    canvas.click(canvas.at("states", "GiveUp"))
-    canvas.press("ArrowRight", "Shift+ArrowDown")
-    canvas.wait_for("vicode.positions()['states/GiveUp'].y === 331")
-    canvas.wait_for_gesture("move", items=[{"of": "states", "id": "GiveUp", "x": 90, "y": 331}])
-
-
 def test_select_all_takes_everything(canvas: CanvasDriver) -> None:
     canvas.page.locator(".stage").focus()
     canvas.press("Control+a")
@@ -72,31 +65,8 @@ def test_t_connects_to_the_state_clicked_next(canvas: CanvasDriver) -> None:
     expect(canvas.page.locator(".message")).to_be_hidden()
 
 
-def test_t_connects_to_the_state_chosen_by_tab(canvas: CanvasDriver) -> None:
-    canvas.click(canvas.at("states", "KickLeft"))
-    canvas.press("t", "Tab", "Enter")
-    assert canvas.wait_for_gesture("connect") == {"source": "KickLeft", "target": "KickRight", "x": None, "y": None}
-
-
-def test_s_creates_a_state(canvas: CanvasDriver) -> None:
-    canvas.page.locator(".stage").focus()
-    canvas.press("s")
-    assert set(canvas.wait_for_gesture("create")) == {"x", "y"}
-
-
 def test_escape_clears_the_selection(canvas: CanvasDriver) -> None:
     canvas.click(canvas.at("states", "GiveUp"))
     canvas.press("Escape")
     assert canvas.selection() == set()
     canvas.wait_for_gesture("select", items=[])
-
-
-def test_zoom_keys(canvas: CanvasDriver) -> None:
-    canvas.page.locator(".stage").focus()
-    fitted = canvas.evaluate("view()")["k"]
-    canvas.press("+")
-    assert canvas.evaluate("view()")["k"] == pytest.approx(fitted * 1.25)
-    canvas.press("0")
-    assert canvas.evaluate("view()")["k"] == 1
-    canvas.press("1")
-    assert canvas.evaluate("view()")["k"] == pytest.approx(fitted)

@@ -129,50 +129,6 @@ def test_rename_in_place_focuses_the_field(canvas: CanvasDriver) -> None:
     expect(canvas.page.locator("input.rename")).to_be_focused()
 
 
-def test_the_wheel_zooms_at_the_pointer_and_the_middle_button_pans(canvas: CanvasDriver) -> None:
-    spot = canvas.at("states", "KickLeft")
-    canvas.page.mouse.move(*spot)
-    before = canvas.evaluate("view()")["k"]
-    canvas.page.mouse.wheel(0, -300)
-    canvas.wait_for(f"vicode.view().k > {before}")
-    assert canvas.at("states", "KickLeft") == pytest.approx(spot, abs=1)
-    canvas.drag(spot, (spot[0] - 120, spot[1] + 40), button="middle")
-    assert canvas.at("states", "KickLeft") == pytest.approx((spot[0] - 120, spot[1] + 40), abs=1)
-    assert not canvas.gestures("move")
-
-
-def test_two_fingers_on_a_touchpad_pan(canvas: CanvasDriver) -> None:
-    spot = canvas.at("states", "KickLeft")
-    canvas.page.mouse.move(*spot)
-    canvas.page.mouse.wheel(7, 13)
-    canvas.wait_for(f"Math.abs(vicode.screen('states', 'KickLeft').x - {spot[0] - 7}) < 1")
-    assert canvas.at("states", "KickLeft") == pytest.approx((spot[0] - 7, spot[1] - 13), abs=1)
-
-
-def test_one_finger_pans_and_two_zoom(canvas: CanvasDriver) -> None:
-    cdp = canvas.page.context.new_cdp_session(canvas.page)
-
-    def touch(kind: str, *points: tuple[float, float]) -> None:
-        fingers = [{"x": x, "y": y, "id": number} for number, (x, y) in enumerate(points)]
-        cdp.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": fingers})
-
-    spot = canvas.at("states", "KickLeft")
-    touch("touchStart", (620, 650))
-    touch("touchMove", (620, 600))
-    touch("touchMove", (640, 560))
-    touch("touchEnd")
-    canvas.wait_for(f"vicode.screen('states', 'KickLeft').y < {spot[1] - 80}")
-    before = canvas.evaluate("view()")["k"]
-    touch("touchStart", (600, 500), (700, 500))
-    touch("touchMove", (560, 500), (740, 500))
-    touch("touchMove", (520, 500), (780, 500))
-    touch("touchEnd")
-    canvas.wait_for(f"vicode.view().k > {before} * 1.5")
-    assert not canvas.gestures("move")
-    canvas.drag((620, 330), (660, 330))
-    assert not canvas.gestures("create")
-
-
 def test_a_press_on_the_minimap_centers_the_view_there(canvas: CanvasDriver) -> None:
     minimap = canvas.page.locator(".minimap")
     expect(minimap).to_be_hidden()

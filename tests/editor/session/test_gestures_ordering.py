@@ -70,6 +70,8 @@ def test_a_label_stays_where_it_was_put(document: DocumentSession) -> None:
     assert document.design.states[0].transitions[0] == Transition(to="B", label_at=(0.25, -12))
     do(document, "label", id="A/0", at=[9, 1e9])
     assert document.design.states[0].transitions[0] == Transition(to="B", label_at=(1, 2000))
+    do(document, "label", id="A/0", at=[-9, -1e9])
+    assert document.design.states[0].transitions[0] == Transition(to="B", label_at=(0, -2000))
     do(document, "label", id="A/0", at=None)
     assert document.design == DESIGN
     assert document.undo_label == "move label"
