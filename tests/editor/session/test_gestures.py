@@ -1,5 +1,6 @@
 """Gestures of the canvas become edits of the open design; what they cannot mean changes nothing."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -77,6 +78,23 @@ def test_reconnect_moves_an_end(document: DocumentSession) -> None:
     outcome = apply_gesture(document, {"kind": "reconnect", "id": "A/0", "end": "source", "state": "B"})
     assert outcome.new_selection == (ItemRef(kind="transitions", id="B/0"),)
     assert arrows(document) == [("A", "A"), ("B", "A")]
+
+
+def test_a_new_source_keeps_the_transitions_of_all_states(document: DocumentSession) -> None:
+    moved = Transition(to="B", guard=Guard(when="x"), doc="moved", id="m")
+    states = (
+        State(name="A", transitions=(Transition(to="A", doc="first"), moved)),
+        State(name="B", transitions=(Transition(to="A", doc="kept"), Transition(to="B", doc="also kept"))),
+        State(name="C", transitions=tuple(Transition(to="C", doc=f"{number}") for number in range(3))),
+    )
+    document.edit("prepare", lambda design: replace(design, states=states))
+    outcome = apply_gesture(document, {"kind": "reconnect", "id": "A/1", "end": "source", "state": "B"})
+    assert outcome.new_selection == (ItemRef(kind="transitions", id="B/2"),)
+    assert document.design.states == (
+        replace(states[0], transitions=states[0].transitions[:1]),
+        replace(states[1], transitions=(*states[1].transitions, moved)),
+        states[2],
+    )
 
 
 def test_branches_of_a_tree_keep_their_source(document: DocumentSession) -> None:
@@ -203,8 +221,6 @@ def test_undoing_everything_equals_the_start(payloads: list[dict[str, object]]) 
 
 
 def test_typing_in_a_field_is_one_step(document: DocumentSession) -> None:
-    from dataclasses import replace
-
     for text in ("f", "fo", "foo"):
         document.edit("edit Doc", lambda design, text=text: replace(design, doc=text), coalesce_key="doc")
     assert len(document.history.path) == 2

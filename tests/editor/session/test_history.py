@@ -137,6 +137,22 @@ def test_typing_goes_on_as_a_new_step_after_another_edit_and_after_a_pause(
     assert len(ana.history.path) == 5
 
 
+@pytest.mark.parametrize(("pause_s", "entry_count"), [(59.0, 1), (60.0, 2)])
+def test_typing_coalesces_until_a_pause_of_a_minute(
+    hands: tuple[DocumentSession, DocumentSession], pause_s: float, entry_count: int
+) -> None:
+    ana, _ben = hands
+    ana.shared.clock = lambda: 1000.0
+    say(ana, "A", "a", typing=True)
+    ana.shared.clock = lambda: 1000.0 + pause_s
+    say(ana, "A", "ab", typing=True)
+    assert len(ana.history.path) == 1 + entry_count
+    # The pause is measured from the last keystroke, not from the first.
+    ana.shared.clock = lambda: 1059.0 + pause_s
+    say(ana, "A", "abc", typing=True)
+    assert len(ana.history.path) == 1 + entry_count
+
+
 def test_the_history_keeps_its_newest_steps(hands: tuple[DocumentSession, DocumentSession]) -> None:
     ana, _ben = hands
     for number in range(MAX_ENTRIES + 20):

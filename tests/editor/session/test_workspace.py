@@ -210,6 +210,34 @@ def test_generate_refuses_mistakes_and_hand_edits_in_words(workspace: Workspace)
     assert written.read_text() == edited
 
 
+def test_generate_writes_nothing_during_a_disk_conflict(workspace: Workspace) -> None:
+    document = opened(workspace, "Player")
+    files = {path: path.read_text() for path in workspace.generate(document).files}
+    with_doc(document, "mine")
+    write_doc(document, "theirs")
+    workspace.sync_from_disk()
+    assert document.shared.disk_conflict is not None
+    for is_forced in (False, True):
+        with pytest.raises(DiskConflictError):
+            workspace.generate(document, is_forced=is_forced)
+    with pytest.raises(DiskConflictError):
+        workspace.prepare_output(document)
+    assert {path: path.read_text() for path in files} == files
+
+
+def test_forced_generation_backs_up_hand_edits(workspace: Workspace) -> None:
+    document = opened(workspace, "Player")
+    (written,) = (path for path in workspace.generate(document).files if path.name == "player.py")
+    generated = written.read_text()
+    edited = generated.replace("recent = self._distances[-5:]", "recent = self._distances[-9:]")
+    written.write_text(edited)
+    assert not workspace.generate(document).is_complete
+    assert written.read_text() == edited
+    assert workspace.generate(document, is_forced=True).is_complete
+    assert written.read_text() == generated
+    assert written.with_name("player.py.edited").read_text() == edited
+
+
 def test_what_the_file_says_in_vain_is_a_finding_and_stops_generating(project: Path) -> None:
     file = project / "forward" / "turn.yaml"
     file.write_text(file.read_text() + "    on_enter: wave\n")
