@@ -170,10 +170,10 @@ class _OptionCompiler:
 
     def _check_else(self, decision: tree.DecisionNode, *, has_common: bool) -> None:
         if has_common and not decision.begins_with_else:
-            message = "the decision follows the common decision, but does not begin with else"
+            message = "the decision follows the common decision, but does not start with else"
             self.expressions.add_finding(decision.first_token, "X641", message, "write else at its start")
         if decision.begins_with_else and not has_common:
-            message = "the decision begins with else, but the option has no common decision"
+            message = "the decision starts with else, but the option has no common decision"
             self.expressions.add_finding(decision.first_token, "X632", message, "remove else")
 
     def _tree(self, node: tree.DecisionTreeNode, stay: Term) -> Term:

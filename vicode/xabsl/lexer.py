@@ -28,7 +28,7 @@ _TOKEN_ERRORS = {
         "the original compiler reads /**/ as the start of a description",
         "write a space between the asterisks: /* */",
     ),
-    "initial": ("X651", "a comment that begins with /*** is allowed only at the start of a file", "begin it with /*"),
+    "initial": ("X651", "a comment that starts with /*** is allowed only at the start of a file", "start it with /*"),
     "name": ("X651", "the original compiler reads {}- as one name", "write a space: {} -"),
     "close": ("X603", "*/ without a matching /*", "remove it"),
     "/*": ("X602", "a comment that is never closed", "end it with */"),

@@ -1,4 +1,4 @@
-"""A compiled program. Decisions and actions are nested tuples that begin with a letter of the intermediate code.
+"""A compiled program. Decisions and actions are nested tuples that start with a letter of the intermediate code.
 
 decimal   ("v", number) ("c", text of a constant) ("i", symbol, arguments) ("o", symbol) ("p", parameter)
           ("+", a, b) ("-", a, b) ("*", a, b) ("d", a, b) a / b ("%", a, b) ("s",) state_time ("t",) option_time
