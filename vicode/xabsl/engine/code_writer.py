@@ -8,7 +8,7 @@ _LOGICAL_OPERATORS = {"&", "|"}
 
 
 def write_code(program: Program) -> str:
-    """Write intermediate code with the line breaks of the original compiler. It starts with the only comment."""
+    """Write intermediate code with the line breaks of the original compiler. The first line is a comment."""
     lines = [f"// Intermediate code for the agents of {program.title}", "", str(len(program.enums))]
     lines += [f"{name} {len(elements)} {' '.join(elements)}" for name, elements in program.enums]
     lines += [str(len(program.symbols)), *(_slot(slot) for slot in program.symbols), "", str(len(program.options))]

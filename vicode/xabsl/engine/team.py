@@ -7,7 +7,7 @@ from dataclasses import dataclass
 class CoopMessage:
     """Message to the other robots: numbers of the cooperative states that the robot executes or wants to enter.
 
-    `option_executed` are those of all options that it executes.
+    `option_executed` are the cooperative states of all options that it executes.
     """
 
     priority: int = 0
