@@ -1,4 +1,4 @@
-"""`vicode xabsl`: its commands as one types them."""
+"""The commands of `vicode xabsl`."""
 
 import json
 import os
@@ -19,13 +19,13 @@ def test_a_behavior_is_compiled_and_run(tmp_path: Path, capsys: pytest.CaptureFi
     assert parse_words(code.read_text()) == parse_words(read_case("drive_circle", "intermediate.dat"))
     inputs = ["--symbols", str(symbols), "--inputs", str(CIRCLE / "inputs.csv")]
     assert main(["xabsl", "run", str(code), *inputs, "--trace", str(trace)]) == 0
-    wanted = [json.loads(line) for line in read_case("drive_circle", "trace.jsonl").splitlines()]
-    assert [json.loads(line) for line in trace.read_text().splitlines()] == wanted
+    expected = [json.loads(line) for line in read_case("drive_circle", "trace.jsonl").splitlines()]
+    assert [json.loads(line) for line in trace.read_text().splitlines()] == expected
     assert main(["xabsl", "run", str(code), *inputs, "--bench", "3"]) == 0
-    assert "cycles a second" in capsys.readouterr().out
+    assert "cycles per second" in capsys.readouterr().out
 
 
-def test_the_file_with_the_agents_is_found_or_named(
+def test_a_file_without_agents_is_rejected_with_a_suggestion(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     shutil.copytree(CIRCLE, tmp_path / "circle")
@@ -48,22 +48,22 @@ def test_without_output_the_code_is_printed(capsys: pytest.CaptureFixture[str]) 
     assert parse_words(capsys.readouterr().out) == parse_words(read_case("drive_circle", "intermediate.dat"))
 
 
-def test_nothing_is_written_where_something_is_wrong(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_errors_prevent_the_output(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     shutil.copytree(CIRCLE, tmp_path / "circle")
     file = tmp_path / "circle" / "Options" / "drive_circle.xabsl"
     file.write_text(file.read_text().replace("goto stop", "goto stopp"))
     agents, code = str(tmp_path / "circle" / "agents.xabsl"), tmp_path / "circle.dat"
     assert main(["xabsl", "compile", agents, "-o", str(code)]) == 1
-    said = capsys.readouterr().err
-    assert "did you mean 'stop'?" in said
-    assert "^^^^^" in said
+    errors = capsys.readouterr().err
+    assert "did you mean 'stop'?" in errors
+    assert "^^^^^" in errors
     assert not code.exists()
     assert main(["xabsl", "check", agents, "--json"]) == 1
-    (finding,) = [each for each in json.loads(capsys.readouterr().out) if each["severity"] == "error"]
+    (finding,) = [entry for entry in json.loads(capsys.readouterr().out) if entry["severity"] == "error"]
     assert (finding["code"], finding["file"]) == ("X621", str(file))
 
 
-def test_strict_refuses_slips(tmp_path: Path) -> None:
+def test_strict_rejects_what_the_original_cannot_read(tmp_path: Path) -> None:
     shutil.copytree(CIRCLE, tmp_path / "circle")
     agents = tmp_path / "circle" / "agents.xabsl"
     assert main(["xabsl", "check", str(agents), "--strict"]) == 0
@@ -72,7 +72,7 @@ def test_strict_refuses_slips(tmp_path: Path) -> None:
     assert main(["xabsl", "check", str(agents), "--strict"]) == 1
 
 
-def test_files_are_laid_out_once(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_files_are_formatted(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     shutil.copytree(CIRCLE, tmp_path / "circle")
     (tmp_path / "circle" / "broken.xabsl").write_text("option {")
     option = tmp_path / "circle" / "Options" / "drive_circle.xabsl"
@@ -88,7 +88,7 @@ def test_files_are_laid_out_once(tmp_path: Path, capsys: pytest.CaptureFixture[s
 
 
 @pytest.mark.parametrize(
-    ("name", "text", "told"),
+    ("name", "text", "expected"),
     [
         ("code", "0 0 1", "unexpected end of the code"),
         ("symbols", "din", "line 1: missing words"),
@@ -98,30 +98,30 @@ def test_files_are_laid_out_once(tmp_path: Path, capsys: pytest.CaptureFixture[s
         ("symbols", "bb turn 1 d turn.speed\n", "decimal input symbol amount_turned is not registered"),
     ],
 )
-def test_files_that_do_not_fit_are_told(
-    name: str, text: str, told: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+def test_files_that_do_not_match_are_reported(
+    name: str, text: str, expected: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    given = {"code": CIRCLE / "intermediate.dat", "symbols": CIRCLE / "symbols.txt", "inputs": CIRCLE / "inputs.csv"}
-    given[name] = tmp_path / name
-    given[name].write_text(text)
-    files = ["--symbols", str(given["symbols"]), "--inputs", str(given["inputs"])]
-    assert main(["xabsl", "run", str(given["code"]), *files]) == 1
-    assert told in capsys.readouterr().err
+    files = {"code": CIRCLE / "intermediate.dat", "symbols": CIRCLE / "symbols.txt", "inputs": CIRCLE / "inputs.csv"}
+    files[name] = tmp_path / name
+    files[name].write_text(text)
+    options = ["--symbols", str(files["symbols"]), "--inputs", str(files["inputs"])]
+    assert main(["xabsl", "run", str(files["code"]), *options]) == 1
+    assert expected in capsys.readouterr().err
 
 
-def test_a_file_that_is_not_there_is_told(capsys: pytest.CaptureFixture[str]) -> None:
+def test_missing_files_are_reported(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["xabsl", "compile", "nowhere.xabsl"]) == 1
     assert "nowhere.xabsl cannot be read" in capsys.readouterr().err
     assert main(["xabsl", "run", "nowhere.dat", "--symbols", "x", "--inputs", "y"]) == 2
 
 
-# Behaviors of teams, fetched by whoever wants to try them: paths of files with agents, divided by colons.
+# Optional behaviors of teams: paths of files with agents, separated by colons.
 BEHAVIORS = [path for path in os.environ.get("VICODE_XABSL_BEHAVIORS", "").split(":") if path]
 
 
 @pytest.mark.parametrize("agents", BEHAVIORS or [str(CIRCLE / "agents.xabsl")])
 def test_behaviors_of_teams_compile_without_errors(agents: str, tmp_path: Path) -> None:
-    """Beside each may lie `intermediate.dat`, what the original compiler made of it."""
+    """An optional `intermediate.dat` in the same folder is the output of the original compiler."""
     code = tmp_path / "code.dat"
     assert main(["xabsl", "compile", agents, "-o", str(code)]) == 0
     original = Path(agents).with_name("intermediate.dat")

@@ -1,4 +1,4 @@
-"""Whole XABSL behaviors that are valid, as syntax trees."""
+"""Valid XABSL behaviors as syntax trees."""
 
 from collections.abc import Callable
 
@@ -34,27 +34,27 @@ def functions() -> list[tree.DeclarationNode]:
 
 def symbols(*, with_functions: bool = False) -> tree.NamespaceNode:
     """The symbols of every random behavior."""
-    declared: list[tree.DeclarationNode] = [
+    declarations: list[tree.DeclarationNode] = [
         tree.EnumerationNode(name("side"), [name("left"), name("right"), name("top")]),
         tree.ConstantNode(name("limit"), "-2.5"),
     ]
     for kind, inputs in (("d", DECIMALS), ("b", BOOLS), ("e", SIDES)):
-        declared += [tree.SymbolNode("input", name(each), make_type(kind)) for each in inputs]
+        declarations += [tree.SymbolNode("input", name(symbol), make_type(kind)) for symbol in inputs]
         output, internal = OUT[kind]
-        declared.append(tree.SymbolNode("output", name(output), make_type(kind)))
-        declared.append(tree.SymbolNode("internal", name(internal), make_type(kind)))
-    declared += functions() if with_functions else []
-    return tree.NamespaceNode(name("symbols"), "Symbols", declared)
+        declarations.append(tree.SymbolNode("output", name(output), make_type(kind)))
+        declarations.append(tree.SymbolNode("internal", name(internal), make_type(kind)))
+    declarations += functions() if with_functions else []
+    return tree.NamespaceNode(name("symbols"), "Symbols", declarations)
 
 
 def basic_behaviors() -> tree.NamespaceNode:
     """The basic behaviors of every random behavior."""
     parameters = [tree.ParameterNode(name(f"p.{kind}"), make_type(kind)) for kind in "dbe"]
-    declared: list[tree.DeclarationNode] = [
+    declarations: list[tree.DeclarationNode] = [
         tree.BehaviorNode(name("act"), parameters),
         tree.BehaviorNode(name("rest"), []),
     ]
-    return tree.NamespaceNode(name("acts"), "Acts", declared)
+    return tree.NamespaceNode(name("acts"), "Acts", declarations)
 
 
 class _OptionBuilder:
@@ -70,7 +70,7 @@ class _OptionBuilder:
         return self.draw(st.sampled_from(choices))
 
     def expression(self, kind: str, depth: int) -> tree.ExpressionNode:
-        """An expression of a kind, in parentheses where precedence wants them."""
+        """An expression of a kind, in parentheses where precedence requires them."""
         if depth > 0 and self.has_functions and self.pick(0, 1):
             return self.function(kind, depth - 1)
         if depth <= 0 or self.pick(0, 0, 1):
@@ -101,83 +101,89 @@ class _OptionBuilder:
         return tree.BinaryNode(str(self.pick("==", "!=")), left, self.leaf("e"))
 
     def function(self, kind: str, depth: int) -> tree.ExpressionNode:
-        """An input symbol with some of its arguments, among which it may stand again."""
-        takes = {"d": (("a.e", "e"), ("a.d", "d"), ("a.b", "b"))}.get(kind, (("a", "d"),))
-        given = [tree.ArgumentNode(name(word), self.expression(of, depth)) for word, of in takes if self.pick(0, 1, 1)]
-        return tree.FunctionCallNode(name(f"fun.{kind}"), tree.ArgumentListNode(given))
+        """An input symbol with some of its arguments, which may contain calls of the same symbol."""
+        parameters = {"d": (("a.e", "e"), ("a.d", "d"), ("a.b", "b"))}.get(kind, (("a", "d"),))
+        arguments = [
+            tree.ArgumentNode(name(parameter), self.expression(parameter_kind, depth))
+            for parameter, parameter_kind in parameters
+            if self.pick(0, 1, 1)
+        ]
+        return tree.FunctionCallNode(name(f"fun.{kind}"), tree.ArgumentListNode(arguments))
 
     def operand(self, kind: str, depth: int) -> tree.ExpressionNode:
-        """An expression that can be an operand of anything."""
-        found = self.expression(kind, depth)
-        return (
-            tree.ParenthesizedNode(found)
-            if isinstance(found, tree.UnaryNode | tree.BinaryNode | tree.ConditionalNode)
-            else found
-        )
+        """An expression that can be an operand of any operator."""
+        node = self.expression(kind, depth)
+        is_compound = isinstance(node, tree.UnaryNode | tree.BinaryNode | tree.ConditionalNode)
+        return tree.ParenthesizedNode(node) if is_compound else node
 
     def leaf(self, kind: str) -> tree.ExpressionNode:
-        own = [f"@p{at}" for at, each in enumerate(self.own) if each == kind]
+        parameters = [f"@p{index}" for index, own_kind in enumerate(self.own) if own_kind == kind]
         if kind == "d":
-            numbers = [tree.NumberNode(each) for each in ("0", "1", "7.25", "40", "100")]
-            words = [tree.KeywordNode("state_time"), tree.KeywordNode("option_time")]
-            refs = [tree.ReferenceNode(each) for each in (*DECIMALS, *OUT["d"], *own, "limit")]
-            return self.pick(*numbers, *words, *refs)  # type: ignore[return-value]
+            numbers = [tree.NumberNode(text) for text in ("0", "1", "7.25", "40", "100")]
+            keywords = [tree.KeywordNode("state_time"), tree.KeywordNode("option_time")]
+            references = [tree.ReferenceNode(symbol) for symbol in (*DECIMALS, *OUT["d"], *parameters, "limit")]
+            return self.pick(*numbers, *keywords, *references)  # type: ignore[return-value]
         if kind == "b":
-            words = [tree.KeywordNode(each) for each in ("true", "false", "action_done")]
-            return self.pick(*words, *(tree.ReferenceNode(each) for each in (*BOOLS, *OUT["b"], *own)))  # type: ignore[return-value]
-        return tree.ReferenceNode(str(self.pick(*ELEMENTS, *SIDES, *OUT["e"], *own)))
+            keywords = [tree.KeywordNode(keyword) for keyword in ("true", "false", "action_done")]
+            references = [tree.ReferenceNode(symbol) for symbol in (*BOOLS, *OUT["b"], *parameters)]
+            return self.pick(*keywords, *references)  # type: ignore[return-value]
+        return tree.ReferenceNode(str(self.pick(*ELEMENTS, *SIDES, *OUT["e"], *parameters)))
 
     def decision(self, depth: int) -> tree.DecisionTreeNode:
-        """A decision that ends in goto or stay on every way."""
+        """A decision in which every branch ends in goto or stay."""
         if depth <= 0 or self.pick(0, 1):
-            found: tree.DecisionTreeNode = self.pick(
-                tree.StayNode(), *(tree.GotoNode(name(each)) for each in self.states)
-            )  # type: ignore[assignment]
+            gotos = [tree.GotoNode(name(state)) for state in self.states]
+            node: tree.DecisionTreeNode = self.pick(tree.StayNode(), *gotos)  # type: ignore[assignment]
         else:
-            found = tree.IfNode(
-                self.expression("b", 2), self.decision(depth - 1), self.decision(depth - 1), str(self.pick("", "why"))
+            node = tree.IfNode(
+                self.expression("b", 2),
+                self.decision(depth - 1),
+                self.decision(depth - 1),
+                str(self.pick("", "reason")),
             )
-        return tree.BlockNode(found) if self.pick(0, 0, 1) else found
+        return tree.BlockNode(node) if self.pick(0, 0, 1) else node
 
     def actions(self) -> tree.ActionBlockNode:
         return tree.ActionBlockNode([self.action() for _ in range(self.draw(st.integers(0, 3)))])
 
     def action(self) -> tree.ActionNode:
-        what = self.pick("set", "act", *(["call"] if self.callees else []))
-        if what == "set":
+        action = self.pick("set", "act", *(["call"] if self.callees else []))
+        if action == "set":
             kind = str(self.pick(*"dbe"))
             return tree.AssignmentNode(name(str(self.pick(*OUT[kind]))), self.expression(kind, 2))
-        if what == "act":
+        if action == "act":
             callee, kinds, prefix = "act", "dbe", "p."
-            words = [f"{prefix}{kind}" for kind in kinds]
+            parameters = [f"{prefix}{kind}" for kind in kinds]
         else:
             callee = str(self.pick(*self.callees))
             kinds = self.callees[callee]
-            words = [f"p{at}" for at in range(len(kinds))]
-        given = [
-            tree.ArgumentNode(name(word), self.expression(kind, 1))
-            for word, kind in zip(words, kinds, strict=True)
+            parameters = [f"p{index}" for index in range(len(kinds))]
+        arguments = [
+            tree.ArgumentNode(name(parameter), self.expression(kind, 1))
+            for parameter, kind in zip(parameters, kinds, strict=True)
             if self.pick(0, 1)
         ]
-        return tree.CallNode(name(callee), tree.ArgumentListNode(given, bool(given) and bool(self.pick(0, 0, 1))))
+        return tree.CallNode(
+            name(callee), tree.ArgumentListNode(arguments, bool(arguments) and bool(self.pick(0, 0, 1)))
+        )
 
 
 @st.composite
 def behaviors(draw: Callable, *, with_functions: bool = False) -> dict[str, tree.FileNode]:
-    """The files of a behavior, its agents in agents.xabsl; with or without input symbols that take arguments."""
+    """The files of a behavior, with its agents in agents.xabsl."""
     names = [f"o{number}" for number in range(draw(st.integers(1, 3)))]
-    kinds = {each: draw(st.text("dbe", max_size=2)) if number else "" for number, each in enumerate(names)}
+    kinds = {option: draw(st.text("dbe", max_size=2)) if number else "" for number, option in enumerate(names)}
     files = {
         "symbols.xabsl": tree.FileNode(body=[symbols(with_functions=with_functions)]),
         "acts.xabsl": tree.FileNode(body=[basic_behaviors()]),
     }
-    for number, each in enumerate(names):
-        states = [f"s{at}" for at in range(draw(st.integers(1, 3)))]
+    for number, option in enumerate(names):
+        states = [f"s{index}" for index in range(draw(st.integers(1, 3)))]
         later = {callee: kinds[callee] for callee in names[number + 1 :]}
-        files[f"{each}.xabsl"] = tree.FileNode(
-            body=[_option(draw, each, kinds[each], later, states, has_functions=with_functions)]
+        files[f"{option}.xabsl"] = tree.FileNode(
+            body=[_option(draw, option, kinds[option], later, states, has_functions=with_functions)]
         )
-    includes = [tree.IncludeNode(each) for each in files]
+    includes = [tree.IncludeNode(file) for file in files]
     agent = tree.AgentNode(name("main"), "Main", name("o0"))
     return {**files, "agents.xabsl": tree.FileNode(includes=includes, body=[agent])}
 
@@ -185,22 +191,24 @@ def behaviors(draw: Callable, *, with_functions: bool = False) -> dict[str, tree
 def _option(
     draw: Callable, own: str, kinds: str, later: dict[str, str], states: list[str], *, has_functions: bool
 ) -> tree.OptionNode:
-    make = _OptionBuilder(draw, kinds, later, states, has_functions=has_functions)
+    builder = _OptionBuilder(draw, kinds, later, states, has_functions=has_functions)
     has_common = draw(st.booleans())
     common = None
     if has_common:
-        goto = tree.GotoNode(name(str(make.pick(*states))))
-        common = tree.IfNode(make.expression("b", 1), goto, None)
-    built = [
+        goto = tree.GotoNode(name(str(builder.pick(*states))))
+        common = tree.IfNode(builder.expression("b", 1), goto, None)
+    state_nodes = [
         tree.StateNode(
-            name(each),
-            make.actions(),
-            tree.DecisionNode(make.decision(2), has_common) if draw(st.booleans()) else None,
+            name(state),
+            builder.actions(),
+            tree.DecisionNode(builder.decision(2), has_common) if draw(st.booleans()) else None,
             is_initial=not number,
             is_target=draw(st.booleans()),
         )
-        for number, each in enumerate(states)
+        for number, state in enumerate(states)
     ]
-    parameters = [tree.ParameterNode(name(f"@p{at}"), make_type(kind)) for at, kind in enumerate(kinds)]
-    actions = make.actions() if draw(st.booleans()) else None
-    return tree.OptionNode(name(own), parameters, built, common, actions, doc=str(make.pick("", "does something")))
+    parameters = [tree.ParameterNode(name(f"@p{index}"), make_type(kind)) for index, kind in enumerate(kinds)]
+    actions = builder.actions() if draw(st.booleans()) else None
+    return tree.OptionNode(
+        name(own), parameters, state_nodes, common, actions, doc=str(builder.pick("", "does something"))
+    )

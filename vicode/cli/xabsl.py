@@ -41,11 +41,13 @@ def run(args: argparse.Namespace) -> int:
 def _add_check(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("agents", metavar="AGENTS.xabsl", type=Path, help="the file with the agents")
     parser.add_argument("--json", action="store_true", help="print the findings as JSON")
-    parser.add_argument("--strict", action="store_true", help="refuse what the original compiler does not read")
+    parser.add_argument(
+        "--strict", action="store_true", help="reject constructs that the original compiler or its engines cannot read"
+    )
 
 
 def _check(args: argparse.Namespace) -> int:
-    """Tell what is wrong with a behavior, all of it at once."""
+    """Check a behavior and report all problems at once."""
     compiled = compile_behavior(args.agents)
     if args.json:
         from vicode.findings import render_json
@@ -59,8 +61,8 @@ def _check(args: argparse.Namespace) -> int:
 
 def _add_compile(parser: argparse.ArgumentParser) -> None:
     _add_check(parser)
-    parser.add_argument("--output", "-o", metavar="FILE", type=Path, help="where the intermediate code goes")
-    parser.add_argument("--symbols", metavar="FILE", type=Path, help="where a list of all symbols goes")
+    parser.add_argument("--output", "-o", metavar="FILE", type=Path, help="write the intermediate code to FILE")
+    parser.add_argument("--symbols", metavar="FILE", type=Path, help="write the list of all symbols to FILE")
 
 
 def _compile(args: argparse.Namespace) -> int:
@@ -72,9 +74,9 @@ def _compile(args: argparse.Namespace) -> int:
     from vicode.xabsl.engine.symbols import write_symbols
 
     compiled = compile_behavior(args.agents)
-    # Notes are what `check` is for; here they would hide what matters.
+    # Only `check` prints notes: here they would hide errors and warnings.
     print_behavior_findings(
-        [each for each in compiled.findings if args.strict or each.severity is not Severity.NOTE], args.agents
+        [finding for finding in compiled.findings if args.strict or finding.severity is not Severity.NOTE], args.agents
     )
     code = _exit_code(compiled, strict=args.strict)
     if code or compiled.program is None:
@@ -93,12 +95,22 @@ def _compile(args: argparse.Namespace) -> int:
 def _add_run(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("code", metavar="CODE", type=Path, help="intermediate code")
     parser.add_argument("--symbols", metavar="FILE", type=Path, required=True, help="the list of all symbols")
-    parser.add_argument("--inputs", metavar="CSV", type=Path, required=True, help="a row of inputs for every cycle")
-    parser.add_argument("--trace", metavar="JSONL", type=Path, help="where the trace goes, a line a cycle")
-    parser.add_argument("--strict", action="store_true", help="as the second version of the original engine")
-    parser.add_argument("--team", metavar="N", type=int, default=0, help="run N robots, columns named 0:time …")
+    parser.add_argument("--inputs", metavar="CSV", type=Path, required=True, help="inputs, one row per cycle")
+    parser.add_argument("--trace", metavar="JSONL", type=Path, help="write the trace to JSONL, one line per cycle")
+    parser.add_argument(
+        "--strict", action="store_true", help="apply the rules of the second version of the original engine"
+    )
+    parser.add_argument(
+        "--team",
+        metavar="N",
+        type=int,
+        default=0,
+        help="run N robots; prefix columns with the number of the robot, such as 0:",
+    )
     parser.add_argument("--ticks", metavar="T", type=int, default=0, help="cycles until the others have answered")
-    parser.add_argument("--bench", metavar="N", type=int, default=0, help="run all inputs N times and tell how fast")
+    parser.add_argument(
+        "--bench", metavar="N", type=int, default=0, help="run all inputs N times and print the cycles per second"
+    )
 
 
 def _run(args: argparse.Namespace) -> int:
@@ -117,9 +129,8 @@ def _run(args: argparse.Namespace) -> int:
         file = args.inputs
         rows = read_rows(args.inputs.read_text(encoding="utf-8").splitlines())
         if args.bench:
-            print(
-                f"{measure_cycles_per_second(program, symbols, rows, args.bench, strict=args.strict):.0f} cycles a second of CPU"
-            )
+            cycles_per_second = measure_cycles_per_second(program, symbols, rows, args.bench, strict=args.strict)
+            print(f"{cycles_per_second:.0f} cycles per second of CPU time")
             return 0
         if args.team:
             lines = replay_team(program, symbols, rows, args.team, args.ticks, strict=args.strict)
@@ -141,41 +152,43 @@ def _run(args: argparse.Namespace) -> int:
 
 
 def _add_format(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("paths", metavar="PATH", nargs="+", type=Path, help="a file, or a folder of them")
-    parser.add_argument("--check", action="store_true", help="write nothing; tell which files would change")
+    parser.add_argument("paths", metavar="PATH", nargs="+", type=Path, help="a file or a folder")
+    parser.add_argument("--check", action="store_true", help="write nothing; list the files that would change")
 
 
 def _format(args: argparse.Namespace) -> int:
-    """Lay files out in one way; comments stay, and so does what they mean."""
+    """Format files; comments are kept."""
     from vicode.output import write_atomically
     from vicode.xabsl.source_loader import format_file
 
     code = 0
     for path in _files(args.paths):
         try:
-            outcome = format_file(path)
+            result = format_file(path)
         except OSError as error:
             print(f"vicode: {describe_os_error(error)}", file=sys.stderr)
             code = 2
             continue
-        if outcome.findings:
-            print_findings(outcome.findings, to_stderr=True)
-            print(f"{path}: not formatted, as it cannot be read whole", file=sys.stderr)
+        if result.findings:
+            print_findings(result.findings, to_stderr=True)
+            print(f"{path}: not formatted because of syntax errors", file=sys.stderr)
             code = code or 1
-        elif outcome.formatted != outcome.original:
+        elif result.formatted != result.original:
             print(f"{path}: {'would change' if args.check else 'formatted'}")
             code = code or int(args.check)
             if not args.check:
-                write_atomically(path, outcome.formatted)
+                write_atomically(path, result.formatted)
     return code
 
 
 def _add_lsp(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("--grammar", action="store_true", help="print a syntax file for VS Code (TextMate) instead")
+    parser.add_argument(
+        "--grammar", action="store_true", help="print a TextMate grammar for VS Code and other editors instead"
+    )
 
 
 def _lsp(args: argparse.Namespace) -> int:
-    """Serve text editors by the Language Server Protocol, on standard input and output."""
+    """Run a language server on standard input and output."""
     if args.grammar:
         from vicode.xabsl.server.grammar import grammar_text
 
@@ -188,12 +201,12 @@ def _lsp(args: argparse.Namespace) -> int:
 
 
 def _files(paths: "Iterable[Path]") -> "list[Path]":
-    found: list[Path] = []
+    files: list[Path] = []
     for path in paths:
-        found += sorted(path.rglob("*.xabsl")) if path.is_dir() else [path]
-    return found
+        files += sorted(path.rglob("*.xabsl")) if path.is_dir() else [path]
+    return files
 
 
 def _exit_code(compiled: "CompileResult", *, strict: bool) -> int:
-    slips = strict and any(each.rule.code in _STRICT_CODES for each in compiled.findings)
-    return int(compiled.program is None or slips)
+    is_rejected = strict and any(finding.rule.code in _STRICT_CODES for finding in compiled.findings)
+    return int(compiled.program is None or is_rejected)

@@ -1,4 +1,4 @@
-"""What the commands about XABSL share: compiling a behavior, and showing what is wrong with it."""
+"""Loads and compiles XABSL behaviors for several commands, and prints their findings."""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
@@ -17,10 +17,10 @@ _FOLDERS_ABOVE = 4
 
 
 def load_behavior(agents: Path, parse_text: "ParseText | None" = None) -> "ProgramSource":
-    """Read the behavior whose agents are in this file.
+    """Load the behavior whose agents are in this file.
 
     Raises:
-        OSError: It is another file of a behavior, of which the words would mean nothing alone.
+        OSError: The file has no agents, so it cannot be compiled separately.
     """
     from vicode.xabsl.parser import parse
     from vicode.xabsl.source_loader import load_source
@@ -28,8 +28,8 @@ def load_behavior(agents: Path, parse_text: "ParseText | None" = None) -> "Progr
     source = load_source(agents, parse_text=parse_text or parse)
     main = source.files.get(source.main)
     if main is not None and main.file.body and not source.has_agents:
-        found = next(_nearby_agent_files(agents), None)
-        raise OSError(f"{agents} has no agents; name the file that has them{f': {found}' if found else ''}")
+        suggestion = next(_nearby_agent_files(agents), None)
+        raise OSError(f"{agents} has no agents; name the file that has them{f': {suggestion}' if suggestion else ''}")
     return source
 
 
@@ -46,7 +46,7 @@ def compile_behavior(agents: Path) -> "CompileResult":
     """Compile the behavior whose agents are in this file.
 
     Raises:
-        OSError: It is another file of a behavior.
+        OSError: The file has no agents.
     """
     from vicode.xabsl.compiler import compile_source
 
@@ -54,14 +54,15 @@ def compile_behavior(agents: Path) -> "CompileResult":
 
 
 def with_display_paths(findings: "Sequence[Finding]", agents: Path) -> "tuple[Finding, ...]":
-    """Findings with the paths of files as they are seen from here."""
+    """Replace the paths in findings by paths relative to the working directory."""
     folder = agents.parent
     return tuple(
-        replace(each, location=replace(each.location, file=str(folder / each.location.file)) if each.location else None)
-        for each in findings
+        replace(finding, location=replace(finding.location, file=str(folder / finding.location.file)))
+        if finding.location
+        else finding
+        for finding in findings
     )
 
 
 def print_behavior_findings(findings: "Sequence[Finding]", agents: Path, *, to_stderr: bool = True) -> None:
-    """Print findings."""
     print_findings(with_display_paths(findings, agents), to_stderr=to_stderr)
