@@ -1,4 +1,4 @@
-"""The rules of the house that no linter knows; every failure lists all offenders and says what to mend."""
+"""Conventions that linters do not check. Each failure lists all offenders and how to fix them."""
 
 import ast
 import re
@@ -19,7 +19,7 @@ NESTING = 4
 POSITIONAL_PARAMETERS = 5
 LARGEST_TEXT_BYTES = 2_000_000
 
-# library -> the only room that may import it
+# library -> the only package that may import it
 PACKAGE_OF_LIBRARY = {
     "fastapi": "editor",
     "graphviz": "diagram",
@@ -40,21 +40,21 @@ PACKAGE_OF_LIBRARY = {
     "yaml": "store",
 }
 
-# (pattern, what to do instead, files it holds for); one letter in brackets keeps a pattern from finding itself.
+# (pattern, fix, files to search); the brackets keep a pattern from matching itself.
 FORBIDDEN_TEXT = (
     (r"\b(TO[D]O|FIX[M]E|XX[X])\b", "do it now, or write an issue", "code"),
     (r"\bNotImplemented[E]rror\b", "leave out what does not exist yet", "code"),
-    (r"\bpytest\.(mark\.)?(skip|skipif|xfail|importorski[p])\b", "a test that does not run proves nothing", "code"),
-    (r"\bnew Functio[n]\(", "hand over data, not code", "code"),
-    (r"(?<![\w.])/(wor[k]|hom[e]|roo[t]|User[s])/", "no paths of one machine: use a relative path", "text"),
-    (r"\b(pypi\.or[g]|pythonhosted\.or[g]|registry\.npmjs\.or[g]|jfrog\.i[o])", "the installer knows its host", "text"),
+    (r"\bpytest\.(mark\.)?(skip|skipif|xfail|importorski[p])\b", "run or delete the test", "code"),
+    (r"\bnew Functio[n]\(", "pass data instead of code", "code"),
+    (r"(?<![\w.])/(wor[k]|hom[e]|roo[t]|User[s])/", "use a relative path", "text"),
+    (r"\b(pypi\.or[g]|pythonhosted\.or[g]|registry\.npmjs\.or[g]|jfrog\.i[o])", "do not name registry hosts", "text"),
 )
 
-# Calls that run text as code, and where they are needed nonetheless.
+# Calls that run text as code, and modules that need them.
 RUNNING_CALLS = {"eval", "exec"}
 RUNNING_ALLOWED = frozenset(
     {
-        # The engine runs behaviors as Python that it writes itself, in names of its own.
+        # The engine compiles behaviors to Python that it generates itself, with its own names.
         "vicode/xabsl/engine/engine.py",
     }
 )
@@ -79,7 +79,7 @@ NESTING_STATEMENTS = (
 
 
 def _list_files() -> tuple[str, ...]:
-    """Return every file that is committed or could be, as posix paths from the top."""
+    """Return all tracked and untracked files that are not ignored, as POSIX paths relative to the root."""
     command = ["git", "-c", "safe.directory=*", "ls-files", "-z", "--cached", "--others", "--exclude-standard"]
     listed = subprocess.run(command, cwd=ROOT, check=True, capture_output=True, text=True).stdout
     return tuple(sorted(path for path in set(listed.split("\0")) if path and (ROOT / path).is_file()))
@@ -87,7 +87,7 @@ def _list_files() -> tuple[str, ...]:
 
 FILES = _list_files()
 PYTHON = tuple(path for path in FILES if path.endswith(".py") and path.startswith(("vicode/", "tests/", "benchmarks/")))
-# Cases hold what generators are expected to write, from designs made to be difficult.
+# Cases contain generated code for unusual designs.
 PYTHON = tuple(path for path in PYTHON if "/cases/" not in path)
 JAVASCRIPT = tuple(
     path for path in FILES if path.endswith((".js", ".mjs")) and path.startswith(("vicode/", "templates/", "tests/"))
@@ -95,7 +95,7 @@ JAVASCRIPT = tuple(
 PACKAGE = tuple(path for path in PYTHON if path.startswith("vicode/"))
 
 
-def test_there_is_something_to_check() -> None:
+def test_files_are_listed() -> None:
     assert "vicode/__init__.py" in PACKAGE
     assert "tests/architecture/test_code_rules.py" in PYTHON
 
@@ -103,27 +103,27 @@ def test_there_is_something_to_check() -> None:
 def test_modules_are_short() -> None:
     sizes = {path: _read(path).count("\n") for path in (*PYTHON, *JAVASCRIPT)}
     offenders = [f"{path}: {size} lines" for path, size in sizes.items() if size > MODULE_LINES]
-    _assert_none(offenders, f"split by what the parts are for (at most {MODULE_LINES} lines)")
+    _assert_none(offenders, f"split by purpose (at most {MODULE_LINES} lines)")
 
 
 def test_module_names_are_specific() -> None:
     parts = {path: {part.lower() for part in Path(path).with_suffix("").parts} for path in (*PYTHON, *JAVASCRIPT)}
     offenders = [path for path, names in parts.items() if names & VAGUE_NAMES]
-    _assert_none(offenders, "name the module after the thing it holds")
+    _assert_none(offenders, "name the module after its content")
 
 
 def test_modules_have_docstrings() -> None:
     offenders = [path for path in PYTHON if not _has_short_docstring(path)]
     offenders += [path for path in JAVASCRIPT if not _read(path).lstrip().startswith(("//", "/*"))]
     _assert_none(
-        offenders, "begin with a docstring (JavaScript: a comment) whose first paragraph has one to three lines"
+        offenders, "start with a docstring (JavaScript: a comment) whose first paragraph has one to three lines"
     )
 
 
 def test_functions_are_short() -> None:
     sizes = {_describe_function(path, node): _count_lines(node) for path in PYTHON for node in _functions(path)}
     offenders = [f"{place}: {size} lines" for place, size in sizes.items() if size > FUNCTION_LINES]
-    _assert_none(offenders, f"name the steps as functions (at most {FUNCTION_LINES} lines)")
+    _assert_none(offenders, f"extract functions (at most {FUNCTION_LINES} lines)")
 
 
 def test_functions_are_flat() -> None:
@@ -131,13 +131,13 @@ def test_functions_are_flat() -> None:
         _describe_function(path, node): _measure_nesting(node.body) for path in PYTHON for node in _functions(path)
     }
     offenders = [f"{place}: {depth} levels" for place, depth in depths.items() if depth > NESTING]
-    _assert_none(offenders, f"return early, or make the inner part a function (at most {NESTING} levels)")
+    _assert_none(offenders, f"return early, or extract a function (at most {NESTING} levels)")
 
 
 def test_functions_take_few_positional_parameters() -> None:
     counts = {_describe_function(path, node): _count_positional(node) for path in PACKAGE for node in _functions(path)}
     offenders = [f"{place}: {count} parameters" for place, count in counts.items() if count > POSITIONAL_PARAMETERS]
-    _assert_none(offenders, f"put `*` before the rest (at most {POSITIONAL_PARAMETERS} positional)")
+    _assert_none(offenders, f"make the others keyword-only (at most {POSITIONAL_PARAMETERS} positional)")
 
 
 def test_public_class_names_are_unique() -> None:
@@ -151,8 +151,8 @@ def test_public_class_names_are_unique() -> None:
     _assert_none(sorted(REPEATED_CLASS_NAMES.keys() - repeated.keys()), "remove the exception: the name is unique")
 
 
-@pytest.mark.parametrize(("pattern", "mend", "kind"), FORBIDDEN_TEXT, ids=[row[1] for row in FORBIDDEN_TEXT])
-def test_no_forbidden_text(pattern: str, mend: str, kind: str) -> None:
+@pytest.mark.parametrize(("pattern", "fix", "kind"), FORBIDDEN_TEXT, ids=[row[1] for row in FORBIDDEN_TEXT])
+def test_no_forbidden_text(pattern: str, fix: str, kind: str) -> None:
     paths = (*PYTHON, *JAVASCRIPT) if kind == "code" else _text_files()
     expression = re.compile(pattern)
     offenders = [
@@ -161,7 +161,7 @@ def test_no_forbidden_text(pattern: str, mend: str, kind: str) -> None:
         for number, line in enumerate(_read(path).splitlines(), start=1)
         if expression.search(line)
     ]
-    _assert_none(offenders, mend)
+    _assert_none(offenders, fix)
 
 
 def test_no_text_is_run_as_code() -> None:
@@ -172,43 +172,45 @@ def test_no_text_is_run_as_code() -> None:
         if isinstance(node.func, ast.Name) and node.func.id in RUNNING_CALLS and path not in RUNNING_ALLOWED
     ]
     offenders += [f"{path}: eval()" for path in JAVASCRIPT if re.search(r"(?<![\w.])eva[l]\(", _read(path))]
-    _assert_none(offenders, "nothing a user wrote is run inside the designer")
+    _assert_none(offenders, "the editor never runs text from users")
 
 
 def test_yaml_is_never_loaded_with_tags() -> None:
     unsafe = re.compile(r"yaml\.(unsafe_|full_)?loa[d](_all)?\(")
-    _assert_none([path for path in PYTHON if unsafe.search(_read(path))], "walk events or nodes, or use yaml.safe_load")
+    _assert_none(
+        [path for path in PYTHON if unsafe.search(_read(path))], "process events or nodes, or use yaml.safe_load"
+    )
 
 
 @pytest.mark.parametrize("library", sorted(PACKAGE_OF_LIBRARY))
 def test_only_one_package_imports_a_library(library: str) -> None:
-    home = PACKAGE_OF_LIBRARY[library]
+    package = PACKAGE_OF_LIBRARY[library]
     offenders = [
         f"{path} imports {library}"
         for path in PACKAGE
-        if library in _imported_libraries(path) and not path.startswith((f"vicode/{home}/", f"vicode/{home}.py"))
+        if library in _imported_libraries(path) and not path.startswith((f"vicode/{package}/", f"vicode/{package}.py"))
     ]
-    _assert_none(offenders, f"only vicode/{home} may import {library}: ask it instead")
+    _assert_none(offenders, f"only vicode/{package} may import {library}")
 
 
-def test_the_runtime_stands_alone() -> None:
+def test_the_runtime_has_no_dependencies() -> None:
     runtime = [path for path in PACKAGE if path.startswith("vicode/bica/")]
     foreign = {path: _imported_libraries(path) - set(sys.stdlib_module_names) for path in runtime}
     offenders = [f"{path} imports {', '.join(sorted(names))}" for path, names in foreign.items() if names]
-    _assert_none(offenders, "vicode/bica is copied to robots alone: standard library and relative imports only")
+    _assert_none(offenders, "vicode/bica is deployed alone: use only the standard library and relative imports")
 
 
-def test_languages_do_not_know_each_other() -> None:
+def test_generators_do_not_import_each_other() -> None:
     offenders = []
     for path in PACKAGE:
         match = re.match(r"vicode/generators/(\w+)/", path)
         others = _generator_packages() - {match.group(1)} if match else set()
         offenders += [f"{path} imports {name}" for name in _imported_generators(path) & others]
-    _assert_none(offenders, "what two languages share belongs into the plan")
+    _assert_none(offenders, "move shared code into the plan")
 
 
-def _assert_none(offenders: list[str], mend: str) -> None:
-    assert not offenders, f"{mend}:\n  " + "\n  ".join(offenders)
+def _assert_none(offenders: list[str], fix: str) -> None:
+    assert not offenders, f"{fix}:\n  " + "\n  ".join(offenders)
 
 
 def _read(path: str) -> str:
@@ -263,7 +265,7 @@ def _count_positional(node: FunctionNode) -> int:
 
 
 def _measure_nesting(body: list[ast.stmt]) -> int:
-    """Return how deep the compound statements of a body stand in each other; `elif` adds no level."""
+    """Return the nesting depth of compound statements; `elif` adds no level."""
     return max((_measure_statement(statement) for statement in body), default=0)
 
 

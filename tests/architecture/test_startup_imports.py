@@ -1,4 +1,4 @@
-"""Nothing heavy at the door: commands that open no browser start without NiceGUI."""
+"""Commands without a browser do not import NiceGUI or other slow libraries."""
 
 import subprocess
 import sys
@@ -23,25 +23,25 @@ try:
 except SystemExit as exit:
     code = exit.code
 heavy = {"nicegui", "fastapi", "uvicorn", "reportlab", "resvg_py", "pygraphviz"} & set(sys.modules)
-sys.exit(f"imported at the door: {sorted(heavy)}" if heavy else code)
+sys.exit(f"imported at startup: {sorted(heavy)}" if heavy else code)
 """
 
 
-def test_help_starts_light() -> None:
-    _assert_starts_light("--help")
+def test_help_imports_nothing_heavy() -> None:
+    _assert_imports_nothing_heavy("--help")
 
 
-def test_check_starts_light(tmp_path: Path) -> None:
-    _assert_starts_light("check", str(_write_design(tmp_path)))
+def test_check_imports_nothing_heavy(tmp_path: Path) -> None:
+    _assert_imports_nothing_heavy("check", str(_write_design(tmp_path)))
 
 
-def test_gen_starts_light(tmp_path: Path) -> None:
-    _assert_starts_light("gen", str(_write_design(tmp_path)), "--out", str(tmp_path / "out"))
+def test_gen_imports_nothing_heavy(tmp_path: Path) -> None:
+    _assert_imports_nothing_heavy("gen", str(_write_design(tmp_path)), "--out", str(tmp_path / "out"))
     assert list((tmp_path / "out").rglob("*.py")), "nothing was generated"
 
 
-def test_export_of_text_starts_light(tmp_path: Path) -> None:
-    _assert_starts_light("export", str(_write_design(tmp_path)), "--format", "mermaid")
+def test_text_export_imports_nothing_heavy(tmp_path: Path) -> None:
+    _assert_imports_nothing_heavy("export", str(_write_design(tmp_path)), "--format", "mermaid")
 
 
 def _write_design(folder: Path) -> Path:
@@ -50,7 +50,7 @@ def _write_design(folder: Path) -> Path:
     return path
 
 
-def _assert_starts_light(*arguments: str) -> None:
+def _assert_imports_nothing_heavy(*arguments: str) -> None:
     command = [sys.executable, "-c", PROGRAM, *arguments]
     result = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
     assert result.returncode == 0, result.stdout + result.stderr

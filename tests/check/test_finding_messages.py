@@ -1,4 +1,4 @@
-"""Findings say what is wrong in the user's words, how to mend it, and point at the very characters."""
+"""Messages, fixes and exact positions of findings."""
 
 from pathlib import Path
 
@@ -19,27 +19,27 @@ def _only(findings: tuple[Finding, ...]) -> Finding:
     return finding
 
 
-def test_the_nearest_state_is_named() -> None:
+def test_unknown_state_suggests_the_nearest_name() -> None:
     states = (State(name="Wait", transitions=(Transition(to="Kik"), Transition(to="Kick", guard=Guard(after="1")))),)
     design = _design(states=(*states, State(name="Kick", final=True)))
-    finding = next(each for each in check_design(Project(name="p"), design) if each.rule.code == "D402")
-    assert (finding.message, finding.fix) == ("there is no state 'Kik'", "did you mean 'Kick'?")
+    finding = next(finding for finding in check_design(Project(name="p"), design) if finding.rule.code == "D402")
+    assert (finding.message, finding.fix) == ("unknown state 'Kik'", "did you mean 'Kick'?")
     assert finding.subject == FindingSubject(component="Player", path=("states", "Wait", "transitions", 0, "to"))
 
 
-def test_a_circle_is_named_as_a_whole() -> None:
+def test_cycle_message_lists_all_components() -> None:
     names = ("Hen", "Egg", "Chick")
     designs = tuple(
         _design(component=name, uses=(Use(alias="next", component=names[(index + 1) % 3]),))
         for index, name in enumerate(names)
     )
     findings = check_project(Project(name="p", designs=designs), {"Egg"})
-    circle = next(finding for finding in findings if finding.rule.code == "D408")
-    assert circle.message == "components use each other in a circle: Egg → Chick → Hen → Egg"
+    cycle = next(finding for finding in findings if finding.rule.code == "D408")
+    assert cycle.message == "components use each other in a cycle: Egg → Chick → Hen → Egg"
     assert {finding.subject.component for finding in findings if finding.subject} == {"Egg"}
 
 
-def test_a_mistake_in_an_expression_is_marked_exactly() -> None:
+def test_span_covers_the_invalid_name_in_an_expression() -> None:
     guard = Guard(when="tries > 2 and tires < 3")
     transitions = (Transition(to="Rest", guard=guard),)
     design = _design(
@@ -53,7 +53,7 @@ def test_a_mistake_in_an_expression_is_marked_exactly() -> None:
     assert guard.when[slice(*finding.subject.span)] == "tires"
 
 
-def test_code_is_marked_where_python_stumbles() -> None:
+def test_span_covers_the_python_syntax_error() -> None:
     text = "    if True:\n        é = 1\n\n    x = = 2\n"
     problem = validate_python(text, "action")
     assert problem is not None
@@ -61,7 +61,7 @@ def test_code_is_marked_where_python_stumbles() -> None:
     assert text[: problem[1][0]].count("\n") == 3
 
 
-def test_code_is_judged_where_it_will_stand() -> None:
+def test_code_is_validated_in_its_role() -> None:
     assert validate_python("return 1", "action") is None
     assert validate_python("return 1", "module") is not None
     assert validate_python("def f(self):\n    return 1", "members") is None
@@ -84,14 +84,14 @@ def test_no_code_is_run(tmp_path: Path) -> None:
     assert not mark.exists()
 
 
-def test_the_design_handed_over_counts_and_not_the_one_in_the_project() -> None:
+def test_check_design_replaces_the_design_in_the_project() -> None:
     old = _design(outputs=(Declaration(name="kicks"),))
     project = Project(name="p", designs=(old,))
     assert [finding.rule.code for finding in check_project(project)] == ["D424"]
     assert check_design(project, _design()) == ()
 
 
-def test_a_changed_interface_is_seen_at_once() -> None:
+def test_changed_interface_invalidates_the_cache() -> None:
     head = Interface(component="Head", implementation="field:Head", parameters=(Declaration(name="pan"),))
     guard = Guard(when="head.seen")
     states = (State(name="Wait", requires=("head",), transitions=(Transition(to="Rest", guard=guard),)),)
@@ -102,10 +102,10 @@ def test_a_changed_interface_is_seen_at_once() -> None:
     assert check_project(Project(name="p", components=(seeing,), designs=(design,))) == ()
 
 
-def test_an_enumeration_without_elements_says_that_it_has_none() -> None:
+def test_unknown_element_of_an_empty_enumeration() -> None:
     project = Project(name="p", enumerations=(Enumeration(name="Foot", elements=()),))
     design = _design(
         states=(State(name="Wait", transitions=(Transition(to="Wait", guard=Guard(when="Foot.a == 1")),)),)
     )
-    finding = next(each for each in check_design(project, design) if each.rule.code == "E306")
+    finding = next(finding for finding in check_design(project, design) if finding.rule.code == "E306")
     assert (finding.message, finding.fix) == ("'Foot' has no element 'a'", "it has none")

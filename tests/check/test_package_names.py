@@ -1,4 +1,4 @@
-"""P208: a project's name gives a package that Python can import and that hides no other module."""
+"""P208: the project name is a valid package name and hides no other module."""
 
 from pathlib import Path
 
@@ -14,15 +14,15 @@ HEAD = Interface(component="Head", implementation="field.head:Head")
 
 
 def _problem(project: Project) -> str:
-    return "; ".join(each.message for each in check_project(project) if each.rule.code == "P208")
+    return "; ".join(finding.message for finding in check_project(project) if finding.rule.code == "P208")
 
 
 @pytest.mark.parametrize(
     ("name", "reason"),
     [
-        ("class", "is a keyword of Python"),
-        ("Types", "would hide a module of Python's library"),
-        ("json", "would hide a module of Python's library"),
+        ("class", "is a Python keyword"),
+        ("Types", "would hide a module of Python's standard library"),
+        ("json", "would hide a module of Python's standard library"),
         ("Zip File!", ""),
         ("zipFile", ""),
         ("ViCode", ""),
@@ -34,21 +34,21 @@ def _problem(project: Project) -> str:
         ("2 types", ""),
     ],
 )
-def test_the_package_must_not_hide_anything(name: str, reason: str) -> None:
+def test_package_name_problems(name: str, reason: str) -> None:
     project = Project(name=name, world="world:World", components=(HEAD,))
     package = plan_package(project, frozenset()).name
     assert _problem(project) == (f"the package '{package}' of this project {reason}" if reason else "")
 
 
-def test_other_languages_do_not_mind() -> None:
+def test_other_languages_have_no_package() -> None:
     assert _problem(Project(name="types", languages=("cpp", "xabsl"))) == ""
     assert _problem(Project(name="types", languages=("cpp", "python"))) != ""
 
 
-def test_a_folder_without_a_project_file_gives_its_own_name(tmp_path: Path) -> None:
+def test_folder_name_is_the_default_project_name(tmp_path: Path) -> None:
     for name in ("types", "blinking"):
         (tmp_path / name).mkdir()
         (tmp_path / name / "blinker.yaml").write_text(BLINKER, encoding="utf-8")
     (finding,) = check_project(open_project(tmp_path / "types").project)
-    assert (finding.rule.code, finding.fix) == ("P208", "give another name with 'project:' in project.yaml")
+    assert (finding.rule.code, finding.fix) == ("P208", "set another name with 'project:' in project.yaml")
     assert check_project(open_project(tmp_path / "blinking").project) == ()

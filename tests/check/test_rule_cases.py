@@ -1,4 +1,4 @@
-"""Cases in the user's notation: the codes expected on a line stand at its end, as in `# E: D421 D422`."""
+"""Designs with expected codes in comments at the end of the line, such as `# E: D421 D422`."""
 
 import re
 import shutil
@@ -18,7 +18,7 @@ Codes = set[tuple[str, int, str]]
 
 
 @pytest.mark.parametrize("case", sorted(CASES.iterdir()), ids=lambda path: path.stem)
-def test_findings_are_on_the_guilty_lines(case: Path, tmp_path: Path) -> None:
+def test_findings_are_on_the_expected_lines(case: Path, tmp_path: Path) -> None:
     folder = tmp_path / case.stem
     if case.is_dir():
         shutil.copytree(case, folder)
@@ -41,5 +41,7 @@ def _expected(folder: Path) -> Codes:
 
 
 def _found(findings: tuple[Finding, ...]) -> Codes:
-    places = [(finding.location, finding.rule.code) for finding in findings]
-    return {(Path(place.file).name, place.line, code) if place else ("", 0, code) for place, code in places}
+    locations = [(finding.location, finding.rule.code) for finding in findings]
+    return {
+        (Path(location.file).name, location.line, code) if location else ("", 0, code) for location, code in locations
+    }

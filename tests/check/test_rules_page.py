@@ -1,4 +1,4 @@
-"""docs/rules.md keeps its word: a section a rule, bad examples with just that finding, mended ones with none."""
+"""docs/rules.md: each rule has a section; violating examples report only that rule, fixed ones nothing."""
 
 import re
 from pathlib import Path
@@ -16,7 +16,7 @@ SECTION = re.compile(r"^### ([A-Z]\d{3})\n(.*?)(?=^##)", re.MULTILINE | re.DOTAL
 EXAMPLE = re.compile(r"^```(?:yaml|xabsl) ?(\S*)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 TOP_LEVEL_KEY = re.compile(r"^(\w+):.*\n(?:[ \t#-].*\n)*", re.MULTILINE)
 
-# What no text of a few lines can show: sizes, bytes, values that only an editor can hold, generated files.
+# Short texts cannot show these: sizes, bytes, values that only the editor can create, generated files.
 WITHOUT_EXAMPLES = {"Y108", "Y110", "D416", "G501", "G502", "G503"}
 
 TEXT = PAGE.read_text(encoding="utf-8")
@@ -24,8 +24,8 @@ SECTIONS = dict(SECTION.findall(TEXT + "\n##"))
 FRAME = dict(EXAMPLE.findall(TEXT.split("\n## ")[0]))
 LANGUAGES_FRAME = FRAME | dict(EXAMPLE.findall(TEXT.split("\n## L:")[1].split("\n### ")[0]))
 XABSL_FRAME = dict(EXAMPLE.findall(TEXT.split("\n## X:")[1].split("\n### ")[0]))
-# Frames are larger than examples: what they declare and give is not all used where an example replaces a file.
-REMARKS = {"X642", "X644"}
+# Where an example replaces a file, the frame declares items that nothing uses.
+ALLOWED_NOTES = {"X642", "X644"}
 EXAMPLES = {code: EXAMPLE.findall(text) for code, text in SECTIONS.items()}
 
 
@@ -35,34 +35,34 @@ def test_every_rule_has_a_section_in_order() -> None:
 
 
 @pytest.mark.parametrize("rule", RULES.values(), ids=lambda rule: rule.code)
-def test_a_section_begins_with_name_and_severity(rule: Rule) -> None:
+def test_sections_start_with_name_and_severity(rule: Rule) -> None:
     assert SECTIONS[rule.code].startswith(f"**{rule.name}**, {rule.severity}. ")
 
 
 @pytest.mark.parametrize("code", sorted(set(RULES) - WITHOUT_EXAMPLES))
-def test_the_bad_example_breaks_just_this_rule(code: str, tmp_path: Path) -> None:
+def test_the_first_example_violates_only_this_rule(code: str, tmp_path: Path) -> None:
     assert len(EXAMPLES[code]) == 2
     codes, shown = _check(code, *EXAMPLES[code][0], tmp_path)
-    assert codes - (REMARKS - {code}) == {code}, shown
+    assert codes - (ALLOWED_NOTES - {code}) == {code}, shown
 
 
 @pytest.mark.parametrize("code", sorted(set(RULES) - WITHOUT_EXAMPLES))
-def test_the_mended_example_is_clean(code: str, tmp_path: Path) -> None:
+def test_the_fixed_example_has_no_findings(code: str, tmp_path: Path) -> None:
     codes, shown = _check(code, *EXAMPLES[code][1], tmp_path)
-    assert not codes - (REMARKS - {code}), shown
+    assert not codes - (ALLOWED_NOTES - {code}), shown
 
 
 @pytest.mark.parametrize("code", sorted(WITHOUT_EXAMPLES))
-def test_what_has_no_example_says_what_to_do(code: str) -> None:
+def test_rules_without_examples_are_listed(code: str) -> None:
     assert EXAMPLES[code] == []
 
 
 def _check(code: str, file: str, text: str, folder: Path) -> tuple[set[str], str]:
-    """The codes found in the page's project with an example put in, and the findings as text."""
+    """Return the codes found in the page's project with an example inserted, and the rendered findings."""
     if file.endswith(".xabsl"):
         return _check_xabsl(file, text, folder)
     for name, frame in (LANGUAGES_FRAME if code.startswith("L") else FRAME).items():
-        content = _put_in(frame, text) if name == (file or "player.yaml") else frame
+        content = _insert(frame, text) if name == (file or "player.yaml") else frame
         (folder / name).write_text(content, encoding="utf-8")
     opened = open_project(folder)
     findings = locate_findings((*opened.findings, *check_project(opened.project)), opened)
@@ -79,8 +79,8 @@ def _check_xabsl(file: str, text: str, folder: Path) -> tuple[set[str], str]:
     return {finding.rule.code for finding in findings}, render_text(findings)
 
 
-def _put_in(frame: str, text: str) -> str:
-    """The frame's lines but those of the keys that the text brings itself, then the text."""
+def _insert(frame: str, text: str) -> str:
+    """Replace top-level keys of the frame with those of the text."""
     own = set(re.findall(r"^(\w+):", text, re.MULTILINE))
     kept = [match.group() for match in TOP_LEVEL_KEY.finditer(frame) if match.group(1) not in own]
     return "".join(kept) + text

@@ -21,7 +21,7 @@ def test_findings_are_worked_through_by_keys_and_mended(editor: str, page: Page,
     break_player(project)
     open_player(page, editor)
     rows = findings(page).get_by_role("listitem")
-    wrong = rows.filter(has_text="there is no state 'FolowBall'")
+    wrong = rows.filter(has_text="unknown state 'FolowBall'")
     expect(wrong).to_have_count(1)
     expect(findings(page).get_by_text(re.compile(r"\d+ error.*warning"))).to_be_visible()
 

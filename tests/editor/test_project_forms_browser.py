@@ -75,7 +75,7 @@ def test_a_constant_that_is_used_is_removed_after_its_users_were_listed(editor: 
     constant = inspector.get_by_role("group", name="constant net_x", exact=True)
     constant.get_by_label("Type").fill("length")
     page.keyboard.press("Enter")
-    expect(constant.get_by_text("there is no type 'length'")).to_be_visible()
+    expect(constant.get_by_text("unknown type 'length'")).to_be_visible()
     constant.get_by_label("Type").fill("float")
     page.keyboard.press("Enter")
     expect(page.get_by_text("project.yaml is written: net_x")).to_be_visible()

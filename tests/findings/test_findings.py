@@ -60,7 +60,7 @@ def test_json_names_the_thing_and_the_place() -> None:
     (shown,) = json.loads(render_json([finding]))
     assert shown == {
         "code": "D422",
-        "name": "trap-state",
+        "name": "dead-end",
         "severity": "warning",
         "message": "never left",
         "fix": "",

@@ -1,6 +1,6 @@
-"""Rules about designs and projects, one function a rule, one plain tuple of rules a file.
+"""Rules for designs and projects. Each module lists its rule functions in RULES.
 
-Nothing here raises, and no code of a project is run or imported.
+Rules never raise, and never run or import code of a project.
 """
 
 from collections.abc import Callable, Collection
@@ -43,7 +43,7 @@ DESIGN_RULES = (
 
 
 def check_project(project: Project, components: Collection[str] | None = None) -> tuple[Finding, ...]:
-    """What is wrong with a project file and with its designs, or those of `components` only."""
+    """Check a project file and its designs, or only the designs of `components`."""
     findings = [finding for rule in PROJECT_RULES for finding in rule(project)]
     check = _cached_checker(make_dependency_view(project))
     for design in project.designs:
@@ -53,19 +53,19 @@ def check_project(project: Project, components: Collection[str] | None = None) -
 
 
 def check_design(project: Project, design: Design) -> tuple[Finding, ...]:
-    """What is wrong with one design, which counts in place of the one of its name in the project."""
+    """Check one design. It replaces the design with the same name in the project."""
     return tuple(dict.fromkeys(_run_rules(build_context(project, design))))
 
 
-# Who builds a site or generates again after an edit asks for all designs, and hardly ever did what they see of each
-# other change: only what was edited is checked.
+# After an edit, the site builder and the generators check all designs again. The dependency view rarely changes, so
+# only the edited design is checked.
 @lru_cache(maxsize=4)
-def _cached_checker(surroundings: Project) -> Callable[[Design], tuple[Finding, ...]]:
-    """Checks designs within a project as they see it, and remembers what it found."""
-    graphs = build_graphs(surroundings)
+def _cached_checker(dependency_view: Project) -> Callable[[Design], tuple[Finding, ...]]:
+    """Return a function that checks designs against a dependency view and caches the findings."""
+    graphs = build_graphs(dependency_view)
 
     def check(design: Design) -> tuple[Finding, ...]:
-        return _run_rules(build_context_with_graphs(surroundings, design, graphs))
+        return _run_rules(build_context_with_graphs(dependency_view, design, graphs))
 
     return lru_cache(maxsize=1000)(check)
 

@@ -1,4 +1,4 @@
-"""Rules about decisions: what is never tested, what changes nothing."""
+"""Rules for decisions: shadowed transitions and transitions without effect."""
 
 from collections.abc import Iterator
 
@@ -10,7 +10,7 @@ from vicode.model.traversal import is_exhaustive
 
 
 def find_shadowed_transitions(context: RuleContext) -> Iterator[Finding]:
-    """D423: decisions that are never tested because one before them always ends the decision."""
+    """D423: decisions that are never tested because an earlier one always holds."""
     design = context.design
     yield from _find_shadowed(context, design.common.transitions, ("common", "transitions"))
     ending = _first_exhaustive(context, design.common.transitions)
@@ -21,9 +21,10 @@ def find_shadowed_transitions(context: RuleContext) -> Iterator[Finding]:
         elif state.transitions:
             message = f"the transitions of '{state.name}' are never tested"
             note = Note(
-                message="this common one always holds", subject=context.make_subject(("common", "transitions", ending))
+                message="this common transition always holds",
+                subject=context.make_subject(("common", "transitions", ending)),
             )
-            yield context.make_finding("D423", path, message, "give the common one a guard", notes=[note])
+            yield context.make_finding("D423", path, message, "add a guard to the common transition", notes=[note])
 
 
 def find_self_transitions(context: RuleContext) -> Iterator[Finding]:
@@ -31,15 +32,15 @@ def find_self_transitions(context: RuleContext) -> Iterator[Finding]:
     for located in context.decisions:
         decision = located.decision
         if isinstance(decision, Transition) and decision.to == located.source:
-            message = f"'{decision.to}' is the state itself: this ends the decision and changes nothing"
+            message = f"this transition leads from '{decision.to}' to itself and has no effect"
             yield context.make_finding(
-                "D430", (*located.path, "to"), message, "write stay: true, or choose another state"
+                "D430", (*located.path, "to"), message, "replace 'to' with stay: true, or choose another target"
             )
 
 
 def _first_exhaustive(context: RuleContext, items: tuple[Decision, ...]) -> int | None:
-    working = (strip_disabled_decision(item, context.disabled_states) for item in items)
-    return next((index for index, item in enumerate(working) if item is not None and is_exhaustive(item)), None)
+    enabled = (strip_disabled_decision(item, context.disabled_states) for item in items)
+    return next((index for index, item in enumerate(enabled) if item is not None and is_exhaustive(item)), None)
 
 
 def _find_shadowed(context: RuleContext, items: tuple[Decision, ...], path: DesignPath) -> Iterator[Finding]:
@@ -48,9 +49,9 @@ def _find_shadowed(context: RuleContext, items: tuple[Decision, ...], path: Desi
         if strip_disabled_decision(item, context.disabled_states) is None:
             continue
         if ending is not None and index > ending:
-            note = Note(message="this one always holds", subject=context.make_subject((*path, ending)))
-            mend = "give the one before it a guard, or put it after this"
-            yield context.make_finding("D423", (*path, index), "this is never tested", mend, notes=[note])
+            note = Note(message="this decision always holds", subject=context.make_subject((*path, ending)))
+            fix = "add a guard to the earlier decision, or move it after this one"
+            yield context.make_finding("D423", (*path, index), "this decision is never tested", fix, notes=[note])
         elif isinstance(item, DecisionGroup):
             yield from _find_shadowed_in_group(context, item, (*path, index))
 
@@ -59,7 +60,7 @@ def _find_shadowed_in_group(context: RuleContext, group: DecisionGroup, path: De
     yield from _find_shadowed(context, group.then, (*path, "then"))
     if group.guard.is_empty and group.otherwise:
         message = "'else' is never tested: the group has no guard"
-        yield context.make_finding("D423", (*path, "else"), message, "give the group a guard, or delete its 'else'")
+        yield context.make_finding("D423", (*path, "else"), message, "add a guard to the group, or delete its 'else'")
     else:
         yield from _find_shadowed(context, group.otherwise, (*path, "else"))
 

@@ -1,4 +1,4 @@
-"""Rules about declarations: known types, sensible ranges, values inside them, and whether anything uses them."""
+"""Rules for declarations: types, ranges and unused declarations."""
 
 from collections.abc import Iterator
 
@@ -12,62 +12,72 @@ from vicode.model.expressions import BOOL, FLOAT, INT, UNKNOWN, Scope
 def find_bad_declarations(context: RuleContext) -> Iterator[Finding]:
     """P205, P206: types and ranges of the design's declarations."""
     for section, declaration in context.design.declarations():
-        for code, path, message, mend in validate_declaration(declaration, (section, declaration.name), context.scope):
-            yield context.make_finding(code, path, message, mend)
+        for code, path, message, fix in validate_declaration(declaration, (section, declaration.name), context.scope):
+            yield context.make_finding(code, path, message, fix)
 
 
 def find_bad_frequency(context: RuleContext) -> Iterator[Finding]:
     """D416: a frequency that is not above 0."""
     hertz = context.design.frequency_hz
     if hertz is not None and not 0 < hertz < float("inf"):
-        mend = "write a number above 0, or leave it out to work at every step"
-        yield context.make_finding("D416", ("frequency",), f"{hertz:g} Hz is no frequency", mend)
+        fix = "use a number above 0, or remove 'frequency' to run on every step"
+        yield context.make_finding("D416", ("frequency",), f"{hertz:g} Hz is not a valid frequency", fix)
 
 
 def validate_declaration(
     declaration: Declaration, path: DesignPath, scope: Scope
 ) -> Iterator[tuple[str, DesignPath, str, str]]:
-    """What is wrong with a declaration and its arguments, as code, path, message, mend."""
+    """Yield the code, path, message and fix of each problem of a declaration and its arguments."""
     type_ = scope.type_of(declaration)
     if type_ == UNKNOWN:
         known = (BOOL, INT, FLOAT, *scope.enumerations)
-        mend = did_you_mean(declaration.type, known, "use bool, int, float, or declare an enumeration in project.yaml")
-        yield "P205", (*path, "type"), f"there is no type '{declaration.type}'", mend
+        fix = did_you_mean(declaration.type, known, "use bool, int or float, or declare an enumeration in project.yaml")
+        yield "P205", (*path, "type"), f"unknown type '{declaration.type}'", fix
     if declaration.range is not None:
         low, high = declaration.range
         if not low <= high:
-            yield "P206", (*path, "range"), f"no value lies from {low:g} to {high:g}", "write the lower end first"
+            yield (
+                "P206",
+                (*path, "range"),
+                f"the range from {low:g} to {high:g} is empty",
+                "write the lower bound first",
+            )
         elif type_ not in (INT, FLOAT, UNKNOWN):
-            yield "P206", (*path, "range"), f"'{declaration.name}' is {type_}, only numbers have a range", "delete it"
+            yield (
+                "P206",
+                (*path, "range"),
+                f"'{declaration.name}' has the type {type_}, but only numbers have a range",
+                "delete the range",
+            )
     for argument in declaration.arguments or ():
         yield from validate_declaration(argument, (*path, "arguments", argument.name), scope)
 
 
 def find_out_of_range_values(context: RuleContext) -> Iterator[Finding]:
-    """D427: a literal outside the range of what it is given to."""
+    """D427: a literal outside the declared range."""
     for expression in context.expressions:
         receiver = expression.receiver
         if receiver is None or receiver.range is None or not expression.is_sound or expression.tree is None:
             continue
         message = validate_range(receiver, literal_value(expression.tree, context.scope))
         if message:
-            mend = "change the value, or the range"
-            yield context.make_finding("D427", expression.path, message, mend, span=expression.tree.span)
+            fix = "change the value or the range"
+            yield context.make_finding("D427", expression.path, message, fix, span=expression.tree.span)
 
 
 def validate_range(declaration: Declaration, value: float | None) -> str:
-    """Says that a value is outside a declaration's range, empty when it is not."""
+    """Return a message if a value is outside the range of a declaration, otherwise an empty string."""
     if value is None or declaration.range is None:
         return ""
     low, high = declaration.range
     if low <= value <= high or not low <= high:
         return ""
     unit = f" {declaration.unit}" if declaration.unit else ""
-    return f"{value:g} is outside the range of '{declaration.name}', {low:g} to {high:g}{unit}"
+    return f"{value:g} is outside the range of '{declaration.name}' ({low:g} to {high:g}{unit})"
 
 
 def find_unused_declarations(context: RuleContext) -> Iterator[Finding]:
-    """D424: parameters never read, variables and outputs neither read nor set."""
+    """D424: parameters that are never read, variables and outputs that are neither read nor set."""
     used = context.code_identifiers.union(*(expression.analysis.names for expression in context.expressions))
     assigned = {
         name for placed in context.actions if isinstance(placed.action, Assign) for name, _text in placed.action.values
@@ -80,7 +90,7 @@ def find_unused_declarations(context: RuleContext) -> Iterator[Finding]:
             message = f"{section.removesuffix('s')} '{name}' is neither read nor set"
         else:
             continue
-        yield context.make_finding("D424", (section, name), message, "use it, or delete it", is_key=True)
+        yield context.make_finding("D424", (section, name), message, "use it or delete it", is_key=True)
 
 
 RULES = (

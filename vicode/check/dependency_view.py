@@ -1,4 +1,4 @@
-"""What the rules see of a project when they look at one design: nothing else can change what they find in it."""
+"""The part of a project that can affect the findings of a design other than the design itself."""
 
 from dataclasses import replace
 
@@ -8,7 +8,7 @@ from vicode.model.project import Project
 
 
 def make_dependency_view(project: Project) -> Project:
-    """The project with of each design only what others see: names, declarations, whom it uses and whom it steps."""
+    """Reduce each design to what other designs depend on: names, declarations, uses and stepped components."""
     return replace(project, doc="", designs=tuple(map(_strip_internals, project.designs)))
 
 

@@ -1,4 +1,4 @@
-"""Rules about expressions: names, types, what may be set, what must be known before the component runs."""
+"""Rules for expressions: names, types, assignments and constant values."""
 
 import math
 from collections.abc import Iterator
@@ -23,44 +23,44 @@ from vicode.model.expressions import (
 
 
 def find_expression_errors(context: RuleContext) -> Iterator[Finding]:
-    """E301 to E306: what the parser finds wrong with an expression."""
+    """E301 to E306: errors found by the expression parser."""
     for expression in context.expressions:
-        for mistake in expression.analysis.diagnostics:
+        for diagnostic in expression.analysis.diagnostics:
             yield context.make_finding(
-                mistake.rule.code, expression.path, mistake.message, mistake.fix, span=mistake.span
+                diagnostic.rule.code, expression.path, diagnostic.message, diagnostic.fix, span=diagnostic.span
             )
 
 
 def find_nonconstant_initial_values(context: RuleContext) -> Iterator[Finding]:
-    """E308: a first value that is not made of literals, constants and elements."""
+    """E308: an initial value that is not constant."""
     for expression in context.expressions:
         if expression.site == ExpressionSite.INITIAL_VALUE and expression.tree is not None:
             for message, node in find_nonconstant_nodes(expression.tree):
-                mend = "a first value is made of numbers, constants and enumeration elements"
-                yield context.make_finding("E308", expression.path, message, mend, span=node.span)
+                fix = "use literals, constants and enumeration elements only"
+                yield context.make_finding("E308", expression.path, message, fix, span=node.span)
 
 
 def find_nonconstant_nodes(tree: Expr) -> Iterator[tuple[str, Expr]]:
-    """What in an expression is not known before the component runs, each with a message."""
+    """Yield a message for each node whose value is unknown before the component runs."""
     for node in walk(tree):
         match node:
             case Variable(name=name, kind=kind) if kind != ScopeSymbolKind.CONSTANT:
-                yield f"'{name}' is {with_article(kind)}: it has no value yet", node
+                yield f"'{name}' is {with_article(kind)} and has no value before the component runs", node
             case ElapsedTime() | StatusFlag() | Done() | OutputRef():
-                yield "this is known only while the component runs", node
+                yield "this has no value before the component runs", node
             case _:
                 pass
 
 
 def find_bad_times(context: RuleContext) -> Iterator[Finding]:
-    """E309: `after` with something else than seconds from 0 up."""
-    mend = "write seconds, such as after: 2.5; anything else is a guard: state_time >= …"
+    """E309: `after` with something other than a constant or a non-negative number of seconds."""
+    fix = "use a number of seconds, such as after: 2.5, or a guard: state_time >= …"
     for expression in context.expressions:
         if expression.site == ExpressionSite.AFTER and expression.is_sound:
             problem = _validate_time(expression, context)
             if problem:
                 span = (0, len(expression.text))
-                yield context.make_finding("E309", expression.path, problem, mend, span=span)
+                yield context.make_finding("E309", expression.path, problem, fix, span=span)
 
 
 def _validate_time(expression: TypedExpression, context: RuleContext) -> str:
@@ -73,12 +73,12 @@ def _validate_time(expression: TypedExpression, context: RuleContext) -> str:
             return "'after' takes a number or a constant"
     value = literal_value(expression.tree, context.scope)
     if value is not None and not (value >= 0 and math.isfinite(value)):
-        return f"{value:g} is not a time"
+        return f"{value:g} is not a valid time"
     return ""
 
 
 def find_wrong_assignments(context: RuleContext) -> Iterator[Finding]:
-    """E303, E307: `set` of something that is no own variable or output, nor a variable of a used component."""
+    """E303, E307: `set` of a name other than a variable, an output, or a variable of a used component."""
     for placed in context.actions:
         if not isinstance(placed.action, Assign):
             continue
@@ -86,12 +86,12 @@ def find_wrong_assignments(context: RuleContext) -> Iterator[Finding]:
             path = (*placed.path, "set", name)
             declaration = context.scope.find_assignable(name)
             if declaration is None:
-                code, message, mend = _explain_not_assignable(name, context)
-                yield context.make_finding(code, path, message, mend, is_key=True)
+                code, message, fix = _explain_not_assignable(name, context)
+                yield context.make_finding(code, path, message, fix, is_key=True)
             elif declaration.arguments is not None:
-                mend = "write its code in 'members'"
+                fix = "implement it in 'members'"
                 yield context.make_finding(
-                    "E307", path, f"'{name}' takes arguments, so it cannot be set", mend, is_key=True
+                    "E307", path, f"'{name}' takes arguments and cannot be set", fix, is_key=True
                 )
 
 
@@ -99,29 +99,29 @@ def _explain_not_assignable(name: str, context: RuleContext) -> tuple[str, str, 
     alias, dot, variable = name.partition(".")
     if dot:
         return _explain_not_assignable_in_component(alias, variable, context)
-    settable = [each.name for each in (*context.design.variables, *context.design.outputs)]
+    settable = [declaration.name for declaration in (*context.design.variables, *context.design.outputs)]
     symbol = context.scope.symbols.get(name)
     if symbol is not None:
-        mend = did_you_mean(name, settable, "only own variables and outputs are set; declare one")
-        return "E307", f"'{name}' is {with_article(symbol.kind)}, it cannot be set", mend
+        fix = did_you_mean(name, settable, "set a variable or output of this component instead")
+        return "E307", f"'{name}' is {with_article(symbol.kind)} and cannot be set", fix
     if name in context.scope.uses:
-        return "E307", f"'{name}' is a used component, it cannot be set", f"call it: call: {name}"
-    mend = did_you_mean(name, settable, f"declare it: variables: {{{name}: 0}}")
-    return "E303", f"'{name}' is not declared", mend
+        return "E307", f"'{name}' is a used component and cannot be set", f"use call: {name}"
+    fix = did_you_mean(name, settable, f"declare it in 'variables': {{{name}: 0}}")
+    return "E303", f"'{name}' is not declared", fix
 
 
 def _explain_not_assignable_in_component(alias: str, variable: str, context: RuleContext) -> tuple[str, str, str]:
     if alias not in context.scope.uses:
-        mend = did_you_mean(alias, context.scope.uses, "declare it in 'uses'")
-        return "E303", f"'{alias}' is not a used component", mend
+        fix = did_you_mean(alias, context.scope.uses, "declare it in 'uses'")
+        return "E303", f"'{alias}' is not a used component", fix
     interface = context.scope.uses[alias]
-    known = [each.name for each in interface.variables] if interface else []
+    known = [declaration.name for declaration in interface.variables] if interface else []
     if interface is not None and interface.output(variable):
-        mend = did_you_mean(variable, known, "what it may be told are its variables and parameters")
-        return "E307", f"'{alias}.{variable}' is an output, it can only be read", mend
+        fix = did_you_mean(variable, known, "set a variable or pass a parameter instead")
+        return "E307", f"'{alias}.{variable}' is an output and can only be read", fix
     component = interface.component if interface else alias
-    mend = did_you_mean(variable, known, f"declare it in 'variables' of {component}")
-    return "E303", f"'{component}' has no variable '{variable}'", mend
+    fix = did_you_mean(variable, known, f"declare it in 'variables' of {component}")
+    return "E303", f"'{component}' has no variable '{variable}'", fix
 
 
 RULES = (find_expression_errors, find_nonconstant_initial_values, find_bad_times, find_wrong_assignments)

@@ -1,4 +1,4 @@
-"""Who uses whom, and who steps whom, among the components of a project."""
+"""Graphs of the components of a project: which component uses or steps which."""
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
@@ -56,7 +56,7 @@ def find_path(graph: Graph, start: str, goal: str) -> list[str]:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class StepSite:
-    """A place where a design steps a component; `state` is a name or COMMON."""
+    """A place in a design that steps a component. `state` is a name or COMMON."""
 
     state: str
     alias: str
@@ -78,7 +78,7 @@ def build_graphs(project: Project) -> ComponentGraphs:
 
 
 def iter_steps(design: Design) -> Iterator[StepSite]:
-    """Every place where a used component is stepped: the common ones, then by every state that is not disabled."""
+    """Yield the places that step a used component: common actions, then each state that is not disabled."""
     components = {use.alias: use.component for use in reversed(design.uses)}
     for index, action in enumerate(design.common.actions):
         if isinstance(action, Call) and action.alias in components:
@@ -87,13 +87,13 @@ def iter_steps(design: Design) -> Iterator[StepSite]:
                 state=COMMON, alias=action.alias, component=components[action.alias], path=path, is_call=True
             )
     for state in (state for state in design.states if not state.disabled):
-        for alias, place, is_call in _iter_stepped_aliases(state):
+        for alias, path, is_call in _iter_stepped_aliases(state):
             if alias in components:
-                yield StepSite(state=state.name, alias=alias, component=components[alias], path=place, is_call=is_call)
+                yield StepSite(state=state.name, alias=alias, component=components[alias], path=path, is_call=is_call)
 
 
 def _iter_stepped_aliases(state: State) -> Iterator[tuple[str, DesignPath, bool]]:
-    """Aliases in the order they are stepped."""
+    """Yield alias, path and whether it is a call, in the order of stepping."""
     for index, alias in enumerate(state.requires):
         yield alias, ("states", state.name, "requires", index), False
     for index, action in enumerate(state.actions):

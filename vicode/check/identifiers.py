@@ -1,4 +1,4 @@
-"""Everything that has a name in a design or in a project file, with what a name must be there."""
+"""The names in a design or project file and their validation."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -15,15 +15,15 @@ _MEMBERS = {"alias", "parameter", "output", "variable"}
 _WITH_SELF = {*_MEMBERS, "argument"}
 _TIMES = frozenset({"state_time", "component_time", "action_done", "conflict"})
 _EXPRESSION_WORDS = {
-    **dict.fromkeys(FUNCTIONS, "a function of expressions"),
-    **dict.fromkeys(("done", "True", "False", "true", "false", *_TIMES), "a word of expressions"),
+    **dict.fromkeys(FUNCTIONS, "a built-in function"),
+    **dict.fromkeys(("done", "True", "False", "true", "false", *_TIMES), "a reserved word in expressions"),
     **dict.fromkeys(("bool", "int", "float"), "a type"),
 }
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Identifier:
-    """A name: what it names, in the user's word, and where it stands; `is_expression_name` if expressions may say it."""
+    """A name with the kind of item that it names; expressions can use it if `is_expression_name`."""
 
     name: str
     kind: str
@@ -33,16 +33,15 @@ class Identifier:
 
 
 IdentifierProblem = tuple[str, str, str]
-"""Code, message and mend."""
+"""Code, message and fix."""
 
 
 def with_article(what: str) -> str:
-    """The word with a or an before it."""
     return f"an {what}" if what[0] in "aeiou" else f"a {what}"
 
 
 def iter_design_identifiers(design: Design) -> Iterator[Identifier]:
-    """Every name in a design, in the order of its file."""
+    """Yield the names in a design, in file order."""
     yield Identifier(name=design.component, kind="component", path=("component",), is_key=False)
     for use in design.uses:
         yield Identifier(name=use.alias, kind="alias", path=("uses", use.alias), is_expression_name=True)
@@ -55,7 +54,7 @@ def iter_design_identifiers(design: Design) -> Iterator[Identifier]:
 
 
 def iter_project_identifiers(project: Project) -> Iterator[Identifier]:
-    """Every name in a project file, in the order of its file."""
+    """Yield the names in a project file, in file order."""
     yield from iter_expression_identifiers(project)
     for interface in project.components:
         path: DesignPath = ("components", interface.component)
@@ -69,7 +68,7 @@ def iter_project_identifiers(project: Project) -> Iterator[Identifier]:
 
 
 def iter_expression_identifiers(project: Project) -> Iterator[Identifier]:
-    """Those names of a project file that expressions of its designs may say."""
+    """Yield the constants, enumerations and elements of a project file."""
     for enumeration in project.enumerations:
         path: DesignPath = ("enumerations", enumeration.name)
         yield Identifier(name=enumeration.name, kind="enumeration", path=path, is_expression_name=True)
@@ -80,55 +79,57 @@ def iter_expression_identifiers(project: Project) -> Iterator[Identifier]:
 
 
 def validate_identifier(identifier: Identifier, languages: tuple[str, ...]) -> IdentifierProblem | None:
-    """What is wrong with a name: its shape, or that the runtime, expressions or a language keep it for themselves."""
+    """Return the problem with a name: invalid form, reserved, or a keyword of a target language."""
     return (
         _validate_form(identifier) or _validate_not_reserved(identifier) or _validate_not_keyword(identifier, languages)
     )
 
 
 def _iter_declaration_identifiers(
-    declaration: Declaration, what: str, path: DesignPath, *, is_shared: bool
+    declaration: Declaration, kind: str, path: DesignPath, *, is_shared: bool
 ) -> Iterator[Identifier]:
-    yield Identifier(name=declaration.name, kind=what, path=path, is_expression_name=is_shared)
+    yield Identifier(name=declaration.name, kind=kind, path=path, is_expression_name=is_shared)
     for argument in declaration.arguments or ():
         yield Identifier(name=argument.name, kind="argument", path=(*path, "arguments", argument.name))
 
 
-def _validate_form(named: Identifier) -> IdentifierProblem | None:
-    name, what = named.name, named.kind
-    if is_valid_name(name) or (what == "state" and is_valid_state_name(name)):
+def _validate_form(identifier: Identifier) -> IdentifierProblem | None:
+    name, kind = identifier.name, identifier.kind
+    if is_valid_name(name) or (kind == "state" and is_valid_state_name(name)):
         return None
     if name.startswith("_") and is_valid_state_name(name):
-        return "D405", f"'{name}' begins with '_', which the runtime keeps for itself", "drop the underscore"
+        return "D405", f"'{name}' starts with '_'; such names are reserved by the runtime", "remove the underscore"
     if len(name) > 80:
-        return "D404", f"the name of this {what} is longer than 80 characters", "shorten it"
-    mend = "use letters, digits and underscores" + (", a letter first" if what != "state" else "")
-    return "D404", f"'{name}' cannot be the name of {with_article(what)}", mend
+        return "D404", f"the name of this {kind} is longer than 80 characters", "use a shorter name"
+    fix = "use ASCII letters, digits and underscores" + (", starting with a letter" if kind != "state" else "")
+    return "D404", f"'{name}' is not a valid name for {with_article(kind)}", fix
 
 
-def _validate_not_reserved(named: Identifier) -> IdentifierProblem | None:
-    name, what = named.name, named.kind
-    mend = f"choose another name, such as {name}_value"
-    # Parameters of hand-written components are handed over by name and need not become attributes.
-    is_member = what in _MEMBERS and (named.is_expression_name or what in ("output", "variable"))
-    is_taken = (is_member and name in RESERVED_NAMES) or (what in _WITH_SELF and name == "self")
-    if is_taken or (what, name) == ("element", "mro"):
-        return "D405", f"'{name}' is a name of the runtime", mend
-    if named.is_expression_name and name in _EXPRESSION_WORDS:
-        return "D407", f"'{name}' is already {_EXPRESSION_WORDS[name]}", mend
+def _validate_not_reserved(identifier: Identifier) -> IdentifierProblem | None:
+    name, kind = identifier.name, identifier.kind
+    fix = f"choose another name, such as {name}_value"
+    # Parameters of hand-written components are passed by name and need not become attributes.
+    is_member = kind in _MEMBERS and (identifier.is_expression_name or kind in ("output", "variable"))
+    is_taken = (is_member and name in RESERVED_NAMES) or (kind in _WITH_SELF and name == "self")
+    if is_taken or (kind, name) == ("element", "mro"):
+        return "D405", f"'{name}' is reserved by the runtime", fix
+    if identifier.is_expression_name and name in _EXPRESSION_WORDS:
+        return "D407", f"'{name}' is already {_EXPRESSION_WORDS[name]}", fix
     return None
 
 
 def keyword_languages(identifier: Identifier, languages: tuple[str, ...]) -> tuple[str, ...]:
-    """The languages that keep a name for themselves."""
-    # In Python a state's name only ever stands in a string or behind a prefix, an agent's never in code.
-    spared = {"state": {"python"}, "agent": set(KEYWORDS)}.get(identifier.kind, set())
-    return tuple(each for each in languages if each not in spared and identifier.name in KEYWORDS.get(each, ()))
+    """Return the languages in which a name is a keyword."""
+    # Generated Python contains state names only in strings or after a prefix; no generated code contains agent names.
+    exempt = {"state": {"python"}, "agent": set(KEYWORDS)}.get(identifier.kind, set())
+    return tuple(
+        language for language in languages if language not in exempt and identifier.name in KEYWORDS.get(language, ())
+    )
 
 
-def _validate_not_keyword(named: Identifier, languages: tuple[str, ...]) -> IdentifierProblem | None:
-    guilty = keyword_languages(named, languages)
-    if not guilty:
+def _validate_not_keyword(identifier: Identifier, languages: tuple[str, ...]) -> IdentifierProblem | None:
+    keyword_of = keyword_languages(identifier, languages)
+    if not keyword_of:
         return None
-    shown = " and ".join(LANGUAGE_TITLES[each] for each in guilty)
-    return "D406", f"'{named.name}' is a keyword in {shown}", f"choose another name, such as my_{named.name}"
+    titles = " and ".join(LANGUAGE_TITLES[language] for language in keyword_of)
+    return "D406", f"'{identifier.name}' is a keyword in {titles}", f"choose another name, such as my_{identifier.name}"

@@ -1,4 +1,4 @@
-"""The words of a text of which more is not known."""
+"""Identifiers in text that is not parsed."""
 
 import re
 
@@ -6,5 +6,4 @@ _IDENTIFIER = re.compile(r"[A-Za-z_]\w*", re.ASCII)
 
 
 def find_identifiers(text: str) -> frozenset[str]:
-    """All names in a text."""
     return frozenset(_IDENTIFIER.findall(text))

@@ -1,4 +1,4 @@
-"""Words that cannot be names because a language keeps them for itself."""
+"""Keywords of the target languages."""
 
 import keyword
 
@@ -11,7 +11,7 @@ template this thread_local throw true try typedef typeid typename union unsigned
 while xor xor_eq
 """
 
-# The reserved words of the XABSL compiler; "enumeration", which its manual shows, is none.
+# The keywords of the XABSL compiler. Its manual also shows "enumeration", which is not a keyword.
 _XABSL = """
 true false option action initial target state common decision goto stay if else state_time option_time action_done
 agent function enum input output internal bool float const namespace behavior include capacity synchronized conflict
@@ -25,4 +25,4 @@ KEYWORDS = {
 """Keywords by language; C++ as of C++17 with its alternative tokens."""
 
 LANGUAGE_TITLES = {"python": "Python", "cpp": "C++", "xabsl": "XABSL"}
-"""Languages as people write them."""
+"""Display names of the languages."""

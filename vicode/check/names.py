@@ -1,4 +1,4 @@
-"""Rules about names: what they look like, words that are taken, one name or id for two things."""
+"""Rules for names and ids: form, reserved words, duplicates."""
 
 from collections.abc import Iterable, Iterator
 
@@ -17,17 +17,17 @@ from vicode.model.names import is_valid_state_name
 
 
 def find_bad_names(context: RuleContext) -> Iterator[Finding]:
-    """D404 to D407: names that cannot be used, whatever else is declared."""
+    """D404 to D407: names that are invalid regardless of other declarations."""
     for named in iter_design_identifiers(context.design):
         problem = validate_identifier(named, context.project.languages)
         if problem:
-            code, message, mend = problem
+            code, message, fix = problem
             languages = keyword_languages(named, context.project.languages) if code == "D406" else ()
-            yield context.make_finding(code, named.path, message, mend, is_key=named.is_key, languages=languages)
+            yield context.make_finding(code, named.path, message, fix, is_key=named.is_key, languages=languages)
 
 
 def find_duplicate_names(context: RuleContext) -> Iterator[Finding]:
-    """D407: one name for two things that expressions could confuse, or for two states."""
+    """D407: a name that is ambiguous in expressions, or two states with one name."""
     shared = [each for each in iter_expression_identifiers(context.project) if each.is_expression_name]
     known = {each.name: (each, "") for each in reversed(shared)}
     own = list(iter_design_identifiers(context.design))
@@ -50,16 +50,18 @@ def _find_repeated(
 
 
 def find_bad_ids(context: RuleContext) -> Iterator[Finding]:
-    """D404, D413: ids that are no names, or given to two things."""
+    """D404, D413: invalid and duplicate ids."""
     known: dict[str, DesignPath] = {}
     for id_, path in _ids(context):
         here = (*path, "id")
         if not is_valid_state_name(id_.replace("-", "_")):
-            yield context.make_finding("D404", here, f"'{id_}' cannot be an id", "use letters, digits, '_' and '-'")
-        elif id_ in known:
-            note = Note(message="first given here", subject=context.make_subject(known[id_]))
             yield context.make_finding(
-                "D413", here, f"the id '{id_}' is given twice", "change or delete one", notes=[note]
+                "D404", here, f"'{id_}' is not a valid id", "use ASCII letters, digits, '_' and '-'"
+            )
+        elif id_ in known:
+            note = Note(message="first used here", subject=context.make_subject(known[id_]))
+            yield context.make_finding(
+                "D413", here, f"duplicate id '{id_}'", "change or delete one of them", notes=[note]
             )
         known.setdefault(id_, here)
 

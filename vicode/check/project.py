@@ -1,4 +1,4 @@
-"""Rules about what a project file declares."""
+"""Rules for project files."""
 
 import keyword
 import re
@@ -34,29 +34,32 @@ _CLASS_IN_MODULE = re.compile(r"[A-Za-z_]\w*(\.[A-Za-z_]\w*)*:[A-Za-z_]\w*\Z", r
 
 
 def find_unusable_project_names(project: Project) -> Iterator[Finding]:
-    """P208: a name whose Python package cannot be imported, or is found in the place of another module."""
+    """P208: a project name whose Python package cannot be imported or hides another module."""
     reason = _package_problem(project) if "python" in project.languages else ""
     if reason:
         message = f"the package '{_package_name(project)}' of this project {reason}"
-        mend = "give another name with 'project:' in project.yaml"
-        yield replace(_make_finding("P208", ("project",), message, mend), languages=("python",))
+        fix = "set another name with 'project:' in project.yaml"
+        yield replace(_make_finding("P208", ("project",), message, fix), languages=("python",))
 
 
 def _package_problem(project: Project) -> str:
     package = _package_name(project)
-    written = {"world": project.world, **{each.component: each.implementation for each in project.components}}
-    hidden = [name for name, target in written.items() if target.partition(":")[0].partition(".")[0] == package]
+    targets = {
+        "world": project.world,
+        **{interface.component: interface.implementation for interface in project.components},
+    }
+    hidden = [name for name, target in targets.items() if target.partition(":")[0].partition(".")[0] == package]
     if keyword.iskeyword(package):
-        return "is a keyword of Python"
+        return "is a Python keyword"
     if package in sys.stdlib_module_names:
-        return "would hide a module of Python's library"
+        return "would hide a module of Python's standard library"
     if package in ("vicode", "bica"):
         return "would hide the runtime"
     return f"would hide the module of '{hidden[0]}'" if hidden else ""
 
 
 def _package_name(project: Project) -> str:
-    """The project's package in Python; the digit that the generators put a word before hides nothing."""
+    """Return the name of the Python package. Generators prefix names that start with a digit, which hides nothing."""
     return re.sub(r"[^a-z0-9]+", "_", snake_case(project.name), flags=re.ASCII).strip("_")
 
 
@@ -65,76 +68,78 @@ def find_bad_names(project: Project) -> Iterator[Finding]:
     for named in iter_project_identifiers(project):
         problem = validate_identifier(named, project.languages)
         if problem:
-            code, message, mend = problem
+            code, message, fix = problem
             languages = keyword_languages(named, project.languages) if code == "D406" else ()
-            yield replace(_make_finding(code, named.path, message, mend, of_key=True), languages=languages)
+            yield replace(_make_finding(code, named.path, message, fix, is_key=True), languages=languages)
 
 
 def find_duplicate_names(project: Project) -> Iterator[Finding]:
-    """D407: one name for two constants, enumerations or elements, or for a type and a component."""
+    """D407: duplicate constants, enumerations or elements, or a type and a component with one name."""
     known: dict[tuple[DesignPath, str], Identifier] = {}
     for named in iter_project_identifiers(project):
         if named.kind == "enumeration" and project.interface(named.name):
             message = f"'{named.name}' is already the name of a component"
-            yield _make_finding("D407", named.path, message, "rename one of them", of_key=True)
-        # Constants and enumerations share one space of names, all others only meet their like.
-        place = () if named.is_expression_name else named.path[:-1]
-        first = known.setdefault((place, named.name), named)
+            yield _make_finding("D407", named.path, message, "rename one of them", is_key=True)
+        # Constants and enumerations share one namespace; other names are unique among their siblings.
+        namespace = () if named.is_expression_name else named.path[:-1]
+        first = known.setdefault((namespace, named.name), named)
         if first is not named and named.kind != "hand-written component":
             note = Note(message="first declared here", subject=FindingSubject(path=first.path, is_key=True))
             message = f"'{named.name}' is already the name of {with_article(first.kind)}"
-            yield _make_finding("D407", named.path, message, "rename one of them", of_key=True, notes=(note,))
+            yield _make_finding("D407", named.path, message, "rename one of them", is_key=True, notes=(note,))
 
 
 def find_duplicate_components(project: Project) -> Iterator[Finding]:
-    """P201: two components with one name, or a design and a hand-written one."""
+    """P201: several components with one name."""
     written = [interface.component for interface in project.components]
     for name, count in Counter(written).items():
         if count > 1:
-            yield _make_finding("P201", ("components", name), f"'{name}' is declared twice", "rename one", of_key=True)
+            yield _make_finding(
+                "P201", ("components", name), f"'{name}' is declared twice", "rename one of them", is_key=True
+            )
     designs = Counter(design.component for design in project.designs)
     for name, count in designs.items():
         thing = FindingSubject(component=name, path=("component",))
         notes: tuple[Note, ...] = ()
         if name in written:
-            message = f"'{name}' is also declared as hand-written"
+            message = f"'{name}' is also the name of a hand-written component"
             notes = (Note(message="declared here", subject=FindingSubject(path=("components", name), is_key=True)),)
         elif count > 1:
-            message = f"{count} designs are called '{name}'"
+            message = f"{count} designs have the name '{name}'"
         else:
             continue
         yield Finding(rule=get_rule("P201"), message=message, fix="rename one of them", subject=thing, notes=notes)
 
 
 def find_bad_implementations(project: Project) -> Iterator[Finding]:
-    """P203: an implementation or world that does not name a class in a module."""
-    mend = "write module:Class, such as field.perception:Perception"
+    """P203: an implementation or world that is not module:Class."""
+    fix = "use module:Class, such as field.perception:Perception"
     add = "add implementation: module:Class, or implementation: world"
     for interface in project.components:
         path: DesignPath = ("components", interface.component)
         if not interface.implementation:
             yield _make_finding("P203", path, f"'{interface.component}' has no implementation", add)
         elif not interface.is_generated and not _CLASS_IN_MODULE.match(interface.implementation):
-            message = f"'{interface.implementation}' does not name a class in a module"
-            yield _make_finding("P203", (*path, "implementation"), message, mend)
+            message = f"'{interface.implementation}' is not of the form module:Class"
+            yield _make_finding("P203", (*path, "implementation"), message, fix)
     if project.world and not _CLASS_IN_MODULE.match(project.world):
-        yield _make_finding("P203", ("world",), f"'{project.world}' does not name a class in a module", mend)
+        yield _make_finding("P203", ("world",), f"'{project.world}' is not of the form module:Class", fix)
 
 
 def find_unknown_languages(project: Project) -> Iterator[Finding]:
-    """P204: a language that vicode does not generate."""
+    """P204: an unknown target language."""
     for index, language in enumerate(project.languages):
         if language not in LANGUAGES:
-            mend = did_you_mean(language, LANGUAGES, f"known are {', '.join(LANGUAGES)}")
-            yield _make_finding("P204", ("languages", index), f"there is no language '{language}'", mend)
+            fix = did_you_mean(language, LANGUAGES, f"use one of {', '.join(LANGUAGES)}")
+            yield _make_finding("P204", ("languages", index), f"unknown language '{language}'", fix)
 
 
 def find_unknown_roots(project: Project) -> Iterator[Finding]:
-    """P202: an agent whose root is not a component of the project."""
+    """P202: an agent with an unknown root component."""
     for agent in project.agents:
         if project.interface(agent.root) is None:
-            mend = did_you_mean(agent.root, project.interfaces(), "add its design")
-            yield _make_finding("P202", ("agents", agent.name, "root"), f"there is no component '{agent.root}'", mend)
+            fix = did_you_mean(agent.root, project.interfaces(), "add a design with this name")
+            yield _make_finding("P202", ("agents", agent.name, "root"), f"unknown component '{agent.root}'", fix)
 
 
 def find_empty_enumerations(project: Project) -> Iterator[Finding]:
@@ -143,7 +148,11 @@ def find_empty_enumerations(project: Project) -> Iterator[Finding]:
         if not enumeration.elements:
             path = ("enumerations", enumeration.name)
             yield _make_finding(
-                "P207", path, f"'{enumeration.name}' has no elements", "add one: [first, second]", of_key=True
+                "P207",
+                path,
+                f"'{enumeration.name}' has no elements",
+                "add elements, such as [first, second]",
+                is_key=True,
             )
 
 
@@ -154,60 +163,61 @@ def find_bad_frequencies(project: Project) -> Iterator[Finding]:
         if hertz is not None and not 0 < hertz < float("inf"):
             path = ("components", interface.component, "frequency")
             yield _make_finding(
-                "D416", path, f"{hertz:g} Hz is no frequency", "write a number above 0, or leave it out"
+                "D416", path, f"{hertz:g} Hz is not a valid frequency", "use a number above 0, or remove 'frequency'"
             )
 
 
 def find_bad_declarations(project: Project) -> Iterator[Finding]:
-    """P205, P206, D427, E3: types, ranges and first values of everything declared in the project file."""
-    for declaration, path, reader in _declarations(project):
-        for code, here, message, mend in validate_declaration(declaration, path, reader.scope):
-            yield _make_finding(code, here, message, mend)
-        for expression in parse_initial_values(declaration, path, reader):
-            yield from _find_bad_initial_value(expression, reader.scope)
+    """P205, P206, D427, E3: types, ranges and initial values of declarations in the project file."""
+    for declaration, path, parser in _declarations(project):
+        for code, here, message, fix in validate_declaration(declaration, path, parser.scope):
+            yield _make_finding(code, here, message, fix)
+        for expression in parse_initial_values(declaration, path, parser):
+            yield from _find_bad_initial_value(expression, parser.scope)
 
 
 def _find_bad_initial_value(expression: TypedExpression, scope: Scope) -> Iterator[Finding]:
-    for mistake in expression.analysis.diagnostics:
-        yield _make_finding(mistake.rule.code, expression.path, mistake.message, mistake.fix, span=mistake.span)
+    for diagnostic in expression.analysis.diagnostics:
+        yield _make_finding(
+            diagnostic.rule.code, expression.path, diagnostic.message, diagnostic.fix, span=diagnostic.span
+        )
     if expression.tree is None or not expression.is_sound:
         return
-    mend = "a first value is made of numbers, constants and enumeration elements"
+    fix = "use literals, constants and enumeration elements only"
     for message, node in find_nonconstant_nodes(expression.tree):
-        yield _make_finding("E308", expression.path, message, mend, span=node.span)
+        yield _make_finding("E308", expression.path, message, fix, span=node.span)
     receiver = expression.receiver
     message = validate_range(receiver, literal_value(expression.tree, scope)) if receiver else ""
     if message:
         yield _make_finding(
-            "D427", expression.path, message, "change the value, or the range", span=expression.tree.span
+            "D427", expression.path, message, "change the value or the range", span=expression.tree.span
         )
 
 
 def _declarations(project: Project) -> Iterator[tuple[Declaration, DesignPath, ExpressionParser]]:
-    """Every declaration with what it may be made from: a constant from those before it, all others from all of them."""
+    """Yield each declaration with its parser. A constant can use only the constants before it."""
     for index, constant in enumerate(project.constants):
-        before = replace(project, constants=project.constants[:index])
-        yield constant, ("constants", constant.name), build_uncached_parser(build_scope(before, None))
-    reader = build_expression_parser(project, None)
+        preceding = replace(project, constants=project.constants[:index])
+        yield constant, ("constants", constant.name), build_uncached_parser(build_scope(preceding, None))
+    parser = build_expression_parser(project, None)
     for interface in project.components:
         for section in ("parameters", "outputs", "variables"):
             for declaration in getattr(interface, section):
-                yield declaration, ("components", interface.component, section, declaration.name), reader
+                yield declaration, ("components", interface.component, section, declaration.name), parser
 
 
 def _make_finding(
     code: str,
     path: DesignPath,
     message: str,
-    mend: str = "",
+    fix: str = "",
     *,
     span: Span | None = None,
-    of_key: bool = False,
+    is_key: bool = False,
     notes: tuple[Note, ...] = (),
 ) -> Finding:
-    """A finding about a thing of the project file."""
-    thing = FindingSubject(path=path, span=span, is_key=of_key)
-    return Finding(rule=get_rule(code), message=message, fix=mend, subject=thing, notes=notes)
+    subject = FindingSubject(path=path, span=span, is_key=is_key)
+    return Finding(rule=get_rule(code), message=message, fix=fix, subject=subject, notes=notes)
 
 
 RULES = (

@@ -1,4 +1,4 @@
-"""Rules about the states as a graph: the initial one, ways that lead in, ways that lead out."""
+"""Rules for the state graph: initial state, unreachable states, dead ends."""
 
 from collections import defaultdict
 from collections.abc import Iterator
@@ -12,7 +12,7 @@ from vicode.model.disabled import strip_disabled_decision
 def find_no_states(context: RuleContext) -> Iterator[Finding]:
     """D411: a design without states."""
     if not context.design.states:
-        yield context.make_finding("D411", (), "a design needs a state", "add 'states:' with at least one")
+        yield context.make_finding("D411", (), "the design has no states", "add 'states:' with at least one state")
 
 
 def find_no_initial_state(context: RuleContext) -> Iterator[Finding]:
@@ -22,18 +22,18 @@ def find_no_initial_state(context: RuleContext) -> Iterator[Finding]:
         return
     first = design.states[0].name
     if design.initial:
-        mend = did_you_mean(design.initial, _state_names(context), f"write initial: {first}")
-        yield context.make_finding("D401", ("initial",), f"there is no state '{design.initial}'", mend)
+        fix = did_you_mean(design.initial, _state_names(context), f"add initial: {first}")
+        yield context.make_finding("D401", ("initial",), f"unknown state '{design.initial}'", fix)
     else:
-        yield context.make_finding("D401", (), "the initial state is not given", f"write initial: {first}")
+        yield context.make_finding("D401", (), "the initial state is missing", f"add initial: {first}")
 
 
 def find_disabled_initial_state(context: RuleContext) -> Iterator[Finding]:
-    """D418: the component cannot begin in a state that is disabled."""
+    """D418: a disabled initial state."""
     initial = context.design.initial
     if initial in context.disabled_states:
         message = f"the initial state '{initial}' is disabled"
-        yield context.make_finding("D418", ("initial",), message, "choose another initial state, or enable it")
+        yield context.make_finding("D418", ("initial",), message, "enable it, or choose another initial state")
 
 
 def find_unknown_states(context: RuleContext) -> Iterator[Finding]:
@@ -42,36 +42,36 @@ def find_unknown_states(context: RuleContext) -> Iterator[Finding]:
     for located in context.decisions:
         decision = located.decision
         if isinstance(decision, Transition) and decision.to not in names:
-            mend = did_you_mean(decision.to, names, "add the state, or choose another")
-            yield context.make_finding("D402", (*located.path, "to"), f"there is no state '{decision.to}'", mend)
+            fix = did_you_mean(decision.to, names, "add the state, or choose another target")
+            yield context.make_finding("D402", (*located.path, "to"), f"unknown state '{decision.to}'", fix)
 
 
 def find_unreachable_states(context: RuleContext) -> Iterator[Finding]:
-    """D421: a state that no way leads to from the initial one."""
+    """D421: a state that is unreachable from the initial state."""
     design = context.design
     if not design.state(design.initial) or design.initial in context.disabled_states:
         return
     reachable = _reachable_states(context, _targets(context))
     for state in design.states:
         if state.name not in reachable and not state.disabled:
-            message = f"no way leads from '{design.initial}' to '{state.name}'"
-            mend = "add a transition to it, or delete it"
-            yield context.make_finding("D421", ("states", state.name), message, mend, is_key=True)
+            message = f"'{state.name}' is unreachable from the initial state '{design.initial}'"
+            fix = "add a transition to it, or delete it"
+            yield context.make_finding("D421", ("states", state.name), message, fix, is_key=True)
 
 
 def find_dead_ends(context: RuleContext) -> Iterator[Finding]:
-    """D422: a state that is reached, never left and not final; a design's only state is no trap."""
+    """D422: a reachable state without exit that is not final. The only state of a design is exempt."""
     design = context.design
     if len(design.states) - len(context.disabled_states) < 2:
         return
     targets = _targets(context)
-    watched = _reachable_states(context, targets) if design.state(design.initial) else _state_names(context)
+    candidates = _reachable_states(context, targets) if design.state(design.initial) else _state_names(context)
     for state in design.states:
-        leaves = (targets[state.name] | targets[COMMON]) - {state.name}
-        if not leaves and not (state.final or state.disabled) and state.name in watched:
-            message = f"'{state.name}' is never left, and it is not final"
-            mend = "add a transition, or mark it final: true"
-            yield context.make_finding("D422", ("states", state.name), message, mend, is_key=True)
+        exits = (targets[state.name] | targets[COMMON]) - {state.name}
+        if not exits and not (state.final or state.disabled) and state.name in candidates:
+            message = f"'{state.name}' is a dead end: it has no transition to another state and is not final"
+            fix = "add a transition, or set final: true"
+            yield context.make_finding("D422", ("states", state.name), message, fix, is_key=True)
 
 
 def _state_names(context: RuleContext) -> set[str]:
@@ -79,27 +79,31 @@ def _state_names(context: RuleContext) -> set[str]:
 
 
 def _targets(context: RuleContext) -> dict[str, set[str]]:
-    """Names that the working transitions of each working state lead to, known or not."""
+    """Return the targets of the enabled transitions of each enabled state, including unknown names."""
     targets: dict[str, set[str]] = defaultdict(set)
     for located in context.decisions:
         decision = located.decision
-        works = located.source not in context.disabled_states and not any(
+        is_enabled = located.source not in context.disabled_states and not any(
             group.disabled for group, _is_then in located.groups
         )
-        if works and isinstance(decision, Transition) and strip_disabled_decision(decision, context.disabled_states):
+        if (
+            is_enabled
+            and isinstance(decision, Transition)
+            and strip_disabled_decision(decision, context.disabled_states)
+        ):
             targets[located.source].add(decision.to)
     return targets
 
 
 def _reachable_states(context: RuleContext, targets: dict[str, set[str]]) -> set[str]:
-    """States that may become active, the initial one with all that common transitions lead to."""
-    waiting = [context.design.initial, *targets[COMMON]]
+    """Return the states reachable from the initial state and from targets of common transitions."""
+    pending = [context.design.initial, *targets[COMMON]]
     reachable: set[str] = set()
-    while waiting:
-        name = waiting.pop()
+    while pending:
+        name = pending.pop()
         if name not in reachable:
             reachable.add(name)
-            waiting += targets[name]
+            pending += targets[name]
     return reachable
 
 

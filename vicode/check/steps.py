@@ -1,4 +1,4 @@
-"""Rules about who steps what in an iteration: twice, or never although it is read."""
+"""Rules for stepping components in an iteration: stepped twice, or read but never stepped."""
 
 import re
 from collections.abc import Callable, Collection, Iterable, Iterator
@@ -15,10 +15,10 @@ SharedDescendants = Callable[[str, str], frozenset[str]]
 
 
 def find_stepped_twice(context: RuleContext) -> Iterator[Finding]:
-    """D425: a component that one state steps twice, itself or through two of those it steps.
+    """D425: a component that a state steps twice, directly or through other components.
 
-    Below the state only components without a frequency count: one that has a frequency works once an iteration,
-    however often it is stepped.
+    Indirect steps count only for components without a frequency: a component with a frequency runs at most once per
+    iteration.
     """
     if context.graphs.is_in_cycle(context.design.component):
         return
@@ -29,34 +29,34 @@ def find_stepped_twice(context: RuleContext) -> Iterator[Finding]:
     for state, steps in by_state.items():
         ordered = sorted(steps, key=lambda step: step.is_call)
         for component, first, second in _find_double_steps(ordered, reach):
-            # What the common actions do alone is said once, not for every state again.
+            # A double step within the common actions is reported once, not for each state.
             if state in (first.state, second.state):
                 yield _report_double_step(context, component, first, second)
 
 
 def _find_double_steps(steps: Iterable[StepSite], reach: SharedDescendants) -> Iterator[tuple[str, StepSite, StepSite]]:
-    said: set[str] = set()
+    reported: set[str] = set()
     for first, second in combinations(steps, 2):
         is_direct = first.component == second.component
         twice = frozenset({first.component}) if is_direct else reach(first.component, second.component)
-        for component in sorted(twice - said):
-            said.add(component)
+        for component in sorted(twice - reported):
+            reported.add(component)
             yield component, first, second
 
 
 def _report_double_step(context: RuleContext, component: str, first: StepSite, second: StepSite) -> Finding:
-    # A common step after a required one is second in time, but the state's own place is where it can be mended.
+    # A common step may run after a required one, but the finding belongs to the state, where it can be fixed.
     first, second = (second, first) if second.state == COMMON else (first, second)
-    ways = [
-        f"by '{step.alias}'" if step.component == component else f"below '{step.alias}'" for step in (first, second)
+    paths = [
+        f"by '{step.alias}'" if step.component == component else f"through '{step.alias}'" for step in (first, second)
     ]
-    message = f"{component} is stepped twice in an iteration: {ways[0]} and {ways[1]}"
+    message = f"{component} is stepped twice in an iteration: {paths[0]} and {paths[1]}"
     if first.component == second.component == component:
-        mend = "step it once"
+        fix = "step it once"
     else:
-        mend = "step it in one place, or give it a frequency: it then works once an iteration"
-    note = Note(message="stepped here as well", subject=context.make_subject(first.path, is_key=_is_key(first)))
-    return context.make_finding("D425", second.path, message, mend, is_key=_is_key(second), notes=[note])
+        fix = "step it in one place, or set its frequency so that it runs once per iteration"
+    note = Note(message="also stepped here", subject=context.make_subject(first.path, is_key=_is_key(first)))
+    return context.make_finding("D425", second.path, message, fix, is_key=_is_key(second), notes=[note])
 
 
 def _is_key(step: StepSite) -> bool:
@@ -64,12 +64,12 @@ def _is_key(step: StepSite) -> bool:
 
 
 def _shared_descendants(context: RuleContext, first: str, second: str) -> frozenset[str]:
-    """Topmost components without a frequency that stepping either of two components reaches."""
+    """Return the topmost components without a frequency that both components step."""
     graph = context.graphs.steps
     shared = ({first} | context.graphs.transitive_steps(first)) & ({second} | context.graphs.transitive_steps(second))
-    working = {component for component in shared if not _has_frequency(context, component)}
+    unlimited = {component for component in shared if not _has_frequency(context, component)}
     return frozenset(
-        each for each in working if not any(other != each and find_path(graph, other, each) for other in working)
+        each for each in unlimited if not any(other != each and find_path(graph, other, each) for other in unlimited)
     )
 
 
@@ -79,7 +79,7 @@ def _has_frequency(context: RuleContext, component: str) -> bool:
 
 
 def find_never_stepped(context: RuleContext) -> Iterator[Finding]:
-    """D426: reading an output of a component that neither this design steps nor its code, nor anyone below it."""
+    """D426: an output of a component that neither the design, its code nor a stepped component steps."""
     stepped = {step.component for step in context.steps} | _stepped_by_code(context)
     for component in tuple(stepped):
         stepped |= context.graphs.transitive_steps(component)
@@ -89,13 +89,13 @@ def find_never_stepped(context: RuleContext) -> Iterator[Finding]:
     for expression in context.expressions:
         for node in walk(expression.tree) if expression.tree is not None else ():
             if isinstance(node, OutputRef | Done) and node.alias in idle:
-                message = f"'{node.alias}' is read, but nothing here steps {idle[node.alias]}"
-                mend = f"add requires: [{node.alias}] to the states that read it"
-                yield context.make_finding("D426", expression.path, message, mend, span=node.span)
+                message = f"'{node.alias}' is read, but {idle[node.alias]} is never stepped"
+                fix = f"add requires: [{node.alias}] to the states that read it"
+                yield context.make_finding("D426", expression.path, message, fix, span=node.span)
 
 
 def _is_idle(context: RuleContext, use: Use, stepped: Collection[str]) -> bool:
-    """Nobody steps it, and it is not one that only hands on what it is asked."""
+    """Return whether the component needs steps, but is not stepped."""
     interface = context.project.interface(use.component)
     return use.component not in stepped and not (interface is not None and interface.is_generated)
 

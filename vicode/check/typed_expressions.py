@@ -1,4 +1,4 @@
-"""Every expression of a design and of a project file, parsed against the type its place asks for."""
+"""The expressions of a design or project file, parsed with their expected types."""
 
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
@@ -28,9 +28,9 @@ from vicode.model.traversal import LocatedAction, LocatedDecision
 
 
 class ExpressionSite(StrEnum):
-    """What an expression is for."""
+    """The role of an expression."""
 
-    INITIAL_VALUE = "first value"
+    INITIAL_VALUE = "initial value"
     GUARD = "guard"
     AFTER = "time"
     ASSIGNED_VALUE = "assigned value"
@@ -39,7 +39,7 @@ class ExpressionSite(StrEnum):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TypedExpression:
-    """An expression at its place; `receiver` is what its value goes to, where that has a declaration."""
+    """A parsed expression. `receiver` is the declaration that its value is assigned to, if any."""
 
     site: ExpressionSite
     path: DesignPath
@@ -49,18 +49,17 @@ class TypedExpression:
 
     @property
     def tree(self) -> Expr | None:
-        """Its tree, None when there is none."""
         return self.analysis.tree
 
     @property
     def is_sound(self) -> bool:
-        """Whether its tree tells everything it reads."""
+        """Whether the expression was parsed without errors."""
         return self.analysis.tree is not None and not self.analysis.diagnostics
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ExpressionAnalysis:
-    """A parsed text with the names and aliases it reads; of a text with mistakes both are all its words."""
+    """A parsed text with the names and aliases that it reads; with errors, both contain all identifiers of the text."""
 
     tree: Expr | None
     diagnostics: tuple[ExpressionDiagnostic, ...]
@@ -69,25 +68,25 @@ class ExpressionAnalysis:
 
 
 ParseFunction = Callable[[str, str | None], ExpressionAnalysis]
-"""Parses a text for the type its place expects."""
+"""Parses a text with an expected type."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ExpressionParser:
-    """The names of a design with a parser that remembers what it has parsed for the same names."""
+    """A scope and a parse function that may cache its results."""
 
     scope: Scope
     parse: ParseFunction
 
 
 def build_expression_parser(project: Project, design: Design | None) -> ExpressionParser:
-    """A reader of a design's expressions; without a design, of those in the project file."""
+    """Return a parser for expressions of a design, or of the project file if `design` is None."""
     if design is None:
         return _build_cached_parser(
             replace(_EMPTY_PROJECT, constants=project.constants, enumerations=project.enumerations), None
         )
-    found = (project.interface(use.component) for use in design.uses)
-    used = tuple(dict.fromkeys(interface for interface in found if interface is not None))
+    interfaces = (project.interface(use.component) for use in design.uses)
+    used = tuple(dict.fromkeys(interface for interface in interfaces if interface is not None))
     vocabulary = replace(
         _EMPTY_PROJECT, constants=project.constants, enumerations=project.enumerations, components=used
     )
@@ -104,20 +103,19 @@ def build_expression_parser(project: Project, design: Design | None) -> Expressi
 _EMPTY_PROJECT = Project(name="")
 
 
-# The editor checks after every edit, and hardly ever do the names of a design change.
+# The editor checks after every edit, but the names of a design rarely change.
 @lru_cache(maxsize=64)
 def _build_cached_parser(vocabulary: Project, names: Design | None) -> ExpressionParser:
-    reader = build_uncached_parser(build_scope(vocabulary, names))
-    return replace(reader, parse=lru_cache(maxsize=20_000)(reader.parse))
+    parser = build_uncached_parser(build_scope(vocabulary, names))
+    return replace(parser, parse=lru_cache(maxsize=20_000)(parser.parse))
 
 
 def build_uncached_parser(scope: Scope) -> ExpressionParser:
-    """A reader without a memory."""
     return ExpressionParser(scope=scope, parse=lambda text, expected: analyze_expression(text, scope, expected))
 
 
 def analyze_expression(text: str, scope: Scope, expected: str | None) -> ExpressionAnalysis:
-    """Parse a text and note what it reads."""
+    """Parse a text and collect the names that it reads."""
     parsed = parse_expression(text, scope, expected)
     if parsed.tree is None or parsed.diagnostics:
         names = aliases = frozenset(find_identifiers(text))
@@ -131,7 +129,7 @@ def analyze_expression(text: str, scope: Scope, expected: str | None) -> Express
 def parse_expressions(
     design: Design, parser: ExpressionParser, decisions: Iterable[LocatedDecision], actions: Iterable[LocatedAction]
 ) -> Iterator[TypedExpression]:
-    """Every expression of a design, in the order of its file."""
+    """Yield the expressions of a design, in file order."""
     for section, declaration in design.declarations():
         yield from parse_initial_values(declaration, (section, declaration.name), parser)
     for located in decisions:
@@ -147,7 +145,7 @@ def parse_expressions(
 def parse_initial_values(
     declaration: Declaration, path: DesignPath, parser: ExpressionParser
 ) -> Iterator[TypedExpression]:
-    """The first value of a declaration and the defaults of its arguments."""
+    """Yield the initial value of a declaration and the defaults of its arguments."""
     if declaration.initial:
         key = {"parameters": "default", "constants": "value", "arguments": "default"}.get(str(path[-2]), "initial")
         yield _parse(ExpressionSite.INITIAL_VALUE, (*path, key), declaration.initial, parser, receiver=declaration)
@@ -156,7 +154,7 @@ def parse_initial_values(
 
 
 def literal_value(tree: Expr | None, scope: Scope) -> float | None:
-    """The number that a literal, or a constant with a literal value, stands for; None for anything else."""
+    """Return the value of a number or of a constant with a literal value, otherwise None."""
     match tree:
         case Number(value=value):
             return value
@@ -176,32 +174,32 @@ def _parse_number(text: str) -> float | None:
         return None
 
 
-def _parse_action(placed: LocatedAction, reader: ExpressionParser) -> Iterator[TypedExpression]:
+def _parse_action(placed: LocatedAction, parser: ExpressionParser) -> Iterator[TypedExpression]:
     match placed.action:
         case Assign(values=values):
             for name, text in values:
                 path = (*placed.path, "set", name)
                 yield _parse(
-                    ExpressionSite.ASSIGNED_VALUE, path, text, reader, receiver=reader.scope.find_assignable(name)
+                    ExpressionSite.ASSIGNED_VALUE, path, text, parser, receiver=parser.scope.find_assignable(name)
                 )
         case Call(alias=alias, arguments=arguments):
-            interface: Interface | None = reader.scope.uses.get(alias)
+            interface: Interface | None = parser.scope.uses.get(alias)
             middle = () if placed.phase == "modulates" else ("with",)
             for name, text in arguments:
                 parameter = interface.parameter(name) if interface else None
-                yield _parse(ExpressionSite.ARGUMENT, (*placed.path, *middle, name), text, reader, receiver=parameter)
+                yield _parse(ExpressionSite.ARGUMENT, (*placed.path, *middle, name), text, parser, receiver=parameter)
 
 
 def _parse(
-    place: ExpressionSite,
+    site: ExpressionSite,
     path: DesignPath,
     text: str,
-    reader: ExpressionParser,
+    parser: ExpressionParser,
     *,
     expected: str | None = None,
     receiver: Declaration | None = None,
 ) -> TypedExpression:
     if receiver is not None:
-        expected = reader.scope.type_of(receiver)
-    parsed = reader.parse(text, expected)
-    return TypedExpression(site=place, path=path, text=text, analysis=parsed, receiver=receiver)
+        expected = parser.scope.type_of(receiver)
+    parsed = parser.parse(text, expected)
+    return TypedExpression(site=site, path=path, text=text, analysis=parsed, receiver=receiver)

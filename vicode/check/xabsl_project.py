@@ -1,4 +1,4 @@
-"""Rules about what XABSL can say of a project file, and about names that all its designs share there."""
+"""Rules for project files with XABSL as a target language, and for names shared by all designs."""
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
@@ -23,7 +23,7 @@ from vicode.model.xabsl.unsupported import find_unsupported_in_project
 
 @dataclass(frozen=True, slots=True)
 class _XabslName:
-    """A name of XABSL, among which it must be the only one (empty: nobody minds), and what has it."""
+    """A name in XABSL, unique in its namespace. An empty namespace means that the name need not be unique."""
 
     name: str
     namespace: str
@@ -32,16 +32,18 @@ class _XabslName:
 
 
 def find_unsupported_features(project: Project) -> Iterator[Finding]:
-    """L701: what a program of XABSL has no place for."""
+    """L701: features of a project that XABSL does not support."""
     if LANGUAGE not in project.languages:
         return
     for limit in find_unsupported_in_project(project):
-        thing = FindingSubject(path=limit.path, is_key=limit.is_key)
-        yield Finding(rule=get_rule("L701"), message=limit.message, fix=limit.fix, subject=thing, languages=(LANGUAGE,))
+        subject = FindingSubject(path=limit.path, is_key=limit.is_key)
+        yield Finding(
+            rule=get_rule("L701"), message=limit.message, fix=limit.fix, subject=subject, languages=(LANGUAGE,)
+        )
 
 
 def find_bad_names(project: Project) -> Iterator[Finding]:
-    """L703: names that XABSL cannot have, or that two things of its program would have."""
+    """L703: names that are invalid or not unique in XABSL."""
     if LANGUAGE not in project.languages:
         return
     known: dict[tuple[str, str], _XabslName] = {}
@@ -53,14 +55,14 @@ def find_bad_names(project: Project) -> Iterator[Finding]:
         notes: tuple[Note, ...] = ()
         first = known.setdefault((each.namespace, each.name), each) if each.namespace else each
         if not problem and first is not each:
-            problem = f"two {each.namespace.partition(' ')[0]} would be called '{each.name}' in XABSL"
-            notes = (Note(message="the first is here", subject=first.subject),)
+            problem = f"two {each.namespace.partition(' ')[0]} would have the name '{each.name}' in XABSL"
+            notes = (Note(message="first declared here", subject=first.subject),)
         if problem:
-            mend = f"give it another: xabsl_name: my_{each.name}"
+            fix = f"set another name, such as xabsl_name: my_{each.name}"
             yield Finding(
                 rule=get_rule("L703"),
                 message=problem,
-                fix=mend,
+                fix=fix,
                 subject=each.subject,
                 notes=notes,
                 languages=(LANGUAGE,),
@@ -72,8 +74,8 @@ def _iter_names(project: Project) -> Iterator[_XabslName]:
         yield _make_name(design, component_name(design), "options", ("component",), component=design.component)
     for interface in project.components:
         path: DesignPath = ("components", interface.component)
-        among = "behaviors" if is_basic_behavior(interface) else ""
-        yield _make_name(interface, component_name(interface), among, path)
+        namespace = "behaviors" if is_basic_behavior(interface) else ""
+        yield _make_name(interface, component_name(interface), namespace, path)
         yield from _iter_parameter_names(interface.parameters, (*path, "parameters"))
         for output in interface.outputs:
             yield from _iter_parameter_names(output.arguments or (), (*path, "outputs", output.name, "arguments"))
@@ -84,33 +86,33 @@ def _iter_names(project: Project) -> Iterator[_XabslName]:
         yield _make_name(enumeration, unqualified_name(enumeration), "enumerations", path)
         for element in enumeration.element_names:
             name = element_name(enumeration, element)
-            thing = FindingSubject(path=path, is_key=True)
-            yield _XabslName(name, f"elements of {enumeration.name}", thing, name != element)
+            subject = FindingSubject(path=path, is_key=True)
+            yield _XabslName(name, f"elements of {enumeration.name}", subject, name != element)
     yield from _iter_symbol_names(project, build_scope(project, None))
 
 
 def _iter_parameter_names(parameters: Iterable[Declaration], path: DesignPath) -> Iterator[_XabslName]:
     for each in parameters:
-        among = f"parameters of {'.'.join(map(str, path))}"
-        yield _make_name(each, unqualified_name(each), among, (*path, each.name))
+        namespace = f"parameters of {'.'.join(map(str, path))}"
+        yield _make_name(each, unqualified_name(each), namespace, (*path, each.name))
 
 
 def _iter_symbol_names(project: Project, scope: Scope) -> Iterator[_XabslName]:
-    """Symbols may share a name if they are of two kinds, or one is given by the robot and one is told to it."""
+    """Yield the names of symbols. Symbols of different kinds or directions may share a name."""
     for each in list_symbols(project):
         type_ = scope.type_of(each.declaration)
         kind = {"bool": "bool", "int": "number", "float": "number"}.get(type_, "enum")
         if each.role == CONST and kind != "number":
             continue
-        side = each.role if each.role in (INPUT, CONST) else "told"
+        side = each.role if each.role in (INPUT, CONST) else "output"
         yield _make_name(each.declaration, each.name, f"symbols {kind} {side}", each.path, component=each.component)
 
 
-def _make_name(named: object, name: str, among: str, path: DesignPath, *, component: str = "") -> _XabslName:
+def _make_name(named: object, name: str, namespace: str, path: DesignPath, *, component: str = "") -> _XabslName:
     is_given = bool(getattr(named, "xabsl_name", ""))
     where = ("xabsl_name",) if is_given and path == ("component",) else (*path, "xabsl_name") if is_given else path
-    thing = FindingSubject(component=component, path=where, is_key=not is_given and path != ("component",))
-    return _XabslName(name, among, thing, is_given)
+    subject = FindingSubject(component=component, path=where, is_key=not is_given and path != ("component",))
+    return _XabslName(name, namespace, subject, is_given)
 
 
 RULES = (find_unsupported_features, find_bad_names)

@@ -1,4 +1,4 @@
-"""What vicode says to its users: rules, findings about things, and their rendering as text and JSON."""
+"""Rules and findings, and their rendering as text and JSON."""
 
 from vicode.findings.catalogue import RULES, Rule, Severity, get_rule
 from vicode.findings.finding import (

@@ -1,11 +1,11 @@
-"""The catalogue of rules: one line each, the code never used again for another meaning."""
+"""The catalogue of rules, one record for each rule."""
 
 from dataclasses import dataclass
 from enum import StrEnum
 
 
 class Severity(StrEnum):
-    """How bad a finding is, the worst first."""
+    """The severity of a finding, worst first."""
 
     ERROR = "error"
     WARNING = "warning"
@@ -14,141 +14,136 @@ class Severity(StrEnum):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Rule:
-    """A promise that designs keep; `code` and `name` are its address in docs/rules.md."""
+    """A rule; its section in docs/rules.md is addressed by the code."""
 
     code: str
     name: str
     severity: Severity
     summary: str
+    """What the rule reports, as a noun phrase."""
 
 
 def get_rule(code: str) -> Rule:
-    """The rule with this code; KeyError is a bug of ours."""
+    """Return a rule.
+
+    Raises:
+        KeyError: The code does not exist.
+    """
     return RULES[code]
 
 
-_ERRORS = {
-    # Reading the text of files
-    "Y101": ("not-yaml", "the text is not YAML"),
-    "Y102": ("unknown-key", "a key that means nothing here"),
-    "Y103": ("wrong-shape", "a value of another shape than expected here"),
-    "Y104": ("missing-key", "a key that must be given"),
-    "Y105": ("duplicate-key", "the same key twice in one mapping"),
-    "Y106": ("refused-tag", "a YAML tag; only plain values are read"),
-    "Y107": ("refused-alias", "YAML anchors and aliases are not read"),
-    "Y108": ("too-large", "the file is larger or deeper than any design"),
-    "Y109": ("wrong-version", "a version of the format that is not known"),
-    "Y110": ("not-text", "the file cannot be read as UTF-8 text"),
-    "Y111": ("conflicting-keys", "keys that exclude each other"),
-    "Y112": ("several-documents", "more than one YAML document in a file"),
-    # A project of designs
-    "P201": ("duplicate-component", "two components with one name"),
-    "P202": ("unknown-component", "a component that nothing in the project declares"),
-    "P203": ("bad-implementation", "an implementation that is not written module:Class"),
-    "P204": ("unknown-language", "a language vicode does not generate"),
-    "P205": ("unknown-type", "a type that is neither bool, int, float nor an enumeration"),
-    "P206": ("bad-range", "a range whose ends are swapped, or on something that is not a number"),
-    "P207": ("empty-enumeration", "an enumeration without elements"),
-    "P208": ("unusable-project-name", "a project whose Python package cannot be imported or hides another module"),
+# Code, name, severity, summary. The code does not determine the severity.
+_RECORDS = (
+    # YAML syntax and schema
+    ("Y101", "not-yaml", Severity.ERROR, "invalid YAML"),
+    ("Y102", "unknown-key", Severity.ERROR, "unknown key"),
+    ("Y103", "wrong-shape", Severity.ERROR, "value of the wrong kind"),
+    ("Y104", "missing-key", Severity.ERROR, "missing required key"),
+    ("Y105", "duplicate-key", Severity.ERROR, "duplicate key in a mapping"),
+    ("Y106", "refused-tag", Severity.ERROR, "YAML tag"),
+    ("Y107", "refused-alias", Severity.ERROR, "YAML anchor or alias"),
+    ("Y108", "too-large", Severity.ERROR, "file too large or nested too deeply"),
+    ("Y109", "wrong-version", Severity.ERROR, "unsupported format version"),
+    ("Y110", "not-text", Severity.ERROR, "file that is not valid UTF-8"),
+    ("Y111", "conflicting-keys", Severity.ERROR, "mutually exclusive keys"),
+    ("Y112", "several-documents", Severity.ERROR, "several YAML documents in a file"),
+    # Projects
+    ("P201", "duplicate-component", Severity.ERROR, "duplicate component name"),
+    ("P202", "unknown-component", Severity.ERROR, "unknown component"),
+    ("P203", "bad-implementation", Severity.ERROR, "implementation not in the form module:Class"),
+    ("P204", "unknown-language", Severity.ERROR, "unknown target language"),
+    ("P205", "unknown-type", Severity.ERROR, "unknown type"),
+    ("P206", "bad-range", Severity.ERROR, "invalid range"),
+    ("P207", "empty-enumeration", Severity.ERROR, "enumeration without elements"),
+    ("P208", "unusable-project-name", Severity.ERROR, "project name unusable as a Python package"),
     # Expressions
-    "E301": ("not-an-expression", "text that is not an expression"),
-    "E302": ("outside-grammar", "Python that expressions do not allow"),
-    "E303": ("unknown-name", "a name that is not declared"),
-    "E304": ("wrong-type", "a value of the wrong type"),
-    "E305": ("wrong-arguments", "a function called with the wrong arguments"),
-    "E306": ("unknown-element", "a literal that the enumeration does not have"),
-    "E307": ("not-settable", "setting what cannot be set here"),
-    "E308": ("not-constant", "a first value that is not known before the component runs"),
-    "E309": ("bad-time", "a time that is neither a number of seconds from 0 up nor a constant"),
-    # The structure of a design
-    "D401": ("no-initial-state", "a design without a valid initial state"),
-    "D402": ("unknown-state", "a transition to a state that does not exist"),
-    "D403": ("unknown-use", "a component used under a name that is not declared in uses"),
-    "D404": ("bad-name", "a name that is not letters, digits and underscores"),
-    "D405": ("reserved-name", "a name that the runtime keeps for itself"),
-    "D406": ("keyword-name", "a name that is a keyword in a language of the project"),
-    "D407": ("duplicate-name", "one name for two things"),
-    "D408": ("uses-cycle", "components that use each other in a circle"),
-    "D409": ("unknown-parameter", "a call with a parameter that the component does not have"),
-    "D410": ("misplaced-call", "a call of a component outside actions"),
-    "D411": ("no-states", "a design without states"),
-    "D412": ("code-does-not-parse", "code that the language's parser refuses"),
-    "D413": ("duplicate-id", "two things with one id"),
-    "D414": ("missing-language", "code that is missing in a language of the project"),
-    "D415": ("empty-code", "a predicate without code"),
-    "D416": ("bad-frequency", "a frequency that is not above 0"),
-    "D418": ("disabled-initial-state", "an initial state that is disabled"),
-    # What a language of the project cannot say
-    "L701": ("not-in-xabsl", "something that XABSL cannot say"),
-    "L702": ("other-result-in-xabsl", "an expression that gives another result in XABSL"),
-    "L703": ("bad-xabsl-name", "a name that XABSL cannot have, or that two things would have there"),
-    "L704": ("code-is-not-xabsl", "code in XABSL that its parser refuses"),
+    ("E301", "not-an-expression", Severity.ERROR, "invalid expression syntax"),
+    ("E302", "outside-grammar", Severity.ERROR, "unsupported expression syntax"),
+    ("E303", "unknown-name", Severity.ERROR, "undeclared name"),
+    ("E304", "wrong-type", Severity.ERROR, "type mismatch"),
+    ("E305", "wrong-arguments", Severity.ERROR, "wrong arguments in a call"),
+    ("E306", "unknown-element", Severity.ERROR, "unknown enumeration element"),
+    ("E307", "not-settable", Severity.ERROR, "assignment to something that cannot be set"),
+    ("E308", "not-constant", Severity.ERROR, "initial value that is not constant"),
+    ("E309", "bad-time", Severity.ERROR, "invalid time"),
+    # Designs
+    ("D401", "no-initial-state", Severity.ERROR, "missing or unknown initial state"),
+    ("D402", "unknown-state", Severity.ERROR, "transition to an unknown state"),
+    ("D403", "unknown-use", Severity.ERROR, "alias not declared in uses"),
+    ("D404", "bad-name", Severity.ERROR, "invalid name"),
+    ("D405", "reserved-name", Severity.ERROR, "name reserved by the runtime"),
+    ("D406", "keyword-name", Severity.ERROR, "keyword of a target language"),
+    ("D407", "duplicate-name", Severity.ERROR, "duplicate name"),
+    ("D408", "uses-cycle", Severity.ERROR, "cycle in uses"),
+    ("D409", "unknown-parameter", Severity.ERROR, "unknown parameter in a call"),
+    ("D410", "misplaced-call", Severity.ERROR, "call outside actions and modulates"),
+    ("D411", "no-states", Severity.ERROR, "design without states"),
+    ("D412", "code-does-not-parse", Severity.ERROR, "invalid Python code"),
+    ("D413", "duplicate-id", Severity.ERROR, "duplicate id"),
+    ("D414", "missing-language", Severity.ERROR, "code missing in a target language"),
+    ("D415", "empty-code", Severity.ERROR, "predicate without code"),
+    ("D416", "bad-frequency", Severity.ERROR, "frequency that is not positive"),
+    ("D418", "disabled-initial-state", Severity.ERROR, "disabled initial state"),
+    ("D421", "unreachable-state", Severity.WARNING, "unreachable state"),
+    ("D422", "dead-end", Severity.WARNING, "state without exit that is not final"),
+    ("D423", "shadowed-transition", Severity.WARNING, "transition that is never tested"),
+    ("D424", "unused-declaration", Severity.WARNING, "unused declaration"),
+    ("D425", "stepped-twice", Severity.WARNING, "component stepped twice in an iteration"),
+    ("D426", "never-stepped", Severity.WARNING, "output read from a component that is never stepped"),
+    ("D427", "outside-range", Severity.WARNING, "value outside the declared range"),
+    ("D428", "unused-use", Severity.WARNING, "unused alias in uses"),
+    ("D430", "no-effect", Severity.NOTE, "transition from a state to itself"),
+    # XABSL as a target language
+    ("L701", "not-in-xabsl", Severity.ERROR, "feature that XABSL does not support"),
+    ("L702", "other-result-in-xabsl", Severity.ERROR, "expression with a different result in XABSL"),
+    ("L703", "bad-xabsl-name", Severity.ERROR, "name invalid or not unique in XABSL"),
+    ("L704", "code-is-not-xabsl", Severity.ERROR, "invalid XABSL code"),
     # Generated files
-    "G501": ("edited-outside", "a generated file whose code was edited by hand"),
-    "G502": ("stale-output", "a generated file that is not what the design gives"),
-    "G503": ("broken-marks", "region marks that do not match"),
-    # Reading the files of an XABSL behavior
-    "X601": ("illegal-character", "a character that no word of the language has, or a text that is never closed"),
-    "X602": ("open-comment", "a comment that is never closed"),
-    "X603": ("stray-comment-end", "the end of a comment that was not begun"),
-    "X604": ("not-xabsl", "words in an order that the language does not have"),
-    "X605": ("unexpected-end", "a file that ends too early"),
-    "X606": ("missing-file", "an include of a file that cannot be read"),
-    "X607": ("wrong-extension", "a file whose name does not end in .xabsl"),
-    "X609": ("nothing-defined", "a file, or a behavior, without what it is there for"),
-    "X610": ("several-definitions", "more than one option or namespace in a file, or agents in two"),
-    # What an XABSL behavior declares and means
-    "X621": ("unknown-word", "a name that nothing declares here"),
-    "X622": ("ambiguous-word", "a name that may mean two things"),
-    "X623": ("declared-twice", "two declarations of one kind with one name"),
-    "X624": ("wrong-use", "a symbol that cannot be used so"),
-    "X625": ("wrong-kind", "a decimal, bool or enum where another is wanted"),
-    "X626": ("wrong-enumeration", "a value of another enumeration"),
-    "X627": ("given-twice", "a parameter that is given twice in a call"),
-    "X628": ("no-initial", "an option without initial state"),
-    "X629": ("two-initials", "an option with more than one initial state"),
-    "X630": ("mixed-namespace", "symbols and basic behaviors in one namespace"),
-    "X632": ("needless-else", "a decision that begins with else where no common decision is"),
-    "X633": ("stay-in-common", "stay in a common decision"),
-    "X635": ("parameter-without-at", "a parameter of an option without @"),
-    "X636": ("option-cycle", "options that call each other in a circle"),
+    ("G501", "edited-outside", Severity.ERROR, "generated code that was edited by hand"),
+    ("G502", "stale-output", Severity.ERROR, "generated file that is out of date"),
+    ("G503", "broken-marks", Severity.ERROR, "region marks that do not match"),
+    # XABSL syntax and files
+    ("X601", "illegal-character", Severity.ERROR, "illegal character or unterminated text"),
+    ("X602", "open-comment", Severity.ERROR, "unterminated comment"),
+    ("X603", "stray-comment-end", Severity.ERROR, "end of a comment without a start"),
+    ("X604", "not-xabsl", Severity.ERROR, "syntax error"),
+    ("X605", "unexpected-end", Severity.ERROR, "unexpected end of file"),
+    ("X606", "missing-file", Severity.ERROR, "included file that cannot be read"),
+    ("X607", "wrong-extension", Severity.ERROR, "file name without the extension .xabsl"),
+    ("X608", "included-twice", Severity.WARNING, "file included twice"),
+    ("X609", "nothing-defined", Severity.ERROR, "file without a definition, or behavior without an agent"),
+    ("X610", "several-definitions", Severity.ERROR, "several definitions in a file, or agents in several files"),
+    # XABSL declarations and semantics
+    ("X621", "unknown-symbol", Severity.ERROR, "undeclared name"),
+    ("X622", "ambiguous-name", Severity.ERROR, "ambiguous name"),
+    ("X623", "declared-twice", Severity.ERROR, "duplicate declaration"),
+    ("X624", "invalid-use", Severity.ERROR, "invalid use of a symbol"),
+    ("X625", "wrong-value-type", Severity.ERROR, "type mismatch"),
+    ("X626", "wrong-enumeration", Severity.ERROR, "value of another enumeration"),
+    ("X627", "duplicate-argument", Severity.ERROR, "parameter passed twice"),
+    ("X628", "missing-initial-state", Severity.ERROR, "option without an initial state"),
+    ("X629", "several-initial-states", Severity.ERROR, "option with several initial states"),
+    ("X630", "mixed-namespace", Severity.ERROR, "namespace with symbols and basic behaviors"),
+    ("X631", "empty-namespace", Severity.WARNING, "empty namespace"),
+    ("X632", "needless-else", Severity.ERROR, "decision that starts with else without a common decision"),
+    ("X633", "stay-in-common", Severity.ERROR, "stay in a common decision"),
+    ("X634", "needless-range", Severity.WARNING, "range or unit of a value that is not decimal"),
+    ("X635", "parameter-without-at", Severity.ERROR, "option parameter without @"),
+    ("X636", "option-cycle", Severity.ERROR, "cycle of options"),
+    ("X641", "missing-else", Severity.WARNING, "decision without else after a common decision"),
+    ("X642", "missing-argument", Severity.NOTE, "parameter without a value in a call"),
+    ("X643", "unreachable-option-state", Severity.WARNING, "unreachable state"),
+    ("X644", "unused-symbol", Severity.NOTE, "unused declaration"),
+    ("X645", "never-set", Severity.WARNING, "internal symbol that is never set"),
+    ("X646", "out-of-range", Severity.WARNING, "value outside the declared range"),
+    ("X647", "active-twice", Severity.WARNING, "option executed twice in a cycle"),
+    ("X651", "nonstandard-spelling", Severity.NOTE, "spelling that the original compiler rejects"),
+    ("X652", "bool-choice", Severity.NOTE, "conditional expression with bools"),
+)
+
+RULES = {
+    code: Rule(code=code, name=name, severity=severity, summary=summary) for code, name, severity, summary in _RECORDS
 }
 
-_WARNINGS = {
-    "D421": ("unreachable-state", "a state that no way leads to"),
-    "D422": ("trap-state", "a state without exit that is not final"),
-    "D423": ("dead-transition", "a transition after one that always holds"),
-    "D424": ("unused-declaration", "something declared that nothing uses"),
-    "D425": ("stepped-twice", "a component that may be stepped twice in an iteration"),
-    "D426": ("never-stepped", "a component that is read, but that nobody steps here"),
-    "D427": ("outside-range", "a literal outside the declared range"),
-    "X608": ("included-twice", "one file included twice by another"),
-    "X631": ("empty-namespace", "a namespace that declares nothing"),
-    "X634": ("needless-range", "a range or unit of something that is no decimal"),
-    "X643": ("unreached-state", "a state that no decision leads to"),
-    "X645": ("never-set", "an internal symbol that is read, and that no action sets"),
-    "X646": ("out-of-range", "a number outside the declared range"),
-    "X647": ("active-twice", "an option that may be executed twice in a cycle"),
-    "X641": ("missing-else", "a decision that does not begin with else, though a common one goes before it"),
-    "D428": ("unused-use", "a used component that no state requires, modulates or reads"),
-}
-
-_NOTES = {
-    "X644": ("unused-word", "something declared that nothing uses"),
-    "X642": ("not-given", "a parameter that a call does not give"),
-    "X652": ("bool-choice", "a choice between bools, which no original engine reads"),
-    "X651": ("slip", "a spelling that the original compiler does not read"),
-    "D430": ("no-effect", "a transition that changes nothing"),
-}
-
-
-def _build_catalogue() -> dict[str, Rule]:
-    tables = ((Severity.ERROR, _ERRORS), (Severity.WARNING, _WARNINGS), (Severity.NOTE, _NOTES))
-    return {
-        code: Rule(code=code, name=name, severity=severity, summary=summary)
-        for severity, table in tables
-        for code, (name, summary) in table.items()
-    }
-
-
-RULES = _build_catalogue()
+RETIRED_CODES = frozenset({"D417", "D429"})
+"""Codes of removed rules. A retired code is never used again."""

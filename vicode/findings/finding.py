@@ -1,4 +1,4 @@
-"""A finding: a rule broken by one thing, first by name and path, later by line and column."""
+"""A finding: a violation of a rule, located by design path and later by line and column."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass
@@ -6,15 +6,15 @@ from dataclasses import dataclass
 from vicode.findings.catalogue import Rule, Severity
 
 DesignPath = tuple[str | int, ...]
-"""Way to a thing inside a design in the words of its file: ("states", "Kick", "transitions", 0, "when")."""
+"""Keys and indices that lead to an item of a design, such as ("states", "Kick", "transitions", 0, "when")."""
 
 Span = tuple[int, int]
-"""First and one-past-last character inside the text a path leads to."""
+"""Start and exclusive end, in characters, within the text at a path."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SourceLocation:
-    """Where in a file, counted from 1; `length` characters are underlined."""
+    """A position in a file; line and column start at 1. `length` characters are underlined."""
 
     file: str
     line: int
@@ -24,18 +24,18 @@ class SourceLocation:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class FindingSubject:
-    """What is meant: a path inside the design of `component`; an empty component means the project file."""
+    """The item that a finding is about. An empty `component` means the project file."""
 
     component: str = ""
     path: DesignPath = ()
     span: Span | None = None
     is_key: bool = False
-    """The name itself is meant (a state's key), not what it holds."""
+    """Whether the finding is about the key (such as a state name) instead of its value."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Note:
-    """A second place that explains a finding."""
+    """An additional location that explains a finding."""
 
     message: str
     subject: FindingSubject | None = None
@@ -44,10 +44,9 @@ class Note:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Finding:
-    """A rule broken by one thing.
+    """A violation of a rule.
 
-    `message` says what is wrong, `fix` how to put it right, both in the user's words. With `languages` it stands in
-    the way of generating those alone.
+    `message` describes the problem, `fix` how to fix it. A finding with `languages` prevents generation of only those.
     """
 
     rule: Rule
@@ -59,26 +58,24 @@ class Finding:
     languages: tuple[str, ...] = ()
 
     def applies_to(self, language: str) -> bool:
-        """Whether it says something of what is generated in a language."""
         return not self.languages or language in self.languages
 
     @property
     def severity(self) -> Severity:
-        """How bad it is, as its rule says."""
         return self.rule.severity
 
 
 def sort_findings(findings: Iterable[Finding]) -> tuple[Finding, ...]:
-    """Order by file, line, column and code, each finding once."""
+    """Sort by file, line, column and code, and remove duplicates."""
 
     def key(finding: Finding) -> tuple[str, int, int, str, str]:
-        place = finding.location or SourceLocation(file="", line=0, column=0)
-        return (place.file, place.line, place.column, finding.rule.code, finding.message)
+        location = finding.location or SourceLocation(file="", line=0, column=0)
+        return (location.file, location.line, location.column, finding.rule.code, finding.message)
 
     return tuple(sorted(dict.fromkeys(findings), key=key))
 
 
 def worst_severity(findings: Iterable[Finding]) -> Severity | None:
-    """The worst severity among findings, None when there are none."""
+    """Return the worst severity, None without findings."""
     ranks = list(Severity)
     return min((finding.severity for finding in findings), key=ranks.index, default=None)

@@ -1,4 +1,4 @@
-"""Findings as lines with a caret under the guilty text, and as JSON."""
+"""Rendering of findings as text with source excerpts, and as JSON."""
 
 import json
 from collections.abc import Callable, Iterable
@@ -6,11 +6,11 @@ from collections.abc import Callable, Iterable
 from vicode.findings.finding import Finding, SourceLocation
 
 SourceLine = Callable[[str, int], str | None]
-"""The text of a line (counted from 1) of a file, None when it cannot be had."""
+"""Returns the text of a line of a file (starting at 1), None if it is not available."""
 
 
 def render_text(findings: Iterable[Finding], source_line: SourceLine = lambda _file, _line: None) -> str:
-    """One line a finding, `file:line:column: severity code name: message; fix`, then the source with a caret."""
+    """Render each finding as `file:line:column: severity code name: message; fix`, followed by a source excerpt."""
     lines: list[str] = []
     for finding in findings:
         rule = finding.rule
@@ -25,37 +25,37 @@ def render_text(findings: Iterable[Finding], source_line: SourceLine = lambda _f
 
 
 def render_json(findings: Iterable[Finding]) -> str:
-    """An array of objects: code, name, severity, message, fix, file, line, column, component, path, notes."""
+    """Render an array of objects: code, name, severity, message, fix, file, line, column, component, path, notes."""
     return json.dumps([_to_json(finding) for finding in findings], indent=2, ensure_ascii=False) + "\n"
 
 
 def _to_json(finding: Finding) -> dict[str, object]:
-    place, thing = finding.location, finding.subject
+    location, subject = finding.location, finding.subject
     return {
         "code": finding.rule.code,
         "name": finding.rule.name,
         "severity": str(finding.severity),
         "message": finding.message,
         "fix": finding.fix,
-        "file": place.file if place else None,
-        "line": place.line if place else None,
-        "column": place.column if place else None,
-        "component": thing.component if thing else None,
-        "path": list(thing.path) if thing else None,
+        "file": location.file if location else None,
+        "line": location.line if location else None,
+        "column": location.column if location else None,
+        "component": subject.component if subject else None,
+        "path": list(subject.path) if subject else None,
         "notes": [note.message for note in finding.notes],
     }
 
 
-def _location_prefix(place: SourceLocation | None) -> str:
-    return f"{place.file}:{place.line}:{place.column}: " if place else ""
+def _location_prefix(location: SourceLocation | None) -> str:
+    return f"{location.file}:{location.line}:{location.column}: " if location else ""
 
 
-def _excerpt(place: SourceLocation | None, source_line: SourceLine) -> list[str]:
-    text = source_line(place.file, place.line) if place else None
-    if place is None or not text or not text.strip():
+def _excerpt(location: SourceLocation | None, source_line: SourceLine) -> list[str]:
+    text = source_line(location.file, location.line) if location else None
+    if location is None or not text or not text.strip():
         return []
     shown = "".join(char if char.isprintable() else " " for char in text.rstrip("\r\n"))
-    # A minified or hostile line would fill the terminal; the caret must stay in view.
-    start = max(0, place.column - 80)
-    caret = " " * (place.column - 1 - start) + "^" * max(1, min(place.length, len(shown) - place.column + 1))
+    # A very long line would fill the terminal; keep the caret visible.
+    start = max(0, location.column - 80)
+    caret = " " * (location.column - 1 - start) + "^" * max(1, min(location.length, len(shown) - location.column + 1))
     return [f"    {shown[start : start + 160]}", f"    {caret[:160]}"]

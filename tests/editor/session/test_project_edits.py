@@ -110,12 +110,12 @@ def test_each_part_of_the_project_can_be_added_changed_and_removed(workspace: Wo
     [
         (NET_X, {"initial": "1 +"}, "invalid syntax"),
         (NET_X, {"type": "length"}, "length"),
-        (NET_X, {"range": (10.0, 0.0)}, "no value lies from 10 to 0"),
+        (NET_X, {"range": (10.0, 0.0)}, "the range from 10 to 0 is empty"),
         (AGENT, {"root": "Nobody"}, "Nobody"),
         (PERCEPTION, {"implementation": "here and there"}, "here and there"),
         (KICK, {"elements": ()}, "Kick"),
         (ProjectNodePath(steps=()), {"languages": ("cobol",)}, "cobol"),
-        (ProjectNodePath(steps=()), {"name": "json"}, "would hide a module of Python's library"),
+        (ProjectNodePath(steps=()), {"name": "json"}, "would hide a module of Python's standard library"),
     ],
 )
 def test_what_makes_no_sound_project_is_refused(
@@ -144,7 +144,7 @@ def test_what_is_used_is_told_before_it_is_removed_and_who_has_errors_afterwards
     assert {each.component for each in kick} == {"", "Player"}
     removed = edit_project_file(workspace, KICK.remove, KICK, allow_errors=True)
     assert removed.broken_designs == ("project.yaml", "Player")
-    assert "there is no type 'Kick'" in [each.message for each in workspace.project_findings]
+    assert "unknown type 'Kick'" in [each.message for each in workspace.project_findings]
     assert taken_back(removed) == ""
     assert workspace.project_findings == ()
 
