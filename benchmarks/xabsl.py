@@ -1,8 +1,8 @@
-"""XABSL: how long a behavior takes to compile, as a whole process, and how many cycles a second the engine runs.
+"""XABSL: CPU time to compile a behavior in a new process, and cycles per second of the engine.
 
-Run `python -m benchmarks.xabsl [AGENTS.xabsl]`; without a file it takes the largest behavior of the tests. Beside the
-compiler runs the original, if `VICODE_XABSL_ORIGINAL` is a command that takes `-i OUTPUT AGENTS`, such as
-"ruby -I folder folder/xabsl.rb". Beside the engine runs a loop that only calls a function for every active option.
+Run `python -m benchmarks.xabsl [AGENTS.xabsl]`; the default is the largest behavior of the tests. The compiler is compared
+with the original if `VICODE_XABSL_ORIGINAL` is a command that takes `-i OUTPUT AGENTS`, such as
+"ruby -I folder folder/xabsl.rb". The engine is compared with a loop that calls one function per active option.
 """
 
 import os
@@ -37,7 +37,7 @@ def cpu_s(command: Sequence[str]) -> float:
 
 
 def measure_compilers(agents: Path) -> None:
-    """Run both compilers in turn."""
+    """Run both compilers alternately."""
     original = shlex.split(os.environ.get("VICODE_XABSL_ORIGINAL", ""))
     with tempfile.TemporaryDirectory() as folder:
         own = [sys.executable, "-m", "vicode", "xabsl", "compile", str(agents), "-o", f"{folder}/own.dat"]
@@ -60,20 +60,20 @@ def random_number(rng: random.Random, symbol: RobotSymbol) -> float:
 
 
 def noop(now: int, cycle: int) -> None:
-    """What the loop beside the engine calls."""
+    """The function that the comparison loop calls."""
 
 
 def measure_engine(agents: Path) -> None:
-    """Run the engine on inputs of which some change before every cycle, through all agents."""
+    """Run the engine with all agents; some inputs change before every cycle."""
     compiled = compile_source(load_source(agents))
     if compiled.program is None:
         raise SystemExit(f"{agents} has errors: vicode xabsl check {agents}")
     symbols = declared_symbols(compiled.table)
     robot, rng = ReplayRobot(compiled.program, symbols, traced=False), random.Random(1)
-    inputs = [each for each in symbols.symbols if each.role == "input"]
+    inputs = [symbol for symbol in symbols.symbols if symbol.role == "input"]
     rates, ratios, active = [], [], 0
     for _ in range(ROUNDS):
-        spent_s = beside_s = 0.0
+        spent_s = loop_s = 0.0
         for cycle in range(CYCLES):
             if cycle % 50 == 0:
                 robot.engine.select(rng.choice(compiled.program.agents)[0])
@@ -82,22 +82,21 @@ def measure_engine(agents: Path) -> None:
             for symbol in rng.sample(inputs, min(4, len(inputs))):
                 robot.world.set_input(symbol.name, random_number(rng, symbol))
             robot.now += rng.randrange(10, 100)
-            begun_s = time.perf_counter()
+            start_s = time.perf_counter()
             robot.engine.execute()
-            ended_s = time.perf_counter()
+            end_s = time.perf_counter()
             for _option in range(count):
                 noop(robot.now, cycle)
-            spent_s += ended_s - begun_s
-            beside_s += time.perf_counter() - ended_s
+            spent_s += end_s - start_s
+            loop_s += time.perf_counter() - end_s
         rates.append(CYCLES / spent_s)
-        ratios.append(spent_s / beside_s)
+        ratios.append(spent_s / loop_s)
     options = active / (ROUNDS * CYCLES / 50)
-    print(f"engine: {median(rates):.0f} cycles/s with {options:.1f} active options a cycle,")
-    print(f"{median(ratios):.1f} × as long as a loop that calls a function for each")
+    print(f"engine: {median(rates):.0f} cycles/s with {options:.1f} active options per cycle,")
+    print(f"{median(ratios):.1f} × as long as a loop with one function call per active option")
 
 
 def main() -> None:
-    """Measure both."""
     agents = Path(sys.argv[1]) if len(sys.argv) > 1 else LARGEST
     measure_compilers(agents)
     measure_engine(agents)

@@ -3,7 +3,7 @@
 import random
 from dataclasses import replace
 
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.docsite.random_edits import EDITS, FORWARD, Edit
@@ -14,7 +14,6 @@ from vicode.model.project import LANGUAGES, Project
 STEPS = st.lists(st.tuples(st.sampled_from(EDITS), st.integers(0, 99)), min_size=1, max_size=8)
 
 
-@settings(max_examples=40, deadline=None)
 @given(steps=STEPS, has_all_languages=st.booleans())
 def test_what_was_found_before_is_what_is_found_now(steps: list[tuple[Edit, int]], has_all_languages: bool) -> None:
     project = FORWARD

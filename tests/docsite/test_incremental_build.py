@@ -89,7 +89,7 @@ def folder(tmp_path: Path) -> Folder:
     return Folder(tmp_path)
 
 
-@settings(max_examples=6, deadline=None)
+@settings(max_examples=max(6, settings.default.max_examples // 20))
 @given(edits=st.lists(st.tuples(st.sampled_from(EDITS), st.integers(0, 99), st.booleans()), min_size=3, max_size=6))
 def test_after_any_edits_the_site_is_the_one_built_from_nothing(
     tmp_path_factory: pytest.TempPathFactory, edits: list[tuple[Edit, int, bool]]

@@ -97,7 +97,7 @@ def test_strings_evaluate_to_their_text(text: str) -> None:
     assert ast.literal_eval(quoted(text)) == text
 
 
-@settings(max_examples=15)
+@settings(max_examples=max(15, settings.default.max_examples // 8))
 @given(sound_designs())
 def test_generated_code_is_not_edited(design: Design) -> None:
     project = project_of(design)

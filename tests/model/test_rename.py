@@ -44,7 +44,7 @@ def things_of(project: Project) -> list[SymbolRef]:
     return [replace(kind, name=name) for kind in kinds for name in sibling_names(project, kind)]
 
 
-@settings(max_examples=60)
+@settings(max_examples=max(60, settings.default.max_examples))
 @given(projects, st.data())
 def test_a_rename_brings_no_findings_and_can_be_taken_back(project: Project, data: st.DataObject) -> None:
     thing = data.draw(st.sampled_from(things_of(project)))
