@@ -99,7 +99,7 @@ def test_what_does_not_touch_is_merged_and_said(editor: str, page: Page, project
     type_doc(page, "mine")
     expect(page.get_by_text("Unsaved changes")).to_be_visible()
     file.write_text(file.read_text().replace("WatchBall", "Rest"))
-    expect(page.get_by_text("Merged with what another program wrote")).to_be_visible()
+    expect(page.get_by_text("Merged changes that another program wrote")).to_be_visible()
     expect(page.locator('g[data-kind="state"][data-id="Rest"]')).to_be_visible()
     expect(page.get_by_role("textbox", name="Doc")).to_have_value("mine")
     expect(page.get_by_text("Unsaved changes")).to_be_visible()

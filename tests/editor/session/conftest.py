@@ -1,28 +1,38 @@
-"""The forward player's project in a folder of its own, opened as the editor opens it."""
+"""An open design without a file, and the `forward` project opened in the editor."""
 
-import shutil
 from pathlib import Path
+from typing import Any
 
 import pytest
 
-from vicode.editor.session import Library, Workspace
+from vicode.editor.session import DocumentSession, Library, SharedDocument, Workspace
+from vicode.model.design import Design
 
-DESIGNS = Path(__file__).parents[3] / "designs"
+
+def open_design(design: Design, **options: Any) -> DocumentSession:
+    """Open a design that has no file and is not checked."""
+    return DocumentSession(
+        SharedDocument(file=Path("player.yaml"), disk_text="", saved=design, check=lambda _design: (), **options)
+    )
 
 
 @pytest.fixture
-def folder(tmp_path: Path) -> Path:
-    """The project's folder, free to be changed."""
-    shutil.copytree(DESIGNS / "forward", tmp_path / "forward", ignore=shutil.ignore_patterns("__pycache__"))
-    return tmp_path / "forward"
+def document(request: pytest.FixtureRequest) -> DocumentSession:
+    """The open `DESIGN` of the test module."""
+    return open_design(request.module.DESIGN)
 
 
 @pytest.fixture
-def workspace(folder: Path) -> Workspace:
-    """What the editor holds of it."""
-    return Library(folder.parent).workspaces[0]
+def folder(project: Path) -> Path:
+    """A writable copy of the project folder."""
+    return project / "forward"
+
+
+@pytest.fixture
+def workspace(project: Path) -> Workspace:
+    return Library(project).workspaces[0]
 
 
 def texts_of(folder: Path) -> dict[str, str]:
-    """What its YAML files say."""
+    """The texts of the YAML files in a folder by name."""
     return {file.name: file.read_text() for file in sorted(folder.glob("*.yaml"))}

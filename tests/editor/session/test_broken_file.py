@@ -1,4 +1,4 @@
-"""A broken file is read with its mistakes at their characters, and only ever written over the text that was opened."""
+"""Design files that cannot be parsed: marks at errors, and saving without overwriting other changes."""
 
 from pathlib import Path
 
@@ -12,7 +12,7 @@ from vicode.editor.session.broken_file import FileModifiedError, parse_text, rea
 BROKEN = "vicode: 1\ncomponent: A\nstats:\n  S: {}\n"
 
 
-def test_mistakes_stand_at_their_characters() -> None:
+def test_findings_are_marked_at_their_characters() -> None:
     reading = parse_text(BROKEN, "a.yaml")
     (mark,) = (mark for mark in reading.marks if "stats" in mark.message)
     assert BROKEN[mark.start : mark.end] == "stats"
@@ -20,20 +20,20 @@ def test_mistakes_stand_at_their_characters() -> None:
     assert "did you mean 'states'?" in mark.message
 
 
-def test_it_is_written_only_over_what_was_opened(tmp_path: Path) -> None:
+def test_saving_fails_if_the_file_has_changed(tmp_path: Path) -> None:
     file = tmp_path / "a.yaml"
     file.write_text(BROKEN)
-    mended = BROKEN.replace("stats", "states")
+    fixed = BROKEN.replace("stats", "states")
     with pytest.raises(FileModifiedError):
-        write_fixed_text(file, mended, "another text")
-    write_fixed_text(file, mended, read_file_text(file))
-    assert file.read_text() == mended
+        write_fixed_text(file, fixed, "another text")
+    write_fixed_text(file, fixed, read_file_text(file))
+    assert file.read_text() == fixed
     file.unlink()
     with pytest.raises(FileModifiedError):
-        write_fixed_text(file, mended, mended)
+        write_fixed_text(file, fixed, fixed)
 
 
-def test_broken_files_are_named_inside_their_folder(tmp_path: Path) -> None:
+def test_broken_file_names_are_relative_to_the_project(tmp_path: Path) -> None:
     (tmp_path / "deep").mkdir()
     (tmp_path / "deep" / "b.yaml").write_text("component: [\n")
     (tmp_path / "a.yaml").write_text("vicode: 1\ncomponent: A\ninitial: S\nstates: {S: {}}\n")
@@ -41,5 +41,5 @@ def test_broken_files_are_named_inside_their_folder(tmp_path: Path) -> None:
 
 
 @given(st.text(max_size=60) | st.text("a: b\n[]{}\r\t'\"é😀\u2028", max_size=60))
-def test_no_text_makes_it_raise(text: str) -> None:
+def test_no_text_raises(text: str) -> None:
     assert all(0 <= mark.start <= mark.end <= len(text) for mark in parse_text(text, "a.yaml").marks)

@@ -1,14 +1,14 @@
-"""What is copied is a design file with less in it; what is pasted may be anything at all."""
+"""Copy, duplicate and paste: copied text is a smaller design file, pasted text is untrusted."""
 
 from dataclasses import replace
-from pathlib import Path
 from typing import Any
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from vicode.editor.session import DocumentSession, EditResult, SharedDocument, apply_gesture, clipboard
+from tests.editor.session.conftest import open_design
+from vicode.editor.session import DocumentSession, EditResult, apply_gesture, clipboard
 from vicode.editor.view import ItemRef
 from vicode.model.design import CommonSection, Design, Guard, State, Transition, Use
 from vicode.store import read_design
@@ -32,36 +32,25 @@ DESIGN = Design(
 KNOWN = {"Head", "Player"}
 
 
-def opened(design: Design = DESIGN) -> DocumentSession:
-    return DocumentSession(
-        SharedDocument(file=Path("player.yaml"), disk_text="", saved=design, check=lambda _design: ())
-    )
-
-
-@pytest.fixture
-def document() -> DocumentSession:
-    return opened()
-
-
 def items(**named: str) -> list[dict[str, str]]:
     return [{"of": of, "id": identity} for of, ids in named.items() for identity in ids.split()]
 
 
 def paste(document: DocumentSession, text: Any, *onto: str, x: float = 0, y: float = 0) -> EditResult:
-    things = [ItemRef(kind="states", id=name) for name in onto]
-    more = {"paste": lambda here, wish: clipboard.paste(here, wish, KNOWN, things)}
+    targets = [ItemRef(kind="states", id=name) for name in onto]
+    more = {"paste": lambda document, payload: clipboard.paste(document, payload, KNOWN, targets)}
     return apply_gesture(document, {"kind": "paste", "text": text, "x": x, "y": y}, more)
 
 
-def duplicate(document: DocumentSession, wanted: Any) -> EditResult:
-    return apply_gesture(document, {"kind": "duplicate", "items": wanted}, {"duplicate": clipboard.duplicate_items})
+def duplicate(document: DocumentSession, items: Any) -> EditResult:
+    return apply_gesture(document, {"kind": "duplicate", "items": items}, {"duplicate": clipboard.duplicate_items})
 
 
 def names(document: DocumentSession) -> list[str]:
     return [state.name for state in document.design.states]
 
 
-def test_what_is_copied_is_a_file_that_can_be_read() -> None:
+def test_copied_text_is_a_readable_design_file() -> None:
     text = clipboard.copy_as_text(DESIGN, items(states="A B"))
     assert text is not None
     assert text.startswith("vicode: 1\ncomponent: Player\nuses:\n  head: {component: Head, at:")
@@ -71,14 +60,14 @@ def test_what_is_copied_is_a_file_that_can_be_read() -> None:
     assert read.design.states == DESIGN.states[:2]
 
 
-def test_nothing_that_could_be_copied_is_no_text() -> None:
+def test_an_empty_selection_is_not_copied() -> None:
     assert clipboard.copy_as_text(DESIGN, []) is None
     assert clipboard.copy_as_text(DESIGN, items(components="head", states="Ghost", transitions="A/9")) is None
     twins = replace(DESIGN, states=(DESIGN.states[0], DESIGN.states[0]))
     assert clipboard.copy_as_text(twins, items(states="A")) is None
 
 
-def test_pasting_is_one_edit_around_the_hand(document: DocumentSession) -> None:
+def test_paste_is_one_edit_centered_at_the_pointer(document: DocumentSession) -> None:
     text = clipboard.copy_as_text(DESIGN, items(states="A B"))
     outcome = paste(document, text, x=1003, y=498)
     assert outcome.new_selection == (ItemRef(kind="states", id="A2"), ItemRef(kind="states", id="B2"))
@@ -88,26 +77,26 @@ def test_pasting_is_one_edit_around_the_hand(document: DocumentSession) -> None:
     assert document.design == DESIGN
 
 
-def test_pasting_twice_hides_nothing(document: DocumentSession) -> None:
+def test_pasting_twice_covers_no_state(document: DocumentSession) -> None:
     text = clipboard.copy_as_text(DESIGN, items(states="A"))
     for _time in range(3):
         paste(document, text, x=500, y=500)
     assert len({state.at for state in document.design.states}) == 6
 
 
-def test_a_part_of_a_file_is_enough(document: DocumentSession) -> None:
+def test_a_section_of_a_file_can_be_pasted(document: DocumentSession) -> None:
     assert paste(document, "states:\n  D: {transitions: [{to: A}]}\n").error == ""
     assert names(document) == ["A", "B", "C", "D"]
 
 
-def test_another_project_tells_what_it_lacks() -> None:
-    other = opened(Design(component="Other"))
+def test_paste_reports_missing_components() -> None:
+    other = open_design(Design(component="Other"))
     text = "states:\n  D: {requires: [wheels]}\nuses: {wheels: Wheels}\n"
     assert "Wheels" in paste(other, text).note
     assert other.design.uses == ()
 
 
-def test_transitions_alone_go_to_the_selected_states(document: DocumentSession) -> None:
+def test_transitions_are_pasted_into_the_selected_states(document: DocumentSession) -> None:
     text = clipboard.copy_as_text(DESIGN, items(transitions="A/0"))
     assert text is not None
     assert "select the states" in paste(document, text).error
@@ -116,14 +105,14 @@ def test_transitions_alone_go_to_the_selected_states(document: DocumentSession) 
     assert document.undo_label == "paste transitions"
 
 
-def test_the_common_part_can_be_copied(document: DocumentSession) -> None:
-    other = opened(Design(component="Other", states=(State(name="C"),)))
+def test_the_common_section_can_be_copied(document: DocumentSession) -> None:
+    other = open_design(Design(component="Other", states=(State(name="C"),)))
     paste(other, clipboard.copy_as_text(DESIGN, items(common="@common")))
     assert other.design.common.transitions == (Transition(to="C"),)
 
 
 @pytest.mark.parametrize(
-    ("text", "words"),
+    ("text", "message"),
     [
         ("hello", "the clipboard contains no part of a design"),
         ("states: [", "the clipboard contains no part of a design: "),
@@ -140,14 +129,14 @@ def test_the_common_part_can_be_copied(document: DocumentSession) -> None:
         ({"states": 1}, "the clipboard contains no part of a design"),
     ],
 )
-def test_what_is_no_part_of_a_design_gets_words(document: DocumentSession, text: object, words: str) -> None:
-    assert words in paste(document, text).error
+def test_invalid_clipboard_text_is_an_error(document: DocumentSession, text: object, message: str) -> None:
+    assert message in paste(document, text).error
     assert document.design == DESIGN
 
 
 @given(st.text(max_size=60).map(lambda text: "states: " + text) | st.text(max_size=60))
-def test_any_text_is_taken_or_refused(text: str) -> None:
-    document = opened()
+def test_any_text_is_pasted_or_rejected(text: str) -> None:
+    document = open_design(DESIGN)
     paste(document, text)
     if document.undo_label:
         document.undo()
@@ -155,21 +144,23 @@ def test_any_text_is_taken_or_refused(text: str) -> None:
 
 
 @pytest.mark.parametrize("place", [("x", "east"), ("x", float("nan")), ("y", None)])
-def test_a_place_that_is_none_changes_nothing(document: DocumentSession, place: tuple[str, Any]) -> None:
+def test_an_invalid_position_changes_nothing(document: DocumentSession, place: tuple[str, Any]) -> None:
     payload = {"kind": "paste", "text": "states: {D: {}}", "x": 0, "y": 0, place[0]: place[1]}
-    outcome = apply_gesture(document, payload, {"paste": lambda here, wish: clipboard.paste(here, wish, KNOWN, ())})
+    outcome = apply_gesture(
+        document, payload, {"paste": lambda document, payload: clipboard.paste(document, payload, KNOWN, ())}
+    )
     assert outcome.error
     assert document.design == DESIGN
 
 
-def test_duplicates_stand_beside_and_are_one_edit(document: DocumentSession) -> None:
+def test_duplicates_are_shifted_in_one_edit(document: DocumentSession) -> None:
     outcome = duplicate(document, items(states="A B", transitions="A/0", components="head"))
     assert outcome.new_selection == (ItemRef(kind="states", id="A2"), ItemRef(kind="states", id="B2"))
     assert [state.at for state in document.design.states[3:]] == [(140, 190), (340, 190)]
     assert document.undo_label == "duplicate 2 states"
 
 
-def test_transitions_are_duplicated_behind_themselves(document: DocumentSession) -> None:
+def test_duplicated_transitions_follow_the_original(document: DocumentSession) -> None:
     assert duplicate(document, items(transitions="A/0")).new_selection == (ItemRef(kind="transitions", id="A/1"),)
     duplicate(document, items(transitions="A/0 B/0"))
     assert [len(state.transitions) for state in document.design.states] == [4, 2, 0]

@@ -1,4 +1,4 @@
-"""Marks stand under the very characters that a finding is about."""
+"""Marks are at the characters of their findings."""
 
 from vicode.check import check_design
 from vicode.editor.session.code_marks import CodeMark, mark_assignments, mark_text
@@ -25,7 +25,7 @@ def test_a_guard_is_marked_at_its_characters() -> None:
     assert marks[0].message == "'m' is not declared – declare it, or correct the name"
 
 
-def test_pairs_are_marked_at_the_name_or_in_the_value() -> None:
+def test_assignments_are_marked_at_the_name_or_in_the_value() -> None:
     values = (("n", "k + 1"), ("q", "1"))
     design = checked(State(name="S", actions=(Assign(values=values),)))
     text = "n = k + 1\n  q =  1"
@@ -33,12 +33,12 @@ def test_pairs_are_marked_at_the_name_or_in_the_value() -> None:
     assert shown(text, marks) == [("k", "error", 1), ("q", "error", 2)]
 
 
-def test_remarks_of_the_linter_are_warnings() -> None:
+def test_lint_warnings_have_severity_warning() -> None:
     marks = mark_text("foo()\n", (), (), [LintWarning(start=0, end=3, code="F821", message="Undefined name `foo`")])
     assert shown("foo()\n", marks) == [("foo", "warning", 1)]
     assert "F821" in marks[0].message
 
 
-def test_a_span_beyond_the_text_is_cut() -> None:
+def test_a_span_beyond_the_text_is_clamped() -> None:
     marks = mark_text("ab", (), (), [LintWarning(start=1, end=99, code="X", message="")])
     assert shown("ab", marks) == [("b", "warning", 1)]

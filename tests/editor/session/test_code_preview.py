@@ -1,4 +1,4 @@
-"""Every file of a design as it would be written, with the lines of each thing and what was edited on disk."""
+"""The code preview: files, the lines of each item, and regions edited on disk."""
 
 from dataclasses import replace
 from pathlib import Path
@@ -16,25 +16,25 @@ PROJECT = open_project(ROOT / "designs" / "forward").project
 PLAYER = next(design for design in PROJECT.designs if design.component == "Player")
 
 
-def test_the_component_comes_first_then_what_is_shared() -> None:
+def test_component_files_precede_shared_files() -> None:
     shown = preview_code(PROJECT, PLAYER, {})
     assert [file.path for file in shown.files] == [
         "python/forward/player.py",
         "python/forward/__init__.py",
         "python/forward/declarations.py",
     ]
-    assert shown.files[0].text == next(each.text for each in generate(PROJECT) if each.path.endswith("player.py"))
+    assert shown.files[0].text == next(file.text for file in generate(PROJECT) if file.path.endswith("player.py"))
     assert shown.files[1].origins == ()
 
 
-def test_lines_and_things_lead_to_each_other() -> None:
+def test_lines_and_items_map_to_each_other() -> None:
     file = preview_code(PROJECT, PLAYER, {}).files[0]
-    for thing in (
+    for item in (
         ItemRef(kind="states", id="Kick"),
         ItemRef(kind="transitions", id="Kick/0"),
         ItemRef(kind="transitions", id="@common/0"),
     ):
-        first, last = file.item_lines(thing)
+        first, last = file.item_lines(item)
         assert 0 < first <= last
     first, _last = file.item_lines(ItemRef(kind="transitions", id="Kick/0"))
     assert file.item_at(first) == ItemRef(kind="transitions", id="Kick/0")
@@ -42,7 +42,7 @@ def test_lines_and_things_lead_to_each_other() -> None:
     assert file.item_lines(ItemRef(kind="states", id="Nobody")) == (0, 0)
 
 
-def test_every_language_is_shown_or_says_why_not() -> None:
+def test_each_language_has_files_or_a_note() -> None:
     states = (State(name="A", transitions=(Transition(to="B", guard=Guard(after="1")),)), State(name="B", final=True))
     design = Design(component="One", initial="A", states=states)
     project = Project(name="Both", languages=("python", "xabsl"), designs=(design,))
@@ -56,12 +56,12 @@ def test_every_language_is_shown_or_says_why_not() -> None:
     assert shown.note.startswith("No code for xabsl yet: ")
 
 
-def test_a_design_with_mistakes_or_without_a_language_says_so() -> None:
+def test_a_design_with_errors_or_without_a_language_has_a_note() -> None:
     assert preview_code(PROJECT, replace(PLAYER, initial="Nowhere"), {}).note.startswith("No code yet")
     assert "klingon" in preview_code(replace(PROJECT, languages=("klingon",)), PLAYER, {}).note
 
 
-def test_regions_edited_on_disk_are_told(tmp_path: Path) -> None:
+def test_regions_edited_on_disk_are_listed(tmp_path: Path) -> None:
     apply_diffs(compare_files(generate(PROJECT), tmp_path), tmp_path)
     assert preview_code(PROJECT, PLAYER, {}, tmp_path).files[0].edited_regions == ()
     file = tmp_path / "python" / "forward" / "player.py"

@@ -1,4 +1,4 @@
-"""What is offered where: outputs with unit and doc, own names, elements, functions; nothing that is not there."""
+"""Completion proposes all names in scope with their types, and no others."""
 
 from hypothesis import given
 from hypothesis import strategies as st
@@ -35,15 +35,15 @@ def labels(completion: CompletionResult) -> list[str]:
     return [option.label for option in completion.options]
 
 
-def test_the_outputs_of_a_component_come_with_type_unit_and_doc() -> None:
-    found = complete_expression(PROJECT, DESIGN, "1 < perception.ba", 17)
-    assert found.start == 15
-    (option,) = found.options
+def test_outputs_have_type_unit_and_doc() -> None:
+    result = complete_expression(PROJECT, DESIGN, "1 < perception.ba", 17)
+    assert result.start == 15
+    (option,) = result.options
     assert (option.label, option.detail) == ("ball_x", "float mm output")
     assert option.doc == "Ahead of the robot. (0 to 900)"
 
 
-def test_an_expression_is_offered_all_names_that_exist() -> None:
+def test_an_expression_completes_all_names_in_scope() -> None:
     names = labels(complete_expression(PROJECT, DESIGN, "not ", 4))
     for name in ("speed", "tries", "perception", "reach", "Side", "state_time", "component_time", "done", "abs", "and"):
         assert name in names
@@ -52,14 +52,14 @@ def test_an_expression_is_offered_all_names_that_exist() -> None:
     assert labels(complete_expression(PROJECT, DESIGN, "nobody.", 7)) == []
 
 
-def test_a_line_of_pairs_is_offered_what_can_be_set_and_then_expressions() -> None:
+def test_an_assignment_completes_settable_names_then_expressions() -> None:
     settable = DESIGN.variables
     assert labels(complete_assignments(PROJECT, DESIGN, settable, "tries = 1\ntr", 12)) == ["tries"]
     assert complete_assignments(PROJECT, DESIGN, settable, "tries = 1\ntr", 12).start == 10
     assert "speed" in labels(complete_assignments(PROJECT, DESIGN, settable, "tries = sp", 10))
 
 
-def test_code_is_offered_the_members_of_self_and_what_is_below_them() -> None:
+def test_code_completes_members_of_self() -> None:
     members = labels(complete_python(PROJECT, DESIGN, "self.", 5))
     assert {"speed", "tries", "perception", "head", "state_time", "is_done"} <= set(members)
     assert "pan" in labels(complete_python(PROJECT, DESIGN, "if self.head.p", 14))
@@ -68,11 +68,11 @@ def test_code_is_offered_the_members_of_self_and_what_is_below_them() -> None:
 
 
 @given(designs, st.text("ab.(=:\n d\u2028é😀", max_size=30), st.integers(0, 40))
-def test_no_text_makes_it_raise(design: Design, text: str, offset: int) -> None:
+def test_no_text_raises(design: Design, text: str, offset: int) -> None:
     at = min(offset, len(text))
-    for found in (
+    for result in (
         complete_expression(PROJECT, design, text, at),
         complete_python(PROJECT, design, text, at),
         complete_assignments(PROJECT, design, design.variables, text, at),
     ):
-        assert 0 <= found.start <= at
+        assert 0 <= result.start <= at

@@ -1,4 +1,4 @@
-"""Three people and another program at work on one file: always readable, nobody's edit lost, saved means equal."""
+"""Three users and another program edit one file: it stays readable, no edit is lost, and saving writes the design."""
 
 import shutil
 import tempfile
@@ -15,15 +15,15 @@ from vicode.model.design import Design, State
 from vicode.model.edits import add_state, add_transition, move_nodes, remove_states, rename_state, update_state
 from vicode.store import read_design, save_design
 
-PEOPLE = ("ana", "ben", "cem")
+USERS = ("ana", "ben", "cem")
 SHARED = ("X", "Y", "Z", "New")
 START = Design(
     component="Player",
     initial="X",
-    states=tuple(State(name=name, at=(0, 0)) for name in (*PEOPLE, "disk", "X", "Y", "Z")),
+    states=tuple(State(name=name, at=(0, 0)) for name in (*USERS, "disk", "X", "Y", "Z")),
 )
 EDITS = ("add", "rename", "move", "remove", "connect", "doc")
-people = st.sampled_from(PEOPLE)
+users = st.sampled_from(USERS)
 shared = st.sampled_from(SHARED)
 
 
@@ -33,18 +33,18 @@ def with_doc(design: Design, name: str, doc: str) -> Design:
 
 @dataclass
 class Expected:
-    """What one person may count on: the doc of the own state, and the docs that undo and redo lead to (None: same)."""
+    """The expected doc of the user's own state, and its docs (before, after) on both stacks; None for other edits."""
 
     doc: str = ""
     undo: list[tuple[str, str] | None] = field(default_factory=list)
     redo: list[tuple[str, str] | None] = field(default_factory=list)
 
 
-class PeopleAtWork(RuleBasedStateMachine):
-    """Each person says things in a state of the own name, and all change the shared ones."""
+class ConcurrentEditing(RuleBasedStateMachine):
+    """Each user edits the doc of one state, and all users change the shared states."""
 
     @initialize()
-    def begin(self) -> None:
+    def set_up(self) -> None:
         self.folder = Path(tempfile.mkdtemp())
         self.file = self.folder / "player.yaml"
         self.file.write_text(save_design(START))
@@ -53,8 +53,8 @@ class PeopleAtWork(RuleBasedStateMachine):
         assert document is not None
         self.clock = 0.0
         document.shared.clock = self.tick
-        self.hands = {name: DocumentSession(document.shared, name) for name in PEOPLE}
-        self.expected = {name: Expected() for name in PEOPLE}
+        self.sessions = {name: DocumentSession(document.shared, name) for name in USERS}
+        self.expected = {name: Expected() for name in USERS}
 
     def tick(self) -> float:
         self.clock += 1.0
@@ -63,110 +63,110 @@ class PeopleAtWork(RuleBasedStateMachine):
     def teardown(self) -> None:
         shutil.rmtree(self.folder, ignore_errors=True)
 
-    @rule(who=people, text=st.text("abc \n", max_size=6), is_typing=st.booleans())
-    def say(self, who: str, text: str, is_typing: bool) -> None:
-        hand, expected = self.hands[who], self.expected[who]
-        steps, old = len(hand.history.entries), expected.doc
-        typing_in = "doc" if is_typing else ""
-        hand.edit(f"say {text}", lambda design: with_doc(design, who, text), coalesce_key=typing_in)
+    @rule(user=users, text=st.text("abc \n", max_size=6), is_typing=st.booleans())
+    def say(self, user: str, text: str, is_typing: bool) -> None:
+        session, expected = self.sessions[user], self.expected[user]
+        steps, old = len(session.history.entries), expected.doc
+        coalesce_key = "doc" if is_typing else ""
+        session.edit(f"say {text}", lambda design: with_doc(design, user, text), coalesce_key=coalesce_key)
         if text == old:
             return
-        if len(hand.history.entries) == steps:
+        if len(session.history.entries) == steps:
             before = expected.undo.pop()
             assert before is not None
             old = before[0]
         expected.undo.append((old, text))
         expected.doc, expected.redo = text, []
 
-    @rule(who=people, what=st.sampled_from(EDITS), one=shared, two=shared)
-    def change_what_is_shared(self, who: str, what: str, one: str, two: str) -> None:
+    @rule(user=users, what=st.sampled_from(EDITS), one=shared, two=shared)
+    def edit_shared_states(self, user: str, what: str, one: str, two: str) -> None:
         changes: dict[str, Any] = {
             "add": lambda design: design if design.state(one) else add_state(design, State(name=one)),
             "rename": lambda design: rename_state(design, one, two),
             "move": lambda design: move_nodes(design, {one: (self.tick(), 0.0)}),
             "remove": lambda design: remove_states(design, [one]),
             "connect": lambda design: add_transition(design, one, two) if design.state(one) else design,
-            "doc": lambda design: with_doc(design, one, f"{who} {self.tick()}"),
+            "doc": lambda design: with_doc(design, one, f"{user} {self.tick()}"),
         }
-        self.noting(who, lambda hand: hand.edit(f"{what} {one}", changes[what]))
+        self.run_and_expect(user, lambda session: session.edit(f"{what} {one}", changes[what]))
 
-    @rule(who=people)
-    def undo(self, who: str) -> None:
-        self.take(who, self.expected[who].undo, self.expected[who].redo, 0)
+    @rule(user=users)
+    def undo(self, user: str) -> None:
+        self.undo_or_redo(user, self.expected[user].undo, self.expected[user].redo, 0)
 
-    @rule(who=people)
-    def redo(self, who: str) -> None:
-        self.take(who, self.expected[who].redo, self.expected[who].undo, 1)
+    @rule(user=users)
+    def redo(self, user: str) -> None:
+        self.undo_or_redo(user, self.expected[user].redo, self.expected[user].undo, 1)
 
-    @rule(text=st.text("xyz", max_size=4), gone=st.none() | shared)
-    def another_program_writes(self, text: str, gone: str | None) -> None:
+    @rule(text=st.text("xyz", max_size=4), removed=st.none() | shared)
+    def another_program_writes(self, text: str, removed: str | None) -> None:
         read = read_design(self.file.read_text(), "player.yaml").design
         assert read is not None
-        changed = with_doc(remove_states(read, [gone] if gone else []), "disk", text)
+        changed = with_doc(remove_states(read, [removed] if removed else []), "disk", text)
         self.file.write_text(save_design(changed, self.file.read_text()))
         self.workspace.sync_from_disk()
-        disk = self.hands["ana"].design.state("disk")
-        assert self.hands["ana"].shared.disk_conflict is not None or (disk is not None and disk.doc == text)
+        disk = self.sessions["ana"].design.state("disk")
+        assert self.sessions["ana"].shared.disk_conflict is not None or (disk is not None and disk.doc == text)
 
-    @rule(who=people, takes_theirs=st.booleans())
-    def save(self, who: str, takes_theirs: bool) -> None:
-        def act(hand: DocumentSession) -> None:
+    @rule(user=users, takes_theirs=st.booleans())
+    def save(self, user: str, takes_theirs: bool) -> None:
+        def act(session: DocumentSession) -> None:
             try:
-                self.workspace.save(hand)
+                self.workspace.save(session)
             except DiskConflictError:
-                assert hand.shared.conflicts
+                assert session.shared.conflicts
                 self.workspace.resolve_conflict(
-                    hand, [conflict.path for conflict in hand.shared.conflicts] if takes_theirs else []
+                    session, [conflict.path for conflict in session.shared.conflicts] if takes_theirs else []
                 )
-                self.workspace.save(hand)
+                self.workspace.save(session)
 
-        self.noting(who, act)
+        self.run_and_expect(user, act)
         read = read_design(self.file.read_text(), "player.yaml")
-        assert read.design == self.hands[who].design
-        assert self.hands[who].is_saved
+        assert read.design == self.sessions[user].design
+        assert self.sessions[user].is_saved
 
-    def noting(self, who: str, act: Any) -> None:
-        """Do something that may add a step of this person."""
-        hand = self.hands[who]
-        newest = max(hand.history.entries)
-        act(hand)
-        new = [step for id_, step in hand.history.entries.items() if id_ > newest and step.user_id == who]
+    def run_and_expect(self, user: str, act: Any) -> None:
+        """Run an action, and expect an entry on the undo stack for each that it adds."""
+        session = self.sessions[user]
+        newest = max(session.history.entries)
+        act(session)
+        new = [step for id_, step in session.history.entries.items() if id_ > newest and step.user_id == user]
         if new:
-            self.expected[who].undo += [None] * len(new)
-            self.expected[who].redo = []
+            self.expected[user].undo += [None] * len(new)
+            self.expected[user].redo = []
 
-    def take(self, who: str, source: list[Any], target: list[Any], side: int) -> None:
-        hand, before = self.hands[who], self.hands[who].design
-        refused = hand.redo() if side else hand.undo()
+    def undo_or_redo(self, user: str, source: list[Any], target: list[Any], side: int) -> None:
+        session, before = self.sessions[user], self.sessions[user].design
+        error = session.redo() if side else session.undo()
         if not source:
-            assert (refused, hand.design) == ("", before)
-        elif refused:
-            # Only what others changed as well is refused, and then nothing happens.
+            assert (error, session.design) == ("", before)
+        elif error:
+            # Only edits of shared states may conflict.
             assert source[-1] is None
-            assert hand.design is before
+            assert session.design is before
         else:
             step = source.pop()
             target.append(step)
             if step is not None:
-                self.expected[who].doc = step[side]
+                self.expected[user].doc = step[side]
 
     @invariant()
-    def nobodys_words_are_lost(self) -> None:
-        for who, expected in getattr(self, "expected", {}).items():
-            state = self.hands[who].design.state(who)
+    def no_edit_is_lost(self) -> None:
+        for user, expected in getattr(self, "expected", {}).items():
+            state = self.sessions[user].design.state(user)
             assert state is not None
             assert state.doc == expected.doc
 
     @invariant()
     def the_design_is_readable(self) -> None:
-        if hasattr(self, "hands"):
-            design = self.hands["ana"].design
+        if hasattr(self, "sessions"):
+            design = self.sessions["ana"].design
             assert read_design(save_design(design), "player.yaml").design == design
 
 
-# Bounded where examples are; the nightly run takes many more of them.
-PeopleAtWork.TestCase.settings = settings(stateful_step_count=30)
-TestPeopleAtWork = PeopleAtWork.TestCase
+# The nightly profile runs more examples.
+ConcurrentEditing.TestCase.settings = settings(stateful_step_count=30)
+TestConcurrentEditing = ConcurrentEditing.TestCase
 
 
 def test_redo_ignores_a_transition_that_others_left_dangling(tmp_path: Path) -> None:

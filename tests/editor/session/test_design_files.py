@@ -1,4 +1,4 @@
-"""Whole designs: renamed with all their uses, copied, thrown away, put back, made from templates."""
+"""Design files: rename, duplicate, trash, restore, templates and the overview."""
 
 from pathlib import Path
 
@@ -18,7 +18,7 @@ def assert_sound(folder: Path) -> None:
     assert [finding for finding in findings if finding.severity is Severity.ERROR] == []
 
 
-def test_a_renaming_changes_every_name_and_nothing_else(workspace: Workspace, folder: Path) -> None:
+def test_renaming_a_component_changes_only_its_references(workspace: Workspace, folder: Path) -> None:
     before = texts_of(folder)
     plan = rename_component.plan_component_rename(workspace, "Player", "Striker")
     assert texts_of(folder) == before
@@ -33,7 +33,7 @@ def test_a_renaming_changes_every_name_and_nothing_else(workspace: Workspace, fo
     assert_sound(folder)
 
 
-def test_a_renaming_can_be_taken_back(workspace: Workspace, folder: Path) -> None:
+def test_renaming_back_restores_the_files(workspace: Workspace, folder: Path) -> None:
     before = texts_of(folder)
     assert workspace.open_document("Player") is not None
     for old, new in (("FaceBall", "LookAtBall"), ("LookAtBall", "FaceBall")):
@@ -48,7 +48,7 @@ def test_a_renaming_can_be_taken_back(workspace: Workspace, folder: Path) -> Non
     assert {use.component for use in player.design.uses} >= {"FaceBall"}
 
 
-def test_whoever_is_killed_in_the_middle_leaves_a_sound_project(workspace: Workspace, folder: Path) -> None:
+def test_an_interrupted_rename_leaves_a_project_without_errors(workspace: Workspace, folder: Path) -> None:
     plan = rename_component.plan_component_rename(workspace, "FaceBall", "LookAtBall")
     for change in plan.changes:
         change.file.write_text(change.new)
@@ -57,7 +57,7 @@ def test_whoever_is_killed_in_the_middle_leaves_a_sound_project(workspace: Works
 
 
 @pytest.mark.parametrize(
-    ("new", "words"),
+    ("new", "message"),
     [
         ("Turn", "already a component Turn"),
         ("Perception", "already a component Perception"),
@@ -67,16 +67,16 @@ def test_whoever_is_killed_in_the_middle_leaves_a_sound_project(workspace: Works
         ("Taken", "already a file taken.yaml"),
     ],
 )
-def test_a_renaming_is_refused_in_words(workspace: Workspace, folder: Path, new: str, words: str) -> None:
+def test_an_invalid_component_name_is_an_error(workspace: Workspace, folder: Path, new: str, message: str) -> None:
     (folder / "taken.yaml").write_text("nothing: of ours\n")
     before = texts_of(folder)
     plan = rename_component.plan_component_rename(workspace, "FaceBall", new)
-    assert words in plan.error
+    assert message in plan.error
     assert plan.changes == ()
     assert texts_of(folder) == before
 
 
-def test_unsaved_work_and_other_programs_come_first(workspace: Workspace, folder: Path) -> None:
+def test_renaming_requires_saved_and_unchanged_files(workspace: Workspace, folder: Path) -> None:
     player = workspace.open_document("Player")
     assert player is not None
     player.edit("doc", lambda design: design.__class__(component="Player", doc="mine"))
@@ -103,25 +103,25 @@ def test_a_copy_keeps_comments(workspace: Workspace, folder: Path) -> None:
     assert_sound(folder)
 
 
-def test_what_is_thrown_away_can_be_put_back(
+def test_a_trashed_design_can_be_restored(
     workspace: Workspace, folder: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    # Where desktops of Linux keep their trash; elsewhere the system's own is used and not looked into.
+    # The location of the trash on Linux; on other systems the content of the trash is not checked.
     monkeypatch.setenv("XDG_DATA_HOME", str(tmp_path / "data"))
     before = (folder / "turn.yaml").read_bytes()
     assert trash.find_dependents(workspace, "Turn") == ("Body",)
-    thrown = trash.move_to_trash(workspace, "Turn")
+    trashed = trash.move_to_trash(workspace, "Turn")
     assert not (folder / "turn.yaml").exists()
     assert workspace.project.design("Turn") is None
     assert workspace.removed_components == {"Turn": ""}
-    assert trash.restore_from_trash(workspace, thrown) == ""
+    assert trash.restore_from_trash(workspace, trashed) == ""
     assert (folder / "turn.yaml").read_bytes() == before
     assert workspace.project.design("Turn") is not None
     assert workspace.removed_components == {}
-    assert "there is a new turn.yaml" in trash.restore_from_trash(workspace, thrown)
+    assert "there is a new turn.yaml" in trash.restore_from_trash(workspace, trashed)
 
 
-def test_unsaved_work_is_not_thrown_away(workspace: Workspace) -> None:
+def test_an_unsaved_design_cannot_be_trashed(workspace: Workspace) -> None:
     turn = workspace.open_document("Turn")
     assert turn is not None
     turn.edit("doc", lambda design: design.__class__(component="Turn"))
@@ -129,7 +129,7 @@ def test_unsaved_work_is_not_thrown_away(workspace: Workspace) -> None:
 
 
 @pytest.mark.parametrize("template", templates.list_templates(), ids=lambda template: template.name)
-def test_every_template_makes_a_sound_design(workspace: Workspace, folder: Path, template: templates.Template) -> None:
+def test_every_template_has_no_errors(workspace: Workspace, folder: Path, template: templates.Template) -> None:
     text = templates.instantiate_template(template, "Fresh", workspace.project)
     workspace.create("Fresh", text)
     assert (folder / "fresh.yaml").read_text() == text
@@ -137,14 +137,14 @@ def test_every_template_makes_a_sound_design(workspace: Workspace, folder: Path,
     assert workspace.project.design("Fresh") is not None
 
 
-def test_a_template_follows_what_the_project_can_see(workspace: Workspace) -> None:
-    template = next(each for each in templates.list_templates() if each.name == "follow_what_is_seen")
+def test_a_template_uses_the_sensor_of_the_project(workspace: Workspace) -> None:
+    template = next(item for item in templates.list_templates() if item.name == "follow_what_is_seen")
     text = templates.instantiate_template(template, "Fresh", workspace.project)
     assert "perception.ball_seen" in text
     assert "sense" not in text
 
 
-def test_the_overview_counts_findings_and_names_what_is_broken(folder: Path) -> None:
+def test_the_overview_counts_findings_and_lists_broken_files(folder: Path) -> None:
     (folder / "wobbly.yaml").write_text("vicode: 1\ncomponent: Wobbly\nstates: {A: {transitions: [{to: B}]}}\n")
     (folder / "broken.yaml").write_text("vicode: 1\ncomponent: Broken\nstates: [\n")
     workspace = Library(folder).workspaces[0]
@@ -155,7 +155,7 @@ def test_the_overview_counts_findings_and_names_what_is_broken(folder: Path) -> 
     assert cards["Player"].is_root
     (broken,) = overview.broken_files()
     assert (broken.file, broken.line) == ("broken.yaml", 3)
-    kicker = next(each for each in overview.hand_written_components() if each.component == "Kicker")
+    kicker = next(item for item in overview.hand_written_components() if item.component == "Kicker")
     assert kicker.used_by == ("Player",)
     document = workspace.open_document("Wobbly")
     assert document is not None

@@ -1,6 +1,5 @@
-"""What the documentation is about while a project is edited."""
+"""The documentation of a project that is being edited."""
 
-import shutil
 from dataclasses import replace
 from pathlib import Path
 
@@ -9,13 +8,6 @@ from vicode.editor.session import Workspace
 from vicode.editor.session.docs_snapshot import load_docs_subject, take_snapshot
 from vicode.store import save_design
 
-ROOT = Path(__file__).parents[3]
-
-
-def open_forward(folder: Path) -> Workspace:
-    shutil.copytree(ROOT / "designs/forward", folder / "forward")
-    return Workspace(folder=folder / "forward", key="forward")
-
 
 def rename_doc(workspace: Workspace, doc: str) -> None:
     document = workspace.open_document("Turn")
@@ -23,8 +15,7 @@ def rename_doc(workspace: Workspace, doc: str) -> None:
     document.edit("doc", lambda design: replace(design, doc=doc))
 
 
-def test_the_site_of_unsaved_work_is_that_of_the_saved(tmp_path: Path) -> None:
-    workspace = open_forward(tmp_path)
+def test_unsaved_and_saved_designs_have_the_same_site(workspace: Workspace) -> None:
     rename_doc(workspace, "Turns around.")
     unsaved = take_snapshot(workspace)
     drafted = build_site(load_docs_subject(unsaved))
@@ -39,8 +30,7 @@ def test_the_site_of_unsaved_work_is_that_of_the_saved(tmp_path: Path) -> None:
     assert any("Turns around." in file.text for file in drafted)
 
 
-def test_findings_are_those_of_the_draft(tmp_path: Path) -> None:
-    workspace = open_forward(tmp_path)
+def test_findings_are_those_of_the_unsaved_design(workspace: Workspace) -> None:
     assert not load_docs_subject(take_snapshot(workspace)).findings
     document = workspace.open_document("Turn")
     assert document is not None
@@ -50,17 +40,15 @@ def test_findings_are_those_of_the_draft(tmp_path: Path) -> None:
     assert "Turn" in subject.components_with_errors["python"]
 
 
-def test_a_broken_file_spoils_only_itself(tmp_path: Path) -> None:
-    workspace = open_forward(tmp_path)
-    (tmp_path / "forward/turn.yaml").write_text("vicode: 1\ncomponent: [")
+def test_a_broken_file_affects_only_its_users(workspace: Workspace, folder: Path) -> None:
+    (folder / "turn.yaml").write_text("vicode: 1\ncomponent: [")
     subject = load_docs_subject(take_snapshot(workspace))
     assert subject.project.design("Turn") is None
     # Body uses it; nothing else is concerned.
     assert subject.components_with_errors["python"] == {"(broken)", "Body"}
 
 
-def test_a_draft_that_no_file_can_hold_is_described_all_the_same(tmp_path: Path) -> None:
-    workspace = open_forward(tmp_path)
+def test_a_design_that_cannot_be_saved_is_documented(workspace: Workspace) -> None:
     document = workspace.open_document("Player")
     assert document is not None
     document.edit("twice", lambda design: replace(design, states=(*design.states, design.states[0])))
@@ -74,9 +62,8 @@ def test_a_draft_that_no_file_can_hold_is_described_all_the_same(tmp_path: Path)
         raise AssertionError("a file can hold it")
 
 
-def test_a_finding_of_the_file_is_told_once_beside_a_draft(tmp_path: Path) -> None:
-    workspace = open_forward(tmp_path)
-    file = tmp_path / "forward/turn.yaml"
+def test_parse_findings_of_an_unsaved_design_are_not_repeated(workspace: Workspace, folder: Path) -> None:
+    file = folder / "turn.yaml"
     file.write_text(f"{file.read_text().rstrip()}\nstrange: 1\n")
     workspace.sync_from_disk()
     rename_doc(workspace, "Turns\n\naround.\n")

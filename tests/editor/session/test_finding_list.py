@@ -1,4 +1,4 @@
-"""The order of findings, their filter, and going round."""
+"""The order of findings, filters, and stepping."""
 
 from vicode.editor.session.finding_list import filter_findings, group_by_severity, next_finding, sort_findings
 from vicode.findings import DesignPath, Finding, FindingSubject, Severity, get_rule
@@ -16,18 +16,18 @@ ALL: tuple[Finding, ...] = (TRAP, NAME, STATE, TYPE)
 NOWHERE: DesignPath = ()
 
 
-def test_the_worst_come_first_and_one_thing_together() -> None:
+def test_findings_are_sorted_by_severity_and_item() -> None:
     assert sort_findings(ALL) == (NAME, TYPE, STATE, TRAP)
     assert group_by_severity(ALL) == ((Severity.ERROR, (NAME, TYPE, STATE)), (Severity.WARNING, (TRAP,)))
 
 
-def test_every_word_of_a_filter_is_found_in_words_code_or_place() -> None:
+def test_a_filter_matches_message_code_and_path() -> None:
     assert filter_findings(ALL, "kick NO", ()) == (NAME,)
     assert filter_findings(ALL, "e30", {Severity.WARNING}) == (NAME, TYPE)
     assert filter_findings(ALL, "", {Severity.ERROR}) == (TRAP,)
 
 
-def test_going_on_goes_round() -> None:
+def test_stepping_wraps_around() -> None:
     assert next_finding(ALL, None, 1) == NAME
     assert next_finding(ALL, None, -1) == TRAP
     assert next_finding(ALL, TRAP, 1) == NAME

@@ -1,4 +1,4 @@
-"""The law of quick fixes: the finding vanishes and no error comes; every rule has fixes, or a reason for none."""
+"""Every quick fix resolves its finding without a new error; every rule has fixes or a reason for none."""
 
 import re
 import shutil
@@ -26,18 +26,18 @@ TOP_LEVEL_KEY = re.compile(r"^(\w+):.*\n(?:[ \t#-].*\n)*", re.MULTILINE)
 FRAME = dict(EXAMPLE.findall(PAGE.split("\n## ")[0]))
 BAD = {code: found[0] for code, text in SECTION.findall(PAGE + "\n##") if (found := EXAMPLE.findall(text))}
 
-# Their examples in the rules page are of another kind than what can be mended, or there is none there.
+# The rules page has no example with a quick fix for these.
 MENDED_ELSEWHERE = {"P204", "P205", "P206", "D404", "D405", "D406", "D416", "E306", "E307"}
 
 
-def test_every_rule_has_fixes_or_a_reason_for_none() -> None:
+def test_every_rule_has_fixes_or_a_reason() -> None:
     of_designs = {code for code in RULES if not code.startswith("X")}
     assert set(FIXERS) | set(UNFIXABLE) == of_designs
     assert not set(FIXERS) & set(UNFIXABLE)
 
 
 @pytest.mark.parametrize("code", sorted(BAD))
-def test_the_examples_of_the_rules_are_mended(code: str, tmp_path: Path) -> None:
+def test_fixes_resolve_the_examples_of_the_rules(code: str, tmp_path: Path) -> None:
     file, text = BAD[code]
     for name, frame in FRAME.items():
         (tmp_path / name).write_text(_put_in(frame, text) if name == (file or "player.yaml") else frame)
@@ -46,7 +46,7 @@ def test_the_examples_of_the_rules_are_mended(code: str, tmp_path: Path) -> None
 
 
 @pytest.mark.parametrize("case", CASES, ids=lambda path: path.stem)
-def test_the_cases_of_the_checks_are_mended(case: Path, tmp_path: Path) -> None:
+def test_fixes_resolve_the_check_cases(case: Path, tmp_path: Path) -> None:
     if case.is_dir():
         shutil.copytree(case, tmp_path, dirs_exist_ok=True)
     else:
@@ -55,11 +55,11 @@ def test_the_cases_of_the_checks_are_mended(case: Path, tmp_path: Path) -> None:
 
 
 @given(designs)
-def test_random_designs_are_mended(design: Design) -> None:
+def test_fixes_resolve_findings_of_random_designs(design: Design) -> None:
     _try_all(Project(name="p", designs=(design,), components=(Interface(component="Walk", implementation="a:B"),)))
 
 
-def test_what_another_design_may_read_is_not_removed(tmp_path: Path) -> None:
+def test_declarations_used_by_another_design_are_kept(tmp_path: Path) -> None:
     (tmp_path / "a.yaml").write_text("vicode: 1\ncomponent: A\ninitial: S\noutputs: {x: 0}\nstates: {S: {}}\n")
     opened = open_project(tmp_path).project
     assert _labels(opened, "D424") == ["Remove the output x"]
@@ -91,7 +91,7 @@ STAY = "initial: S\nstates: {S: {final: true, transitions: [{stay: true, when: %
         ("initial: S\nstates: {S: {transitions: [{to: S, after: 1}]}}", "D430", "Replace it with a stay"),
     ],
 )
-def test_the_fix_a_person_expects_is_offered(text: str, code: str, label: str, tmp_path: Path) -> None:
+def test_the_expected_fix_is_offered(text: str, code: str, label: str, tmp_path: Path) -> None:
     (tmp_path / "project.yaml").write_text(
         "vicode: 1\nproject: P\ncomponents:\n  Perception: {implementation: 'a:B', outputs: {ball: {type: bool}}}\n"
     )
@@ -110,22 +110,22 @@ def _labels(project: Project, code: str) -> list[str]:
 
 
 def _try_all(project: Project) -> Counter[str]:
-    """Apply every fix of every finding, each alone; the number of fixes by rule."""
+    """Apply each fix of each finding separately; returns the number of fixes by rule."""
     count: Counter[str] = Counter()
     for design in project.designs:
         for finding in check_project(project):
             for fix in find_fixes(project, design, finding):
                 count[finding.rule.code] += 1
-                _assert_mends(project, design, finding, fix.label, fix.edit(design))
+                _assert_resolves(project, design, finding, fix.label, fix.edit(design))
     return count
 
 
-def _assert_mends(project: Project, design: Design, finding: Finding, label: str, mended: Design) -> None:
-    designs = tuple(mended if each is design else each for each in project.designs)
+def _assert_resolves(project: Project, design: Design, finding: Finding, label: str, fixed: Design) -> None:
+    designs = tuple(fixed if other is design else other for other in project.designs)
     before, after = _counted(project), _counted(replace(project, designs=designs))
     key = (finding.rule.code, finding.message)
     assert after[key] < before[key], f"{label} leaves {key}"
-    errors = {each for each in after - before if RULES[each[0]].severity is Severity.ERROR}
+    errors = {key for key in after - before if RULES[key[0]].severity is Severity.ERROR}
     assert not errors, f"{label} for {key} brings {errors}"
 
 
@@ -135,4 +135,4 @@ def _counted(project: Project) -> Counter[tuple[str, str]]:
 
 def _put_in(frame: str, text: str) -> str:
     own = set(re.findall(r"^(\w+):", text, re.MULTILINE))
-    return "".join(each.group() for each in TOP_LEVEL_KEY.finditer(frame) if each.group(1) not in own) + text
+    return "".join(match.group() for match in TOP_LEVEL_KEY.finditer(frame) if match.group(1) not in own) + text

@@ -1,13 +1,13 @@
-"""Gestures of the canvas become edits of the open design; what they cannot mean changes nothing."""
+"""Gestures of the canvas edit the open design; invalid ones change nothing."""
 
 from dataclasses import replace
-from pathlib import Path
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from vicode.editor.session import DocumentSession, SharedDocument, apply_gesture
+from tests.editor.session.conftest import open_design
+from vicode.editor.session import DocumentSession, apply_gesture
 from vicode.editor.view import ItemRef
 from vicode.model.design import COMMON, Call, DecisionGroup, Design, Guard, State, Transition, Use
 from vicode.model.traversal import iter_transitions
@@ -25,20 +25,13 @@ DESIGN = Design(
 )
 
 
-@pytest.fixture
-def document() -> DocumentSession:
-    return DocumentSession(
-        SharedDocument(file=Path("player.yaml"), disk_text="", saved=DESIGN, check=lambda _design: ())
-    )
-
-
 def names(document: DocumentSession) -> list[str]:
     return [state.name for state in document.design.states]
 
 
 def arrows(document: DocumentSession) -> list[tuple[str, str]]:
-    found = iter_transitions(document.design)
-    return [(at.source, at.decision.to) for at in found if isinstance(at.decision, Transition)]
+    located = iter_transitions(document.design)
+    return [(at.source, at.decision.to) for at in located if isinstance(at.decision, Transition)]
 
 
 def test_create_selects_the_new_state_for_naming(document: DocumentSession) -> None:
@@ -50,7 +43,7 @@ def test_create_selects_the_new_state_for_naming(document: DocumentSession) -> N
     assert names(document) == ["A", "B", "State", "State2"]
 
 
-def test_connect_to_a_state_to_itself_and_to_nowhere(document: DocumentSession) -> None:
+def test_connect_to_another_state_itself_and_a_new_state(document: DocumentSession) -> None:
     outcome = apply_gesture(document, {"kind": "connect", "source": "B", "target": "A", "x": None, "y": None})
     assert outcome.new_selection == (ItemRef(kind="transitions", id="B/0"),)
     apply_gesture(document, {"kind": "connect", "source": "B", "target": "B"})
@@ -59,7 +52,7 @@ def test_connect_to_a_state_to_itself_and_to_nowhere(document: DocumentSession) 
     assert arrows(document) == [(COMMON, "A"), ("A", "B"), ("A", "A"), ("B", "A"), ("B", "B"), ("B", "State")]
 
 
-def test_disable_works_on_all_that_is_named_and_back(document: DocumentSession) -> None:
+def test_disable_toggles_all_given_items(document: DocumentSession) -> None:
     items = [{"of": "states", "id": "B"}, {"of": "transitions", "id": "A/1/then/0"}, {"of": "components", "id": "head"}]
     apply_gesture(document, {"kind": "disable", "items": items[:1]})
     assert document.design.states[1].disabled
@@ -104,7 +97,7 @@ def test_branches_of_a_tree_keep_their_source(document: DocumentSession) -> None
     assert arrows(document) == [("A", "B"), ("A", "B")]
 
 
-def test_rename_refuses_names_that_are_taken_or_none(document: DocumentSession) -> None:
+def test_rename_rejects_used_and_invalid_names(document: DocumentSession) -> None:
     for name in ("B", "two words", "", "<b>"):
         assert apply_gesture(document, {"kind": "rename", "of": "states", "id": "A", "name": name}).error
     apply_gesture(document, {"kind": "rename", "of": "states", "id": "A", "name": " on "})
@@ -132,7 +125,7 @@ def test_link_and_delete(document: DocumentSession) -> None:
     assert names(document) == ["A", "B"]
 
 
-def test_move_is_one_undoable_step(document: DocumentSession) -> None:
+def test_move_is_one_edit(document: DocumentSession) -> None:
     items = [{"of": "states", "id": "A", "x": 1.2, "y": 2}, {"of": "components", "id": "head", "x": 3, "y": 4}]
     apply_gesture(document, {"kind": "move", "items": items})
     assert (document.design.states[0].at, document.design.uses[0].at) == ((1, 2), (3, 4))
@@ -162,7 +155,7 @@ def test_move_is_one_undoable_step(document: DocumentSession) -> None:
         {"kind": "reconnect", "id": "A/99", "end": "target", "state": "B"},
     ],
 )
-def test_what_no_page_of_ours_sends_changes_nothing(document: DocumentSession, payload: dict[str, object]) -> None:
+def test_malformed_payloads_change_nothing(document: DocumentSession, payload: dict[str, object]) -> None:
     apply_gesture(document, payload)
     assert document.design == DESIGN
     assert document.rev == 0
@@ -204,10 +197,8 @@ _NAMES = st.sampled_from(["A", "B", "State", "C", COMMON, "head", "A/0", "B/0", 
         max_size=12,
     )
 )
-def test_undoing_everything_equals_the_start(payloads: list[dict[str, object]]) -> None:
-    document = DocumentSession(
-        SharedDocument(file=Path("player.yaml"), disk_text="", saved=DESIGN, check=lambda _design: ())
-    )
+def test_undoing_all_edits_restores_the_design(payloads: list[dict[str, object]]) -> None:
+    document = open_design(DESIGN)
     for payload in payloads:
         apply_gesture(document, payload)
     end = document.design
@@ -220,7 +211,7 @@ def test_undoing_everything_equals_the_start(payloads: list[dict[str, object]]) 
     assert document.design.states == end.states
 
 
-def test_typing_in_a_field_is_one_step(document: DocumentSession) -> None:
+def test_typing_in_a_field_is_one_entry(document: DocumentSession) -> None:
     for text in ("f", "fo", "foo"):
         document.edit("edit Doc", lambda design, text=text: replace(design, doc=text), coalesce_key="doc")
     assert len(document.history.path) == 2
@@ -231,11 +222,11 @@ def test_typing_in_a_field_is_one_step(document: DocumentSession) -> None:
     assert len(document.history.path) == 3
 
 
-def test_watchers_hear_every_change_until_they_leave(document: DocumentSession) -> None:
-    heard: list[int] = []
-    unwatch = document.subscribe(lambda changed: heard.append(changed.rev))
+def test_listeners_are_called_until_they_unsubscribe(document: DocumentSession) -> None:
+    revs: list[int] = []
+    unsubscribe = document.subscribe(lambda changed: revs.append(changed.rev))
     apply_gesture(document, {"kind": "create", "x": 0, "y": 0})
     apply_gesture(document, {"kind": "undo"})
-    unwatch()
+    unsubscribe()
     apply_gesture(document, {"kind": "redo"})
-    assert heard == [1, 2]
+    assert revs == [1, 2]

@@ -1,11 +1,10 @@
-"""Gestures that put in order, label, mark and line up."""
+"""Gestures that reorder, label, mark and align."""
 
-from pathlib import Path
 from typing import Any
 
 import pytest
 
-from vicode.editor.session import DocumentSession, EditResult, SharedDocument, apply_gesture
+from vicode.editor.session import DocumentSession, EditResult, apply_gesture
 from vicode.editor.view import ItemRef
 from vicode.model.design import DecisionGroup, Design, Guard, State, Stay, Transition
 
@@ -27,13 +26,6 @@ DESIGN = Design(
 )
 
 
-@pytest.fixture
-def document() -> DocumentSession:
-    return DocumentSession(
-        SharedDocument(file=Path("player.yaml"), disk_text="", saved=DESIGN, check=lambda _design: ())
-    )
-
-
 def do(document: DocumentSession, kind: str, **payload: Any) -> EditResult:
     return apply_gesture(document, {"kind": kind, **payload})
 
@@ -42,7 +34,7 @@ def kinds(document: DocumentSession) -> str:
     return "".join(type(item).__name__[0] + getattr(item, "to", "") for item in document.design.states[0].transitions)
 
 
-def test_a_transition_is_tested_earlier_or_later(document: DocumentSession) -> None:
+def test_a_transition_moves_up_and_down(document: DocumentSession) -> None:
     assert kinds(document) == "TBSDTA"
     assert do(document, "reorder", id="A/0", by=1).new_selection == (ItemRef(kind="transitions", id="A/1"),)
     assert kinds(document) == "STBDTA"
@@ -55,7 +47,7 @@ def test_a_transition_is_tested_earlier_or_later(document: DocumentSession) -> N
     assert document.design == DESIGN
 
 
-def test_a_transition_takes_the_place_of_another(document: DocumentSession) -> None:
+def test_a_transition_moves_to_the_position_of_another(document: DocumentSession) -> None:
     assert do(document, "reorder", id="A/0", onto="A/3").new_selection == (ItemRef(kind="transitions", id="A/3"),)
     assert kinds(document) == "SDTATB"
     assert "branch" in do(document, "reorder", id="A/3", onto="A/1/then/0").error
@@ -65,7 +57,7 @@ def test_a_transition_takes_the_place_of_another(document: DocumentSession) -> N
     assert group.then == (Transition(to="B"), Transition(to="A"))
 
 
-def test_a_label_stays_where_it_was_put(document: DocumentSession) -> None:
+def test_a_label_keeps_its_position(document: DocumentSession) -> None:
     do(document, "label", id="A/0", at=[0.25049, -12.4])
     assert document.design.states[0].transitions[0] == Transition(to="B", label_at=(0.25, -12))
     do(document, "label", id="A/0", at=[9, 1e9])
@@ -77,9 +69,9 @@ def test_a_label_stays_where_it_was_put(document: DocumentSession) -> None:
     assert document.undo_label == "move label"
 
 
-def test_steps_by_keys_are_one_edit(document: DocumentSession) -> None:
-    for beside in (10, 20, 30):
-        do(document, "label", id="A/0", at=[0.5, beside], by="nudge")
+def test_nudges_are_one_edit(document: DocumentSession) -> None:
+    for offset in (10, 20, 30):
+        do(document, "label", id="A/0", at=[0.5, offset], by="nudge")
     for x in (10, 20, 30):
         do(document, "move", items=[{"of": "states", "id": "A", "x": x, "y": 0}], how="nudge")
     assert document.design.states[0].at == (30, 0)
@@ -99,7 +91,7 @@ def test_a_state_becomes_initial_or_final(document: DocumentSession) -> None:
     assert not document.design.states[1].final
 
 
-def test_lining_up_is_named_in_the_history(document: DocumentSession) -> None:
+def test_alignments_have_labels(document: DocumentSession) -> None:
     items = [{"of": "states", "id": name, "x": 5, "y": index} for index, name in enumerate("AB")]
     do(document, "move", items=items, how="align-left")
     assert document.undo_label == "align left sides"
@@ -124,6 +116,6 @@ def test_lining_up_is_named_in_the_history(document: DocumentSession) -> None:
         {"kind": "mark", "mark": "initial", "id": "Ghost"},
     ],
 )
-def test_what_means_nothing_changes_nothing(document: DocumentSession, payload: dict[str, Any]) -> None:
+def test_invalid_gestures_change_nothing(document: DocumentSession, payload: dict[str, Any]) -> None:
     assert apply_gesture(document, payload).error
     assert document.design == DESIGN

@@ -1,11 +1,11 @@
-"""History as a tree: undo takes back one's own steps only, and says so when another changed what they did."""
+"""The undo history: users undo their own edits only, and conflicts are reported."""
 
 from dataclasses import replace
-from pathlib import Path
 
 import pytest
 
-from vicode.editor.session import DocumentSession, SharedDocument
+from tests.editor.session.conftest import open_design
+from vicode.editor.session import DocumentSession
 from vicode.editor.session.history import MAX_ENTRIES
 from vicode.model.design import Design, State, Transition
 from vicode.model.edits import add_state, add_transition, rename_state, update_state
@@ -14,19 +14,13 @@ DESIGN = Design(component="Player", initial="A", states=(State(name="A"), State(
 
 
 @pytest.fixture
-def hands() -> tuple[DocumentSession, DocumentSession]:
-    """Ana's and Ben's hold on one design."""
+def sessions() -> tuple[DocumentSession, DocumentSession]:
+    """The sessions of Ana and Ben on one design."""
     ticks = iter(range(100_000))
-    sheet = SharedDocument(
-        file=Path("player.yaml"),
-        disk_text="",
-        saved=DESIGN,
-        check=lambda _design: (),
-        clock=lambda: float(next(ticks)),
-    )
+    shared = open_design(DESIGN, clock=lambda: float(next(ticks))).shared
     for name in ("ana", "ben"):
-        sheet.users.get_or_create_user(name, name.title())
-    return DocumentSession(sheet, "ana"), DocumentSession(sheet, "ben")
+        shared.users.get_or_create_user(name, name.title())
+    return DocumentSession(shared, "ana"), DocumentSession(shared, "ben")
 
 
 def say(document: DocumentSession, state: str, doc: str, *, typing: bool = False) -> None:
@@ -44,10 +38,10 @@ def labels(document: DocumentSession) -> list[str]:
     return [step.label for step in document.history.path[1:]]
 
 
-def test_undo_of_the_last_step_goes_back_and_a_new_edit_makes_a_branch(
-    hands: tuple[DocumentSession, DocumentSession],
+def test_a_new_edit_after_undo_starts_a_branch(
+    sessions: tuple[DocumentSession, DocumentSession],
 ) -> None:
-    ana, _ben = hands
+    ana, _ben = sessions
     say(ana, "A", "one")
     say(ana, "A", "two")
     ana.undo()
@@ -62,8 +56,8 @@ def test_undo_of_the_last_step_goes_back_and_a_new_edit_makes_a_branch(
     assert docs(ana) == ["two", ""]
 
 
-def test_undo_takes_ones_own_step_out_of_what_others_did_since(hands: tuple[DocumentSession, DocumentSession]) -> None:
-    ana, ben = hands
+def test_undo_keeps_later_edits_of_others(sessions: tuple[DocumentSession, DocumentSession]) -> None:
+    ana, ben = sessions
     say(ana, "A", "mine")
     say(ben, "B", "theirs")
     assert ana.undo() == ""
@@ -78,30 +72,32 @@ def test_undo_takes_ones_own_step_out_of_what_others_did_since(hands: tuple[Docu
     assert (ana.undo_label, ben.undo_label) == ("redo say mine", "redo say theirs")
 
 
-def test_undo_refuses_in_words_what_another_changed_since(hands: tuple[DocumentSession, DocumentSession]) -> None:
-    ana, ben = hands
+def test_undo_reports_a_conflict_with_a_later_edit(sessions: tuple[DocumentSession, DocumentSession]) -> None:
+    ana, ben = sessions
     say(ana, "A", "mine")
     say(ben, "B", "theirs")
     say(ben, "A", "changed")
     before = ana.design
-    words = ana.undo()
-    assert words == "Cannot undo “say mine”: Ben has since changed doc of state A (“say changed”)"
+    message = ana.undo()
+    assert message == "Cannot undo “say mine”: Ben has since changed doc of state A (“say changed”)"
     assert ana.design is before
     assert ben.undo() == ""
     assert ana.undo() == ""
     assert docs(ana) == ["", "theirs"]
 
 
-def test_undo_of_a_state_that_another_leads_to_is_refused(hands: tuple[DocumentSession, DocumentSession]) -> None:
-    ana, ben = hands
+def test_undo_of_a_state_that_became_a_target_is_a_conflict(
+    sessions: tuple[DocumentSession, DocumentSession],
+) -> None:
+    ana, ben = sessions
     ana.edit("add state C", lambda design: add_state(design, State(name="C")))
     ben.edit("connect", lambda design: add_transition(design, "A", "C"))
     assert "Ben has since changed state C" in ana.undo()
     assert ana.design.state("C") is not None
 
 
-def test_a_rename_taken_back_keeps_what_others_did_to_the_state(hands: tuple[DocumentSession, DocumentSession]) -> None:
-    ana, ben = hands
+def test_undo_of_a_rename_keeps_edits_of_the_state(sessions: tuple[DocumentSession, DocumentSession]) -> None:
+    ana, ben = sessions
     ana.edit("rename", lambda design: rename_state(design, "A", "Begin"))
     say(ben, "Begin", "theirs")
     ben.edit("connect", lambda design: add_transition(design, "B", "Begin"))
@@ -112,8 +108,8 @@ def test_a_rename_taken_back_keeps_what_others_did_to_the_state(hands: tuple[Doc
     assert ana.design.initial == "Begin"
 
 
-def test_typing_of_two_people_is_one_step_each(hands: tuple[DocumentSession, DocumentSession]) -> None:
-    ana, ben = hands
+def test_typing_of_two_users_is_one_entry_each(sessions: tuple[DocumentSession, DocumentSession]) -> None:
+    ana, ben = sessions
     for text in ("h", "he", "hel"):
         say(ana, "A", text, typing=True)
         say(ben, "B", text.upper(), typing=True)
@@ -123,10 +119,10 @@ def test_typing_of_two_people_is_one_step_each(hands: tuple[DocumentSession, Doc
     assert docs(ana) == ["", "HEL"]
 
 
-def test_typing_goes_on_as_a_new_step_after_another_edit_and_after_a_pause(
-    hands: tuple[DocumentSession, DocumentSession],
+def test_another_edit_or_a_pause_starts_a_new_entry(
+    sessions: tuple[DocumentSession, DocumentSession],
 ) -> None:
-    ana, ben = hands
+    ana, ben = sessions
     say(ana, "A", "a", typing=True)
     say(ben, "B", "drag")
     say(ana, "A", "ab", typing=True)
@@ -139,9 +135,9 @@ def test_typing_goes_on_as_a_new_step_after_another_edit_and_after_a_pause(
 
 @pytest.mark.parametrize(("pause_s", "entry_count"), [(59.0, 1), (60.0, 2)])
 def test_typing_coalesces_until_a_pause_of_a_minute(
-    hands: tuple[DocumentSession, DocumentSession], pause_s: float, entry_count: int
+    sessions: tuple[DocumentSession, DocumentSession], pause_s: float, entry_count: int
 ) -> None:
-    ana, _ben = hands
+    ana, _ben = sessions
     ana.shared.clock = lambda: 1000.0
     say(ana, "A", "a", typing=True)
     ana.shared.clock = lambda: 1000.0 + pause_s
@@ -153,8 +149,8 @@ def test_typing_coalesces_until_a_pause_of_a_minute(
     assert len(ana.history.path) == 1 + entry_count
 
 
-def test_the_history_keeps_its_newest_steps(hands: tuple[DocumentSession, DocumentSession]) -> None:
-    ana, _ben = hands
+def test_the_history_keeps_its_newest_entries(sessions: tuple[DocumentSession, DocumentSession]) -> None:
+    ana, _ben = sessions
     for number in range(MAX_ENTRIES + 20):
         say(ana, "A", str(number))
     assert len(ana.history.entries) == MAX_ENTRIES

@@ -1,4 +1,4 @@
-"""A behavior of XABSL that was imported is edited like any project: drawn, listed, completed, previewed, saved."""
+"""An imported XABSL behavior is drawn, completed, previewed, edited and saved like any project."""
 
 from dataclasses import replace
 
@@ -30,7 +30,7 @@ def test_every_option_is_drawn_listed_and_previewed(opened: OpenProject) -> None
     for design in opened.project.designs:
         findings = check_design(opened.project, design)
         scene = make_scene(opened.project, design, findings, 0)
-        assert [each["name"] for each in scene["states"]] == [state.name for state in design.states]
+        assert [state["name"] for state in scene["states"]] == [state.name for state in design.states]
         assert make_table(design, findings)["rows"]
         preview = preview_code(opened.project, design, {})
         assert any(file.path.endswith(".py") for file in preview.files)
@@ -49,7 +49,7 @@ def test_an_edit_changes_its_own_lines_only(opened: OpenProject) -> None:
         assert all(state in old and "other_name" in new for old, new in changed)
 
 
-def test_variables_of_others_are_offered_and_follow_a_new_alias(opened: OpenProject) -> None:
+def test_variables_of_components_are_completed_and_renamed(opened: OpenProject) -> None:
     design, name = next(
         (design, name)
         for design in opened.project.designs
@@ -77,7 +77,7 @@ def test_variables_of_others_are_offered_and_follow_a_new_alias(opened: OpenProj
     assert not any(target.startswith(f"{alias}.") for target in targets)
 
 
-def test_what_is_wrong_with_a_set_of_others_is_told(opened: OpenProject) -> None:
+def test_invalid_assignments_to_components_are_findings(opened: OpenProject) -> None:
     design = opened.project.designs[0]
     state = design.states[0]
     alias = design.uses[0].alias

@@ -1,4 +1,4 @@
-"""A real linter reads the pieces of a design as one module; its words come back to the right characters."""
+"""Lint warnings of a real linter are mapped back to the characters of each code block."""
 
 import subprocess
 from pathlib import Path
@@ -9,15 +9,15 @@ from hypothesis import given
 from tests.strategies.designs import designs
 from vicode.editor.session import lint
 from vicode.editor.session.lint import LintWarnings, lint_design
-from vicode.findings import DesignPath as ThingPath
+from vicode.findings import DesignPath
 from vicode.model.design import Code, Declaration, Design, Guard, RunCode, State, Stay
 from vicode.model.project import Enumeration, Project
 from vicode.model.texts import iter_texts
 from vicode.store import open_project
 
 ROOT = Path(__file__).parents[3]
-ACTION: ThingPath = ("states", "S", "actions", 0, "code", "python")
-GUARD: ThingPath = ("states", "S", "transitions", 0, "code", "python")
+ACTION: DesignPath = ("states", "S", "actions", 0, "code", "python")
+GUARD: DesignPath = ("states", "S", "transitions", 0, "code", "python")
 
 
 def python(text: str) -> Code:
@@ -31,20 +31,22 @@ def design_of(action: str, *, module: str = "", guard: str = "return True\n") ->
     return Design(component="A", initial="S", module=python(module) if module else Code(), states=(state,))
 
 
-def remarks(lints: LintWarnings, design: Design) -> dict[ThingPath, list[tuple[str, str]]]:
+def warnings_by_path(lints: LintWarnings, design: Design) -> dict[DesignPath, list[tuple[str, str]]]:
     texts = {located.path: located.text for located in iter_texts(design)}
-    return {path: [(item.code, texts[path][item.start : item.end]) for item in found] for path, found in lints.items()}
+    return {
+        path: [(item.code, texts[path][item.start : item.end]) for item in warnings] for path, warnings in lints.items()
+    }
 
 
-def test_a_remark_stands_at_its_characters_whatever_the_margin() -> None:
+def test_a_warning_is_at_its_characters_at_any_indentation() -> None:
     design = design_of("if True:\n    self.x = ünknown + 1\n", guard="\n    y = 1\n    return nothing\n")
-    found = remarks(lint_design(Project(name="p"), design), design)
-    assert found[ACTION] == [("F821", "ünknown")]
-    assert ("F821", "nothing") in found[GUARD]
-    assert ("F841", "y") in found[GUARD]
+    warnings = warnings_by_path(lint_design(Project(name="p"), design), design)
+    assert warnings[ACTION] == [("F821", "ünknown")]
+    assert ("F821", "nothing") in warnings[GUARD]
+    assert ("F841", "y") in warnings[GUARD]
 
 
-def test_what_the_project_declares_and_the_module_imports_is_known() -> None:
+def test_declared_and_imported_names_are_defined() -> None:
     project = Project(
         name="p",
         enumerations=(Enumeration(name="Side", elements=(("left", ""),)),),
@@ -56,12 +58,12 @@ def test_what_the_project_declares_and_the_module_imports_is_known() -> None:
     assert lint_design(project, design) == {}
 
 
-def test_code_that_does_not_parse_hides_no_remark_on_other_code() -> None:
+def test_invalid_code_hides_no_warnings_about_other_code() -> None:
     design = design_of("if if\n", guard="return nothing\n")
-    assert remarks(lint_design(Project(name="p"), design), design) == {GUARD: [("F821", "nothing")]}
+    assert warnings_by_path(lint_design(Project(name="p"), design), design) == {GUARD: [("F821", "nothing")]}
 
 
-def test_without_a_linter_there_are_no_remarks(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_without_a_linter_there_are_no_warnings(monkeypatch: pytest.MonkeyPatch) -> None:
     def never(*_arguments: object, **_options: object) -> None:
         raise subprocess.TimeoutExpired("ruff", 2)
 
@@ -79,8 +81,8 @@ def test_the_shipped_designs_are_clean() -> None:
 
 
 @given(designs)
-def test_any_line_of_the_module_leads_into_a_text_of_the_design(design: Design) -> None:
-    """A linter that complains about everything: every remark lies inside the text it is said of."""
+def test_every_line_of_the_module_maps_into_a_text(design: Design) -> None:
+    """Let the linter report a warning at every position."""
 
     def complain(source: str, _known: tuple[str, ...]) -> str:
         rows = [{"location": {"row": at, "column": 3}, "code": "X", "message": ""} for at in range(source.count("\n"))]

@@ -1,4 +1,4 @@
-"""What project.yaml declares, changed from the editor: written at once, refused in words, taken back."""
+"""Edits of project.yaml: writing, errors, undo."""
 
 from dataclasses import replace
 from pathlib import Path
@@ -24,7 +24,7 @@ def taken_back(written: ProjectEditResult) -> str:
     return written.edit.undo("")
 
 
-def test_a_change_of_the_project_is_written_and_taken_back(workspace: Workspace, folder: Path) -> None:
+def test_an_edit_of_the_project_is_written_and_undone(workspace: Workspace, folder: Path) -> None:
     before = texts_of(folder)
 
     def change(project: Project) -> Project:
@@ -118,7 +118,7 @@ def test_each_part_of_the_project_can_be_added_changed_and_removed(workspace: Wo
         (ProjectNodePath(steps=()), {"name": "json"}, "would hide a module of Python's standard library"),
     ],
 )
-def test_what_makes_no_sound_project_is_refused(
+def test_edits_that_add_errors_are_rejected(
     workspace: Workspace, folder: Path, spot: ProjectNodePath, changes: dict[str, object], words: str
 ) -> None:
     before = texts_of(folder)
@@ -127,9 +127,7 @@ def test_what_makes_no_sound_project_is_refused(
     assert texts_of(folder) == before
 
 
-def test_what_is_used_is_told_before_it_is_removed_and_who_has_errors_afterwards(
-    workspace: Workspace, folder: Path
-) -> None:
+def test_references_are_listed_before_removal_and_broken_designs_after(workspace: Workspace, folder: Path) -> None:
     before = texts_of(folder)
     assert find_references(workspace.project, NET_X.symbol_ref(workspace.project)) == (
         ReferenceLocation(component="Player", description="transition 1 of state CircleBall, when"),
@@ -149,7 +147,7 @@ def test_what_is_used_is_told_before_it_is_removed_and_who_has_errors_afterwards
     assert workspace.project_findings == ()
 
 
-def test_every_thing_is_found_where_another_name_for_it_would_be_said(workspace: Workspace) -> None:
+def test_references_are_the_places_that_a_rename_changes(workspace: Workspace) -> None:
     project = workspace.project
     spots = [
         ProjectNodePath.top_level(section, at)
@@ -171,7 +169,7 @@ def test_every_thing_is_found_where_another_name_for_it_would_be_said(workspace:
     ]
 
 
-def test_a_file_that_another_program_changed_is_looked_at_first(workspace: Workspace, folder: Path) -> None:
+def test_an_edit_fails_if_another_program_renamed_the_node(workspace: Workspace, folder: Path) -> None:
     file = folder / "project.yaml"
     file.write_text(file.read_text().replace("net_x:", "goal_x:"))
     written = edit_project_file(workspace, NET_X.remove, NET_X)
@@ -179,9 +177,7 @@ def test_a_file_that_another_program_changed_is_looked_at_first(workspace: Works
     assert "goal_x:" in file.read_text()
 
 
-def test_a_change_of_the_project_is_a_step_of_the_design_beside_which_it_was_made(
-    workspace: Workspace, folder: Path
-) -> None:
+def test_an_edit_of_the_project_is_an_entry_of_the_open_design(workspace: Workspace, folder: Path) -> None:
     player = workspace.open_document("Player")
     assert player is not None
     before = texts_of(folder)["project.yaml"]
@@ -227,7 +223,7 @@ def test_a_change_of_the_project_is_a_step_of_the_design_beside_which_it_was_mad
     assert "constant: 1" in text()
 
 
-def test_who_does_something_new_has_nothing_to_do_again(workspace: Workspace, folder: Path) -> None:
+def test_a_new_edit_clears_the_redo_stack(workspace: Workspace, folder: Path) -> None:
     player = workspace.open_document("Player")
     assert player is not None
     before = texts_of(folder)
@@ -243,7 +239,7 @@ def test_who_does_something_new_has_nothing_to_do_again(workspace: Workspace, fo
     assert texts_of(folder) == before
 
 
-def test_a_name_that_only_the_project_says_is_a_step_too(workspace: Workspace, folder: Path) -> None:
+def test_renaming_an_unused_symbol_is_an_entry(workspace: Workspace, folder: Path) -> None:
     player = workspace.open_document("Player")
     assert player is not None
     assert edit_project_file(workspace, project_edits.add_constant).edit is not None
@@ -261,7 +257,7 @@ def test_a_name_that_only_the_project_says_is_a_step_too(workspace: Workspace, f
     assert texts_of(folder) == after
 
 
-def test_an_element_goes_before_the_one_before_it(workspace: Workspace) -> None:
+def test_an_element_moves_up(workspace: Workspace) -> None:
     def elements() -> tuple[str, ...]:
         found = workspace.project.enumeration("Kick")
         return found.element_names if found else ()

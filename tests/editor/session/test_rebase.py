@@ -1,4 +1,4 @@
-"""Things are found again after others renamed, moved and removed things; so are gestures that come late."""
+"""Selections and gestures are rebased onto newer designs."""
 
 import pytest
 from hypothesis import given
@@ -38,21 +38,21 @@ OLD = Design(
         ("design", "", remove_states(OLD, ["B"]), ""),
     ],
 )
-def test_a_thing_is_found_again(of: str, key: str, new: Design, found: str | None) -> None:
+def test_a_selection_is_rebased(of: str, key: str, new: Design, found: str | None) -> None:
     assert rebase_selection(ItemRef(kind=of, id=key), OLD, new) == (
         None if found is None else ItemRef(kind=of, id=found)
     )
 
 
 @given(designs, designs)
-def test_following_never_raises(old: Design, new: Design) -> None:
+def test_rebase_never_raises(old: Design, new: Design) -> None:
     for located in iter_decisions(old):
         rebase_selection(ItemRef(kind="transitions", id=transition_key(located.path)), old, new)
     for state in old.states:
         rebase_selection(ItemRef(kind="states", id=state.name), old, new)
 
 
-def test_a_late_gesture_is_done_to_what_it_was_made_on() -> None:
+def test_a_late_gesture_applies_to_its_original_item() -> None:
     new = remove_decisions(rename_state(OLD, "A", "Z"), [("states", "Z", "transitions", 0)])
     items = [{"of": "transitions", "id": "A/2"}, {"of": "transitions", "id": "A/0"}, {"of": "states", "id": "A"}]
     assert rebase_gesture({"kind": "delete", "items": items}, OLD, new) == {

@@ -1,4 +1,4 @@
-"""Unsaved work outlives its server: journals of the dead are offered, those of the living are not."""
+"""Journals of restarted servers are recovered, those of running servers are not."""
 
 import os
 from collections.abc import Iterator
@@ -14,46 +14,46 @@ from vicode.model.design import Declaration
 
 
 @pytest.fixture
-def keeper(project: Path, tmp_path: Path) -> Iterator[AutosaveService]:
-    keeper = AutosaveService(Library(project), RecoveryStore(tmp_path / "state"))
-    yield keeper
-    keeper.recovery.close()
+def service(project: Path, tmp_path: Path) -> Iterator[AutosaveService]:
+    service = AutosaveService(Library(project), RecoveryStore(tmp_path / "state"))
+    yield service
+    service.recovery.close()
 
 
-def edit(keeper: AutosaveService, doc: str) -> Workspace:
-    (workspace,) = keeper.library.workspaces
+def edit(service: AutosaveService, doc: str) -> Workspace:
+    (workspace,) = service.library.workspaces
     document = workspace.open_document("Player")
     assert document is not None
     document.edit("doc", lambda design: replace(design, doc=doc))
     return workspace
 
 
-def journal(keeper: AutosaveService) -> int:
-    """Bring the journals up to date; returns how many were touched."""
-    due = keeper.pending_snapshots()
+def journal(service: AutosaveService) -> int:
+    """Write the pending journals; returns their number."""
+    due = service.pending_snapshots()
     for snapshot in due:
-        keeper.recovery.write(snapshot)
+        service.recovery.write(snapshot)
     return len(due)
 
 
-def killed(keeper: AutosaveService, project: Path, tmp_path: Path) -> AutosaveService:
-    """The server that is started after this one was killed."""
-    keeper.recovery._lock.close()
+def restarted(service: AutosaveService, project: Path, tmp_path: Path) -> AutosaveService:
+    """The service of a new server after this one was killed."""
+    service.recovery._lock.close()
     return AutosaveService(Library(project), RecoveryStore(tmp_path / "state"))
 
 
-def test_unsaved_work_is_offered_after_a_kill_and_comes_back_as_one_step(
-    keeper: AutosaveService, project: Path, tmp_path: Path
+def test_unsaved_work_of_a_killed_server_is_recovered_as_one_edit(
+    service: AutosaveService, project: Path, tmp_path: Path
 ) -> None:
-    assert journal(keeper) == 0
-    edit(keeper, "first")
-    edit(keeper, "mine")
-    assert (journal(keeper), journal(keeper)) == (1, 0)
+    assert journal(service) == 0
+    edit(service, "first")
+    edit(service, "mine")
+    assert (journal(service), journal(service)) == (1, 0)
     beside = AutosaveService(Library(project), RecoveryStore(tmp_path / "state"))
-    assert beside.recoverable(keeper.library.workspaces[0]) == ()
+    assert beside.recoverable(service.library.workspaces[0]) == ()
     beside.recovery.close()
 
-    again = killed(keeper, project, tmp_path)
+    again = restarted(service, project, tmp_path)
     (workspace,) = again.library.workspaces
     (lost,) = again.recoverable(workspace)
     assert lost.component == "Player"
@@ -66,16 +66,16 @@ def test_unsaved_work_is_offered_after_a_kill_and_comes_back_as_one_step(
     again.recovery.close()
 
 
-def test_what_was_saved_or_discarded_is_not_offered(keeper: AutosaveService, project: Path, tmp_path: Path) -> None:
-    workspace = edit(keeper, "mine")
-    journal(keeper)
+def test_saved_or_discarded_work_is_not_recoverable(service: AutosaveService, project: Path, tmp_path: Path) -> None:
+    workspace = edit(service, "mine")
+    journal(service)
     document = workspace.open_document("Player")
     assert document is not None
     workspace.save(document)
-    assert journal(keeper) == 1
-    edit(keeper, "again")
-    journal(keeper)
-    again = killed(keeper, project, tmp_path)
+    assert journal(service) == 1
+    edit(service, "again")
+    journal(service)
+    again = restarted(service, project, tmp_path)
     (lost,) = again.recoverable(again.library.workspaces[0])
     again.recovery.discard(lost)
     assert again.recoverable(again.library.workspaces[0]) == ()
@@ -83,12 +83,12 @@ def test_what_was_saved_or_discarded_is_not_offered(keeper: AutosaveService, pro
     assert list((tmp_path / "state" / "unsaved").iterdir()) == []
 
 
-def test_recovered_work_meets_what_the_file_says_now(keeper: AutosaveService, project: Path, tmp_path: Path) -> None:
-    edit(keeper, "mine")
-    journal(keeper)
+def test_recovered_work_is_merged_with_the_file(service: AutosaveService, project: Path, tmp_path: Path) -> None:
+    edit(service, "mine")
+    journal(service)
     file = project / "forward" / "player.yaml"
     file.write_text(file.read_text().replace("frequency: 10", "frequency: 20"))
-    again = killed(keeper, project, tmp_path)
+    again = restarted(service, project, tmp_path)
     (workspace,) = again.library.workspaces
     (lost,) = again.recoverable(workspace)
     again.recover(workspace, lost, "ana")
@@ -98,31 +98,31 @@ def test_recovered_work_meets_what_the_file_says_now(keeper: AutosaveService, pr
     again.recovery.close()
 
 
-def test_what_no_file_can_hold_keeps_the_journal_before_it(
-    keeper: AutosaveService, project: Path, tmp_path: Path
+def test_a_design_that_cannot_be_saved_keeps_its_last_journal(
+    service: AutosaveService, project: Path, tmp_path: Path
 ) -> None:
-    workspace = edit(keeper, "mine")
-    journal(keeper)
+    workspace = edit(service, "mine")
+    journal(service)
     document = workspace.open_document("Player")
     assert document is not None
     twice = (Declaration(name="a"), Declaration(name="a"))
     document.edit("twice", lambda design: replace(design, variables=twice))
-    assert journal(keeper) == 1
-    again = killed(keeper, project, tmp_path)
+    assert journal(service) == 1
+    again = restarted(service, project, tmp_path)
     (lost,) = again.recoverable(again.library.workspaces[0])
     assert "mine" in lost.text
     again.recovery.close()
 
 
-def test_work_on_a_file_that_cannot_be_read_waits_until_it_can(
-    keeper: AutosaveService, project: Path, tmp_path: Path
+def test_work_on_an_unreadable_file_waits_until_it_is_readable(
+    service: AutosaveService, project: Path, tmp_path: Path
 ) -> None:
-    edit(keeper, "mine")
-    journal(keeper)
+    edit(service, "mine")
+    journal(service)
     file = project / "forward" / "player.yaml"
     text = file.read_text()
     file.write_text(f"<<<<<<< HEAD\n{text}")
-    again = killed(keeper, project, tmp_path)
+    again = restarted(service, project, tmp_path)
     (workspace,) = again.library.workspaces
     assert again.recoverable(workspace) == ()
     file.write_text(text)
@@ -132,12 +132,12 @@ def test_work_on_a_file_that_cannot_be_read_waits_until_it_can(
     again.recovery.close()
 
 
-def test_work_on_a_file_that_is_gone_makes_it_again(keeper: AutosaveService, project: Path, tmp_path: Path) -> None:
-    edit(keeper, "mine")
-    journal(keeper)
+def test_recovery_creates_a_missing_file(service: AutosaveService, project: Path, tmp_path: Path) -> None:
+    edit(service, "mine")
+    journal(service)
     file = project / "forward" / "player.yaml"
     file.unlink()
-    again = killed(keeper, project, tmp_path)
+    again = restarted(service, project, tmp_path)
     (workspace,) = again.library.workspaces
     (lost,) = again.recoverable(workspace)
     assert again.recover(workspace, lost, "ana") == 0
@@ -146,9 +146,9 @@ def test_work_on_a_file_that_is_gone_makes_it_again(keeper: AutosaveService, pro
     again.recovery.close()
 
 
-def test_ending_in_order_keeps_the_last_moment(keeper: AutosaveService, project: Path, tmp_path: Path) -> None:
-    edit(keeper, "mine")
-    keeper.close()
+def test_closing_keeps_the_latest_edits(service: AutosaveService, project: Path, tmp_path: Path) -> None:
+    edit(service, "mine")
+    service.close()
     again = AutosaveService(Library(project), RecoveryStore(tmp_path / "state"))
     (workspace,) = again.library.workspaces
     (lost,) = again.recoverable(workspace)
@@ -160,78 +160,74 @@ def test_ending_in_order_keeps_the_last_moment(keeper: AutosaveService, project:
     assert list((tmp_path / "state" / "unsaved").iterdir()) == []
 
 
-def test_a_journal_that_could_not_be_written_is_tried_again(
-    keeper: AutosaveService, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_failed_journal_is_written_again(service: AutosaveService, monkeypatch: pytest.MonkeyPatch) -> None:
     def refuse(_descriptor: int) -> None:
         raise OSError(28, "No space left on device")
 
-    edit(keeper, "mine")
+    edit(service, "mine")
     with monkeypatch.context() as full:
         full.setattr(os, "fsync", refuse)
         with pytest.raises(OSError, match="No space"):
-            journal(keeper)
-    assert (journal(keeper), journal(keeper)) == (1, 0)
+            journal(service)
+    assert (journal(service), journal(service)) == (1, 0)
 
 
 @pytest.mark.parametrize("text", ["", "[]", "{}", '{"project": 1}', "\x00"])
-def test_a_file_that_is_no_journal_is_passed_over(
-    keeper: AutosaveService, project: Path, tmp_path: Path, text: str
-) -> None:
+def test_damaged_journals_are_ignored(service: AutosaveService, project: Path, tmp_path: Path, text: str) -> None:
     folder = tmp_path / "state" / "unsaved" / "dead"
     folder.mkdir()
     (folder / "x.json").write_text(text)
-    assert keeper.recoverable(keeper.library.workspaces[0]) == ()
+    assert service.recoverable(service.library.workspaces[0]) == ()
 
 
-def test_projects_that_save_by_themselves_wait_for_a_rest(keeper: AutosaveService, project: Path) -> None:
-    workspace = edit(keeper, "mine")
+def test_autosave_waits_until_a_design_is_idle(service: AutosaveService, project: Path) -> None:
+    workspace = edit(service, "mine")
     document = workspace.open_document("Player")
     assert document is not None
     now = document.history.current.at_s
-    keeper.clock = lambda: now + 5
-    keeper.save_idle_documents()
+    service.clock = lambda: now + 5
+    service.save_idle_documents()
     assert not document.is_saved
     workspace.autosave = True
-    keeper.clock = lambda: now + 0.5
-    keeper.save_idle_documents()
+    service.clock = lambda: now + 0.5
+    service.save_idle_documents()
     assert not document.is_saved
-    keeper.clock = lambda: now + 5
-    keeper.save_idle_documents()
+    service.clock = lambda: now + 5
+    service.save_idle_documents()
     assert document.is_saved
     assert "mine" in document.file.read_text()
 
 
-def test_saving_by_itself_goes_on_after_a_restart(keeper: AutosaveService, project: Path, tmp_path: Path) -> None:
-    (workspace,) = keeper.library.workspaces
-    keeper.set_autosave(workspace, is_on=True)
-    again = killed(keeper, project, tmp_path)
+def test_autosave_is_restored_after_a_restart(service: AutosaveService, project: Path, tmp_path: Path) -> None:
+    (workspace,) = service.library.workspaces
+    service.set_autosave(workspace, is_on=True)
+    again = restarted(service, project, tmp_path)
     (workspace,) = again.library.workspaces
     assert workspace.autosave
     again.set_autosave(workspace, is_on=False)
-    last = killed(again, project, tmp_path)
+    last = restarted(again, project, tmp_path)
     assert not last.library.workspaces[0].autosave
     last.close()
 
 
-def test_what_cannot_be_saved_by_itself_is_told_once(keeper: AutosaveService, project: Path) -> None:
-    workspace = edit(keeper, "mine")
+def test_a_failed_autosave_is_reported_once(service: AutosaveService, project: Path) -> None:
+    workspace = edit(service, "mine")
     document = workspace.open_document("Player")
     assert document is not None
-    keeper.set_autosave(workspace, is_on=True)
-    told: list[str] = []
-    document.subscribe(lambda by: told.append(by.shared.notice.text))
+    service.set_autosave(workspace, is_on=True)
+    notices: list[str] = []
+    document.subscribe(lambda by: notices.append(by.shared.notice.text))
     document.file.chmod(0o444)
-    keeper.clock = lambda: document.history.current.at_s + 5
-    keeper.save_idle_documents()
-    keeper.save_idle_documents()
-    assert told == ["player.yaml cannot be saved: the file is read-only"]
+    service.clock = lambda: document.history.current.at_s + 5
+    service.save_idle_documents()
+    service.save_idle_documents()
+    assert notices == ["player.yaml cannot be saved: the file is read-only"]
     document.file.chmod(0o644)
-    keeper.save_idle_documents()
+    service.save_idle_documents()
     assert document.is_saved
 
 
-def test_the_state_folder_can_be_chosen(tmp_path: Path) -> None:
+def test_the_environment_selects_the_state_folder(tmp_path: Path) -> None:
     assert state_folder({"VICODE_STATE": str(tmp_path)}) == tmp_path
     assert state_folder({"XDG_STATE_HOME": str(tmp_path)}) == tmp_path / "vicode"
     assert state_folder({}) == Path.home() / ".local" / "state" / "vicode"

@@ -1,4 +1,4 @@
-"""Another name for what is declared: an edit of one design, or files that change together."""
+"""Rename symbol: an edit of one design, or a change of several files."""
 
 from collections import Counter
 from dataclasses import replace
@@ -18,7 +18,7 @@ from vicode.store import open_project
 SPEED = SymbolRef(component="Body", section="parameters", name="forward")
 
 
-def things_of(workspace: Workspace) -> list[SymbolRef]:
+def all_symbols(workspace: Workspace) -> list[SymbolRef]:
     project = workspace.project
     kinds = [SymbolRef(section=section, name="") for section in ("constants", "enumerations", "components", "agents")]
     kinds += [SymbolRef(section="elements", owner=enumeration.name, name="") for enumeration in project.enumerations]
@@ -32,35 +32,35 @@ def things_of(workspace: Workspace) -> list[SymbolRef]:
     ]
 
 
-def some_of(workspace: Workspace) -> list[SymbolRef]:
-    """One thing of every kind, and of every kind one that a person declared for a class written by hand."""
+def sample_symbols(workspace: Workspace) -> list[SymbolRef]:
+    """One symbol of each section, declared in a design and in project.yaml."""
     project = workspace.project
-    found = {(each.section, project.design(each.component) is None): each for each in things_of(workspace)}
-    return list(found.values())
+    samples = {(symbol.section, project.design(symbol.component) is None): symbol for symbol in all_symbols(workspace)}
+    return list(samples.values())
 
 
-def test_every_kind_of_name_can_be_another_and_come_back(workspace: Workspace, folder: Path) -> None:
+def test_every_kind_of_symbol_can_be_renamed_and_renamed_back(workspace: Workspace, folder: Path) -> None:
     before = texts_of(folder)
     codes = Counter(finding.rule.code for finding in check_project(workspace.project))
-    things = some_of(workspace)
-    assert {"uses", "parameters", "outputs", "variables", "constants", "elements"} <= {item.section for item in things}
-    for thing in things:
-        plan = plan_symbol_rename(workspace, thing, "something_new")
-        assert plan.error == "", thing
+    symbols = sample_symbols(workspace)
+    assert {"uses", "parameters", "outputs", "variables", "constants", "elements"} <= {item.section for item in symbols}
+    for symbol in symbols:
+        plan = plan_symbol_rename(workspace, symbol, "something_new")
+        assert plan.error == "", symbol
         if plan.design is not None:
             continue
         assert apply_symbol_rename(workspace, plan) == ""
         renamed = open_project(folder)
-        there = SymbolRef(section=thing.section, name=plan.new, component=thing.component, owner=thing.owner)
-        if thing.section != "components":
-            assert is_declared(renamed.project, there), thing
+        there = SymbolRef(section=symbol.section, name=plan.new, component=symbol.component, owner=symbol.owner)
+        if symbol.section != "components":
+            assert is_declared(renamed.project, there), symbol
         assert Counter(finding.rule.code for finding in (*renamed.findings, *check_project(renamed.project))) == codes
-        back = plan_symbol_rename(workspace, there, thing.name)
+        back = plan_symbol_rename(workspace, there, symbol.name)
         assert apply_symbol_rename(workspace, back) == ""
-        assert texts_of(folder) == before, thing
+        assert texts_of(folder) == before, symbol
 
 
-def test_a_name_that_only_one_design_says_is_an_edit_of_it(workspace: Workspace, folder: Path) -> None:
+def test_a_symbol_of_one_design_is_renamed_by_an_edit(workspace: Workspace, folder: Path) -> None:
     before = texts_of(folder)
     plan = plan_symbol_rename(workspace, SymbolRef(component="Player", section="variables", name="kick"), "shot")
     assert plan.design is not None
@@ -70,7 +70,7 @@ def test_a_name_that_only_one_design_says_is_an_edit_of_it(workspace: Workspace,
 
 
 @pytest.mark.parametrize(
-    ("thing", "new", "words"),
+    ("symbol", "new", "message"),
     [
         (SPEED, "", "enter a name"),
         (SPEED, "so fast", "such as soFast"),
@@ -83,11 +83,11 @@ def test_a_name_that_only_one_design_says_is_an_edit_of_it(workspace: Workspace,
         (SymbolRef(section="elements", owner="Side", name="left"), "right", "already an element right"),
     ],
 )
-def test_what_cannot_be_a_name_is_told(workspace: Workspace, thing: SymbolRef, new: str, words: str) -> None:
-    assert words in plan_symbol_rename(workspace, thing, new).error
+def test_an_invalid_name_is_an_error(workspace: Workspace, symbol: SymbolRef, new: str, message: str) -> None:
+    assert message in plan_symbol_rename(workspace, symbol, new).error
 
 
-def test_what_code_says_already_is_no_new_name(workspace: Workspace) -> None:
+def test_a_name_used_in_code_is_an_error(workspace: Workspace) -> None:
     document = workspace.open_document("Player")
     assert document is not None
     note = Code(texts=(("python", "self.memory = 1"),))
@@ -96,7 +96,7 @@ def test_what_code_says_already_is_no_new_name(workspace: Workspace) -> None:
     assert plan.error == "the code of Player already uses self.memory for something else"
 
 
-def test_nothing_is_written_while_something_of_it_is_unsaved(workspace: Workspace, folder: Path) -> None:
+def test_a_rename_requires_saved_designs(workspace: Workspace, folder: Path) -> None:
     document = workspace.open_document("FollowBall")
     assert document is not None
     document.edit("move", lambda design: remove_states(design, ["Align"]))
@@ -105,14 +105,14 @@ def test_nothing_is_written_while_something_of_it_is_unsaved(workspace: Workspac
     )
 
 
-def test_who_works_on_a_touched_design_hears_of_it(workspace: Workspace, folder: Path) -> None:
+def test_users_of_changed_designs_are_notified(workspace: Workspace, folder: Path) -> None:
     document = workspace.open_document("FollowBall")
     assert document is not None
-    heard: list[str] = []
-    document.subscribe(lambda _by: heard.append(document.shared.notice.text))
-    person = workspace.users.get_or_create_user("ada", "Ada")
-    assert apply_symbol_rename(workspace, plan_symbol_rename(workspace, SPEED, "ahead"), person.id) == ""
-    assert heard[-1] == "Ada renamed parameter forward to ahead in 2 files"
+    notices: list[str] = []
+    document.subscribe(lambda _by: notices.append(document.shared.notice.text))
+    user = workspace.users.get_or_create_user("ada", "Ada")
+    assert apply_symbol_rename(workspace, plan_symbol_rename(workspace, SPEED, "ahead"), user.id) == ""
+    assert notices[-1] == "Ada renamed parameter forward to ahead in 2 files"
     assert document.is_saved
     assert document.design.states[0].modulates[1].arguments[0][0] == "ahead"
 
@@ -121,41 +121,41 @@ def labels_of(document: DocumentSession) -> list[str]:
     return [step.label for step in document.history.path[1:]]
 
 
-def two_hands(workspace: Workspace) -> tuple[DocumentSession, DocumentSession]:
-    """Ada's hold on the design that declares the name, and on one that says it."""
-    person = workspace.users.get_or_create_user("ada", "Ada")
+def two_sessions(workspace: Workspace) -> tuple[DocumentSession, DocumentSession]:
+    """Ada's sessions on the design that declares the symbol, and on one that refers to it."""
+    user = workspace.users.get_or_create_user("ada", "Ada")
     body, follow = workspace.open_document("Body"), workspace.open_document("FollowBall")
     assert body is not None
     assert follow is not None
-    return DocumentSession(body.shared, person.id), DocumentSession(follow.shared, person.id)
+    return DocumentSession(body.shared, user.id), DocumentSession(follow.shared, user.id)
 
 
-def test_the_histories_of_all_designs_tell_of_the_name_and_take_it_back(workspace: Workspace, folder: Path) -> None:
-    body, follow = two_hands(workspace)
+def test_the_histories_of_all_designs_contain_a_rename_and_undo_it(workspace: Workspace, folder: Path) -> None:
+    body, follow = two_sessions(workspace)
     before = follow.design
     follow.edit("say", lambda design: replace(design, doc="Follows."))
     workspace.save(follow)
-    said = texts_of(folder)
+    texts = texts_of(folder)
     assert apply_symbol_rename(workspace, plan_symbol_rename(workspace, SPEED, "ahead"), "ada") == ""
     after = texts_of(folder)
     assert labels_of(body) == ["rename forward to ahead"]
     assert [step.user_id for step in body.history.path[1:]] == ["ada"]
     # Undo of either design is undo of both; so is redo.
     assert follow.undo() == ""
-    assert texts_of(folder) == said
+    assert texts_of(folder) == texts
     assert labels_of(body) == ["rename forward to ahead", "undo rename forward to ahead"]
     assert (body.undo_label, body.redo_label) == ("", "rename forward to ahead")
     assert body.redo() == ""
     assert texts_of(folder) == after
     assert body.undo() == ""
-    # What was done before it can still be taken back.
+    # Earlier edits can still be undone.
     assert follow.undo() == ""
     assert follow.design == before
 
 
-def test_going_back_in_the_history_takes_a_name_back_in_all_files(workspace: Workspace, folder: Path) -> None:
+def test_jumping_in_the_history_undoes_a_rename_in_all_files(workspace: Workspace, folder: Path) -> None:
     before = texts_of(folder)
-    body, follow = two_hands(workspace)
+    body, follow = two_sessions(workspace)
     assert apply_symbol_rename(workspace, plan_symbol_rename(workspace, SPEED, "ahead"), "ada") == ""
     after = texts_of(folder)
     named = body.history.current_id
@@ -174,7 +174,7 @@ def test_going_back_in_the_history_takes_a_name_back_in_all_files(workspace: Wor
     assert texts_of(folder) == after
 
 
-def test_a_file_that_cannot_be_written_leaves_the_others_as_they_were(
+def test_a_failed_write_restores_the_other_files(
     workspace: Workspace, folder: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     before = texts_of(folder)
@@ -193,7 +193,7 @@ def test_a_file_that_cannot_be_written_leaves_the_others_as_they_were(
     assert texts_of(folder) == before
 
 
-def test_a_plan_for_other_files_is_not_carried_out(workspace: Workspace, folder: Path) -> None:
+def test_an_outdated_plan_is_rejected(workspace: Workspace, folder: Path) -> None:
     plan = plan_symbol_rename(workspace, SPEED, "ahead")
     file = folder / "follow_ball.yaml"
     file.write_text(file.read_text().replace("The ball is ahead.", "The ball is there."))
@@ -204,18 +204,18 @@ def test_a_plan_for_other_files_is_not_carried_out(workspace: Workspace, folder:
     assert "ahead:" not in file.read_text()
 
 
-def test_a_class_written_by_hand_is_pointed_out(workspace: Workspace) -> None:
+def test_a_hand_written_class_is_noted(workspace: Workspace) -> None:
     plan = plan_symbol_rename(workspace, SymbolRef(component="Head", section="outputs", name="pan"), "yaw")
     assert "in the hand-written class field.head:Head" in plan.note
     assert "project.yaml" in [change.file.name for change in plan.changes]
 
 
-def test_whoever_is_at_a_design_that_does_not_say_the_name_hears_of_a_new_one_too(workspace: Workspace) -> None:
+def test_windows_on_unaffected_designs_are_notified(workspace: Workspace) -> None:
     turn = workspace.open_document("Turn")
     assert turn is not None
-    heard: list[str] = []
-    turn.shared.listeners.append(lambda by: heard.append(by.user_id))
-    thing = SymbolRef(section="constants", name="net_x")
-    assert apply_symbol_rename(workspace, plan_symbol_rename(workspace, thing, "goal_x"), "someone") == ""
-    assert "someone" in heard
+    notices: list[str] = []
+    turn.shared.listeners.append(lambda by: notices.append(by.user_id))
+    symbol = SymbolRef(section="constants", name="net_x")
+    assert apply_symbol_rename(workspace, plan_symbol_rename(workspace, symbol, "goal_x"), "someone") == ""
+    assert "someone" in notices
     assert "goal_x" in [constant.name for constant in workspace.project.constants]

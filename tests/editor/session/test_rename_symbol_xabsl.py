@@ -1,4 +1,4 @@
-"""New names in hand-written C++ and XABSL: followed where it is certain, else pointed out."""
+"""Rename symbol in hand-written C++ and XABSL: renamed where certain, else listed."""
 
 from pathlib import Path
 
@@ -78,15 +78,15 @@ def workspace(tmp_path: Path) -> Workspace:
     return Library(tmp_path).workspaces[0]
 
 
-def planned(workspace: Workspace, thing: SymbolRef, new: str) -> SymbolRenamePlan:
-    plan = plan_symbol_rename(workspace, thing, new)
+def make_plan(workspace: Workspace, symbol: SymbolRef, new: str) -> SymbolRenamePlan:
+    plan = plan_symbol_rename(workspace, symbol, new)
     assert plan.error == ""
     return plan
 
 
-def carried_out(workspace: Workspace, thing: SymbolRef, new: str) -> tuple[str, SymbolRenamePlan]:
-    """All code of the project after a new name."""
-    plan = planned(workspace, thing, new)
+def rename(workspace: Workspace, symbol: SymbolRef, new: str) -> tuple[str, SymbolRenamePlan]:
+    """Rename a symbol; returns all code of the project, and the plan."""
+    plan = make_plan(workspace, symbol, new)
     assert apply_symbol_rename(workspace, plan) == ""
     return "\n".join(code_of(design) for design in workspace.project.designs), plan
 
@@ -95,8 +95,8 @@ def code_of(design: Design) -> str:
     return "\n".join(text for placed in iter_code(design) for _language, text in placed.code.texts)
 
 
-def test_a_parameter_is_followed_where_it_is_given_and_where_it_is_read(workspace: Workspace) -> None:
-    code, plan = carried_out(workspace, SymbolRef(component="Walk", section="parameters", name="pace"), "tempo")
+def test_a_parameter_is_renamed_in_calls_and_expressions(workspace: Workspace) -> None:
+    code, plan = rename(workspace, SymbolRef(component="Walk", section="parameters", name="pace"), "tempo")
     assert "walk.done_so_far + @tempo; // walk.done_so_far" in code
     assert "Legs(speed = @tempo + far, side = Side.right)" in code
     assert "Walk(tempo = 2)" in code
@@ -106,9 +106,9 @@ def test_a_parameter_is_followed_where_it_is_given_and_where_it_is_read(workspac
     assert plan.ambiguous_places == ("Walk: action 1 of state Go, C++",)
 
 
-def test_an_output_is_a_symbol_in_xabsl(workspace: Workspace) -> None:
-    thing = SymbolRef(component="Walk", section="outputs", name="done_so_far")
-    code, plan = carried_out(workspace, thing, "way")
+def test_an_output_is_renamed_as_a_symbol(workspace: Workspace) -> None:
+    symbol = SymbolRef(component="Walk", section="outputs", name="done_so_far")
+    code, plan = rename(workspace, symbol, "way")
     assert "walk.way = walk.way + @pace; // walk.done_so_far" in code
     assert "walk.way > far" in code
     assert "this->walk.way > 1" in code
@@ -119,45 +119,45 @@ def test_an_output_is_a_symbol_in_xabsl(workspace: Workspace) -> None:
         for design in workspace.project.designs
         for file in [workspace.files[design.component]]
     }
-    back, _plan = carried_out(workspace, SymbolRef(component="Walk", section="outputs", name="way"), "done_so_far")
+    back, _plan = rename(workspace, SymbolRef(component="Walk", section="outputs", name="way"), "done_so_far")
     assert "walk.way" not in back
     assert files != {"Walk": WALK, "Main": MAIN}
     assert {name: workspace.files[name].read_text() for name in files} == {"Walk": WALK, "Main": MAIN}
 
 
-def test_what_two_enumerations_have_is_left_to_a_person(workspace: Workspace) -> None:
-    code, plan = carried_out(workspace, SymbolRef(section="elements", owner="Side", name="left"), "west")
+def test_an_element_of_two_enumerations_is_ambiguous(workspace: Workspace) -> None:
+    code, plan = rename(workspace, SymbolRef(section="elements", owner="Side", name="left"), "west")
     assert "side = left" in code
     assert "this->walk->pace = Side::west;" in code
     assert plan.ambiguous_places == ("Main: action 1 of state On, XABSL",)
-    code, plan = carried_out(workspace, SymbolRef(section="elements", owner="Side", name="right"), "east")
+    code, plan = rename(workspace, SymbolRef(section="elements", owner="Side", name="right"), "east")
     assert "side = Side.east" in code
     assert plan.ambiguous_places == ()
 
 
-def test_constants_and_arguments_of_functions_are_followed_in_xabsl(workspace: Workspace) -> None:
-    code, plan = carried_out(workspace, SymbolRef(section="constants", name="far"), "afar")
+def test_constants_and_function_arguments_are_renamed(workspace: Workspace) -> None:
+    code, plan = rename(workspace, SymbolRef(section="constants", name="far"), "afar")
     assert "legs.reach(x = afar) > afar" in code
     assert "@pace + afar" in code
     # A name by itself may be anything in C++.
     assert "this->legs->near && far > 2" in code
     assert plan.ambiguous_places == ("Walk: transition 1 of state Go, C++",)
-    thing = SymbolRef(component="Legs", section="arguments", owner="reach", name="x")
-    code, _plan = carried_out(workspace, thing, "ahead")
+    symbol = SymbolRef(component="Legs", section="arguments", owner="reach", name="x")
+    code, _plan = rename(workspace, symbol, "ahead")
     assert "legs.reach(ahead = afar) > afar" in code
-    code, _plan = carried_out(workspace, SymbolRef(section="components", name="Legs"), "Feet")
+    code, _plan = rename(workspace, SymbolRef(section="components", name="Legs"), "Feet")
     assert "Feet(speed = @pace + afar, side = Side.right)" in code
     assert "feet.near && feet.reach(ahead = afar) > afar" in code
 
 
-def test_code_that_nobody_can_read_is_left_to_a_person(workspace: Workspace, tmp_path: Path) -> None:
+def test_invalid_code_is_ambiguous(workspace: Workspace, tmp_path: Path) -> None:
     (tmp_path / "walk.yaml").write_text(WALK.replace("@pace; //", "@pace ; ) //"))
     workspace.sync_from_disk()
-    plan = planned(workspace, SymbolRef(component="Walk", section="outputs", name="done_so_far"), "way")
+    plan = make_plan(workspace, SymbolRef(component="Walk", section="outputs", name="done_so_far"), "way")
     assert plan.ambiguous_places == ("Walk: action 1 of state Go, XABSL, 2 times",)
 
 
-def test_a_component_with_a_design_is_followed_in_xabsl(workspace: Workspace, tmp_path: Path) -> None:
+def test_a_component_is_renamed_as_an_option(workspace: Workspace, tmp_path: Path) -> None:
     plan = plan_component_rename(workspace, "Walk", "GoAhead")
     assert [change.summary for change in plan.changes] == [
         "component Walk → GoAhead; walk.yaml is renamed to go_ahead.yaml",

@@ -1,4 +1,4 @@
-"""Finding by name: what is listed, what a query means first, and how it is told which letters were found."""
+"""The search index: its items, their ranking, and the matched letters."""
 
 from pathlib import Path
 
@@ -15,12 +15,12 @@ DESIGNS = Path(__file__).parents[3] / "designs"
 
 
 @pytest.fixture(scope="module")
-def things() -> list[SearchItem]:
+def items() -> list[SearchItem]:
     return SearchIndex(Library(DESIGNS)).items()
 
 
-def first(things: list[SearchItem], query: str, here: SearchTarget | None = None) -> SearchItem:
-    return rank_items(things, query, here)[0].item
+def first(items: list[SearchItem], query: str, here: SearchTarget | None = None) -> SearchItem:
+    return rank_items(items, query, here)[0].item
 
 
 @pytest.mark.parametrize(
@@ -37,44 +37,44 @@ def first(things: list[SearchItem], query: str, here: SearchTarget | None = None
         ("stand_up", SearchKind.USE, "stand_up", "Player"),
     ],
 )
-def test_what_is_meant_comes_first(
-    things: list[SearchItem], query: str, kind: SearchKind, title: str, component: str
+def test_the_intended_item_ranks_first(
+    items: list[SearchItem], query: str, kind: SearchKind, title: str, component: str
 ) -> None:
-    found = first(things, query, SearchTarget(project="forward", component="Player"))
+    found = first(items, query, SearchTarget(project="forward", component="Player"))
     assert (found.kind, found.title) == (kind, title)
     assert found.target is not None
     assert found.target.component == component
 
 
-def test_where_a_thing_is(things: list[SearchItem]) -> None:
-    tree = first(things, "net beside")
+def test_items_have_targets(items: list[SearchItem]) -> None:
+    tree = first(items, "net beside")
     assert tree.target == SearchTarget(
         project="forward", component="Player", selected=ItemRef(kind="transitions", id="SearchNet/0/then/2")
     )
     assert tree.location == "Player · Forward"
-    hand_written = first(things, "kicker hand-written")
+    hand_written = first(items, "kicker hand-written")
     assert hand_written.target is not None
     assert hand_written.target.selected == ItemRef(kind="components", id="kicker")
 
 
-def test_the_open_design_comes_before_others(things: list[SearchItem]) -> None:
+def test_items_of_the_open_design_rank_first(items: list[SearchItem]) -> None:
     for component in ("Player", "FaceBall", "FollowBall"):
         here = SearchTarget(project="forward", component=component)
-        found = rank_items(things, "", here)
+        found = rank_items(items, "", here)
         assert {match.item.target.component for match in found[:3] if match.item.target} == {component}
 
 
-def test_every_word_must_be_found(things: list[SearchItem]) -> None:
-    assert rank_items(things, "kick zzz") == ()
-    assert rank_items(things, "qqqq") == ()
+def test_every_word_must_match(items: list[SearchItem]) -> None:
+    assert rank_items(items, "kick zzz") == ()
+    assert rank_items(items, "qqqq") == ()
 
 
-def test_found_letters_are_told(things: list[SearchItem]) -> None:
-    (match, *_rest) = rank_items(things, "lfb")
+def test_matched_letters_are_reported(items: list[SearchItem]) -> None:
+    (match, *_rest) = rank_items(items, "lfb")
     assert [match.item.title[place] for place in match.positions] == ["L", "F", "B"]
 
 
-def test_only_what_changed_is_listed_again() -> None:
+def test_unchanged_designs_are_cached() -> None:
     index = SearchIndex(Library(DESIGNS))
     before = {id(thing) for thing in index.items() if thing.target and thing.kind is SearchKind.STATE}
     after = {id(thing) for thing in index.items() if thing.target and thing.kind is SearchKind.STATE}
@@ -82,7 +82,7 @@ def test_only_what_changed_is_listed_again() -> None:
 
 
 @given(word=st.text("abAB_ ", min_size=1, max_size=5), text=st.text("abAB_. ", max_size=12))
-def test_aligned_letters_are_those_of_the_word(word: str, text: str) -> None:
+def test_aligned_positions_spell_the_word(word: str, text: str) -> None:
     found = align(word.lower(), text)
     rest = iter(text.lower())
     is_subsequence = all(letter in rest for letter in word.lower())
@@ -93,8 +93,8 @@ def test_aligned_letters_are_those_of_the_word(word: str, text: str) -> None:
 
 
 @given(st.text(max_size=30))
-def test_no_query_is_too_odd(query: str) -> None:
-    things = [
+def test_no_query_raises(query: str) -> None:
+    items = [
         SearchItem(SearchKind.STATE, title) for title in ("Kick", "İstanbul", "ß", "[a-z]*", "", "a\nb", "x" * 500)
     ]
-    rank_items(things, query)
+    rank_items(items, query)

@@ -1,14 +1,14 @@
-"""The table: its rows, what changed between two of them, and edits made in its cells."""
+"""The table: its rows, differences, and edits of cells."""
 
-from pathlib import Path
 from typing import Any
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from tests.editor.session.conftest import open_design
 from tests.strategies.designs import designs
-from vicode.editor.session import DocumentSession, EditResult, SharedDocument
+from vicode.editor.session import DocumentSession, EditResult
 from vicode.editor.session.table_edits import MAX_CELL_LENGTH, apply_table_edit
 from vicode.editor.view import ItemRef, diff_tables, make_table
 from vicode.model.design import COMMON, Call, CommonSection, DecisionGroup, Design, Guard, State, Transition, Use
@@ -33,13 +33,6 @@ DESIGN = Design(
 )
 
 
-@pytest.fixture
-def document() -> DocumentSession:
-    return DocumentSession(
-        SharedDocument(file=Path("player.yaml"), disk_text="", saved=DESIGN, check=lambda _design: ())
-    )
-
-
 def rows(document: DocumentSession) -> dict[str, dict[str, Any]]:
     return {row["id"]: row for row in make_table(document.design, ())["rows"]}
 
@@ -49,7 +42,7 @@ def write(document: DocumentSession, row: str, column: str, value: str) -> EditR
     return apply_table_edit(document, {"kind": "set", "row": row, "column": column, "value": value, "base": base})
 
 
-def test_rows_stand_in_the_order_of_the_decisions(document: DocumentSession) -> None:
+def test_rows_are_in_the_order_of_the_decisions(document: DocumentSession) -> None:
     table = rows(document)
     assert list(table) == [
         "common/@common",
@@ -68,7 +61,7 @@ def test_rows_stand_in_the_order_of_the_decisions(document: DocumentSession) -> 
 
 
 @given(old=designs, new=designs)
-def test_a_difference_makes_one_table_of_another(old: Design, new: Design) -> None:
+def test_a_diff_transforms_one_table_into_another(old: Design, new: Design) -> None:
     before, after = make_table(old, ()), make_table(new, ())
     changes = diff_tables(before, after)
     shown = {row["id"]: row for row in before["rows"]}
@@ -93,28 +86,26 @@ def test_a_difference_makes_one_table_of_another(old: Design, new: Design) -> No
         ("transitions/@common/0", "when", "up"),
     ],
 )
-def test_a_cell_takes_a_value_and_undo_gives_it_back(
-    document: DocumentSession, row: str, column: str, value: str
-) -> None:
+def test_a_cell_is_edited_and_undone(document: DocumentSession, row: str, column: str, value: str) -> None:
     assert not write(document, row, column, value).error
     assert rows(document)[row]["cells"][column] == value
     document.undo()
     assert document.design == DESIGN
 
 
-def test_modulating_another_component_keeps_the_parameters_of_the_first(document: DocumentSession) -> None:
+def test_adding_a_modulation_keeps_existing_arguments(document: DocumentSession) -> None:
     write(document, "states/A", "modulates", "head legs")
     calls = document.design.states[0].modulates
     assert calls == (Call(alias="head"), Call(alias="legs", arguments=(("speed", "1"),)))
 
 
-def test_a_new_name_goes_where_the_old_one_was(document: DocumentSession) -> None:
+def test_renaming_a_state_keeps_its_position(document: DocumentSession) -> None:
     assert write(document, "states/B", "name", "Rest").new_selection == (ItemRef(kind="states", id="Rest"),)
     assert rows(document)["transitions/A/0"]["cells"]["name"] == "Rest"
 
 
 @pytest.mark.parametrize(
-    ("row", "column", "value", "words"),
+    ("row", "column", "value", "message"),
     [
         ("states/A", "name", "B", "already a state"),
         ("states/A", "name", "<img>", "not a valid name"),
@@ -127,21 +118,21 @@ def test_a_new_name_goes_where_the_old_one_was(document: DocumentSession) -> Non
         ("common/@common", "name", "all", "inspector"),
     ],
 )
-def test_what_cannot_be_is_refused_in_words(
-    document: DocumentSession, row: str, column: str, value: str, words: str
+def test_an_invalid_cell_is_an_error(
+    document: DocumentSession, row: str, column: str, value: str, message: str
 ) -> None:
-    assert words in write(document, row, column, value).error
+    assert message in write(document, row, column, value).error
     assert document.design == DESIGN
 
 
-def test_what_another_wrote_meanwhile_is_not_written_over_silently(document: DocumentSession) -> None:
-    wish = {"kind": "set", "row": "states/A", "column": "doc", "value": "mine", "base": "before"}
+def test_a_concurrent_change_of_a_cell_is_not_overwritten(document: DocumentSession) -> None:
+    payload = {"kind": "set", "row": "states/A", "column": "doc", "value": "mine", "base": "before"}
     write(document, "states/A", "doc", "theirs")
-    assert "the cell has changed to 'theirs'" in apply_table_edit(document, wish).error
+    assert "the cell has changed to 'theirs'" in apply_table_edit(document, payload).error
     assert document.design.states[0].doc == "theirs"
 
 
-def test_flags_flip(document: DocumentSession) -> None:
+def test_flags_are_toggled(document: DocumentSession) -> None:
     for row, column in (("states/A", "final"), ("states/B", "initial"), ("transitions/A/0", "disabled")):
         apply_table_edit(document, {"kind": "toggle", "row": row, "column": column})
         assert rows(document)[row]["cells"][column] is True
@@ -193,12 +184,10 @@ _COLUMNS = st.sampled_from(["name", "when", "after", "requires", "modulates", "d
 
 
 @given(kind=_KINDS, row=_ROWS, column=_COLUMNS, value=_WILD, base=_WILD, by=_WILD)
-def test_wild_payloads_never_raise_nor_break_a_design(
+def test_arbitrary_payloads_neither_raise_nor_break_a_design(
     kind: str, row: object, column: object, value: object, base: object, by: object
 ) -> None:
-    document = DocumentSession(
-        SharedDocument(file=Path("player.yaml"), disk_text="", saved=DESIGN, check=lambda _design: ())
-    )
+    document = open_design(DESIGN)
     payload = {"kind": kind, "row": row, "column": column, "value": value, "base": base, "by": by}
     apply_table_edit(document, payload)
     assert read_design(save_design(document.design, ""), "player.yaml").design is not None

@@ -1,4 +1,4 @@
-"""Two texts side by side: both can be read back, long equal parts are left out."""
+"""Side-by-side diffs contain both texts, except long unchanged parts."""
 
 from hypothesis import given
 from hypothesis import strategies as st
@@ -8,7 +8,7 @@ from vicode.editor.session.text_diff import LineStatus, side_by_side
 lines = st.lists(st.sampled_from("abcde"), max_size=12)
 
 
-def test_a_changed_line_stands_beside_its_new_text() -> None:
+def test_a_changed_line_is_next_to_its_new_text() -> None:
     old, new = "\n".join("abcdefghij"), "\n".join("abcdXfghij")
     rows = side_by_side(old, new, context=1)
     assert [(row.status, row.old, row.new) for row in rows] == [

@@ -1,13 +1,13 @@
-"""Search and replace: what is found is there, replacing there and back is nothing, no pattern can hang the server."""
+"""Search and replace: matches, replacements, invalid patterns and timeouts."""
 
 from dataclasses import replace
-from time import monotonic
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.strategies.designs import designs
+from vicode.editor.session import messages, text_search
 from vicode.editor.session.text_search import TextQuery, find_text, replace_matches
 from vicode.model.design import Code, Declaration, Design, Guard, RunCode, State, Transition
 from vicode.model.texts import TextKind, iter_texts
@@ -49,7 +49,7 @@ def test_all_texts_are_searched_with_their_lines() -> None:
     ]
 
 
-def test_words_case_kinds_and_patterns() -> None:
+def test_search_options() -> None:
     assert len(found("ball", whole_word=True)) == 7
     assert len(found("ball", match_case=True)) == 7
     assert len(found("ball", kinds=frozenset({TextKind.EXPRESSION}))) == 2
@@ -58,7 +58,7 @@ def test_words_case_kinds_and_patterns() -> None:
     assert found("") == []
 
 
-def test_replacing_puts_in_text_or_groups() -> None:
+def test_replacements_may_refer_to_groups() -> None:
     changed = replace_matches(DESIGN, TextQuery(text="ball", whole_word=True, match_case=True), r"\1 puck")
     assert changed.count == 6
     assert changed.design.states[0].transitions[0].guard.when == r"\1 puck > 3 and football"
@@ -69,7 +69,7 @@ def test_replacing_puts_in_text_or_groups() -> None:
     )
 
 
-def test_one_hit_can_be_replaced_alone() -> None:
+def test_one_match_can_be_replaced() -> None:
     query = TextQuery(text="ball")
     hit = find_text(DESIGN, query).matches[2]
     changed = replace_matches(DESIGN, query, "puck", [(hit.path, hit.start)])
@@ -77,26 +77,24 @@ def test_one_hit_can_be_replaced_alone() -> None:
 
 
 @pytest.mark.parametrize(
-    ("pattern", "replacement", "words"),
+    ("pattern", "replacement", "message"),
     [("(", "", "invalid pattern"), ("ball", r"\9", "invalid replacement"), ("ball", r"\g<x>", "invalid replacement")],
 )
-def test_mistakes_are_told_and_change_nothing(pattern: str, replacement: str, words: str) -> None:
+def test_invalid_queries_change_nothing(pattern: str, replacement: str, message: str) -> None:
     changed = replace_matches(DESIGN, TextQuery(text=pattern, is_pattern=True), replacement)
-    assert words in changed.error
+    assert message in changed.error
     assert changed.design == DESIGN
 
 
-def test_a_pattern_that_would_take_for_ever_is_given_up() -> None:
+def test_a_search_times_out(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(text_search, "TIME_LIMIT_S", 0.05)
     design = replace(DESIGN, doc="x" * 5000)
-    start = monotonic()
-    answer = find_text(design, TextQuery(text="(x+x+)+y", is_pattern=True))
-    assert "too long" in answer.error
-    # The limit is a second; a busy machine may take its time, but not for ever.
-    assert monotonic() - start < 60
+    result = find_text(design, TextQuery(text="(x+x+)+y", is_pattern=True))
+    assert result.error == messages.SEARCH_TIMEOUT
 
 
 @given(designs, st.sampled_from(["a", "go", " ", "\n", ":", "é", "self", "."]))
-def test_replacing_there_and_back_is_nothing(design: Design, text: str) -> None:
+def test_replacing_back_restores_the_design(design: Design, text: str) -> None:
     query = TextQuery(text=text, match_case=True)
     hits = find_text(design, query).matches
     assert all(hit.matched == text for hit in hits)

@@ -1,4 +1,4 @@
-"""An open project: saving patches, other programs' changes are not lost, code is generated or refused in words."""
+"""An open project: saving, changes by other programs, code generation."""
 
 from dataclasses import replace
 from pathlib import Path
@@ -11,18 +11,13 @@ from vicode.model.edits import replace_decision
 from vicode.store import read_design, save_design
 
 
-@pytest.fixture
-def workspace(project: Path) -> Workspace:
-    return Workspace(project / "forward", key="forward")
-
-
 def opened(workspace: Workspace, component: str) -> DocumentSession:
     document = workspace.open_document(component)
     assert document is not None
     return document
 
 
-def test_library_opens_the_agent_or_the_file_that_was_named(project: Path) -> None:
+def test_the_initial_design_is_the_root_of_an_agent_or_the_given_file(project: Path) -> None:
     library = Library(project)
     first = library.initial_design
     assert first is not None
@@ -68,7 +63,7 @@ def write_doc(document: DocumentSession, doc: str) -> str:
     return text
 
 
-def test_what_another_program_wrote_elsewhere_in_the_file_is_merged_in(workspace: Workspace) -> None:
+def test_independent_changes_on_disk_are_merged(workspace: Workspace) -> None:
     document = opened(workspace, "Player")
     with_doc(document, "mine")
     text = document.file.read_text()
@@ -84,7 +79,7 @@ def test_what_another_program_wrote_elsewhere_in_the_file_is_merged_in(workspace
     assert document.design.frequency_hz == 20
 
 
-def test_what_both_changed_is_told_and_settled_one_by_one(workspace: Workspace) -> None:
+def test_conflicts_are_listed_and_resolved_one_by_one(workspace: Workspace) -> None:
     document = opened(workspace, "Player")
     with_doc(document, "mine")
     document.edit("faster", lambda design: replace(design, frequency_hz=50.0))
@@ -103,7 +98,7 @@ def test_what_both_changed_is_told_and_settled_one_by_one(workspace: Workspace) 
     assert (document.design.doc, document.design.frequency_hz) == ("mine", 50)
 
 
-def test_who_works_on_touches_more_or_takes_it_back(workspace: Workspace) -> None:
+def test_conflicts_change_with_further_edits(workspace: Workspace) -> None:
     document = opened(workspace, "Player")
     with_doc(document, "mine")
     document.file.write_text(write_doc(document, "theirs").replace("frequency: 10", "frequency: 20  # faster"))
@@ -121,7 +116,7 @@ def test_who_works_on_touches_more_or_takes_it_back(workspace: Workspace) -> Non
     assert document.shared.disk_conflict is None
 
 
-def test_saving_over_keeps_what_does_not_touch(workspace: Workspace) -> None:
+def test_overwriting_keeps_independent_changes(workspace: Workspace) -> None:
     document = opened(workspace, "Player")
     with_doc(document, "mine")
     document.file.write_text(write_doc(document, "theirs").replace("frequency: 10", "frequency: 20  # faster"))
@@ -130,7 +125,7 @@ def test_saving_over_keeps_what_does_not_touch(workspace: Workspace) -> None:
     assert "  mine\n" in document.file.read_text()
 
 
-def test_a_reload_takes_the_file_and_undo_brings_ours_back(workspace: Workspace) -> None:
+def test_undo_of_a_reload_restores_unsaved_edits(workspace: Workspace) -> None:
     document = opened(workspace, "Player")
     with_doc(document, "mine")
     write_doc(document, "theirs")
@@ -140,7 +135,7 @@ def test_a_reload_takes_the_file_and_undo_brings_ours_back(workspace: Workspace)
     assert (document.design.doc, document.is_saved) == ("mine", False)
 
 
-def test_a_file_that_cannot_be_read_is_put_aside_before_it_is_written_over(workspace: Workspace) -> None:
+def test_an_unreadable_file_is_backed_up_before_overwriting(workspace: Workspace) -> None:
     document = opened(workspace, "Player")
     with_doc(document, "mine")
     document.file.write_text("<<<<<<< HEAD\n")
@@ -151,14 +146,14 @@ def test_a_file_that_cannot_be_read_is_put_aside_before_it_is_written_over(works
     assert "mine" in document.file.read_text()
 
 
-def test_a_file_that_holds_no_design_any_more_is_not_taken(workspace: Workspace) -> None:
+def test_a_file_without_a_design_is_not_loaded(workspace: Workspace) -> None:
     document = opened(workspace, "Player")
     document.file.write_text("nothing: here\n")
     assert "no longer contains a design" in workspace.reload(document)
     assert document.design.states
 
 
-def test_a_new_design_is_a_file_at_once_and_never_replaces_one(workspace: Workspace) -> None:
+def test_a_new_design_is_written_at_once_and_replaces_no_file(workspace: Workspace) -> None:
     document = workspace.create("Cheer")
     assert document.file.name == "cheer.yaml"
     assert "component: Cheer" in document.file.read_text()
@@ -168,7 +163,7 @@ def test_a_new_design_is_a_file_at_once_and_never_replaces_one(workspace: Worksp
         workspace.create("Wave")
 
 
-def test_what_others_read_is_checked_when_it_changes(workspace: Workspace) -> None:
+def test_dependent_designs_are_checked_again(workspace: Workspace) -> None:
     player, search = opened(workspace, "Player"), opened(workspace, "SearchNet")
     assert player.findings == ()
     outputs = tuple(output for output in search.design.outputs if output.name != "found")
@@ -178,7 +173,7 @@ def test_what_others_read_is_checked_when_it_changes(workspace: Workspace) -> No
     assert player.findings == ()
 
 
-def test_generate_writes_what_the_design_says(workspace: Workspace) -> None:
+def test_generate_writes_the_saved_design(workspace: Workspace) -> None:
     document = opened(workspace, "Player")
     first = workspace.generate(document)
     assert first.is_complete, first.message
@@ -193,7 +188,7 @@ def test_generate_writes_what_the_design_says(workspace: Workspace) -> None:
     assert "self.perception.ball_distance < 1234" in again.files[0].read_text()
 
 
-def test_generate_refuses_mistakes_and_hand_edits_in_words(workspace: Workspace) -> None:
+def test_generate_rejects_errors_and_hand_edits(workspace: Workspace) -> None:
     document = opened(workspace, "Player")
     (written,) = (path for path in workspace.generate(document).files if path.name == "player.py")
     document.edit("broken", lambda design: replace(design, variables=(Declaration(name="kick", type="Kik"),)))
@@ -238,7 +233,7 @@ def test_forced_generation_backs_up_hand_edits(workspace: Workspace) -> None:
     assert written.with_name("player.py.edited").read_text() == edited
 
 
-def test_what_the_file_says_in_vain_is_a_finding_and_stops_generating(project: Path) -> None:
+def test_unknown_keys_are_findings_and_prevent_generation(project: Path) -> None:
     file = project / "forward" / "turn.yaml"
     file.write_text(file.read_text() + "    on_enter: wave\n")
     workspace = Workspace(project / "forward", key="forward")
@@ -251,7 +246,7 @@ def test_what_the_file_says_in_vain_is_a_finding_and_stops_generating(project: P
     assert workspace.generate(document).is_complete
 
 
-def test_files_that_come_change_and_go_are_followed(workspace: Workspace) -> None:
+def test_added_changed_and_removed_files_are_synchronized(workspace: Workspace) -> None:
     player, turn = opened(workspace, "Player"), opened(workspace, "Turn")
     turn.edit("doc", lambda design: replace(design, doc="mine"))
     for document in (player, turn):
@@ -267,13 +262,13 @@ def test_files_that_come_change_and_go_are_followed(workspace: Workspace) -> Non
     assert {finding.rule.code for finding in player.findings} == {"P202"}
     (workspace.folder / "search_net.yaml").write_text("component: SearchNet\nstates: [\n")
     workspace.sync_from_disk()
-    told = [(finding.message, finding.fix) for finding in player.findings]
-    assert told == [("the design of 'SearchNet' cannot be read", "mend search_net.yaml first")]
+    messages = [(finding.message, finding.fix) for finding in player.findings]
+    assert messages == [("the design of 'SearchNet' cannot be read", "mend search_net.yaml first")]
     workspace.save(turn)
     assert turn.file.read_text().endswith("# theirs\n")
 
 
-def test_a_design_whose_file_is_gone_is_kept_until_it_is_saved_again(workspace: Workspace) -> None:
+def test_a_design_with_a_missing_file_is_kept(workspace: Workspace) -> None:
     document = opened(workspace, "Turn")
     document.file.unlink()
     workspace.sync_from_disk()
@@ -285,7 +280,7 @@ def test_a_design_whose_file_is_gone_is_kept_until_it_is_saved_again(workspace: 
     assert "component: Turn" in document.file.read_text()
 
 
-def test_a_file_that_is_gone_is_made_again_with_its_comments(workspace: Workspace) -> None:
+def test_a_missing_file_is_created_again_with_its_comments(workspace: Workspace) -> None:
     document = opened(workspace, "Turn")
     document.file.write_text(f"# by hand\n{document.file.read_text()}")
     workspace.sync_from_disk()
@@ -300,7 +295,7 @@ def test_a_file_that_is_gone_is_made_again_with_its_comments(workspace: Workspac
     assert document.is_saved
 
 
-def test_a_file_that_is_no_text_is_put_aside_too(workspace: Workspace) -> None:
+def test_a_binary_file_is_backed_up(workspace: Workspace) -> None:
     document = opened(workspace, "Player")
     with_doc(document, "mine")
     document.file.write_bytes(b"doc: f\xfcnf\n")
@@ -310,7 +305,7 @@ def test_a_file_that_is_no_text_is_put_aside_too(workspace: Workspace) -> None:
     assert "mine" in document.file.read_text()
 
 
-def test_generate_takes_other_designs_as_they_were_saved(workspace: Workspace) -> None:
+def test_generate_uses_the_saved_versions_of_other_designs(workspace: Workspace) -> None:
     player, face_ball = opened(workspace, "Player"), opened(workspace, "FaceBall")
     face_ball.edit("doc", lambda design: replace(design, doc="not yet"))
     for path in workspace.generate(player).files:

@@ -1,4 +1,4 @@
-"""Addresses: what is selected and the way one came are in them, and nothing in them is trusted."""
+"""Page URLs contain the selection and the trail; their content is untrusted."""
 
 import pytest
 
@@ -24,22 +24,22 @@ from vicode.editor.view.page_urls import (
         ItemRef(kind="links", id="requires/Kick/perception"),
     ],
 )
-def test_a_selection_comes_back_from_its_text(selected: ItemRef) -> None:
+def test_a_selection_survives_formatting(selected: ItemRef) -> None:
     assert parse_selection(format_selection(selected)) == selected
 
 
-def test_addresses_are_readable() -> None:
+def test_urls_are_readable() -> None:
     assert design_url("forward", "Player", ItemRef(kind="states", id="Kick")) == "/design/forward/Player?select=Kick"
     assert design_url("forward", "Turn", trail=("Player", "Fixmove")) == "/design/forward/Turn?from=Player,Fixmove"
     assert design_url("a/b?c", "x#y") == "/design/a%2Fb%3Fc/x%23y"
 
 
 @pytest.mark.parametrize("text", ["", "javascript:alert(1)", "design:", "nothing:x"])
-def test_what_is_no_thing_is_none(text: str) -> None:
+def test_an_invalid_selection_is_none(text: str) -> None:
     assert parse_selection(text) is None
 
 
-def test_a_trail_holds_only_what_exists_and_never_goes_in_circles() -> None:
+def test_a_trail_contains_existing_components_once() -> None:
     known = {"A", "B", "C"}
     assert parse_trail("A,<b>,C", known, "B") == ("A", "C")
     assert parse_trail("A,B,C", known, "B") == ("A",)

@@ -1,4 +1,4 @@
-"""The scene that the canvas draws, and what changes in it."""
+"""The scene of the canvas, and differences of scenes."""
 
 from vicode.editor.view import (
     ItemRef,
@@ -44,8 +44,8 @@ PROJECT = Project(name="p", designs=(DESIGN,))
 def test_transitions_are_numbered_in_the_order_they_are_tested() -> None:
     scene = make_scene(PROJECT, DESIGN, (), 7)
     rows = [
-        (each["id"], each["source"], each["target"], each["label"], each["order"], each["of"], each["kind"])
-        for each in scene["transitions"]
+        (item["id"], item["source"], item["target"], item["label"], item["order"], item["of"], item["kind"])
+        for item in scene["transitions"]
     ]
     assert rows == [
         ("@common/0", "@common", "B", "fallen", 1, 1, "guard"),
@@ -56,24 +56,24 @@ def test_transitions_are_numbered_in_the_order_they_are_tested() -> None:
     assert scene["rev"] == 7
 
 
-def test_what_does_not_work_is_marked() -> None:
+def test_disabled_items_are_marked() -> None:
     scene = make_scene(PROJECT, set_disabled(DESIGN, ["B"], [("states", "A", "transitions", 0)], disabled=True), (), 0)
-    assert [each["disabled"] for each in scene["states"]] == [False, True]
-    assert [each["disabled"] for each in scene["transitions"]] == [True, True, True, True]
+    assert [item["disabled"] for item in scene["states"]] == [False, True]
+    assert [item["disabled"] for item in scene["transitions"]] == [True, True, True, True]
     scene = make_scene(
         PROJECT, set_disabled(DESIGN, [], [("states", "A", "transitions", 0, "else", 0)], disabled=True), (), 0
     )
-    assert [each["disabled"] for each in scene["transitions"]] == [False, False, True, False]
+    assert [item["disabled"] for item in scene["transitions"]] == [False, False, True, False]
 
 
-def test_everything_has_a_place() -> None:
+def test_every_item_has_a_position() -> None:
     scene = make_scene(PROJECT, DESIGN, (), 0)
-    places = [(each["x"], each["y"]) for each in (*scene["states"], *scene["components"], scene["common"])]
+    places = [(item["x"], item["y"]) for item in (*scene["states"], *scene["components"], scene["common"])]
     assert len(set(places)) == len(places) == 4
     assert places[0] == (100, 100)
 
 
-def test_findings_mark_the_smallest_thing_that_holds_them() -> None:
+def test_findings_mark_the_smallest_item() -> None:
     finding = Finding(
         rule=get_rule("E303"),
         message="'sen' is not declared",
@@ -83,11 +83,11 @@ def test_findings_mark_the_smallest_thing_that_holds_them() -> None:
         rule=get_rule("D421"), message="x", subject=FindingSubject(component="Other", path=("states", "A"))
     )
     scene = make_scene(PROJECT, DESIGN, (finding, elsewhere), 0)
-    marked = {each["id"]: each["messages"] for each in (*scene["transitions"], *scene["states"]) if each["severity"]}
+    marked = {item["id"]: item["messages"] for item in (*scene["transitions"], *scene["states"]) if item["severity"]}
     assert marked == {"A/0/then/0": ["'sen' is not declared"]}
 
 
-def test_difference_is_what_the_canvas_needs_to_follow() -> None:
+def test_a_diff_lists_changed_and_removed_items() -> None:
     old = make_scene(PROJECT, DESIGN, (), 0)
     assert diff_scenes(old, old) == {
         "rev": 0,
@@ -101,7 +101,7 @@ def test_difference_is_what_the_canvas_needs_to_follow() -> None:
     assert {change["target"] for change in changes["upsert"]["transitions"]} == {"C"}
 
 
-def test_keys_lead_back_to_their_paths() -> None:
+def test_keys_are_converted_back_to_paths() -> None:
     for path in (
         ("states", "A", "transitions", 0, "then", 0),
         ("common", "transitions", 2),
@@ -114,7 +114,7 @@ def test_keys_lead_back_to_their_paths() -> None:
     assert item_at_path(("variables", "tries", "initial")) == ItemRef(kind="design")
 
 
-def test_guards_in_a_line() -> None:
+def test_guards_are_formatted_in_one_line() -> None:
     assert guard_label(Guard()) == ""
     assert guard_label(Guard(when="x", after="2.5")) == "x and 2.5 s"
     assert guard_label(Guard(when="x", after="2.5"), "ms") == "x and 2.5 ms"

@@ -1,4 +1,4 @@
-"""What the card over a thing tells beyond its drawing."""
+"""The tooltip of an item."""
 
 from vicode.editor.view import ItemRef, tooltip_sections
 from vicode.model.design import Assign, Call, Code, CommonSection, Design, Guard, RunCode, State, Transition
@@ -18,25 +18,25 @@ DESIGN = Design(
 )
 
 
-def test_a_state_tells_what_it_does_in_the_first_language_written() -> None:
+def test_a_state_shows_its_code_in_the_first_language() -> None:
     enter, do = tooltip_sections(DESIGN, ItemRef(kind="states", id="Kick"), ("xabsl", "cpp"))
     assert enter == {"name": "enter", "text": "tries = 0\ngo();"}
     assert do == {"name": "do", "text": "walk(speed=3, turn=0)"}
 
 
-def test_long_texts_are_cut() -> None:
+def test_long_texts_are_shortened() -> None:
     (enter, _do) = tooltip_sections(DESIGN, ItemRef(kind="states", id="Kick"), ("python",))
     assert enter["text"].splitlines()[-1] == "… 10 more lines"
     (common,) = tooltip_sections(DESIGN, ItemRef(kind="common", id="@common"), ("python",))
     assert len(common["text"]) == 90
 
 
-def test_a_transition_tells_its_predicate() -> None:
+def test_a_transition_shows_its_predicate() -> None:
     (section,) = tooltip_sections(DESIGN, ItemRef(kind="transitions", id="Kick/0"), ("cpp",))
     assert section == {"name": "holds when", "text": "go();"}
     assert tooltip_sections(DESIGN, ItemRef(kind="transitions", id="Kick/1"), ("cpp",)) == []
 
 
-def test_what_is_not_there_tells_nothing() -> None:
+def test_a_missing_item_has_no_tooltip() -> None:
     for of in ("states", "transitions", "components", "links", "nonsense"):
         assert tooltip_sections(DESIGN, ItemRef(kind=of, id="Gone/7"), ("python",)) == []

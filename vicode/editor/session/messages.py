@@ -140,7 +140,7 @@ def invalid_alias(name: str) -> str:
 
 
 def invalid_component_name(name: str) -> str:
-    return f"use letters, digits and underscores for a component{_example(name_from_text(name) or 'FollowBall')}"
+    return f"use letters, digits and underscores{_example(name_from_text(name) or 'FollowBall')}"
 
 
 def invalid_identifier(name: str) -> str:
