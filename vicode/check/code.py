@@ -8,7 +8,7 @@ from functools import lru_cache
 from vicode import regions
 from vicode.check.context import RuleContext
 from vicode.findings import Finding, Span, did_you_mean
-from vicode.model.project import LANGUAGES
+from vicode.model.project import CODE_LANGUAGES, LANGUAGES
 from vicode.model.python_parser import check_compiles, parse_module
 from vicode.model.snippets import PythonSnippet
 
@@ -37,11 +37,11 @@ def find_missing_languages(context: RuleContext) -> Iterator[Finding]:
 
 
 def find_unknown_languages(context: RuleContext) -> Iterator[Finding]:
-    """P204: code in an unknown target language."""
+    """P204: code in an unknown language."""
     for placed in context.code_blocks:
         for language, _text in placed.code.texts:
-            if language not in LANGUAGES:
-                fix = did_you_mean(language, LANGUAGES, f"use one of {', '.join(LANGUAGES)}")
+            if language not in CODE_LANGUAGES:
+                fix = did_you_mean(language, CODE_LANGUAGES, f"use one of {', '.join(CODE_LANGUAGES)}")
                 path = (*placed.path, language)
                 yield context.make_finding("P204", path, f"unknown language '{language}'", fix, is_key=True)
 

@@ -127,11 +127,11 @@ def find_bad_implementations(project: Project) -> Iterator[Finding]:
 
 
 def find_unknown_languages(project: Project) -> Iterator[Finding]:
-    """P204: an unknown target language."""
+    """P204: a language without a generator."""
     for index, language in enumerate(project.languages):
         if language not in LANGUAGES:
             fix = did_you_mean(language, LANGUAGES, f"use one of {', '.join(LANGUAGES)}")
-            yield _make_finding("P204", ("languages", index), f"unknown language '{language}'", fix)
+            yield _make_finding("P204", ("languages", index), f"vicode does not generate '{language}'", fix)
 
 
 def find_unknown_roots(project: Project) -> Iterator[Finding]:

@@ -4,7 +4,6 @@ from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass, replace
 from functools import cache
 
-from vicode.generators import xabsl
 from vicode.generators.origins import ComponentCode, Origin, map_to_full_design
 from vicode.generators.plan import (
     ComponentPlan,
@@ -62,22 +61,31 @@ class Generator:
     find_origins: Callable[[ComponentPlan, str], tuple[Origin, ...]]
 
 
-GENERATORS: Mapping[str, Generator] = {
-    "python": Generator(
+def _python_generator() -> Generator:
+    return Generator(
         write=generate_python,
         list_paths=list_paths,
         reserved_modules=RESERVED_MODULES,
         component_writer=component_writer,
         find_origins=find_origins,
-    ),
-    "xabsl": Generator(
+    )
+
+
+def _xabsl_generator() -> Generator:
+    # The XABSL tool chain is slow to import, and most projects do not generate XABSL.
+    from vicode.generators import xabsl  # noqa: PLC0415
+
+    return Generator(
         write=xabsl.generate_xabsl,
         list_paths=xabsl.list_paths,
         reserved_modules=xabsl.RESERVED_MODULES,
         component_writer=xabsl.component_writer,
         find_origins=xabsl.find_origins,
-    ),
-}
+    )
+
+
+GENERATORS: Mapping[str, Callable[[], Generator]] = {"python": _python_generator, "xabsl": _xabsl_generator}
+"""Functions that load the generator of a language."""
 
 
 def generate(
@@ -114,7 +122,7 @@ def component_generator(
     project: Project, language: str, sources: Mapping[str, str]
 ) -> Callable[[Design], ComponentCode | None]:
     """Return a function that writes the file of one design, or returns None if the language cannot express it."""
-    generator = GENERATORS[language]
+    generator = GENERATORS[language]()
 
     @cache
     def start() -> tuple[ProjectPlan, Callable[[ComponentPlan], ComponentCode]]:
@@ -139,7 +147,7 @@ def list_origins(project: Project, component: str, language: str, text: str) -> 
     Raises:
         UnsoundDesignError: The design has errors.
     """
-    design, generator = project.design(component), GENERATORS[language]
+    design, generator = project.design(component), GENERATORS[language]()
     if design is None:
         return ()
     (plan,) = plan_project(project, {component}, {}, generator.reserved_modules).components
@@ -182,4 +190,4 @@ def python_probes(project: Project, component: str) -> OutputFile:
 
 def _select_generators(project: Project, languages: Collection[str] | None) -> list[Generator]:
     selected = project.languages if languages is None else languages
-    return [generator for language, generator in GENERATORS.items() if language in selected]
+    return [load() for language, load in GENERATORS.items() if language in selected]

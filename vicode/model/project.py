@@ -5,7 +5,10 @@ from dataclasses import dataclass, field
 
 from vicode.model.design import Declaration, Design
 
-LANGUAGES = ("python", "cpp", "xabsl")
+LANGUAGES = ("python", "xabsl")
+"""The languages that vicode generates."""
+CODE_LANGUAGES = ("python", "cpp", "xabsl")
+"""The languages that code in a design may be written in."""
 WORLD, INTERNAL = "world", "internal"
 """Implementations that vicode writes: one hands everything on to the world, one keeps variables for all."""
 

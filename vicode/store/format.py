@@ -3,7 +3,7 @@
 Reader, writer, JSON Schema and the tables of docs/design-format.md all come from here.
 """
 
-from vicode.model.project import LANGUAGES
+from vicode.model.project import CODE_LANGUAGES
 from vicode.store.schema_types import (
     KeySchema,
     ListSchema,
@@ -35,7 +35,7 @@ CODE = MapSchema(
     description="code, or a mapping of languages to code",
     value_schema=TEXT,
     shorthand_key="python",
-    allowed_keys=LANGUAGES,
+    allowed_keys=CODE_LANGUAGES,
 )
 
 _VERSION = KeySchema(
