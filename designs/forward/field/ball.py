@@ -1,4 +1,4 @@
-"""The ball: it rolls, slows down, and bounces off feet and posts."""
+"""The ball, which rolls, slows down and bounces off feet and posts."""
 
 from dataclasses import dataclass
 
@@ -23,11 +23,11 @@ class Ball:
 
     @property
     def speed(self) -> float:
-        """How fast it rolls, in mm/s."""
+        """Speed in mm/s."""
         return self.velocity.length
 
     def roll(self, seconds: float) -> None:
-        """Roll on, slowed down by the carpet; exact for any length of time."""
+        """Roll with friction; the result is exact for any duration."""
         speed = self.speed
         if speed == 0.0:
             return
@@ -39,7 +39,7 @@ class Ball:
         self.velocity = Point(x * left_over, y * left_over)
 
     def bounce_off_post(self, post: Point, radius: float) -> None:
-        """Leave a round post, if it touches it, with half the speed that it came with."""
+        """Bounce off a round post, if the ball touches it, with half the speed."""
         away = self.position.minus(post)
         reach = radius + BALL_RADIUS_MM
         if not 0.0 < away.length < reach:
@@ -51,24 +51,24 @@ class Ball:
             change = -(1.0 + _POST_BOUNCE) * towards
             self.velocity = Point(self.velocity.x + x * change, self.velocity.y + y * change)
 
-    def be_pushed(self, feet: Pose, speed: Point) -> None:
-        """Be shoved out of the feet of a robot that moves with `speed`, given in its own directions."""
+    def push_out(self, feet: Pose, speed: Point) -> None:
+        """Move the ball out of the feet of a robot that moves with `speed` (in the frame of the robot)."""
         local = feet.to_local(self.position)
-        way_out = _way_out_of_feet(local)
-        if way_out is None:
+        displacement = _find_displacement(local)
+        if displacement is None:
             return
-        self.position = feet.to_field(Point(local.x + way_out.x, local.y + way_out.y))
-        pushed = Point(speed.x if way_out.x else 0.0, speed.y if way_out.y else 0.0)
+        self.position = feet.to_field(Point(local.x + displacement.x, local.y + displacement.y))
+        pushed = Point(speed.x if displacement.x else 0.0, speed.y if displacement.y else 0.0)
         self.velocity = pushed.turned(feet.heading)
 
 
-def _way_out_of_feet(local: Point) -> Point | None:
-    """The shortest move that takes a ball off the feet, None when it does not touch them."""
+def _find_displacement(local: Point) -> Point | None:
+    """Return the shortest displacement that separates the ball from the feet; None if they do not touch."""
     ahead = FOOT_FRONT_MM + BALL_RADIUS_MM - local.x
     behind = FOOT_BACK_MM - BALL_RADIUS_MM - local.x
     left = FEET_HALF_WIDTH_MM + BALL_RADIUS_MM - local.y
     right = -FEET_HALF_WIDTH_MM - BALL_RADIUS_MM - local.y
     if ahead <= 0.0 or behind >= 0.0 or left <= 0.0 or right >= 0.0:
         return None
-    ways = (Point(ahead, 0.0), Point(behind, 0.0), Point(0.0, left), Point(0.0, right))
-    return min(ways, key=lambda way: way.length)
+    candidates = (Point(ahead, 0.0), Point(behind, 0.0), Point(0.0, left), Point(0.0, right))
+    return min(candidates, key=lambda candidate: candidate.length)

@@ -1,4 +1,4 @@
-"""What the two cameras in the head can see: the geometry between directions and places on the ground."""
+"""The two cameras in the head: conversion between directions and points on the ground."""
 
 import math
 from dataclasses import dataclass
@@ -17,7 +17,7 @@ NET_RANGE_MM = 7000.0
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class View:
-    """Where a camera looks: `pan` to the left of straight ahead, `down` below the horizon, in degrees."""
+    """The direction of a camera in degrees: `pan` to the left of straight ahead, `down` below the horizon."""
 
     pan: float
     down: float
@@ -30,7 +30,7 @@ class View:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Direction:
-    """From the head to a thing: `bearing` to the left of straight ahead, `down` below the horizon, in degrees."""
+    """A direction from the head in degrees: `bearing` to the left of straight ahead, `down` below the horizon."""
 
     bearing: float
     down: float
@@ -42,19 +42,19 @@ def view_of(pan: float, tilt: float, *, is_bottom: bool) -> View:
 
 
 def direction_to_ball(local: Point) -> Direction:
-    """Direction to a ball on the ground, seen from a robot that has it at `local`."""
+    """Return the direction to a ball at `local` (in the frame of the robot)."""
     return Direction(bearing=local.bearing, down=_angle_down(local.length, CAMERA_HEIGHT_MM - BALL_RADIUS_MM))
 
 
 def place_of_ball(direction: Direction) -> Point:
-    """Where on the ground a ball lies that is seen in a direction: the projection turned round."""
+    """Return the position of a ball seen in a direction; inverse of `direction_to_ball`."""
     down = max(direction.down, 1.0)
     distance = (CAMERA_HEIGHT_MM - BALL_RADIUS_MM) / math.tan(math.radians(down)) if down < 90.0 else 0.0
     return Point(distance, 0.0).turned(direction.bearing)
 
 
 def sees_ball(view: View, local: Point) -> bool:
-    """Whether a ball at `local` is in the image and near enough to be found."""
+    """Whether a ball at `local` is in the image and near enough to be detected."""
     return local.length <= BALL_RANGE_MM and view.holds(direction_to_ball(local))
 
 

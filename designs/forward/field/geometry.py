@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 
 class Point(NamedTuple):
-    """A place or a displacement in millimetres."""
+    """A position or a displacement in millimetres."""
 
     x: float
     y: float
@@ -22,11 +22,11 @@ class Point(NamedTuple):
         return math.degrees(math.atan2(self.y, self.x))
 
     def minus(self, other: "Point") -> "Point":
-        """The displacement from another place to this one."""
+        """Return the displacement from another point to this one."""
         return Point(self.x - other.x, self.y - other.y)
 
     def turned(self, angle: float) -> "Point":
-        """Turned to the left about the origin by degrees."""
+        """Rotate about the origin, in degrees to the left."""
         cosine, sine = math.cos(math.radians(angle)), math.sin(math.radians(angle))
         return Point(self.x * cosine - self.y * sine, self.x * sine + self.y * cosine)
 
@@ -36,37 +36,37 @@ ORIGIN = Point(0.0, 0.0)
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Pose:
-    """A place with a direction of view; `heading` in degrees from the x axis."""
+    """A position and orientation; `heading` in degrees from the x axis."""
 
     x: float
     y: float
     heading: float
 
     def to_local(self, point: Point) -> Point:
-        """A place of the field as seen from here: x ahead, y to the left."""
+        """Convert a field position to the local frame (x ahead, y to the left)."""
         return point.minus(Point(self.x, self.y)).turned(-self.heading)
 
     def to_field(self, point: Point) -> Point:
-        """A place seen from here (x ahead, y to the left) as a place of the field."""
+        """Convert a position in the local frame (x ahead, y to the left) to the field."""
         turned = point.turned(self.heading)
         return Point(self.x + turned.x, self.y + turned.y)
 
     def moved(self, ahead: float, left: float, turn: float) -> "Pose":
-        """The pose after a small move, made along the mean of the old and the new heading."""
+        """Return the pose after a small motion along the mean of the old and the new heading."""
         step = Point(ahead, left).turned(self.heading + turn / 2)
         return Pose(x=self.x + step.x, y=self.y + step.y, heading=normalized(self.heading + turn))
 
 
 def normalized(angle: float) -> float:
-    """The same direction in the range -180 (included) to 180 degrees."""
+    """Normalize an angle to the range [-180, 180) degrees."""
     return (angle + 180.0) % 360.0 - 180.0
 
 
 def limited(value: float, limit: float) -> float:
-    """The value, kept between -limit and limit."""
+    """Clamp a value to [-limit, limit]."""
     return max(-limit, min(limit, value))
 
 
 def approached(value: float, target: float, step: float) -> float:
-    """The value, brought nearer to the target by at most `step`."""
+    """Move a value towards the target by at most `step`."""
     return value + limited(target - value, step)

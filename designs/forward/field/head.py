@@ -1,4 +1,4 @@
-"""Head: turns the neck by what it is asked for."""
+"""Head: turns the neck by relative angles."""
 
 from field.world import World
 from vicode.bica import Component, Root
@@ -7,7 +7,7 @@ GAIN_PER_S = 4.0
 
 
 class Head(Component):
-    """Turns towards what lies `pan` to the left and `tilt` below the middle of the image, and slows down near it."""
+    """Turns towards a target `pan` to the left of and `tilt` below the image center, with proportional speed."""
 
     frequency_hz = 30.0
     world: World
@@ -20,11 +20,11 @@ class Head(Component):
         self._tilt_by = 0.0
 
     def modulate(self, *, pan: float = 0.0, tilt: float = 0.0) -> None:
-        """Turn by so many degrees: to the left, downwards."""
+        """Set the relative angles in degrees: to the left, downwards."""
         self._pan_by, self._tilt_by = pan, tilt
 
     def work(self) -> None:
-        """Pass the wish on as speeds, and tell where the neck is."""
+        """Command neck speeds and update the neck angles."""
         robot = self.world.robot
         robot.turn_head(GAIN_PER_S * self._pan_by, GAIN_PER_S * self._tilt_by)
         self.pan, self.tilt = robot.pan, robot.tilt

@@ -1,4 +1,4 @@
-"""Kicker: one kick an activation."""
+"""Kicker: one kick per activation."""
 
 from forward.declarations import Kick, Side
 
@@ -18,20 +18,20 @@ class Kicker(Component):
         self.busy = False
         self._kick = Kick.front
         self._side = Side.left
-        self._is_begun = False
+        self._is_started = False
 
     def restart(self) -> None:
-        """A new activation is a new kick."""
-        self._is_begun = False
+        """Start a new kick with each activation."""
+        self._is_started = False
         self.busy = True
 
     def modulate(self, *, kick: Kick = Kick.front, side: Side = Side.left) -> None:
-        """Which of the six kicks; it counts when the kick begins."""
+        """Select the kick; the selection applies when the kick starts."""
         self._kick, self._side = kick, side
 
     def work(self) -> None:
-        """Begin the kick, then wait for its end."""
+        """Start the kick, then wait for its end."""
         robot = self.world.robot
-        if not self._is_begun:
-            self._is_begun = robot.kick(KICKS[self._kick.name], is_left=self._side is Side.left)
+        if not self._is_started:
+            self._is_started = robot.kick(KICKS[self._kick.name], is_left=self._side is Side.left)
         self.busy = robot.swing is not None

@@ -1,4 +1,4 @@
-"""The kick motions: what a leg does to a ball that lies well, less well, or out of its reach."""
+"""The kick motions and their effect on the ball."""
 
 from dataclasses import dataclass
 from random import Random
@@ -16,7 +16,7 @@ _SPEED_NOISE = 0.08
 class KickMotion:
     """A kick with the left leg; the right leg mirrors it.
 
-    `spot` is where the ball lies best, `reach` how far off it may lie, `direction` where it goes (degrees to the left).
+    `spot` is the optimal ball position, `reach` the allowed distance from it, `direction` is in degrees to the left.
     """
 
     direction: float
@@ -33,12 +33,12 @@ KICKS = {
 
 
 def kicked_velocity(motion: KickMotion, ball: Point, *, is_left: bool, noise: Random) -> Point | None:
-    """Velocity that a kick gives to a ball at `ball`, both in the robot's directions; None when the leg misses it."""
+    """Return the velocity of a ball at `ball` after a kick, in the frame of the robot; None if the leg misses it."""
     mirror = 1.0 if is_left else -1.0
     off = Point(ball.x, ball.y * mirror).minus(motion.spot)
     if off.length > motion.reach:
         return None
-    # A ball that is not met with the middle of the foot goes slower and glances off to the side it lies on.
+    # A ball off the center of the foot is slower and deflected to its side.
     quality = 1.0 - 0.4 * (off.length / motion.reach) ** 2
     glance = 12.0 * off.turned(-motion.direction).y / motion.reach
     direction = motion.direction + glance + noise.gauss(0.0, _DIRECTION_NOISE)

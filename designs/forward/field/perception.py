@@ -1,4 +1,4 @@
-"""Perception: finds ball and net in the images, and remembers where they were while they are out of sight."""
+"""Perception: detects ball and net in the images and remembers their positions while they are not visible."""
 
 import math
 
@@ -20,9 +20,9 @@ _TO_TOP_DEG = 24.0
 
 
 class Perception(Component):
-    """Looks through one of the two cameras at a time; `bottom_camera` tells in which one the ball should be.
+    """Uses one of the two cameras at a time; `bottom_camera` is the one that should see the ball.
 
-    What it has seen is kept in the frame of the odometry, so that it stays in its place while the robot walks.
+    Positions are stored in the odometry frame, so that they stay valid while the robot walks.
     """
 
     frequency_hz = 15.0
@@ -56,7 +56,7 @@ class Perception(Component):
         self._located_at = self.world.robot.odometry
 
     def work(self) -> None:
-        """Take an image and bring all outputs up to date."""
+        """Take an image and update all outputs."""
         robot = self.world.robot
         self.fallen = robot.is_fallen
         self.neck_pan, self.neck_tilt = robot.pan, robot.tilt
@@ -72,7 +72,7 @@ class Perception(Component):
         self._tell_net(robot.odometry)
 
     def bearing_to(self, *, x: float, y: float) -> float:
-        """Direction to a place of the field as self-localization has it, in degrees to the left."""
+        """Return the direction to a field position by self-localization, in degrees to the left."""
         moved = self._located_at.to_local(Point(self.world.robot.odometry.x, self.world.robot.odometry.y))
         turned = self.world.robot.odometry.heading - self._located_at.heading
         place = self._located.to_field(moved)
@@ -85,7 +85,7 @@ class Perception(Component):
         seen = Direction(bearing=exact.bearing + draw(0.0, _ANGLE_NOISE), down=exact.down + draw(0.0, _ANGLE_NOISE))
         place = odometry.to_field(place_of_ball(seen))
         if self._ball is not None and place.minus(self._ball).length < _AGREEMENT * place_of_ball(seen).length:
-            # Images that agree show a ball that lies; the mean of them is less noisy than the last.
+            # Consistent detections mean that the ball rests; their mean is less noisy than the last one.
             place = Point((place.x + self._ball.x) / 2, (place.y + self._ball.y) / 2)
         self._ball, self._ball_s = place, self.root.now_ns / 1e9
 
@@ -96,14 +96,14 @@ class Perception(Component):
         self._net_s = self.root.now_ns / 1e9
 
     def _locate(self) -> None:
-        """Correct where the robot is held to be, as far off as localization was in the paper: 14 cm and 8 degrees."""
+        """Update the pose estimate with the localization error of the paper: 14 cm and 8 degrees."""
         pose, draw = self.world.robot.pose, self._noise.gauss
         x, y, heading = pose.x + draw(0.0, 140.0), pose.y + draw(0.0, 140.0), pose.heading + draw(0.0, 8.4)
         self._located = Pose(x=x, y=y, heading=normalized(heading))
         self._located_at = self.world.robot.odometry
 
     def _choose_camera(self) -> bool:
-        """Whether to take the next image with the bottom camera: the one for the ball, or both in turn to find it."""
+        """Whether to use the bottom camera next: the camera that should see the ball, or both in turn to find it."""
         if self.ball_age > _LOST_S:
             self._is_bottom_next = not self._is_bottom_next
             return self._is_bottom_next

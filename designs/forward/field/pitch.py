@@ -1,4 +1,4 @@
-"""The playing field of the Standard Platform League of 2010: its lines, its two goals, and where a ball has gone."""
+"""The field of the Standard Platform League of 2010: lines, goals and referee decisions."""
 
 from enum import StrEnum
 
@@ -17,7 +17,7 @@ _THROW_IN_MM = 400.0
 
 
 class Whereabouts(StrEnum):
-    """Where a ball is, as the referee sees it."""
+    """The position of a ball relative to field and goals."""
 
     IN_PLAY = "in play"
     GOAL = "goal"
@@ -26,7 +26,7 @@ class Whereabouts(StrEnum):
 
 
 def whereabouts(ball: Point, radius: float) -> Whereabouts:
-    """Judge a ball; it is over a line when all of it is."""
+    """Classify a ball; it is out when it crosses a line completely."""
     is_over_end = abs(ball.x) - radius > HALF_LENGTH_MM
     if is_over_end and abs(ball.y) < GOAL_HALF_WIDTH_MM:
         return Whereabouts.GOAL if ball.x > 0 else Whereabouts.OWN_GOAL
@@ -36,6 +36,6 @@ def whereabouts(ball: Point, radius: float) -> Whereabouts:
 
 
 def throw_in(ball: Point) -> Point:
-    """Where a ball that went out is put back: inside the line that it crossed."""
+    """Return the position where a ball that went out is placed: inside the line that it crossed."""
     inside_x, inside_y = HALF_LENGTH_MM - _THROW_IN_MM, HALF_WIDTH_MM - _THROW_IN_MM
     return Point(max(-inside_x, min(inside_x, ball.x)), max(-inside_y, min(inside_y, ball.y)))

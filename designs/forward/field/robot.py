@@ -1,4 +1,4 @@
-"""The robot's body: it walks, turns its head, kicks, sometimes falls, and stands up again."""
+"""The body of the robot, which walks, turns its head, kicks, falls and stands up."""
 
 from dataclasses import dataclass, field
 from random import Random
@@ -16,7 +16,7 @@ MAX_TILT_DEG = 29.0
 MAX_HEAD_DEG_S = 90.0
 STAND_UP_S = 3.0
 
-# A command holds this long: a component that is no longer stepped thereby lets its joints rest.
+# A command expires after this time, so that the joints of a component that is no longer stepped come to rest.
 _COMMAND_S = 0.25
 _WALK_ACCELERATION_MM_S2 = 500.0
 _TURN_ACCELERATION_DEG_S2 = 150.0
@@ -35,7 +35,7 @@ class Gait:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Swing:
-    """A kick under way."""
+    """A kick in progress."""
 
     motion: KickMotion
     is_left: bool
@@ -47,7 +47,7 @@ STANDING = Gait()
 
 @dataclass(slots=True, kw_only=True)
 class Robot:
-    """State of the body; `odometry` is where it believes to be by counting its steps."""
+    """State of the body; `odometry` is its pose estimated from its steps."""
 
     pose: Pose
     noise: Random
@@ -67,12 +67,12 @@ class Robot:
     _slip: Gait = STANDING
 
     def __post_init__(self) -> None:
-        """Draw how this robot's legs differ from what they promise."""
+        """Draw the calibration errors of the legs."""
         draw = self.noise.gauss
         self._slip = Gait(forward=draw(0.97, 0.03), lateral=draw(0.95, 0.05), turn=draw(0.0, 1.5))
 
     def walk(self, gait: Gait) -> None:
-        """Ask for a walk, cut to what the legs can do; a robot that lies or kicks does not listen."""
+        """Command a walk, limited to the maximum speeds; ignored while the robot lies or kicks."""
         self._wanted = Gait(
             forward=limited(gait.forward, MAX_FORWARD_MM_S),
             lateral=limited(gait.lateral, MAX_LATERAL_MM_S),
@@ -81,12 +81,12 @@ class Robot:
         self._wanted_until_s = self.time_s + _COMMAND_S
 
     def turn_head(self, pan_speed: float, tilt_speed: float) -> None:
-        """Ask for speeds of the neck in degrees/s: to the left, downwards."""
+        """Command neck speeds in degrees/s: to the left, downwards."""
         self._head_speed = Point(limited(pan_speed, MAX_HEAD_DEG_S), limited(tilt_speed, MAX_HEAD_DEG_S))
         self._head_until_s = self.time_s + _COMMAND_S
 
     def kick(self, motion: KickMotion, *, is_left: bool) -> bool:
-        """Begin to swing a leg; False when the robot lies or swings already."""
+        """Start a kick; return False if the robot lies or already kicks."""
         if self.is_fallen or self.swing is not None:
             return False
         self.swing = Swing(motion=motion, is_left=is_left, began_s=self.time_s)
@@ -94,12 +94,12 @@ class Robot:
         return True
 
     def stand_up(self) -> None:
-        """Begin to stand up, if it lies and does not do so yet."""
+        """Start to stand up if the robot lies."""
         if self.is_fallen and self._up_again_s is None:
             self._up_again_s = self.time_s + STAND_UP_S
 
     def move(self, seconds: float) -> Swing | None:
-        """Let time pass; returns the swing whose foot strikes in it."""
+        """Advance the simulation; return the swing whose foot hits the ball in this step."""
         self.time_s += seconds
         self._move_head(seconds)
         self._move_legs(seconds)
@@ -151,7 +151,7 @@ class Robot:
 
 
 def _on_field(pose: Pose) -> Pose:
-    """Held back at the border of the carpet."""
+    """Limit the position to the carpet."""
     x = limited(pose.x, pitch.HALF_LENGTH_MM + pitch.BORDER_MM)
     y = limited(pose.y, pitch.HALF_WIDTH_MM + pitch.BORDER_MM)
     return pose if (x, y) == (pose.x, pose.y) else Pose(x=x, y=y, heading=pose.heading)

@@ -1,15 +1,15 @@
-"""StandUp: gets the robot back on its feet."""
+"""StandUp: lets the robot stand up after a fall."""
 
 from field.world import World
 from vicode.bica import Component
 
 
 class StandUp(Component):
-    """Plays the motion that stands up from the ground."""
+    """Plays the stand-up motion."""
 
     frequency_hz = 5.0
     world: World
 
     def work(self) -> None:
-        """Begin the motion; while it plays, asking again changes nothing."""
+        """Start the motion; has no effect while it plays."""
         self.world.robot.stand_up()

@@ -6,7 +6,7 @@ from vicode.bica import Component, Root
 
 
 class Walk(Component):
-    """Walks at the speeds it is asked for as long as it is stepped; then the robot stands."""
+    """Walks at the given speeds while it is stepped; otherwise the robot stands."""
 
     frequency_hz = 20.0
     world: World
@@ -20,5 +20,5 @@ class Walk(Component):
         self._gait = Gait(forward=forward, lateral=lateral, turn=turn)
 
     def work(self) -> None:
-        """Renew the command, which the legs forget when nobody does."""
+        """Renew the walk command, which expires otherwise."""
         self.world.robot.walk(self._gait)

@@ -1,4 +1,4 @@
-"""The world that the forward plays in: one robot, one ball, two goals, and time that passes in fixed steps."""
+"""The simulated world: one robot, one ball, two goals and fixed time steps."""
 
 from dataclasses import dataclass
 from random import Random
@@ -20,7 +20,7 @@ _STEP_S = STEP_NS / 1e9
 
 @dataclass(slots=True, kw_only=True)
 class Record:
-    """What happened so far; times in seconds, None for what has not happened."""
+    """Events so far; times in seconds, None for events that have not happened."""
 
     ball_found_s: float | None = None
     ball_reached_s: float | None = None
@@ -35,14 +35,14 @@ class Record:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Image:
-    """What a camera holds: the things in it, at their places as seen from the robot (x ahead, y left, mm)."""
+    """An image: positions of the visible objects in the frame of the robot (x ahead, y left, in mm)."""
 
     ball: Point | None
     net: Point | None
 
 
 class World:
-    """A field with a seed: the same seed and the same commands give the same play.
+    """A field with a seed; the same seed and the same commands give the same simulation.
 
     Args:
         seed: decides where robot and ball begin, and all noise.
@@ -62,28 +62,28 @@ class World:
         self._steps = 0
 
     def stream(self, name: str) -> Random:
-        """A source of noise of its own for every user, so that one more draw here changes nothing there."""
+        """Return a separate random stream for each user, so that their draws do not affect each other."""
         return Random(f"{self.seed}/{name}")
 
     @property
     def time_s(self) -> float:
-        """Seconds that have passed."""
+        """Simulated time in seconds."""
         return self._steps * STEP_NS / 1e9
 
     @property
     def finished(self) -> bool:
-        """Some time after the first goal."""
+        """Whether some time has passed since the first goal."""
         goal_s = self.record.first_goal_s
         return goal_s is not None and self.time_s >= goal_s + CHEER_S
 
     def advance(self, now_ns: int) -> None:
-        """Let time pass until `now_ns`, in whole steps."""
+        """Simulate until `now_ns` in whole steps."""
         while (self._steps + 1) * STEP_NS <= now_ns:
             self._steps += 1
             self._step()
 
     def look(self, *, is_bottom: bool) -> Image:
-        """The image of the top or the bottom camera, without noise; a robot on the ground sees nothing of use."""
+        """Return the noise-free image of the top or bottom camera; empty while the robot lies."""
         robot = self.robot
         view = view_of(robot.pan, robot.tilt, is_bottom=is_bottom)
         ball = robot.pose.to_local(self.ball.position)
@@ -94,7 +94,7 @@ class World:
         return Image(ball=ball if has_ball else None, net=robot.pose.to_local(pitch.NET) if has_net else None)
 
     def snapshot(self) -> dict[str, float]:
-        """The present, in a few rounded numbers."""
+        """Return the current state as rounded numbers."""
         robot, ball = self.robot, self.ball.position
         return {
             "robot_x": round(robot.pose.x),
@@ -109,7 +109,7 @@ class World:
         }
 
     def summary(self) -> dict[str, float | int | None]:
-        """What was reached and when."""
+        """Return the events and their times."""
         record = self.record
         return {
             "seconds": round(self.time_s, 2),
@@ -134,7 +134,7 @@ class World:
             self._strike(struck)
         ball.roll(_STEP_S)
         if not was_swinging:
-            ball.be_pushed(robot.pose, Point(robot.gait.forward, robot.gait.lateral))
+            ball.push_out(robot.pose, Point(robot.gait.forward, robot.gait.lateral))
         for post in pitch.POSTS:
             ball.bounce_off_post(post, pitch.POST_RADIUS_MM)
         self._judge()
@@ -162,7 +162,7 @@ class World:
                 self.ball = Ball(position=pitch.throw_in(ball.position))
 
     def _score(self) -> None:
-        """Count the first goal; the ball then rests in the net until the world ends."""
+        """Record the first goal; the ball then stays in the net."""
         if self.record.first_goal_s is None:
             self.record.first_goal_s = self.time_s
             self.record.goals += 1

@@ -1,7 +1,7 @@
-"""Finds in a generated module which lines come from which state, transition and piece of code.
+"""Map the lines of a generated module to states, transitions and code.
 
-The plan and the writer agree on names and order: every method is called after its state, and the outcomes in it
-stand in the order of the decisions.
+The plan determines names and order: methods are named after their states, and the outcomes in a method are in the order
+of the decisions.
 """
 
 import ast
@@ -18,16 +18,16 @@ _COMMON: DesignPath = ("common", "transitions")
 
 
 def find_origins(plan: ComponentPlan, text: str) -> tuple[Origin, ...]:
-    """The origins in the module of a component, the wider before those inside them; none in any other text."""
+    """Return the origins, outer before inner; empty if the text is not a module."""
     try:
         tree = parse_module(text)
     except SyntaxError:
         return ()
     lines = text.split("\n")
     classes = [node for node in tree.body if isinstance(node, ast.ClassDef)]
-    methods = [node for each in classes for node in each.body if isinstance(node, ast.FunctionDef)]
-    found = [*_section_origins(text), *_state_origins(plan, methods, lines), *_method_origins(plan, methods, lines)]
-    return tuple(sorted(found, key=lambda origin: (origin.first, -origin.last)))
+    methods = [node for definition in classes for node in definition.body if isinstance(node, ast.FunctionDef)]
+    origins = [*_section_origins(text), *_state_origins(plan, methods, lines), *_method_origins(plan, methods, lines)]
+    return tuple(sorted(origins, key=lambda origin: (origin.first, -origin.last)))
 
 
 def _section_origins(text: str) -> Iterator[Origin]:
@@ -37,17 +37,17 @@ def _section_origins(text: str) -> Iterator[Origin]:
 
 
 def _state_origins(plan: ComponentPlan, methods: Sequence[ast.FunctionDef], lines: Sequence[str]) -> Iterator[Origin]:
-    """All methods of a state, from the first to the one before another state's."""
+    """Yield the lines of each state, from its first method to the last one before the next state."""
     by_name = {f"_in_{state.stem}": state.name for state in plan.states}
-    own = [at for at, method in enumerate(methods) if method.name in by_name]
-    for at, following in zip(own, [*own[1:], len(methods)], strict=True):
-        last = [method for method in methods[at:following] if method.name.startswith("_")][-1]
-        path = ("states", by_name[methods[at].name])
-        yield Origin(first=methods[at].lineno, last=_last_line(last, lines), path=path)
+    starts = [index for index, method in enumerate(methods) if method.name in by_name]
+    for start, end in zip(starts, [*starts[1:], len(methods)], strict=True):
+        last = [method for method in methods[start:end] if method.name.startswith("_")][-1]
+        path = ("states", by_name[methods[start].name])
+        yield Origin(first=methods[start].lineno, last=_last_line(last, lines), path=path)
 
 
 def _method_origins(plan: ComponentPlan, methods: Sequence[ast.FunctionDef], lines: Sequence[str]) -> Iterator[Origin]:
-    """What is inside the methods of each state, and of those that are common to all."""
+    """Yield the origins inside the methods of the states and of the common section."""
     by_stem = {state.stem: state for state in plan.states}
     predicates = iter(_predicate_paths(plan.common_decisions))
     owner: DesignPath = ("common",)
@@ -76,7 +76,7 @@ def _split_method_name(name: str) -> tuple[str, str]:
 
 
 def _predicate_paths(alternatives: Iterable[DecisionPlan]) -> Iterator[DesignPath]:
-    """The decisions with a predicate of their own, in the order of its methods."""
+    """Yield the paths of the decisions with hand-written guards, in the order of their methods."""
     for alternative in alternatives:
         if any(isinstance(condition, CodeCondition) for condition in alternative.conditions):
             yield alternative.path
@@ -97,21 +97,21 @@ def _decision_origins(
 ) -> Iterator[Origin]:
     for (first, last), path in zip(_outcomes(method.body, None), _leaf_paths(alternatives), strict=False):
         start = first
-        # A remark above the test speaks of it.
+        # A comment above the test belongs to it.
         while start > 1 and lines[start - 2].strip().startswith("# ") and "vicode>" not in lines[start - 2]:
             start -= 1
         yield Origin(first=start, last=last, path=path)
 
 
 def _outcomes(body: Sequence[ast.stmt], test: ast.If | None) -> Iterator[tuple[int, int]]:
-    """First and last line of every outcome in order, from its test if it has one of its own."""
-    for at, statement in enumerate(body):
+    """Yield the first and last line of each outcome, including the test that only it depends on."""
+    for index, statement in enumerate(body):
         if isinstance(statement, ast.If):
             yield from _outcomes(statement.body, statement)
             yield from _outcomes(statement.orelse, None)
         elif _is_outcome(statement):
-            first = test.lineno if test is not None and at == 0 else statement.lineno
-            following = body[at + 1 : at + 2]
+            first = test.lineno if test is not None and index == 0 else statement.lineno
+            following = body[index + 1 : index + 2]
             yield first, _end(following[0] if following and isinstance(following[0], ast.Return) else statement)
 
 
@@ -124,7 +124,7 @@ def _is_outcome(statement: ast.stmt) -> bool:
 
 
 def _last_line(method: ast.FunctionDef, lines: Sequence[str]) -> int:
-    """The last line of a method, which is the end mark if it ends in a region."""
+    """Return the last line of a method, including the end mark of a region."""
     end = _end(method)
     while end < len(lines) and (not lines[end].strip() or lines[end].strip().startswith("# ")):
         end += 1
