@@ -263,7 +263,7 @@ def test_added_changed_and_removed_files_are_synchronized(workspace: Workspace) 
     (workspace.folder / "search_net.yaml").write_text("component: SearchNet\nstates: [\n")
     workspace.sync_from_disk()
     messages = [(finding.message, finding.fix) for finding in player.findings]
-    assert messages == [("the design of 'SearchNet' cannot be read", "mend search_net.yaml first")]
+    assert messages == [("the design of 'SearchNet' cannot be read", "fix search_net.yaml first")]
     workspace.save(turn)
     assert turn.file.read_text().endswith("# theirs\n")
 
