@@ -1,7 +1,7 @@
 """XABSL: CPU time to compile a behavior in a new process, and cycles per second of the engine.
 
-Run `python -m benchmarks.xabsl [AGENTS.xabsl]`; the default is the largest behavior of the tests. The compiler is compared
-with the original if `VICODE_XABSL_ORIGINAL` is a command that takes `-i OUTPUT AGENTS`, such as
+Run `python -m benchmarks.xabsl [AGENTS.xabsl]`; the default is the largest behavior of the tests. The compiler is
+compared with the original if `VICODE_XABSL_ORIGINAL` is a command that takes `-i OUTPUT AGENTS`, such as
 "ruby -I folder folder/xabsl.rb". The engine is compared with a loop that calls one function per active option.
 """
 

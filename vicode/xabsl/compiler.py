@@ -86,7 +86,7 @@ def _resolve_root(agent: tree.AgentNode, table: SymbolTable, report: CompileRepo
     root = table.options.get(agent.root.text)
     if root is None:
         fix = did_you_mean(agent.root.text, table.options, "include the file of the option")
-        report.add_finding(tokens, agent.root.first_token, "X621", f"no option {agent.root.text}", fix)
+        report.add_finding(tokens, agent.root.first_token, "X621", f"unknown option {agent.root.text}", fix)
     else:
         report.references.append((tokens, agent.root.first_token, root))
     return agent.root.text
@@ -194,7 +194,7 @@ class _OptionCompiler:
         state = self.definition.states.get(name)
         if state is None:
             fix = did_you_mean(name, self.definition.states, f"option {self.option.name.text} has no such state")
-            self.expressions.add_finding(goto.state.first_token, "X621", f"no state {name}", fix)
+            self.expressions.add_finding(goto.state.first_token, "X621", f"unknown state {name}", fix)
         else:
             self.report.references.append((self.tokens, goto.state.first_token, state))
         return name
@@ -243,7 +243,7 @@ class _OptionCompiler:
         if not callees:
             expected = action.kind or "option or basic behavior"
             fix = did_you_mean(name, self.table.callable, f"declare behavior {name}, or include the file of the option")
-            self.expressions.add_finding(action.name.first_token, "X621", f"no {expected} {name}", fix)
+            self.expressions.add_finding(action.name.first_token, "X621", f"unknown {expected} {name}", fix)
             return None
         if len(callees) > 1:
             fix = f"write {name} option(…) or {name} behavior(…)"
@@ -266,7 +266,7 @@ class _OptionCompiler:
                 )
             else:
                 fix = did_you_mean(name, self.table.assignable, "declare it as an output or internal symbol")
-                self.expressions.add_finding(action.symbol.first_token, "X621", f"no output symbol {name}", fix)
+                self.expressions.add_finding(action.symbol.first_token, "X621", f"unknown output symbol {name}", fix)
             return None
         if len(symbols) > 1:
             meanings = " and ".join(candidate.description for candidate in symbols)

@@ -161,7 +161,7 @@ class ExpressionCompiler:
             else:
                 names = [symbol.name for symbol in self.table.symbols("input")]
                 fix = did_you_mean(name, names, "declare it as an input symbol")
-                self.add_finding(function.name.first_token, "X621", f"no input symbol {name}", fix)
+                self.add_finding(function.name.first_token, "X621", f"unknown input symbol {name}", fix)
             return _ERROR_TERMS[kind]
         definition = inputs[0]
         self.report.references.append((self.tokens, function.name.first_token, definition))
@@ -280,11 +280,11 @@ class ExpressionCompiler:
         otherwise = "declare it in a namespace of symbols"
         if owner is not None:
             otherwise = f"{name} is an element of {owner.name}: write it to the right of a symbol of that enumeration"
-            self.add_finding(token, "X621", f"no symbol {name}", otherwise)
+            self.add_finding(token, "X621", f"unknown symbol {name}", otherwise)
             return
         if name in self.parameters:
             otherwise = f"write @{name}"
-        self.add_finding(token, "X621", f"no symbol {name}", did_you_mean(name, names, otherwise))
+        self.add_finding(token, "X621", f"unknown symbol {name}", did_you_mean(name, names, otherwise))
 
 
 def _list_parameters(owner: Definition) -> str:

@@ -32,7 +32,7 @@ def parse_state(cursor: TokenCursor) -> StateNode:
     is_initial = cursor.accept("initial")
     is_target = cursor.accept("target")
     if not is_initial and cursor.kind == "initial":
-        cursor.add_finding("X651", "initial precedes target", "write initial target state")
+        cursor.add_finding("X651", "initial must precede target", "write initial target state")
         is_initial = cursor.accept("initial")
     cursor.expect("state")
     name = cursor.expect_name("for the state")
@@ -45,7 +45,7 @@ def parse_state(cursor: TokenCursor) -> StateNode:
     decision = _decision_with_recovery(cursor) if cursor.kind == "decision" else None
     actions = _actions_of_state(cursor, name)
     if cursor.kind == "decision" and decision is None:
-        cursor.add_finding("X604", "decision precedes action", "move it before action")
+        cursor.add_finding("X604", "decision must precede action", "move it before action")
         decision = _decision_with_recovery(cursor)
     if cursor.kind not in ("}", END):
         cursor.add_finding("X604", f"unexpected text after the actions of state {name.text}", "remove it")

@@ -114,7 +114,7 @@ class _Collector:
             if enum is None:
                 fix = did_you_mean(type_node.enum.text, self.table.enums, "declare it: enum NAME { … };")
                 self.report.add_finding(
-                    tokens, type_node.enum.first_token, "X621", f"no enumeration {type_node.enum.text}", fix
+                    tokens, type_node.enum.first_token, "X621", f"unknown enumeration {type_node.enum.text}", fix
                 )
             else:
                 self.report.references.append((tokens, type_node.enum.first_token, enum))
