@@ -76,8 +76,7 @@ def serve(path: Path, address: ServerAddress, *, open_browser: bool = True, tour
     from vicode.editor.session.recovery import open_recovery_store
     from vicode.model.python_parser import serialize_calls
 
-    # NiceGUI (checked with 3.18) parses quoted values of props with ast.literal_eval. CPython cannot build syntax trees
-    # in two threads at once (see vicode/model/python_parser.py), so these calls take the lock of that module as well.
+    # NiceGUI 3.18 parses props with it; CPython must not parse in two threads at once: see `model.python_parser`.
     ast.literal_eval = serialize_calls(ast.literal_eval)
     library = Library(path)
     register_pages(library, AutosaveService(library, open_recovery_store()), tour=tour)
