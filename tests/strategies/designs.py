@@ -1,4 +1,4 @@
-"""Random designs and projects that can be saved: names are unique in their mapping, nothing more is promised."""
+"""Strategies for random designs and projects that can be saved: names are unique in their mapping."""
 
 import string
 from typing import Any
@@ -49,11 +49,12 @@ expressions = (
 )
 numbers = st.integers(-5000, 5000).map(float) | st.floats(-1e6, 1e6, allow_nan=False).map(lambda number: number + 0.0)
 points = st.none() | st.tuples(numbers, numbers)
+counts = st.none() | st.integers(0, 9)
 frequencies = st.none() | st.integers(1, 100).map(float) | st.floats(1e-3, 1e3)
 code = st.builds(
     Code,
     texts=st.dictionaries(st.sampled_from(["python", "cpp", "xabsl"]), codes, max_size=2).map(
-        lambda each: tuple(each.items())
+        lambda entries: tuple(entries.items())
     ),
 )
 ids = st.just("") | plain_names
@@ -71,11 +72,11 @@ def _tuples(values: st.SearchStrategy[Any], largest: int = 3) -> st.SearchStrate
 
 
 def _pairs(largest: int = 3) -> st.SearchStrategy[tuple[tuple[str, str], ...]]:
-    return st.dictionaries(names, expressions, max_size=largest).map(lambda each: tuple(each.items()))
+    return st.dictionaries(names, expressions, max_size=largest).map(lambda entries: tuple(entries.items()))
 
 
 def declarations(arguments: st.SearchStrategy[Any] | None = None) -> st.SearchStrategy[Declaration]:
-    """Declarations of values, or of functions where `arguments` draws a tuple."""
+    """Draw declarations; of functions, if `arguments` draws a tuple."""
     return st.builds(
         Declaration,
         name=names,
@@ -102,7 +103,13 @@ _stays = st.builds(Stay, guard=guards, doc=st.just("") | texts, id=ids, disabled
 decisions: st.SearchStrategy[Decision] = st.recursive(
     transitions | _stays,
     lambda inner: st.builds(
-        DecisionGroup, guard=guards, then=_tuples(inner, 2), otherwise=_tuples(inner, 2), id=ids, disabled=st.booleans()
+        DecisionGroup,
+        guard=guards,
+        then=_tuples(inner, 2),
+        otherwise=_tuples(inner, 2),
+        doc=st.just("") | texts,
+        id=ids,
+        disabled=st.booleans(),
     ),
     max_leaves=3,
 )
@@ -110,9 +117,12 @@ states: st.SearchStrategy[State] = st.builds(
     State,
     name=names,
     id=ids,
+    xabsl_name=st.just("") | texts,
     doc=st.just("") | texts,
     at=points,
     final=st.booleans(),
+    capacity=counts,
+    synchronized=counts,
     disabled=st.booleans(),
     requires=_tuples(names),
     modulates=_unique(calls, "alias", 2),
@@ -122,8 +132,9 @@ states: st.SearchStrategy[State] = st.builds(
     transitions=_tuples(decisions),
 )
 uses = st.builds(Use, alias=names, component=names, at=points)
-_parts: dict[str, st.SearchStrategy[Any]] = {
+_fields: dict[str, st.SearchStrategy[Any]] = {
     "component": names,
+    "xabsl_name": st.just("") | texts,
     "doc": st.just("") | texts,
     "frequency_hz": frequencies,
     "resume": st.booleans(),
@@ -144,22 +155,38 @@ _parts: dict[str, st.SearchStrategy[Any]] = {
         transitions=_tuples(decisions, 2),
     ),
 }
-designs = st.builds(Design, **_parts, states=_unique(states, "name", 3))
-designs_with_states = st.builds(Design, **_parts, states=_unique(states, "name", 3, smallest=1))
+designs = st.builds(Design, **_fields, states=_unique(states, "name", 3))
+designs_with_states = st.builds(Design, **_fields, states=_unique(states, "name", 3, smallest=1))
 enumerations = st.builds(
     Enumeration,
     name=names,
     doc=st.just("") | texts,
-    elements=st.dictionaries(names, st.just("") | texts, min_size=1, max_size=4).map(lambda each: tuple(each.items())),
+    elements=st.dictionaries(names, st.just("") | texts, min_size=1, max_size=4).map(
+        lambda entries: tuple(entries.items())
+    ),
+    internal=st.booleans(),
+    xabsl_name=st.just("") | texts,
+    xabsl_elements=st.dictionaries(names, texts, max_size=2).map(lambda entries: tuple(entries.items())),
 )
 interfaces = st.builds(
     Interface,
     component=names,
+    title=st.just("") | texts,
     doc=st.just("") | texts,
+    xabsl_name=st.just("") | texts,
     implementation=st.just("") | st.just("field.head:Head") | texts,
     frequency_hz=frequencies,
     parameters=_unique(declarations(), "name", 2),
     outputs=_unique(outputs, "name", 2),
+    variables=_unique(declarations(), "name", 2),
+)
+agents = st.builds(
+    Agent,
+    name=names,
+    root=names,
+    title=st.just("") | texts,
+    doc=st.just("") | texts,
+    xabsl_name=st.just("") | texts,
 )
 projects = st.builds(
     Project,
@@ -171,5 +198,5 @@ projects = st.builds(
     enumerations=_unique(enumerations, "name", 2),
     constants=_unique(declarations(), "name", 2),
     components=_unique(interfaces, "component", 2),
-    agents=_unique(st.builds(Agent, name=names, root=names, doc=st.just("") | texts), "name", 2),
+    agents=_unique(agents, "name", 2),
 )

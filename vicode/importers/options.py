@@ -131,7 +131,7 @@ class OptionImporter:
             if isinstance(transitions[-1], Stay) and not transitions[-1].doc:
                 transitions = transitions[:-1]
         actions = self._actions(state.actions, (*path, "actions"))
-        robots = float(state.robots or 0)
+        robots = int(float(state.robots or 0))
         return State(
             name=name,
             xabsl_name=xabsl_name_or_empty(name, state.name.text),

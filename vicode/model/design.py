@@ -152,8 +152,8 @@ class State:
     doc: str = ""
     at: Point | None = None
     final: bool = False
-    capacity: float | None = None
-    synchronized: float | None = None
+    capacity: int | None = None
+    synchronized: int | None = None
     disabled: bool = False
     requires: tuple[str, ...] = ()
     modulates: tuple[Call, ...] = ()

@@ -7,7 +7,7 @@ from pathlib import PurePath
 from vicode.findings import Finding, FindingSubject, sort_findings
 from vicode.model.design import Design
 from vicode.model.project import Project
-from vicode.store.decode import decode_design, decode_project
+from vicode.store.codec import decode_design, decode_project
 from vicode.store.format import DESIGN, PROJECT
 from vicode.store.line_index import LineIndex, ReadReport
 from vicode.store.schema_reader import SchemaReader

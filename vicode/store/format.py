@@ -1,9 +1,25 @@
-"""The format, version 1: every key of a design file and of project.yaml in one table.
+"""Version 1 of the format: all keys of design files and of project.yaml, with the model fields that hold them.
 
-Reader, writer, JSON Schema and the tables of docs/design-format.md all come from here.
+The reader, the writer, the conversion from and to the model, the JSON Schema and the tables of docs/design-format.md
+are derived from these schemas.
 """
 
-from vicode.model.project import CODE_LANGUAGES
+from vicode.model.design import (
+    Assign,
+    Call,
+    Code,
+    CommonSection,
+    DecisionGroup,
+    Declaration,
+    Design,
+    Guard,
+    RunCode,
+    State,
+    Stay,
+    Transition,
+    Use,
+)
+from vicode.model.project import CODE_LANGUAGES, Agent, Enumeration, Interface, Project
 from vicode.store.schema_types import (
     KeySchema,
     ListSchema,
@@ -16,7 +32,7 @@ from vicode.store.schema_types import (
 
 VERSION = "1"
 FLOW_WIDTH = 110
-"""Lists and mappings are written in brackets when they fit into a line of this length."""
+"""Maximum line length of lists and mappings in flow style."""
 
 TEXT = ScalarSchema(scalar_type=ScalarType.TEXT)
 NAME = ScalarSchema(scalar_type=ScalarType.NAME)
@@ -25,7 +41,7 @@ FREQUENCY = ScalarSchema(scalar_type=ScalarType.NUMBER)
 COUNT = ScalarSchema(scalar_type=ScalarType.COUNT)
 FLAG = ScalarSchema(scalar_type=ScalarType.BOOLEAN)
 POSITION = PairSchema(description="a position [x, y]")
-LABEL_POSITION = PairSchema(description="a position [part, beside]")
+LABEL_POSITION = PairSchema(description="a position [fraction, offset]")
 NAMES = ListSchema(description="a list of names", item_schema=lambda: NAME, flow_width=FLOW_WIDTH)
 ASSIGNMENTS = MapSchema(description="a mapping of names to expressions", value_schema=EXPRESSION, flow_width=FLOW_WIDTH)
 ARGUMENTS = MapSchema(
@@ -36,40 +52,34 @@ CODE = MapSchema(
     value_schema=TEXT,
     shorthand_key="python",
     allowed_keys=CODE_LANGUAGES,
+    wrapper=Code,
 )
 
 _VERSION = KeySchema(
-    name="vicode",
-    schema=ScalarSchema(scalar_type=ScalarType.VERSION),
-    required=True,
-    description="version of the format; this one is 1",
+    "vicode", ScalarSchema(scalar_type=ScalarType.VERSION), "version of the format, 1", required=True, constant=VERSION
 )
-_DOC = KeySchema(
-    name="doc", schema=TEXT, description="a sentence for people; it becomes the docstring of what is generated"
-)
-_XABSL_NAME = KeySchema(name="xabsl_name", schema=TEXT, description="its name in XABSL")
-_TITLE = KeySchema(name="title", schema=TEXT, description="a short heading")
-_ID = KeySchema(name="id", schema=NAME, description="a name that stays through edits; written by the editor")
+_DOC = KeySchema("doc", TEXT, "description; becomes the docstring of generated code")
+_XABSL_NAME = KeySchema("xabsl_name", TEXT, "name in XABSL")
+_TITLE = KeySchema("title", TEXT, "short heading")
+_ID = KeySchema("id", NAME, "identifier that does not change with edits; written by the editor")
+_POSITION = KeySchema("at", POSITION, "center on the canvas")
+_FREQUENCY = KeySchema("frequency", FREQUENCY, "frequency in Hz; default: works in each step", field="frequency_hz")
 
 
 def _declaration(name: str, value_key: str, meaning: str, *more: KeySchema) -> RecordSchema:
-    wrong = {word: value_key for word in ("default", "initial", "value") if word != value_key}
     return RecordSchema(
         name=name,
         description=f"a declaration, or just its {value_key} value",
+        model=Declaration,
         shorthand_key=value_key,
         flow_width=FLOW_WIDTH,
-        synonyms=wrong,
+        synonyms={word: value_key for word in ("default", "initial", "value") if word != value_key},
         keys=(
+            KeySchema("type", NAME, "bool, int, float or an enumeration; default: type of the value"),
+            KeySchema(value_key, EXPRESSION, meaning, field="initial"),
+            KeySchema("unit", TEXT, "unit of the value, such as mm"),
             KeySchema(
-                name="type", schema=NAME, description="bool, int, float or an enumeration; left out: as the value"
-            ),
-            KeySchema(name=value_key, schema=EXPRESSION, description=meaning),
-            KeySchema(name="unit", schema=TEXT, description="unit of the value, such as mm"),
-            KeySchema(
-                name="range",
-                schema=PairSchema(description="a range [low, high]"),
-                description="lowest and highest value, both included",
+                "range", PairSchema(description="a range [low, high]"), "lowest and highest value, both included"
             ),
             _DOC,
             _XABSL_NAME,
@@ -78,51 +88,59 @@ def _declaration(name: str, value_key: str, meaning: str, *more: KeySchema) -> R
     )
 
 
-PARAMETER = _declaration("parameter", "default", "value when a caller leaves it out")
-VARIABLE = _declaration("variable", "initial", "first value")
-CONSTANT = _declaration("constant", "value", "its value")
-ARGUMENT = _declaration("argument", "default", "value when a caller leaves it out")
+def _declarations(record: RecordSchema) -> MapSchema:
+    return MapSchema(description="a mapping of names to declarations", value_schema=record, name_field="name")
+
+
+PARAMETER = _declaration("parameter", "default", "value if the caller does not set it")
+VARIABLE = _declaration("variable", "initial", "initial value")
+CONSTANT = _declaration("constant", "value", "value")
+ARGUMENT = _declaration("argument", "default", "value if the caller does not set it")
 OUTPUT = _declaration(
     "output",
     "initial",
-    "first value",
+    "initial value",
     KeySchema(
-        name="arguments",
-        schema=MapSchema(
-            description="a mapping of names to declarations", value_schema=ARGUMENT, flow_width=FLOW_WIDTH
+        "arguments",
+        MapSchema(
+            description="a mapping of names to declarations",
+            value_schema=ARGUMENT,
+            name_field="name",
+            flow_width=FLOW_WIDTH,
         ),
+        "makes the output a function with these arguments, even if empty",
         keeps_empty=True,
-        description="given (even empty), the output is a function of these",
     ),
 )
 
 USE = RecordSchema(
     name="use",
     description="the name of a component",
+    model=Use,
     shorthand_key="component",
     flow_width=FLOW_WIDTH,
     keys=(
-        KeySchema(name="component", schema=NAME, required=True, description="name of the component"),
-        KeySchema(name="at", schema=POSITION, description="centre on the canvas"),
+        KeySchema("component", NAME, "name of the component", required=True),
+        _POSITION,
     ),
 )
 ACTION = RecordSchema(
     name="action",
     description="an action ('set', 'call' or 'code')",
-    is_item=True,
-    one_of=("set", "call", "code"),
-    missing_message=("an action that does nothing", "give it 'set', 'call' or 'code'"),
+    variants={"set": Assign, "call": Call, "code": RunCode},
+    missing_message=("the action has no effect", "add 'set', 'call' or 'code'"),
     dependent_keys=(("with", "call"), ("id", "code")),
     keys=(
         KeySchema(
-            name="set",
-            schema=ASSIGNMENTS,
+            "set",
+            ASSIGNMENTS,
+            "new values of variables and outputs, and of variables of used components: `used.variable`",
+            field="values",
             keeps_empty=True,
-            description="own variables and outputs, or `used.variable`, each with its new value",
         ),
-        KeySchema(name="call", schema=NAME, description="the used component to step here"),
-        KeySchema(name="with", schema=ARGUMENTS, description="its parameters; those left out take their defaults"),
-        KeySchema(name="code", schema=CODE, keeps_empty=True, description="code to run"),
+        KeySchema("call", NAME, "the used component to step", field="alias"),
+        KeySchema("with", ARGUMENTS, "its parameters; others have their defaults", field="arguments"),
+        KeySchema("code", CODE, "code to run", keeps_empty=True),
         _ID,
     ),
 )
@@ -131,89 +149,115 @@ DECISIONS = ListSchema(description="a list of transitions", item_schema=lambda: 
 DECISION: RecordSchema = RecordSchema(
     name="transition",
     description="a transition ('to', 'stay' or 'then')",
+    variants={"to": Transition, "stay": Stay, "then": DecisionGroup},
+    nested={"guard": Guard},
     flow_width=FLOW_WIDTH,
-    is_item=True,
-    one_of=("to", "stay", "then"),
-    missing_message=("transition has no target", "add 'to: <state>'"),
+    missing_message=("the transition has no target", "add 'to: <state>'"),
     dependent_keys=(("else", "then"), ("label_at", "to")),
     synonyms={
-        "target": "to", "goto": "to", "next": "to", "if": "when", "guard": "when", "condition": "when",
-        "timeout": "after", "description": "doc",
+        "target": "to",
+        "goto": "to",
+        "next": "to",
+        "if": "when",
+        "guard": "when",
+        "condition": "when",
+        "timeout": "after",
+        "description": "doc",
     },
     keys=(
-        KeySchema(name="to", schema=NAME, description="the state to change to; the state itself: stay"),
-        KeySchema(name="stay", schema=ScalarSchema(scalar_type=ScalarType.TRUE), description="`true`: ends the decision, changes nothing"),
-        KeySchema(name="when", schema=EXPRESSION, description="condition that must hold"),
-        KeySchema(name="after", schema=EXPRESSION, description="seconds that must have passed in the state"),
+        KeySchema("to", NAME, "target state; the state itself means stay"),
+        KeySchema(
+            "stay",
+            ScalarSchema(scalar_type=ScalarType.TRUE),
+            "`true`: ends the decision without a transition",
+            constant=True,
+        ),
+        KeySchema("when", EXPRESSION, "condition", field="guard.when"),
+        KeySchema("after", EXPRESSION, "minimum seconds in the state", field="guard.after"),
         _DOC,
         _ID,
         KeySchema(
-            name="label_at",
-            schema=LABEL_POSITION,
-            description="where its label is: part of the way (0 to 1), pixels beside it; left out: where there is room",
+            "label_at",
+            LABEL_POSITION,
+            "label position: fraction of the edge (0 to 1) and offset in pixels; default: automatic",
         ),
-        KeySchema(name="code", schema=CODE, keeps_empty=True, description="body of a function whose bool result must hold"),
-        KeySchema(name="then", schema=DECISIONS, keeps_empty=True, description="a group: tested in order when the guard holds"),
-        KeySchema(name="else", schema=DECISIONS, description="of a group: tested in order when the guard does not hold"),
-        KeySchema(name="disabled", schema=FLAG, default=False, description="kept, but as if it were not there"),
+        KeySchema(
+            "code", CODE, "condition as the body of a function that returns bool", field="guard.code", keeps_empty=True
+        ),
+        KeySchema("then", DECISIONS, "group: tested in order if the guard holds", keeps_empty=True),
+        KeySchema("else", DECISIONS, "of a group: tested in order if the guard does not hold", field="otherwise"),
+        KeySchema("disabled", FLAG, "keeps the transition without effect", default=False),
     ),
-)  # fmt: skip
+)
 _ACTIONS_KEYS = (
-    KeySchema(name="actions", schema=ACTIONS, description="done at each iteration in the state, in order"),
-    KeySchema(name="code", schema=CODE, shorthand_for="actions", description="short for `actions` with only this code"),
+    KeySchema("actions", ACTIONS, "run in order in each iteration in the state"),
+    KeySchema("code", CODE, "short for `actions` with only this code", shorthand_for="actions"),
 )
-_TRANSITIONS = KeySchema(
-    name="transitions", schema=DECISIONS, description="tested in order; the first that holds is taken"
-)
+_TRANSITIONS = KeySchema("transitions", DECISIONS, "tested in order; the first one that holds is taken")
 STATE = RecordSchema(
     name="state",
     description="a state",
+    model=State,
     flow_width=40,
     synonyms={
-        "on_enter": "enter", "on_entry": "enter", "entry": "enter", "on_exit": "leave", "exit": "leave",
-        "on_leave": "leave", "do": "actions", "action": "actions", "transition": "transitions",
-        "require": "requires", "modulate": "modulates", "position": "at", "description": "doc",
+        "on_enter": "enter",
+        "on_entry": "enter",
+        "entry": "enter",
+        "on_exit": "leave",
+        "exit": "leave",
+        "on_leave": "leave",
+        "do": "actions",
+        "action": "actions",
+        "transition": "transitions",
+        "require": "requires",
+        "modulate": "modulates",
+        "position": "at",
+        "description": "doc",
     },
     keys=(
         _DOC,
-        KeySchema(name="at", schema=POSITION, description="centre on the canvas"),
-        KeySchema(name="final", schema=FLAG, default=False, description="a target state: the component reports that it is done"),
-        KeySchema(name="capacity", schema=COUNT, keeps_empty=True, description="so many robots of a team may be in it at once"),
-        KeySchema(name="synchronized", schema=COUNT, keeps_empty=True, description="so many robots of a team enter it at once"),
-        KeySchema(name="disabled", schema=FLAG, default=False, description="kept, but neither it nor a way to it is there"),
+        _POSITION,
+        KeySchema("final", FLAG, "final state: the component reports that it is done", default=False),
+        KeySchema(
+            "capacity", COUNT, "maximum number of robots of a team in the state at the same time", keeps_empty=True
+        ),
+        KeySchema(
+            "synchronized", COUNT, "minimum number of robots of a team that enter the state together", keeps_empty=True
+        ),
+        KeySchema("disabled", FLAG, "keeps the state without effect", default=False),
         _ID,
         _XABSL_NAME,
-        KeySchema(name="requires", schema=NAMES, description="used components stepped before the state's own work"),
+        KeySchema("requires", NAMES, "used components stepped before the state runs"),
         KeySchema(
-            name="modulates",
-            schema=MapSchema(description="a mapping of used components to parameters", value_schema=ARGUMENTS, allows_name_list=True, flow_width=FLOW_WIDTH),
-            description="short for calls at the end of `actions`: used component to parameters",
+            "modulates",
+            MapSchema(
+                description="a mapping of used components to parameters",
+                value_schema=ARGUMENTS,
+                allows_name_list=True,
+                flow_width=FLOW_WIDTH,
+                name_field="alias",
+                entry_model=Call,
+                value_field="arguments",
+            ),
+            "parameters by used component; short for calls at the end of `actions`",
         ),
-        KeySchema(name="enter", schema=ACTIONS, description="done when the state is entered"),
+        KeySchema("enter", ACTIONS, "run when the state is entered"),
         *_ACTIONS_KEYS,
-        KeySchema(name="leave", schema=ACTIONS, description="done when the state is left"),
-        _TRANSITIONS,
-    ),
-)  # fmt: skip
-COMMON = RecordSchema(
-    name="common",
-    description="what all states share",
-    keys=(
-        _DOC,
-        KeySchema(name="at", schema=POSITION, description="centre on the canvas"),
-        *_ACTIONS_KEYS,
+        KeySchema("leave", ACTIONS, "run when the state is left"),
         _TRANSITIONS,
     ),
 )
-
-
-def _declarations(record: RecordSchema) -> MapSchema:
-    return MapSchema(description="a mapping of names to declarations", value_schema=record)
-
+COMMON = RecordSchema(
+    name="common",
+    description="actions and transitions of all states",
+    model=CommonSection,
+    keys=(_DOC, _POSITION, *_ACTIONS_KEYS, _TRANSITIONS),
+)
 
 DESIGN = RecordSchema(
     name="design",
     description="a design",
+    model=Design,
     synonyms={
         "name": "component",
         "start": "initial",
@@ -223,99 +267,89 @@ DESIGN = RecordSchema(
     },
     keys=(
         _VERSION,
-        KeySchema(
-            name="component", schema=NAME, required=True, description="name of the component, one in the project"
-        ),
+        KeySchema("component", NAME, "name of the component, unique in the project", required=True),
         _DOC,
         _XABSL_NAME,
-        KeySchema(name="frequency", schema=FREQUENCY, description="Hz; left out: works at every step it is given"),
+        _FREQUENCY,
+        KeySchema("resume", FLAG, "`true`: a new activation continues in the last state", default=False),
         KeySchema(
-            name="resume",
-            schema=FLAG,
-            default=False,
-            description="`true`: goes on where it was when it is stepped again",
+            "arithmetic",
+            ScalarSchema(scalar_type=ScalarType.NAME, choices=("xabsl",)),
+            "`xabsl`: arithmetic and restart as in XABSL; default: as in docs/semantics.md",
         ),
         KeySchema(
-            name="arithmetic",
-            schema=ScalarSchema(scalar_type=ScalarType.NAME, choices=("xabsl",)),
-            description="`xabsl`: calculates and restarts as XABSL does; left out: as docs/semantics.md says",
+            "time_unit",
+            ScalarSchema(scalar_type=ScalarType.NAME, choices=("s", "ms")),
+            "unit of times in expressions: `s` or `ms`; default: seconds",
         ),
         KeySchema(
-            name="time_unit",
-            schema=ScalarSchema(scalar_type=ScalarType.NAME, choices=("s", "ms")),
-            description="unit of the times in expressions: `s` or `ms`; left out: seconds",
+            "uses",
+            MapSchema(description="a mapping of names to components", value_schema=USE, name_field="alias"),
+            "used components by their name in this design",
         ),
+        KeySchema("parameters", _declarations(PARAMETER), "inputs that other components can set"),
+        KeySchema("outputs", _declarations(OUTPUT), "values that other components can read"),
+        KeySchema("variables", _declarations(VARIABLE), "private values"),
+        KeySchema("initial", NAME, "name of the initial state"),
+        KeySchema("module", CODE, "code at the top of the generated file"),
+        KeySchema("members", CODE, "code in the generated class"),
+        KeySchema("common", COMMON, "actions and transitions that come before those of each state"),
         KeySchema(
-            name="uses",
-            schema=MapSchema(description="a mapping of names to components", value_schema=USE),
-            description="components under the names that code, guards and links use",
-        ),
-        KeySchema(name="parameters", schema=_declarations(PARAMETER), description="what others may modulate in it"),
-        KeySchema(
-            name="outputs", schema=_declarations(OUTPUT), description="what others may read from it, and it may set"
-        ),
-        KeySchema(name="variables", schema=_declarations(VARIABLE), description="its own memory"),
-        KeySchema(name="initial", schema=NAME, description="name of the first state"),
-        KeySchema(name="module", schema=CODE, description="code for the top of the generated file"),
-        KeySchema(name="members", schema=CODE, description="code for the inside of the generated class"),
-        KeySchema(name="common", schema=COMMON, description="done and tested before what every state does and tests"),
-        KeySchema(
-            name="states",
-            schema=MapSchema(description="a mapping of names to states", value_schema=STATE),
-            description="the states by name, in the order they are shown",
+            "states",
+            MapSchema(description="a mapping of names to states", value_schema=STATE, name_field="name"),
+            "states by name, in display order",
         ),
     ),
 )
 
 ENUMERATION = RecordSchema(
     name="enumeration",
-    description="a list of elements, or a mapping of elements to what they mean",
+    description="a list of elements, or a mapping of elements to descriptions",
+    model=Enumeration,
     shorthand_key="elements",
     flow_width=FLOW_WIDTH,
     keys=(
         _DOC,
         KeySchema(
-            name="elements",
-            schema=MapSchema(description="elements", value_schema=TEXT, allows_name_list=True, flow_width=FLOW_WIDTH),
+            "elements",
+            MapSchema(description="elements", value_schema=TEXT, allows_name_list=True, flow_width=FLOW_WIDTH),
+            "elements as a list, or as a mapping to descriptions",
             required=True,
-            description="its elements, as a list or with a sentence each",
         ),
-        KeySchema(
-            name="internal", schema=FLAG, default=False, description="XABSL: the engine numbers them, not the robot"
-        ),
+        KeySchema("internal", FLAG, "XABSL: the engine numbers the elements, not the robot program", default=False),
         _XABSL_NAME,
         KeySchema(
-            name="xabsl_elements",
-            schema=MapSchema(description="a mapping of elements to names", value_schema=TEXT, flow_width=FLOW_WIDTH),
-            description="names of elements in XABSL, where they are others",
+            "xabsl_elements",
+            MapSchema(description="a mapping of elements to names", value_schema=TEXT, flow_width=FLOW_WIDTH),
+            "names of elements in XABSL that differ",
         ),
     ),
 )
 INTERFACE = RecordSchema(
     name="component",
     description="the declaration of a hand-written component",
+    model=Interface,
     keys=(
         KeySchema(
-            name="implementation",
-            schema=TEXT,
-            description="the class, written module:Class; `world` or `internal`: vicode writes it",
+            "implementation", TEXT, "class as module:Class; vicode generates the class for `world` and `internal`"
         ),
         _TITLE,
-        KeySchema(name="frequency", schema=FREQUENCY, description="Hz; left out: works at every step it is given"),
+        _FREQUENCY,
         _DOC,
         _XABSL_NAME,
-        KeySchema(name="parameters", schema=_declarations(PARAMETER), description="what others may modulate in it"),
-        KeySchema(name="outputs", schema=_declarations(OUTPUT), description="what others may read from it"),
-        KeySchema(name="variables", schema=_declarations(VARIABLE), description="what others may read and set"),
+        KeySchema("parameters", _declarations(PARAMETER), "inputs that other components can set"),
+        KeySchema("outputs", _declarations(OUTPUT), "values that other components can read"),
+        KeySchema("variables", _declarations(VARIABLE), "values that other components can read and set"),
     ),
 )
 AGENT = RecordSchema(
     name="agent",
     description="the name of a root component",
+    model=Agent,
     shorthand_key="root",
     flow_width=FLOW_WIDTH,
     keys=(
-        KeySchema(name="root", schema=NAME, required=True, description="component that is stepped"),
+        KeySchema("root", NAME, "root component", required=True),
         _TITLE,
         _DOC,
         _XABSL_NAME,
@@ -324,41 +358,36 @@ AGENT = RecordSchema(
 PROJECT = RecordSchema(
     name="project",
     description="a project",
+    model=Project,
     synonyms={"name": "project", "description": "doc", "output": "generated", "enums": "enumerations"},
     keys=(
         _VERSION,
-        KeySchema(name="project", schema=NAME, required=True, description="name of the project"),
+        KeySchema("project", NAME, "name of the project", field="name", required=True),
         _DOC,
+        KeySchema("languages", NAMES, "languages of the generated code", default=("python",), keeps_empty=True),
+        KeySchema("world", TEXT, "class of the simulated world as module:Class"),
         KeySchema(
-            name="languages",
-            schema=NAMES,
-            default=("python",),
-            keeps_empty=True,
-            description="languages to generate; left out: python",
-        ),
-        KeySchema(name="world", schema=TEXT, description="the simulated world to run in, written module:Class"),
-        KeySchema(
-            name="generated",
-            schema=TEXT,
-            default="generated",
-            keeps_empty=True,
-            description="folder of generated files, relative to this file; left out: `generated`",
+            "generated", TEXT, "folder of generated files, relative to this file", default="generated", keeps_empty=True
         ),
         KeySchema(
-            name="enumerations",
-            schema=MapSchema(description="a mapping of names to enumerations", value_schema=ENUMERATION),
-            description="types whose values are named; a value is written `Side.left`",
+            "enumerations",
+            MapSchema(description="a mapping of names to enumerations", value_schema=ENUMERATION, name_field="name"),
+            "types with named values, written `Side.left`",
         ),
-        KeySchema(name="constants", schema=_declarations(CONSTANT), description="values that all designs may use"),
+        KeySchema("constants", _declarations(CONSTANT), "values for all designs"),
         KeySchema(
-            name="components",
-            schema=MapSchema(description="a mapping of names to hand-written components", value_schema=INTERFACE),
-            description="hand-written components and what they offer",
+            "components",
+            MapSchema(
+                description="a mapping of names to hand-written components",
+                value_schema=INTERFACE,
+                name_field="component",
+            ),
+            "interfaces of the hand-written components",
         ),
         KeySchema(
-            name="agents",
-            schema=MapSchema(description="a mapping of names to root components", value_schema=AGENT),
-            description="names for running the project from one root component each",
+            "agents",
+            MapSchema(description="a mapping of names to root components", value_schema=AGENT, name_field="name"),
+            "root components with which the project can run",
         ),
     ),
 )

@@ -5,8 +5,8 @@ import sys
 
 from vicode.model.design import Design
 from vicode.model.project import Project
+from vicode.store.codec import encode_design, encode_project
 from vicode.store.documents import read_record
-from vicode.store.encode import encode_design, encode_project
 from vicode.store.format import DESIGN, PROJECT
 from vicode.store.patcher import CannotPatchError, Patcher
 from vicode.store.sanitize import sanitize_design

@@ -17,7 +17,7 @@ _SCALAR_TYPE_NAMES = {
     ScalarType.NAME: "a name",
     ScalarType.EXPRESSION: "an expression",
     ScalarType.NUMBER: "a number greater than 0",
-    ScalarType.COUNT: "a whole number, 0 or greater",
+    ScalarType.COUNT: "an integer, 0 or greater",
     ScalarType.BOOLEAN: "true or false",
     ScalarType.TRUE: "true",
     ScalarType.VERSION: "a version",
@@ -40,8 +40,10 @@ class ScalarReader:
                 return node.text
             case ScalarType.NAME | ScalarType.EXPRESSION:
                 return self._read_name_or_expression(node, schema, path)
-            case ScalarType.NUMBER | ScalarType.COUNT:
-                return self._read_number(node, schema.scalar_type, path)
+            case ScalarType.NUMBER:
+                return self._read_number(node, path)
+            case ScalarType.COUNT:
+                return self._read_count(node, path)
             case ScalarType.BOOLEAN | ScalarType.TRUE:
                 return self._read_boolean(node, schema.scalar_type, path)
             case ScalarType.VERSION:
@@ -71,15 +73,19 @@ class ScalarReader:
             return None
         return node.text
 
-    def _read_number(self, node: YamlScalar, scalar_type: ScalarType, path: DesignPath) -> FormatValue | None:
+    def _read_number(self, node: YamlScalar, path: DesignPath) -> float | None:
         number = _parse_number(node)
-        if scalar_type is ScalarType.NUMBER:
-            is_valid = number is not None and number > 0
-        else:
-            is_valid = number is not None and number >= 0 and number.is_integer()
-        if not is_valid:
-            self.report_unexpected(node, _SCALAR_TYPE_NAMES[scalar_type], path)
-        return number if is_valid else None
+        if number is None or number <= 0:
+            self.report_unexpected(node, _SCALAR_TYPE_NAMES[ScalarType.NUMBER], path)
+            return None
+        return number
+
+    def _read_count(self, node: YamlScalar, path: DesignPath) -> int | None:
+        number = _parse_number(node)
+        if number is None or number < 0 or not number.is_integer():
+            self.report_unexpected(node, _SCALAR_TYPE_NAMES[ScalarType.COUNT], path)
+            return None
+        return int(number)
 
     def _read_boolean(self, node: YamlScalar, scalar_type: ScalarType, path: DesignPath) -> FormatValue | None:
         value = None if node.style else _BOOLEANS.get(node.text)

@@ -1,8 +1,9 @@
 """The types of schemas of which the format consists."""
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import KW_ONLY, dataclass, field
 from enum import StrEnum
+from typing import Any
 
 FormatValue = str | float | bool | tuple["FormatValue", ...]
 """A value in full notation; a mapping is a tuple of pairs (name, value)."""
@@ -15,7 +16,7 @@ class ScalarType(StrEnum):
     NAME = "name"
     EXPRESSION = "expression"
     NUMBER = "number greater than 0"
-    COUNT = "whole number from 0 up"
+    COUNT = "integer, 0 or greater"
     BOOLEAN = "true or false"
     TRUE = "true"
     VERSION = "version"
@@ -61,6 +62,10 @@ class MapSchema:
         shorthand_key: A scalar is the value of this key.
         allowed_keys: The valid names; empty if all names are valid.
         flow_width: Maximum line length for flow style, 0 for block style.
+        name_field: Field of the model that holds the name; empty if the model holds pairs of names and values.
+        entry_model: Class of the entries, unless the values are records.
+        value_field: Field of `entry_model` that holds the value.
+        wrapper: Class that holds the pairs as its `texts`.
     """
 
     description: str
@@ -69,9 +74,13 @@ class MapSchema:
     shorthand_key: str = ""
     allowed_keys: tuple[str, ...] = ()
     flow_width: int = 0
+    name_field: str = ""
+    entry_model: Callable[..., Any] | None = None
+    value_field: str = ""
+    wrapper: Callable[..., Any] | None = None
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, slots=True)
 class KeySchema:
     """A key of a record.
 
@@ -79,15 +88,24 @@ class KeySchema:
         default: The value of a missing key.
         keeps_empty: Whether an empty value differs from a missing key.
         shorthand_for: The key of which this one is the single-item form.
+        field: Field of the model, if its name differs from that of the key; "guard.when" is a field of a nested class.
+        constant: The only value of the key; the model has no field for it.
     """
 
     name: str
     schema: "ValueSchema"
     description: str
+    _: KW_ONLY
     required: bool = False
     default: FormatValue = ()
     keeps_empty: bool = False
     shorthand_for: str = ""
+    field: str = ""
+    constant: FormatValue | None = None
+
+    @property
+    def model_field(self) -> str:
+        return self.field or self.name
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -97,8 +115,10 @@ class RecordSchema:
     Attributes:
         shorthand_key: A value that is not a mapping is the value of this key. If the value of this key is a mapping
             itself, this also applies to mappings without this key.
-        one_of: Keys of which exactly one must be given.
-        missing_message: Message and fix if none of `one_of` is given.
+        model: Class of the model, if there are no variants.
+        variants: Class of the model by the key that selects it; exactly one of these keys must be given.
+        nested: Classes by the fields of the model that hold them.
+        missing_message: Message and fix if none of the `variants` is given.
         dependent_keys: Pairs of a key and the key that it requires.
         synonyms: Terms of other tools and the corresponding key.
         flow_width: Maximum line length for flow style, 0 for block style.
@@ -107,13 +127,18 @@ class RecordSchema:
     name: str
     description: str
     keys: tuple[KeySchema, ...]
+    model: type | None = None
+    variants: Mapping[str, type] = field(default_factory=dict)
+    nested: Mapping[str, type] = field(default_factory=dict)
     shorthand_key: str = ""
-    one_of: tuple[str, ...] = ()
     missing_message: tuple[str, str] = ("", "")
     dependent_keys: tuple[tuple[str, str], ...] = ()
     synonyms: Mapping[str, str] = field(default_factory=dict)
     flow_width: int = 0
-    is_item: bool = False
+
+    @property
+    def one_of(self) -> tuple[str, ...]:
+        return tuple(self.variants)
 
     def find_key(self, name: str) -> KeySchema | None:
         return next((key for key in self.keys if key.name == name), None)

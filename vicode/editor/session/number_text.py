@@ -60,6 +60,6 @@ def validate_count(text: str) -> str:
     return "" if is_count or not number else messages.INVALID_COUNT
 
 
-def parse_count(text: str) -> float | None:
+def parse_count(text: str) -> int | None:
     """The number of robots in a valid text, None for an empty one."""
-    return float(text) if text.strip() else None
+    return int(text) if text.strip() else None

@@ -164,8 +164,8 @@ class _ComponentPlanner:
             actions=self.plan_steps(state.all_actions, state.name, "actions"),
             leave=self.plan_steps(state.leave, state.name, "leave"),
             calls=self._called_designs(state),
-            capacity=None if state.capacity is None else int(state.capacity),
-            synchronized=None if state.synchronized is None else int(state.synchronized),
+            capacity=state.capacity,
+            synchronized=state.synchronized,
         )
 
     def _state_decisions(self, state: State) -> tuple[DecisionPlan, ...]:
