@@ -37,7 +37,7 @@ def open_player(page: Page, url: str) -> None:
     page.set_viewport_size({"width": 1366, "height": 768})
     page.goto(url + PLAYER)
     expect(page.locator('g[data-kind="state"]').first).to_be_visible()
-    expect(page.get_by_label("Doc").first).to_be_visible()
+    expect(page.get_by_label("Description").first).to_be_visible()
 
 
 @pytest.mark.parametrize("colours", ["light", pytest.param("dark", marks=pytest.mark.nightly)])
@@ -46,7 +46,7 @@ def test_axe_finds_nothing(editor: str, page: Page, colours: str) -> None:
     open_player(page, editor)
     found = {"design": complaints(page)}
     page.get_by_label("Inspector").get_by_text("Project Forward").click()
-    expect(page.get_by_label("Name of the project")).to_be_visible()
+    expect(page.get_by_label("Project name")).to_be_visible()
     found["project"] = complaints(page, ".inspector")
     select_state(page, "WatchBall")
     found["state"] = complaints(page)
@@ -103,12 +103,12 @@ def test_axe_finds_nothing_in_what_opens_over_the_page(editor: str, page: Page, 
     page.get_by_role("button", name="Generate").click()
     look("Write the generated code?")
     select_state(page, "Kick")
-    page.get_by_label("Doc").fill("mine")
-    page.get_by_label("Doc").blur()
+    page.get_by_label("Description").fill("mine")
+    page.get_by_label("Description").blur()
     expect(page.get_by_text("Unsaved changes")).to_be_visible()
     file = project / "forward" / "player.yaml"
     file.write_text(file.read_text().replace("Kick, with the eyes on the ball.", "theirs"))
-    page.get_by_role("button", name="Choose …").click()
+    page.get_by_role("button", name="Resolve…").click()
     look("player.yaml was changed by another program")
     text = "\n".join(f"{where}: {line}" for where, lines in found.items() for line in lines)
     assert not text, text
@@ -116,9 +116,9 @@ def test_axe_finds_nothing_in_what_opens_over_the_page(editor: str, page: Page, 
 
 def _look_at_the_plain_ones(page: Page, look: Callable[[str], None]) -> None:
     page.keyboard.press("?")
-    look("Keys and gestures")
+    look("Keyboard shortcuts and gestures")
     page.keyboard.press("u")
-    look("Use a component")
+    look("Add component")
     page.keyboard.press("Control+Shift+E")
     look("Export Player")
     for item, name in (("Rename everywhere", "Rename Turn"), ("Move to trash", "Move Turn to the trash?")):
@@ -146,7 +146,7 @@ def test_marks_are_told_apart_in_forced_colours_and_by_ear(editor: str, page: Pa
     page.keyboard.press("Tab")
     frame = "(each) => getComputedStyle(each).outlineStyle"
     assert page.locator(":focus").evaluate(frame) == "solid"
-    assert page.get_by_role("button", name="Drawing").evaluate(frame) == "solid"
+    assert page.get_by_role("button", name="Diagram").evaluate(frame) == "solid"
     assert page.get_by_role("button", name="Table").evaluate(frame) == "none"
 
 
@@ -157,7 +157,7 @@ def test_a_link_leads_past_everything_to_the_design(editor: str, page: Page) -> 
     expect(link).to_be_in_viewport()
     page.keyboard.press("Enter")
     page.keyboard.press("Tab")
-    expect(page.get_by_role("button", name="Drawing")).to_be_focused()
+    expect(page.get_by_role("button", name="Diagram")).to_be_focused()
 
 
 def test_a_page_is_dark_before_anything_has_loaded(editor: str, page: Page, console_errors: list[str]) -> None:
@@ -177,7 +177,7 @@ def test_a_page_is_dark_before_anything_has_loaded(editor: str, page: Page, cons
 def test_chosen_colours_are_kept(editor: str, page: Page) -> None:
     page.emulate_media(color_scheme="light")
     open_player(page, editor)
-    page.get_by_role("button", name="Light, dark, or as the system").click()
+    page.get_by_role("button", name="Theme").click()
     expect(page.locator("body.body--dark")).to_be_attached()
     page.wait_for_function("document.cookie.includes('vicode_colours=dark')")
     page.reload()
@@ -193,6 +193,6 @@ def test_at_twice_the_size_nothing_is_out_of_reach(editor: str, page: Page) -> N
         button = page.get_by_role("button", name=name, exact=name != "Generate").first
         button.scroll_into_view_if_needed()
         expect(button).to_be_in_viewport(ratio=1)
-    page.get_by_label("Doc").first.scroll_into_view_if_needed()
-    expect(page.get_by_label("Doc").first).to_be_in_viewport()
+    page.get_by_label("Description").first.scroll_into_view_if_needed()
+    expect(page.get_by_label("Description").first).to_be_in_viewport()
     assert page.evaluate("document.querySelector('.shell').scrollWidth <= innerWidth")

@@ -11,8 +11,8 @@ expect.set_options(timeout=20_000)
 
 
 def type_doc(page: Page, text: str) -> None:
-    page.get_by_role("textbox", name="Doc").fill(text)
-    page.get_by_role("textbox", name="Doc").blur()
+    page.get_by_role("textbox", name="Description").fill(text)
+    page.get_by_role("textbox", name="Description").blur()
 
 
 def test_unsaved_work_survives_a_killed_server(
@@ -30,13 +30,13 @@ def test_unsaved_work_survives_a_killed_server(
     with started_editor(project, tmp_path / "storage") as url:
         open_player(page, url)
         expect(page.get_by_text("Recover the unsaved changes of Player")).to_be_visible()
-        page.get_by_text("See the differences").click()
+        page.get_by_text("Show differences").click()
         expect(page.locator(".diff-line.added").get_by_text("worth keeping")).to_be_visible()
         page.get_by_role("button", name="Recover").click()
         expect(page.get_by_text("Recovered the changes of Player")).to_be_visible()
         expect(page.get_by_role("dialog")).to_have_count(0)
         select_state(page, "Kick")
-        expect(page.get_by_role("textbox", name="Doc")).to_have_value("worth keeping")
+        expect(page.get_by_role("textbox", name="Description")).to_have_value("worth keeping")
         page.reload()
         expect(page.get_by_text("Unsaved changes")).to_be_visible()
         expect(page.get_by_text("Recover the unsaved changes")).to_have_count(0)
@@ -65,17 +65,17 @@ def test_a_clash_with_the_file_is_settled_place_by_place(
     file.write_text(text.replace("Kick, with the eyes on the ball.", "theirs of Kick"))
 
     # It is said at once, and nothing is taken before somebody chooses.
-    expect(page.get_by_text("Changed on disk, too")).to_be_visible()
+    expect(page.get_by_text("Conflict: file changed on disk")).to_be_visible()
     # Whoever works on may touch more of it.
     select_state(page, "Kick")
     type_doc(page, "mine of Kick")
-    page.get_by_role("button", name="Choose …").click()
-    second_window.get_by_role("button", name="Choose …").click()
+    page.get_by_role("button", name="Resolve…").click()
+    second_window.get_by_role("button", name="Resolve…").click()
     dialog = page.get_by_role("dialog")
     expect(dialog.get_by_text("doc of state LookForBall")).to_be_visible()
     expect(dialog.get_by_text("doc of state Kick")).to_be_visible()
     dialog.get_by_role("button", name="On disk").nth(1).click()
-    dialog.get_by_role("button", name="Save as chosen").click()
+    dialog.get_by_role("button", name="Save merged version").click()
     expect(page.get_by_text("Saved", exact=True).first).to_be_visible()
     after = file.read_text()
     assert "mine of LookForBall" in after
@@ -83,8 +83,8 @@ def test_a_clash_with_the_file_is_settled_place_by_place(
     assert "frequency: 20  # faster" in after
 
     # Whoever answers too late is told so, and changes nothing.
-    second_window.get_by_role("button", name="Keep yours").click()
-    expect(second_window.get_by_text("It was settled meanwhile")).to_be_visible()
+    second_window.get_by_role("button", name="Keep your version").click()
+    expect(second_window.get_by_text("The conflict is already resolved")).to_be_visible()
     assert file.read_text() == after
 
     # What was not taken is in the history.
@@ -101,7 +101,7 @@ def test_what_does_not_touch_is_merged_and_said(editor: str, page: Page, project
     file.write_text(file.read_text().replace("WatchBall", "Rest"))
     expect(page.get_by_text("Merged changes that another program wrote")).to_be_visible()
     expect(page.locator('g[data-kind="state"][data-id="Rest"]')).to_be_visible()
-    expect(page.get_by_role("textbox", name="Doc")).to_have_value("mine")
+    expect(page.get_by_role("textbox", name="Description")).to_have_value("mine")
     expect(page.get_by_text("Unsaved changes")).to_be_visible()
 
 
@@ -110,10 +110,10 @@ def test_a_project_saves_by_itself_when_asked_to(editor: str, page: Page, projec
     page.keyboard.press("Control+k")
     page.keyboard.type("save by itself")
     page.keyboard.press("Enter")
-    expect(page.get_by_text("Saved · saves by itself")).to_be_visible()
+    expect(page.get_by_text("Saved · Autosave on")).to_be_visible()
     select_state(page, "Kick")
     type_doc(page, "saved by itself")
-    expect(page.get_by_text("Saved · saves by itself")).to_be_visible()
+    expect(page.get_by_text("Saved · Autosave on")).to_be_visible()
     for _attempt in range(200):
         if "saved by itself" in (project / "forward" / "player.yaml").read_text():
             break
@@ -128,9 +128,9 @@ def test_the_history_leads_to_any_point_by_mouse_and_keys(editor: str, page: Pag
         type_doc(page, text)
         page.get_by_label("Initial").click()
     # What is typed just before a reload is not lost.
-    page.get_by_role("textbox", name="Doc").fill("three")
+    page.get_by_role("textbox", name="Description").fill("three")
     page.reload()
-    expect(page.get_by_role("textbox", name="Doc")).to_have_value("three")
+    expect(page.get_by_role("textbox", name="Description")).to_have_value("three")
     page.get_by_role("tab", name="History").click()
     rows = page.get_by_role("group", name="History").get_by_role("button")
     expect(rows.first).to_have_attribute("aria-current", "step")

@@ -26,7 +26,7 @@ def test_a_broken_file_is_mended_in_the_browser(editor: str, page: Page, project
     page.keyboard.press("Control+End")
     page.keyboard.press("Backspace")
     page.keyboard.type("}")
-    expect(page.get_by_text("No mistakes: save it to open the design")).to_be_visible()
+    expect(page.get_by_text("No errors. Save to open the design.")).to_be_visible()
     page.keyboard.press("Control+s")
     expect(state(page, "Up")).to_be_visible()
     assert file.read_text() == "vicode: 1\ncomponent: Wave\ninitial: Up\nstates: {Up: {}}"

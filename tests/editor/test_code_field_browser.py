@@ -55,7 +55,7 @@ def test_a_guard_is_completed_marked_and_left_by_keyboard(editor: str, page: Pag
     page.keyboard.type(" > lost_af")
     accept(page, "lost_after")
     expect(page.locator(".squiggle")).to_have_count(0)
-    expect(findings(page).get_by_text("the design is sound")).to_be_visible()
+    expect(findings(page).get_by_text("No problems found")).to_be_visible()
 
     # Several lines; Tab leaves like any field.
     page.keyboard.press("Enter")
@@ -136,7 +136,7 @@ def test_panels_are_made_larger_and_stay_so(editor: str, page: Page) -> None:
     expect(side).to_have_css("width", "468px")
     grip.press("ArrowLeft")
     expect(side).to_have_css("width", "500px")
-    dock, grip_below = page.locator(".dock-panels"), page.get_by_role("separator", name="Height of the panels below")
+    dock, grip_below = page.locator(".dock-panels"), page.get_by_role("separator", name="Height of the bottom panel")
     expect(dock).to_have_css("height", "104px")
     grip_below.press("ArrowUp")
     expect(dock).to_have_css("height", "128px")

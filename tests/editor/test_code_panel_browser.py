@@ -50,7 +50,7 @@ def test_every_file_can_be_chosen_and_follows_the_design(editor: str, page: Page
     page.get_by_role("option", name="player.py").click()
     page.get_by_role("tab", name="Inspect").click()
     select_state(page, "LookForBall")
-    page.get_by_label("Doc", exact=True).first.fill("Turn around, slowly.")
+    page.get_by_label("Description", exact=True).first.fill("Turn around, slowly.")
     page.get_by_role("tab", name="Generated code").click()
     expect(page.locator(".preview")).to_contain_text("Turn around, slowly.")
 
@@ -73,18 +73,18 @@ def test_what_would_be_written_is_shown_first(editor: str, page: Page, project: 
 
     # Nothing changed: straight through.
     page.get_by_role("button", name="Generate", exact=True).click()
-    expect(told(page).filter(has_text="is up to date")).to_be_visible()
+    expect(told(page).filter(has_text="up to date")).to_be_visible()
 
     # One line changed: the diff shows it, and from now on nobody asks.
     select_state(page, "LookForBall")
-    page.get_by_label("Doc", exact=True).first.fill("Turn around <b>slowly</b>.")
+    page.get_by_label("Description", exact=True).first.fill("Turn around <b>slowly</b>.")
     page.get_by_role("button", name="Generate", exact=True).click()
     changed = dialog.locator("tr.changed", has_text="Turn around <b>slowly</b>.")
     expect(changed).to_be_visible()
-    dialog.get_by_role("checkbox", name="Do not ask again").click()
+    dialog.get_by_role("checkbox", name="Don't ask again").click()
     dialog.get_by_role("button", name="Write").click()
     expect(dialog).to_have_count(0)
-    page.get_by_label("Doc", exact=True).first.fill("Turn around.")
+    page.get_by_label("Description", exact=True).first.fill("Turn around.")
     page.get_by_role("button", name="Generate", exact=True).click()
     while "Turn around." not in code(project).read_text():
         page.wait_for_timeout(50)
@@ -101,7 +101,7 @@ def test_code_edited_by_hand_is_shown_and_kept(editor: str, page: Page, project:
     file = code(project)
     file.write_text(file.read_text().replace("import logging\n", "import logging\nimport math\n"))
     select_state(page, "LookForBall")
-    page.get_by_label("Doc", exact=True).first.fill("Another doc.")
+    page.get_by_label("Description", exact=True).first.fill("Another doc.")
     open_code(page)
     expect(page.get_by_text("Edited by hand on disk: module")).to_be_visible()
     page.keyboard.press("Escape")
@@ -110,7 +110,7 @@ def test_code_edited_by_hand_is_shown_and_kept(editor: str, page: Page, project:
     expect(page.locator(".preview .is-edited").first).to_be_visible()
     page.get_by_role("button", name="Generate", exact=True).click()
     expect(dialog.get_by_text("the code of region 'module' was edited here")).to_be_visible()
-    dialog.get_by_role("button", name="Keep the edits as .edited, and write").click()
+    dialog.get_by_role("button", name="Back up edits as .edited and write").click()
     expect(dialog).to_have_count(0)
     expect(told(page).filter(has_text="Generated player.py")).to_have_count(1)
     assert "import math" not in file.read_text()

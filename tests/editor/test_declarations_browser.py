@@ -113,7 +113,7 @@ def test_a_new_name_that_others_say_is_written_everywhere(editor: str, page: Pag
     steps = other.get_by_role("group", name="History").get_by_role("button")
     expect(steps.filter(has_text="redo rename forward to ahead")).to_be_visible()
     steps.filter(has_text="open").last.click()
-    other.get_by_role("dialog").get_by_role("button", name="Go there").click()
+    other.get_by_role("dialog").get_by_role("button", name="Go to step").click()
     expect(name_of(page, "parameter forward")).to_have_value("forward")
     assert {file.name: file.read_text() for file in folder.glob("*.yaml")} == before
 
@@ -121,11 +121,11 @@ def test_a_new_name_that_others_say_is_written_everywhere(editor: str, page: Pag
 def test_what_few_need_stands_in_folds(editor: str, page: Page, project: Path) -> None:
     open_design(page, editor, "Player?select=Kick")
     page.get_by_text("Team and XABSL").click()
-    capacity = page.get_by_label("Capacity: robots in it at once")
+    capacity = page.get_by_label("Capacity (robots in this state at once)")
     capacity.fill("many")
     expect(page.get_by_text("enter a whole number of robots")).to_be_visible()
     capacity.fill("1")
-    page.get_by_label("Synchronized: robots that enter at once").fill("2")
+    page.get_by_label("Synchronized (robots that enter together)").fill("2")
     page.get_by_label("Name in XABSL").fill("strike")
     # A form that is built anew keeps its folds open.
     page.get_by_label("State", exact=True).fill("Strike")
@@ -140,8 +140,8 @@ def test_what_few_need_stands_in_folds(editor: str, page: Page, project: Path) -
 def test_a_new_assignment_begins_with_a_value_that_can_stand_there(editor: str, page: Page) -> None:
     open_design(page, editor, "Player")
     page.get_by_role("button", name="Add to actions: Set").click()
-    expect(page.get_by_role("textbox", name="name = expression, a line each")).to_have_text("kick = Kick.front")
-    expect(page.get_by_text("No findings: the design is sound")).to_be_visible()
+    expect(page.get_by_role("textbox", name="name = expression, one per line")).to_have_text("kick = Kick.front")
+    expect(page.get_by_text("No findings: problems found")).to_be_visible()
 
 
 def test_what_the_project_declares_is_written_into_its_file(editor: str, page: Page, project: Path) -> None:
@@ -150,7 +150,7 @@ def test_what_the_project_declares_is_written_into_its_file(editor: str, page: P
     open_design(page, editor, "Turn")
     page.get_by_text("Project Forward").click()
     kick = page.get_by_role("group", name="enumeration Kick")
-    kick.get_by_text("Internal: XABSL's engine numbers its elements").click()
+    kick.get_by_text("Internal (elements numbered by the XABSL engine)").click()
     expect(page.get_by_text("project.yaml is written: Kick")).to_be_visible()
     assert "    internal: true\n" in (folder / "project.yaml").read_text()
     page.get_by_role("status").get_by_role("button", name="Undo").click()

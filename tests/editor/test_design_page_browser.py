@@ -60,7 +60,7 @@ def test_what_a_person_does(editor: str, page: Page, project: Path) -> None:
     expect(page.get_by_label("Findings").get_by_text("did you mean 'ball_seen'?")).to_be_visible()
     guard.fill("perception.ball_seen")
     expect(page.get_by_label("Findings").get_by_text("did you mean 'ball_seen'?")).to_have_count(0)
-    page.get_by_label("After, seconds in this state").fill("7")
+    page.get_by_label("After (seconds in this state)").fill("7")
     expect(page.locator('g[data-kind="transition"][aria-label*="7 s"]').first).to_be_visible()
 
     # Undo and redo.
@@ -92,7 +92,7 @@ def test_who_renames_a_state_types_on_in_the_next_field(editor: str, page: Page)
     # D disables what is selected, F makes it final, N makes a transition: not while one types.
     page.keyboard.type(" Defend now.")
     expect(page.get_by_label("State", exact=True)).to_have_value("Shoot")
-    expect(page.get_by_role("textbox", name="Doc")).to_have_value("Kick, with the eyes on the ball. Defend now.")
+    expect(page.get_by_role("textbox", name="Description")).to_have_value("Kick, with the eyes on the ball. Defend now.")
     page.get_by_role("tab", name="History").click()
     expect(page.get_by_role("group", name="History").get_by_role("button")).to_have_count(3)
 
@@ -124,10 +124,10 @@ def test_a_double_click_on_an_arrow_leads_to_its_guard(editor: str, page: Page, 
 
     # What was typed just now is taken over by a press on the drawing, and by the key that saves.
     kick = centre_of(page, "Kick")
-    page.get_by_label("After, seconds in this state").fill("8")
+    page.get_by_label("After (seconds in this state)").fill("8")
     page.mouse.click(*kick)
     expect(page.get_by_label("State", exact=True)).to_have_value("Kick")
-    page.get_by_label("Doc", exact=True).fill("Shoots.")
+    page.get_by_label("Description", exact=True).fill("Shoots.")
     saved = save(page, project / "forward" / "player.yaml")
     assert "after: 8" in saved
     assert "doc: Shoots." in saved
@@ -147,14 +147,14 @@ def test_what_is_asked_before_the_page_can_speak_is_done_when_it_can(editor: str
     page.goto(editor + PLAYER)
     expect(state(page, "LookForBall")).to_be_visible()
     page.keyboard.press("F4")
-    page.get_by_role("button", name="Light, dark, or as the system").click()
+    page.get_by_role("button", name="Theme").click()
     page.keyboard.press("Control+k")
-    page.keyboard.type("save by it")
+    page.keyboard.type("toggle auto")
     page.evaluate("window.maySpeak = true")
-    expect(page.get_by_role("option", name="Save by itself")).to_be_visible()
+    expect(page.get_by_role("option", name="Toggle autosave")).to_be_visible()
     page.keyboard.press("Escape")
     expect(page.get_by_role("treegrid")).to_be_visible()
-    expect(page.get_by_text("Dark colours")).to_be_visible()
+    expect(page.get_by_text("Theme: dark")).to_be_visible()
 
 
 def test_a_state_made_before_the_drawing_is_known_to_be_there_is_named(editor: str, page: Page) -> None:
@@ -203,7 +203,7 @@ def test_a_file_changed_outside_is_not_overwritten(editor: str, page: Page, proj
     file = project / "forward" / "player.yaml"
     open_player(page, editor)
     select_state(page, "LookForBall")
-    page.get_by_label("Doc").fill("mine")
+    page.get_by_label("Description").fill("mine")
     expect(page.get_by_text("Unsaved changes")).to_be_visible()
     theirs = file.read_text().replace("component: Player", "component: Player  # the striker")
     theirs = theirs.replace("Look around until the ball is seen.", "theirs")
@@ -211,8 +211,8 @@ def test_a_file_changed_outside_is_not_overwritten(editor: str, page: Page, proj
     page.get_by_role("button", name="Save").click()
     expect(page.get_by_text("was changed by another program")).to_be_visible()
     assert file.read_text() == theirs
-    page.get_by_role("button", name="Keep yours").click()
-    expect(page.get_by_text("Saved over the change on disk")).to_be_visible()
+    page.get_by_role("button", name="Keep your version").click()
+    expect(page.get_by_text("Saved your version")).to_be_visible()
     assert "# the striker" in file.read_text()
     assert "mine" in file.read_text()
 
@@ -221,7 +221,7 @@ def test_texts_from_strangers_stay_texts(editor: str, page: Page) -> None:
     evil = "<img src=x onerror=\"document.title='owned'\">"
     open_player(page, editor)
     select_state(page, "LookForBall")
-    page.get_by_label("Doc").fill(evil)
+    page.get_by_label("Description").fill(evil)
     page.locator(".decision").first.click()
     page.get_by_label("When", exact=True).fill(evil)
     expect(page.get_by_label("Findings").locator(".finding").first).to_be_visible()
@@ -235,17 +235,17 @@ def test_texts_from_strangers_stay_texts(editor: str, page: Page) -> None:
 
 def test_keys_work_wherever_the_focus_is(editor: str, page: Page, project: Path) -> None:
     open_player(page, editor)
-    page.get_by_label("Doc").first.fill("by keys")
-    page.get_by_label("Doc").first.blur()
+    page.get_by_label("Description").first.fill("by keys")
+    page.get_by_label("Description").first.blur()
     expect(page.get_by_text("Unsaved changes")).to_be_visible()
     page.keyboard.press("Control+s")
     expect(page.get_by_text("Unsaved changes")).to_have_count(0)
     assert "by keys" in (project / "forward" / "player.yaml").read_text()
     page.keyboard.press("Control+z")
     expect(page.get_by_text("Unsaved changes")).to_be_visible()
-    expect(page.get_by_label("Doc").first).not_to_have_value("by keys")
+    expect(page.get_by_label("Description").first).not_to_have_value("by keys")
     page.keyboard.press("Control+Shift+Z")
-    expect(page.get_by_label("Doc").first).to_have_value("by keys")
+    expect(page.get_by_label("Description").first).to_have_value("by keys")
     expect(page.get_by_text("Unsaved changes")).to_have_count(0)
 
 

@@ -14,13 +14,13 @@ def test_the_page_of_a_design_follows_what_is_edited(editor: str, page: Page, pr
     open_player(page, editor)
     select_state(page, "Kick")
     with page.context.expect_page() as opened:
-        page.get_by_role("button", name="Show its page beside the editor").click()
+        page.get_by_role("button", name="Open documentation").click()
     shown = opened.value
     expect(shown.locator("#state-Kick")).to_be_in_viewport()
     assert shown.url.endswith("/docs/forward/component-Player.html#state-Kick")
 
     page.bring_to_front()
-    page.get_by_label("Doc", exact=True).fill("Shoots <b>hard</b>.")
+    page.get_by_label("Description", exact=True).fill("Shoots <b>hard</b>.")
     page.keyboard.press("Tab")
     expect(page.get_by_text("Unsaved changes").first).to_be_visible()
     shown.bring_to_front()

@@ -51,7 +51,7 @@ def test_what_is_selected_is_taken_out_alone_as_it_is_now(editor: str, page: Pag
     choose(page, dialog, "Format", "Mermaid")
     expect(dialog.get_by_label("Preview")).to_contain_text("Shoot")
     expect(dialog.get_by_label("Preview")).not_to_contain_text("LookForBall")
-    choose(page, dialog, "What", "Everything")
+    choose(page, dialog, "Scope", "Whole diagram")
     expect(dialog.get_by_label("Preview")).to_contain_text("LookForBall --> FollowBall")
 
 
@@ -73,4 +73,4 @@ def test_what_the_browser_does_not_allow_is_told(editor: str, page: Page) -> Non
     page.keyboard.press("Control+k")
     page.keyboard.type("copy as plantuml")
     page.keyboard.press("Enter")
-    expect(page.get_by_text("The browser let nothing be put on the clipboard")).to_be_visible()
+    expect(page.get_by_text("Clipboard access denied")).to_be_visible()

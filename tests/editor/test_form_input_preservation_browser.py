@@ -17,11 +17,11 @@ def rename_kick(page: Page, url: str, line: SlowConnection) -> None:
     page.set_viewport_size({"width": 1366, "height": 768})
     page.goto(url + "design/forward/Player?select=Kick")
     expect(page.get_by_label("State", exact=True)).to_have_value("Kick")
-    expect(page.get_by_role("textbox", name="Doc")).to_have_value("Kick, with the eyes on the ball.")
+    expect(page.get_by_role("textbox", name="Description")).to_have_value("Kick, with the eyes on the ball.")
     line.hold()
     page.get_by_label("State", exact=True).fill("Shoot")
     page.keyboard.press("Tab")
-    expect(page.get_by_role("textbox", name="Doc")).to_be_focused()
+    expect(page.get_by_role("textbox", name="Description")).to_be_focused()
     page.keyboard.press("End")
     page.keyboard.type(" Defend now.")
 
@@ -46,7 +46,7 @@ def test_what_was_left_before_the_new_form_came_is_kept(
             page.keyboard.press("Control+s")
     line.release()
     expect(page.get_by_label("State", exact=True)).to_have_value("Shoot")
-    expect(page.get_by_role("textbox", name="Doc")).to_have_value("Kick, with the eyes on the ball. Defend now.")
+    expect(page.get_by_role("textbox", name="Description")).to_have_value("Kick, with the eyes on the ball. Defend now.")
     if way == "saving":
         wait_for_another(page, file, before)
     else:
@@ -61,10 +61,10 @@ def test_who_stays_in_the_field_types_on_in_the_new_one(
     rename_kick(page, editor, line)
     line.release()
     page.keyboard.type(" And then.")
-    expect(page.get_by_role("textbox", name="Doc")).to_have_value(
+    expect(page.get_by_role("textbox", name="Description")).to_have_value(
         "Kick, with the eyes on the ball. Defend now. And then."
     )
-    expect(page.get_by_role("textbox", name="Doc")).to_be_focused()
+    expect(page.get_by_role("textbox", name="Description")).to_be_focused()
     expect(page.get_by_label("State", exact=True)).to_have_value("Shoot")
     file = project / "forward" / "player.yaml"
     save(page, file)
@@ -74,7 +74,7 @@ def test_who_stays_in_the_field_types_on_in_the_new_one(
 def kick_hard(other: Page, url: str, name: str = "Shoot") -> Locator:
     """Another one's change of the same text, once the server has it; the field it stands in."""
     other.goto(f"{url}design/forward/Player?select={name}")
-    doc = other.get_by_role("textbox", name="Doc")
+    doc = other.get_by_role("textbox", name="Description")
     expect(doc).to_have_value("Kick, with the eyes on the ball.")
     doc.fill("Kick hard, with the eyes on the ball.")
     doc.blur()
@@ -87,7 +87,7 @@ def doc_of_kick(page: Page, url: str, line: SlowConnection) -> Locator:
     """The field of a doc that the window shows, from now on behind a slow line."""
     open_player(page, url)
     select_state(page, "Kick")
-    doc = page.get_by_role("textbox", name="Doc")
+    doc = page.get_by_role("textbox", name="Description")
     expect(doc).to_have_value("Kick, with the eyes on the ball.")
     line.hold()
     return doc
@@ -100,7 +100,7 @@ def test_what_others_make_of_the_text_meanwhile_stays(
     doc = kick_hard(other, editor)
     line.release()
     page.keyboard.type(" And then.")
-    expect(page.get_by_role("textbox", name="Doc")).to_have_value(
+    expect(page.get_by_role("textbox", name="Description")).to_have_value(
         "Kick, with the eyes on the ball. Defend now. And then."
     )
     expect(doc).to_have_value("Kick hard, with the eyes on the ball. Defend now. And then.")
@@ -115,7 +115,7 @@ def test_what_is_told_twice_is_in_the_text_once(editor: str, page: Page, other: 
     line.release()
     both = "Kick hard, with the eyes on the ball. Defend now. And then."
     expect(doc).to_have_value(both)
-    expect(page.get_by_role("textbox", name="Doc")).to_have_value(both)
+    expect(page.get_by_role("textbox", name="Description")).to_have_value(both)
 
 
 def test_what_is_told_twice_of_a_form_that_went_is_in_the_text_once(
@@ -155,8 +155,8 @@ def test_what_is_typed_into_a_wide_editor_until_it_closes_is_kept(
     page.keyboard.type(" and second")
     line.release()
     expect(page.get_by_role("dialog")).to_have_count(0)
-    expect(page.get_by_text("Somebody else removed, renamed or moved")).to_be_visible()
-    expect(page.get_by_text("Somebody else changed the order")).to_have_count(0)
+    expect(page.get_by_text("Another user removed, renamed or moved")).to_be_visible()
+    expect(page.get_by_text("Another user changed the order")).to_have_count(0)
     expect(code).to_contain_text("first and second")
     expect(page.get_by_label("Inspector").locator(".cm-content").first).to_contain_text("first and second")
 
@@ -218,7 +218,7 @@ def test_several_presses_that_come_too_early_are_all_done(editor: str, page: Pag
     select_state(page, "GetUp")
     line.hold()
     for _ in range(3):
-        page.get_by_role("button", name="Add: Stay").click()
+        page.get_by_role("button", name="Add Stay").click()
     line.release()
     expect(page.get_by_label("Inspector").get_by_text("stay", exact=True)).to_have_count(3)
 
@@ -239,7 +239,7 @@ def test_a_press_on_what_is_built_anew_before_the_hand_lets_go(editor: str, page
 def test_a_press_on_what_moves_away_before_the_hand_lets_go(editor: str, page: Page, line: SlowConnection) -> None:
     open_player(page, editor)
     select_state(page, "GetUp")
-    add = page.get_by_role("button", name="Add: Stay")
+    add = page.get_by_role("button", name="Add Stay")
     rows = page.get_by_label("Inspector").get_by_text("stay", exact=True)
     line.hold()
     add.click()
@@ -255,6 +255,6 @@ def test_each_press_on_what_is_there_is_done_once(editor: str, page: Page, proje
     open_player(page, editor)
     select_state(page, "GetUp")
     for _ in range(3):
-        page.get_by_role("button", name="Add: Stay").click()
+        page.get_by_role("button", name="Add Stay").click()
     expect(page.get_by_label("Inspector").get_by_text("stay", exact=True)).to_have_count(3)
     assert save(page, project / "forward" / "player.yaml").count("stay: true") == 3

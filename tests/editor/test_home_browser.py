@@ -48,8 +48,8 @@ def test_cards_show_what_there_is_and_lead_there(editor: str, page: Page, projec
     expect(card(page, "Wobbly")).to_contain_text("error")
     expect(card(page, "Wobbly")).to_contain_text("<img src=x")
     expect(page.get_by_role("article").filter(has_text="broken.yaml")).to_contain_text("Line 3")
-    expect(card(page, "Player")).to_contain_text("Starts here")
-    expect(card(page, "Player")).to_contain_text("Sound")
+    expect(card(page, "Player")).to_contain_text("Root of an agent")
+    expect(card(page, "Player")).to_contain_text("No problems found")
     picture = card(page, "Player").locator("img.is-light")
     expect(picture).to_have_js_property("complete", value=True)
     assert picture.evaluate("image => image.naturalWidth") > 100

@@ -80,7 +80,7 @@ def test_nothing_runs_and_nothing_breaks_out(editor: str, page: Page, payload: s
     page.goto(editor + "design/evil/Player")
     seek = page.locator('g[data-kind="state"][data-id="Seek"]')
     expect(seek).to_be_visible()
-    expect(page.get_by_label("Doc").first).to_have_value(payload)
+    expect(page.get_by_label("Description").first).to_have_value(payload)
     expect(page.locator(".finding").first).to_be_visible()
     assert_harmless(page)
     seek.click()
@@ -89,7 +89,7 @@ def test_nothing_runs_and_nothing_breaks_out(editor: str, page: Page, payload: s
     for decision in page.locator(".decision").all()[:3]:
         decision.hover()
     page.locator(".decision").first.click()
-    expect(page.get_by_label("Doc").first).to_have_value(payload)
+    expect(page.get_by_label("Description").first).to_have_value(payload)
     look_at_everything(page)
     page.get_by_role("button", name="Save", exact=True).click()
     page.get_by_role("button", name="Generate").click()

@@ -36,7 +36,7 @@ def test_a_fault_is_told_and_the_page_goes_on(page: Page, project: Path, tmp_pat
                 time.sleep(0.05)
             open_player(page, found[0])
             page.get_by_role("button", name="Generate", exact=True).click()
-            expect(page.get_by_text("vicode failed at this")).to_be_visible()
+            expect(page.get_by_text("Internal error")).to_be_visible()
             page.get_by_role("tab", name="History").click()
             expect(page.get_by_role("tab", name="History", selected=True)).to_be_visible()
         finally:

@@ -93,7 +93,7 @@ def test_what_is_found_in_another_design_is_opened_and_selected(editor: str, pag
     expect(selected_option(page)).to_contain_text("OtherSide → Complete")
     selected_option(page).click()
     expect(page).to_have_url(re.compile(r"/SearchNet\?select=OtherSide/1$"))
-    expect(page.get_by_label("After, seconds in this state")).to_have_value("6")
+    expect(page.get_by_label("After (seconds in this state)")).to_have_value("6")
 
 
 def test_commands_are_found_with_their_keys_and_done(editor: str, page: Page) -> None:
@@ -109,7 +109,7 @@ def test_commands_are_found_with_their_keys_and_done(editor: str, page: Page) ->
 def test_nothing_found_is_said(editor: str, page: Page) -> None:
     open_player(page, editor)
     open_palette(page, "<img src=x onerror=alert(1)>")
-    expect(palette(page).get_by_role("status")).to_contain_text("Nothing found")
+    expect(palette(page).get_by_role("status")).to_contain_text("No results")
     expect(palette(page).get_by_role("option")).to_have_count(0)
 
 
@@ -118,7 +118,7 @@ def test_a_link_selects_and_shows_a_thing(editor: str, page: Page) -> None:
     expect(page.get_by_label("State", exact=True)).to_have_value("Kick")
     expect(state(page, "Kick")).to_have_class(re.compile("selected"))
     page.goto(editor + "design/forward/Player?select=Nobody")
-    expect(page.get_by_label("Doc").first).to_be_visible()
+    expect(page.get_by_label("Description").first).to_be_visible()
 
 
 def test_double_clicks_lead_down_and_crumbs_and_back_lead_up(editor: str, page: Page) -> None:
@@ -126,7 +126,7 @@ def test_double_clicks_lead_down_and_crumbs_and_back_lead_up(editor: str, page: 
     select_state(page, "Kick")
     component(page, "face_ball").dblclick()
     expect(page).to_have_url(re.compile(r"/FaceBall\?from=Player$"))
-    way = page.get_by_role("navigation", name="Way here")
+    way = page.get_by_role("navigation", name="Breadcrumb")
     expect(way).to_contain_text("Forward/Player/FaceBall")
     page.go_back()
     # The double click selected what was opened: that is what one comes back to.

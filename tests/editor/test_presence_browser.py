@@ -11,16 +11,16 @@ expect.set_options(timeout=20_000)
 
 
 def take_name(page: Page, name: str) -> None:
-    page.get_by_role("button", name="change your name").click()
+    page.get_by_role("button", name="Change your name").click()
     page.get_by_role("dialog").get_by_label("Name").fill(name)
-    page.get_by_role("button", name="Use this name").click()
+    page.get_by_role("button", name="Change name").click()
     expect(page.get_by_role("button", name=f"You are {name}")).to_be_visible()
 
 
 def test_people_see_each_other(editor: str, page: Page, other: Page) -> None:
     open_player(page, editor)
     # Who is asked for a name goes on writing it while somebody comes.
-    page.get_by_role("button", name="change your name").click()
+    page.get_by_role("button", name="Change your name").click()
     page.get_by_role("dialog").get_by_label("Name").fill("Ada")
     open_player(other, editor)
     expect(page.get_by_role("img", name="Guest 2")).to_be_visible()
@@ -36,10 +36,10 @@ def test_people_see_each_other(editor: str, page: Page, other: Page) -> None:
     expect(page.locator(".tag").get_by_text("Ben <b>")).to_be_visible()
     expect(page.get_by_role("img", name="Ben <b>: state Kick")).to_be_visible()
     select_state(page, "Kick")
-    other.get_by_role("textbox", name="Doc").click()
-    expect(page.get_by_text("Ben <b> types here too")).to_be_visible()
-    other.get_by_role("textbox", name="Doc").blur()
-    expect(page.get_by_text("types here too")).to_have_count(0)
+    other.get_by_role("textbox", name="Description").click()
+    expect(page.get_by_text("Ben <b> is also typing here")).to_be_visible()
+    other.get_by_role("textbox", name="Description").blur()
+    expect(page.get_by_text("is also typing here")).to_have_count(0)
 
     # Pointers are shown while they are over the drawing.
     other.mouse.move(700, 300)
@@ -62,30 +62,30 @@ def test_undo_takes_back_ones_own_work_only(editor: str, page: Page, other: Page
     expect(state(other, "Pause")).to_be_visible()
     expect(other.get_by_role("button", name="Undo")).to_be_disabled()
     select_state(other, "LookForBall")
-    other.get_by_role("textbox", name="Doc").fill("theirs")
-    other.get_by_role("textbox", name="Doc").blur()
+    other.get_by_role("textbox", name="Description").fill("theirs")
+    other.get_by_role("textbox", name="Description").blur()
     expect(page.locator('.outline[data-at="s:LookForBall"]')).to_be_visible()
     select_state(page, "LookForBall")
-    expect(page.get_by_role("textbox", name="Doc")).to_have_value("theirs")
+    expect(page.get_by_role("textbox", name="Description")).to_have_value("theirs")
 
     # Ben's edit came last: this undo takes the name, then the state, out below it.
     page.get_by_role("button", name="Undo").click()
     page.get_by_role("button", name="Undo").click()
     expect(state(other, "Pause")).to_have_count(0)
-    expect(page.get_by_role("textbox", name="Doc")).to_have_value("theirs")
+    expect(page.get_by_role("textbox", name="Description")).to_have_value("theirs")
     page.get_by_role("button", name="Redo").click()
     expect(state(other, "State")).to_be_visible()
 
     # What Ben changed since is not undone, and it is said.
-    page.get_by_role("textbox", name="Doc").fill("mine")
-    page.get_by_role("textbox", name="Doc").blur()
-    expect(other.get_by_role("textbox", name="Doc")).to_have_value("mine")
-    other.get_by_role("textbox", name="Doc").fill("changed again")
-    other.get_by_role("textbox", name="Doc").blur()
-    expect(page.get_by_role("textbox", name="Doc")).to_have_value("changed again")
+    page.get_by_role("textbox", name="Description").fill("mine")
+    page.get_by_role("textbox", name="Description").blur()
+    expect(other.get_by_role("textbox", name="Description")).to_have_value("mine")
+    other.get_by_role("textbox", name="Description").fill("changed again")
+    other.get_by_role("textbox", name="Description").blur()
+    expect(page.get_by_role("textbox", name="Description")).to_have_value("changed again")
     page.get_by_role("button", name="Undo").click()
     expect(page.get_by_text("Ben changed doc of state LookForBall since")).to_be_visible()
-    expect(page.get_by_role("textbox", name="Doc")).to_have_value("changed again")
+    expect(page.get_by_role("textbox", name="Description")).to_have_value("changed again")
 
 
 def test_two_people_type_into_one_field(editor: str, page: Page, other: Page) -> None:
@@ -93,11 +93,11 @@ def test_two_people_type_into_one_field(editor: str, page: Page, other: Page) ->
     open_player(other, editor)
     for each in (page, other):
         select_state(each, "Kick")
-    page.get_by_role("textbox", name="Doc").fill("kick the ball")
-    page.get_by_role("textbox", name="Doc").blur()
-    expect(other.get_by_role("textbox", name="Doc")).to_have_value("kick the ball")
+    page.get_by_role("textbox", name="Description").fill("kick the ball")
+    page.get_by_role("textbox", name="Description").blur()
+    expect(other.get_by_role("textbox", name="Description")).to_have_value("kick the ball")
 
-    mine, theirs = page.get_by_role("textbox", name="Doc"), other.get_by_role("textbox", name="Doc")
+    mine, theirs = page.get_by_role("textbox", name="Description"), other.get_by_role("textbox", name="Description")
     mine.click()
     mine.press("End")
     theirs.click()
@@ -122,7 +122,7 @@ def test_typing_goes_on_while_the_form_around_it_changes(editor: str, page: Page
     open_player(page, editor)
     open_player(other, editor)
     select_state(page, "Kick")
-    field = page.get_by_role("textbox", name="Doc")
+    field = page.get_by_role("textbox", name="Description")
     field.fill("first")
     create_state(other, "Pause")
     expect(state(page, "Pause")).to_be_visible()
@@ -131,7 +131,7 @@ def test_typing_goes_on_while_the_form_around_it_changes(editor: str, page: Page
     field.blur()
     expect(field).to_have_value("first and second")
     other.get_by_text("Kick", exact=True).first.click()
-    expect(other.get_by_role("textbox", name="Doc")).to_have_value("first and second")
+    expect(other.get_by_role("textbox", name="Description")).to_have_value("first and second")
 
 
 @pytest.mark.nightly
@@ -187,5 +187,5 @@ def test_a_wide_editor_stays_while_its_form_changes_until_its_state_is_gone(
     other.get_by_label("State", exact=True).fill("GoRound")
     other.get_by_label("State", exact=True).press("Enter")
     expect(page.get_by_role("dialog")).to_have_count(0)
-    expect(page.get_by_text("Somebody else removed, renamed or moved what this code belongs to")).to_be_visible()
+    expect(page.get_by_text("Another user removed, renamed or moved the owner of this code")).to_be_visible()
     expect(page.get_by_label("Inspector").locator(".cm-content").first).to_contain_text("or first and second")

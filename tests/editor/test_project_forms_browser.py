@@ -29,7 +29,7 @@ def test_an_element_is_added_named_and_taken_back(editor: str, page: Page, proje
     before = file.read_text()
     inspector = open_project_fold(page, editor)
     side = inspector.get_by_role("group", name="enumeration Side", exact=True)
-    side.get_by_role("button", name="Element: one more of Side").click()
+    side.get_by_role("button", name="Add Element to Side").click()
     expect(side.get_by_label("Element 3", exact=True)).to_have_value("element")
     added = file.read_text()
     side.get_by_label("Element 3", exact=True).fill("left")
@@ -62,7 +62,7 @@ def test_an_element_is_added_named_and_taken_back(editor: str, page: Page, proje
     page.keyboard.press("Control+Shift+Z")
     page.keyboard.press("Control+Shift+Z")
     expect(third).to_be_visible()
-    third.get_by_role("button", name="Earlier: element both").click()
+    third.get_by_role("button", name="Move up: element both").click()
     expect(side.get_by_label("Element 2", exact=True)).to_have_value("both")
     expect(side.get_by_label("Element 3", exact=True)).to_have_value("right")
     assert re.search(r"left: .*\n +both: .*\n +right: ", file.read_text())
@@ -126,7 +126,7 @@ def test_a_component_written_by_hand_is_edited_where_it_is_used(editor: str, pag
     expect(output.get_by_text("from 0 to 1000")).to_be_visible()
     assert file.read_text() == before
 
-    inspector.get_by_role("button", name="Declare: one more of the parameters").click()
+    inspector.get_by_role("button", name="Add parameter").click()
     inspector.get_by_text("parameter", exact=True).click()
     parameter = inspector.get_by_role("group", name="parameter parameter", exact=True)
     parameter.get_by_label("Unit").fill("Hz")
@@ -145,20 +145,20 @@ def test_the_project_itself_has_a_form(editor: str, page: Page, project: Path) -
     page.keyboard.press("Enter")
     expect(page.get_by_text("project.yaml is written: Forward")).to_be_visible()
     assert "languages: [python, xabsl]" in file.read_text()
-    inspector.get_by_label("Doc of the project").fill("It plays.")
+    inspector.get_by_label("Project description").fill("It plays.")
     page.keyboard.press("Enter")
     page.keyboard.type("And scores.")
     page.keyboard.press("Tab")
     expect(inspector.get_by_label("Languages")).to_be_focused()
-    expect(inspector.get_by_label("Doc of the project")).to_have_value("It plays.\nAnd scores.")
+    expect(inspector.get_by_label("Project description")).to_have_value("It plays.\nAnd scores.")
     undo(page)
-    expect(inspector.get_by_label("Doc of the project")).to_have_value(re.compile("^A forward soccer player"))
+    expect(inspector.get_by_label("Project description")).to_have_value(re.compile("^A forward soccer player"))
 
 
 def test_an_agent_is_edited_and_another_one_added(editor: str, page: Page, project: Path) -> None:
     file = project / "forward" / "project.yaml"
     inspector = open_project_fold(page, editor)
-    inspector.get_by_role("button", name="Agent: one more in the project").click()
+    inspector.get_by_role("button", name="Add Agent to the project").click()
     agent = inspector.get_by_role("group", name="agent agent", exact=True)
     agent.get_by_role("combobox").click()
     page.get_by_role("option", name="SearchBall").click()

@@ -9,7 +9,7 @@ from tests.editor.player_page import open_player
 
 
 def hits(page: Page) -> Locator:
-    return page.get_by_role("list", name="Hits").get_by_role("listitem")
+    return page.get_by_role("list", name="Results").get_by_role("listitem")
 
 
 def test_search_and_replace_by_keyboard(editor: str, page: Page, project: Path) -> None:

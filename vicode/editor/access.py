@@ -1,6 +1,6 @@
-"""The door of the editor's server: who may speak to it, and how much at once.
+"""Access control of the editor's server: allowed hosts and origins, the token, and the request size.
 
-NiceGUI checks neither Host nor Origin, so that any web page could steer a local editor by DNS rebinding.
+NiceGUI checks neither Host nor Origin: without this, any web page could control a local editor by DNS rebinding.
 """
 
 import hmac
@@ -22,14 +22,18 @@ _HEADERS = (
 
 
 class RequestTooLargeError(Exception):
-    """A request's body grew beyond what any page of ours sends."""
+    """The body of a request exceeds `MAX_BODY_BYTES`."""
 
 
 @dataclass(eq=False)
 class AccessMiddleware:
-    """ASGI middleware. `hosts` are the names the server answers to; None: any, but then a `token` is asked for.
+    """ASGI middleware that checks host, origin, token and size of each request.
 
-    Browsers give a host's cookies to all of its ports, so that two editors on one need a `cookie` each.
+    Args:
+        app: The application to protect.
+        hosts: Accepted host names. None accepts each host and requires a `token`.
+        token: Required in the cookie or in the query of the first request, unless empty.
+        cookie: Name of the cookie. Browsers send the cookies of a host to all its ports, so each editor has its own.
     """
 
     app: ASGIApp
@@ -38,17 +42,17 @@ class AccessMiddleware:
     cookie: str = TOKEN_COOKIE
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
-        """Let a request through, or answer 403 (413 for a body that is too large)."""
+        """Forward the request, or answer 403 (413 if the body is too large)."""
         if scope["type"] not in ("http", "websocket"):
             await self.app(scope, receive, send)
             return
         headers = {name.lower(): value.decode("latin-1") for name, value in scope["headers"]}
-        given = self._token_in_query(scope)
-        if not self._is_allowed(scope, headers) or not (self._has_token(headers) or given):
+        is_token_in_query = self._token_in_query(scope)
+        if not self._is_allowed(scope, headers) or not (self._has_token(headers) or is_token_in_query):
             await _refuse(scope, send, 403)
         elif _declared_length(headers) > MAX_BODY_BYTES:
             await _refuse(scope, send, 413)
-        elif given and scope["type"] == "http" and scope["method"] == "GET":
+        elif is_token_in_query and scope["type"] == "http" and scope["method"] == "GET":
             await self._remember_token(scope, send)
         else:
             await self._forward(scope, receive, send)
@@ -76,15 +80,15 @@ class AccessMiddleware:
     def _token_in_query(self, scope: Scope) -> bool:
         if not self.token:
             return False
-        given = parse_qs(scope["query_string"].decode("latin-1")).get("token", [""])[0]
-        return hmac.compare_digest(given.encode(), self.token.encode())
+        token = parse_qs(scope["query_string"].decode("latin-1")).get("token", [""])[0]
+        return hmac.compare_digest(token.encode(), self.token.encode())
 
     async def _remember_token(self, scope: Scope, send: Send) -> None:
-        """Put the token into a cookie and take it out of the address, where others could read it."""
+        """Move the token from the URL, where it would be visible, to a cookie."""
         query = parse_qs(scope["query_string"].decode("latin-1"))
         query.pop("token", None)
         rest = urlencode(query, doseq=True)
-        # A path of two slashes would lead to another host.
+        # A path that starts with two slashes would redirect to another host.
         location = "/" + quote(scope["path"].lstrip("/")) + (f"?{rest}" if rest else "")
         cookie = f"{self.cookie}={self.token}; Path=/; HttpOnly; SameSite=Strict"
         headers = [(b"location", location.encode("latin-1")), (b"set-cookie", cookie.encode()), *_HEADERS]
@@ -92,29 +96,29 @@ class AccessMiddleware:
         await send({"type": "http.response.body", "body": b""})
 
     async def _forward(self, scope: Scope, receive: Receive, send: Send) -> None:
-        counted = 0
+        received_bytes = 0
 
         async def receive_counted() -> Message:
-            nonlocal counted
+            nonlocal received_bytes
             message = await receive()
-            counted += len(message.get("body", b""))
-            if scope["type"] == "http" and counted > MAX_BODY_BYTES:
+            received_bytes += len(message.get("body", b""))
+            if scope["type"] == "http" and received_bytes > MAX_BODY_BYTES:
                 raise RequestTooLargeError
             return message
 
-        started = False
+        is_started = False
 
         async def send_with_headers(message: Message) -> None:
-            nonlocal started
+            nonlocal is_started
             if message["type"] == "http.response.start":
-                started = True
+                is_started = True
                 message = {**message, "headers": [*message.get("headers", []), *_HEADERS]}
             await send(message)
 
         try:
             await self.app(scope, receive_counted, send_with_headers)
         except RequestTooLargeError:
-            if not started:
+            if not is_started:
                 await _refuse(scope, send, 413)
 
 
@@ -124,7 +128,7 @@ def _declared_length(headers: dict[bytes, str]) -> int:
 
 
 def _parts(address: str) -> tuple[str, str]:
-    """Name of the host, and host with port, of an address; empty for what is none."""
+    """Return host name and host with port of a URL; empty strings if it is invalid."""
     try:
         parts = urlsplit(address)
     except ValueError:
@@ -136,7 +140,7 @@ async def _refuse(scope: Scope, send: Send, status: int) -> None:
     if scope["type"] == "websocket":
         await send({"type": "websocket.close", "code": 1008})
         return
-    text = b"vicode does not answer this address or origin; open the URL that 'vicode edit' printed.\n"
+    text = b"Forbidden host or origin. Open the URL printed by 'vicode edit'.\n"
     headers = [(b"content-type", b"text/plain; charset=utf-8"), *_HEADERS]
     await send({"type": "http.response.start", "status": status, "headers": headers})
     await send({"type": "http.response.body", "body": text})

@@ -1,4 +1,4 @@
-"""The folders of our scripts, known to every page from its start, so that what is shown later can be loaded later."""
+"""Registers the folders with ES modules on each page, so that elements added later can import them."""
 
 from pathlib import Path
 
@@ -7,8 +7,8 @@ from nicegui.dependencies import register_esm
 
 def _register(package: str) -> Path:
     folder = Path(__file__).parent / package / "js"
-    # NiceGUI lets browsers keep these files for a year under a key made of this time; a folder's own time would
-    # not change when one of its files is edited.
+    # Browsers cache these files for a year under a key derived from this time. The modification time of the folder
+    # itself does not change when a file in it is edited.
     register_esm(f"vicode-{package}", folder, max_time=max(path.stat().st_mtime for path in folder.iterdir()))
     return folder
 

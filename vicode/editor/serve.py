@@ -1,4 +1,4 @@
-"""Starts the editor's server: one process, this machine only unless told otherwise."""
+"""Starts the editor's server: one process, reachable only from this machine by default."""
 
 import ast
 import asyncio
@@ -21,7 +21,7 @@ STORAGE_VARIABLE = "NICEGUI_STORAGE_PATH"
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ServerAddress:
-    """Where the editor listens; `token` is asked for when others can reach it."""
+    """Host and port of the server. `token` is required if other machines can connect."""
 
     host: str
     port: int
@@ -29,24 +29,24 @@ class ServerAddress:
 
     @property
     def local_host(self) -> str:
-        """How this machine reaches it."""
+        """Host name for connections from this machine."""
         return "127.0.0.1" if self.host in ("0.0.0.0", "::") else self.host  # noqa: S104 - compared, not bound
 
     @property
     def url(self) -> str:
-        """The home of what is served."""
+        """URL of the home page."""
         return self.page_url("/")
 
     def page_url(self, path: str) -> str:
-        """What to open in a browser to see a page."""
+        """URL of a page, with the token."""
         shown = f"[{self.local_host}]" if ":" in self.local_host else self.local_host
         return f"http://{shown}:{self.port}{path}" + (f"?token={self.token}" if self.token else "")
 
 
 def choose_address(host: str, port: int | None) -> ServerAddress:
-    """Where to listen: `port`, or a free one for None and 0.
+    """Return the address to listen on: `port`, or a free port for None and 0.
 
-    There is a token unless only this machine can connect.
+    The address has a token unless only this machine can connect.
 
     Raises:
         OSError: The port is taken, or this machine has no such address.
@@ -57,14 +57,14 @@ def choose_address(host: str, port: int | None) -> ServerAddress:
 
 
 def serve(path: Path, address: ServerAddress, *, open_browser: bool = True, tour: bool = True) -> None:
-    """Serve the editor on the projects at `path` until it is ended.
+    """Serve the editor for the projects at `path` until the process is stopped.
 
     Raises:
         OSError: The path cannot be read.
     """
-    # All that is imported stays: looking through it again and again for what could be freed takes a tenth of the start.
+    # Imported objects stay alive: collecting during the imports takes a tenth of the startup time.
     gc.disable()
-    # NiceGUI would make its folder in the working directory, which is the user's project.
+    # By default, NiceGUI creates its folder in the working directory, which is the user's project.
     os.environ.setdefault(STORAGE_VARIABLE, str(Path(tempfile.gettempdir()) / f"vicode-{os.getuid()}"))
     from nicegui import app, background_tasks, ui
     from starlette.middleware.gzip import GZipMiddleware
@@ -82,11 +82,11 @@ def serve(path: Path, address: ServerAddress, *, open_browser: bool = True, tour
     register_pages(library, AutosaveService(library, open_recovery_store()), tour=tour)
     _add_access_control(app, address)
     start = address.page_url(_first_page(library))
-    words = _greeting(path, address, start)
-    # Quasar's bar for requests under way is a landmark without a name, and says nothing here: all is one socket.
+    message = _startup_message(path, address, start)
+    # Quasar's loading bar is a landmark without a name, and useless here: all traffic uses one socket.
     app.config.quasar_config["loadingBar"] = {"skipHijack": True}
     app.config.quasar_config["ripple"] = False
-    app.on_startup(lambda: background_tasks.create(_announce(words, address), name="announce"))
+    app.on_startup(lambda: background_tasks.create(_announce(message, address), name="announce"))
     GcPolicy(app).freeze_gc()
     gc.enable()
     ui.run(
@@ -102,7 +102,7 @@ def serve(path: Path, address: ServerAddress, *, open_browser: bool = True, tour
         reconnect_timeout=60,
         storage_secret=secrets.token_urlsafe(32),
         uvicorn_logging_level="warning",
-        # To this machine, packing costs more time than it saves: 0.2 s for a page that opens.
+        # Compression for local connections costs more time than it saves: 0.2 s per page load.
         gzip_middleware_factory=GZipMiddleware if address.token else None,
         ws_per_message_deflate=bool(address.token),
     )
@@ -115,22 +115,22 @@ def _add_access_control(app: "App", address: ServerAddress) -> None:
     app.add_middleware(AccessMiddleware, hosts=hosts, token=address.token, cookie=f"{TOKEN_COOKIE}_{address.port}")
 
 
-def _greeting(path: Path, address: ServerAddress, start: str) -> str:
+def _startup_message(path: Path, address: ServerAddress, start: str) -> str:
     if path.is_dir() and start != address.url:
-        return f"vicode edits {path} at {address.url}  (Ctrl-C ends it)\n  begin with {start}"
-    return f"vicode edits {path} at {start}  (Ctrl-C ends it)"
+        return f"vicode serves {path} at {address.url}  (press Ctrl-C to stop)\n  open {start}"
+    return f"vicode serves {path} at {start}  (press Ctrl-C to stop)"
 
 
 def _first_page(library: "Library") -> str:
-    """What people come to work on: the design of the file, the first agent's root; home where nothing is."""
+    """Path of the initial page: the design of the file, else the root of the first agent, else the home page."""
     from vicode.editor.view.page_urls import design_url
 
     first = library.initial_design
     return design_url(first[0].key, first[1]) if first else "/"
 
 
-async def _announce(words: str, address: ServerAddress) -> None:
-    """Print the addresses once the server answers there: it is told that it starts before it listens."""
+async def _announce(message: str, address: ServerAddress) -> None:
+    """Print the addresses once the server accepts connections: `on_startup` runs before it listens."""
     for _attempt in range(500):
         try:
             _reader, writer = await asyncio.open_connection(address.local_host, address.port)
@@ -138,26 +138,26 @@ async def _announce(words: str, address: ServerAddress) -> None:
             await asyncio.sleep(0.02)
         else:
             writer.close()
-            print(words, flush=True)  # noqa: T201
+            print(message, flush=True)  # noqa: T201
             return
 
 
-def _free_port(host: str, wanted: int | None) -> int:
-    """The port asked for; for None the first free one from 8321, so that the address stays the same from day to day.
+def _free_port(host: str, port: int | None) -> int:
+    """Return the requested port; for None the first free one from 8321, so that the address is stable between runs.
 
     Raises:
         OSError: The port is taken, or this machine has no such address.
     """
     family = socket.AF_INET6 if ":" in host else socket.AF_INET
-    ports = (wanted,) if wanted is not None else (*range(8321, 8421), 0)
+    ports = (port,) if port is not None else (*range(8321, 8421), 0)
     reason = OSError("no port is free")
-    for port in ports:
+    for candidate in ports:
         with socket.socket(family, socket.SOCK_STREAM) as probe:
             probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
             try:
-                probe.bind((host, port))
+                probe.bind((host, candidate))
             except OSError as error:
-                reason = OSError(f"cannot listen on {host} port {port}: {error.strerror or error}")
+                reason = OSError(f"cannot listen on {host} port {candidate}: {error.strerror or error}")
                 continue
             return int(probe.getsockname()[1])
     raise reason

@@ -51,7 +51,7 @@ class FirstDesignDriver:
             transition = self.page.locator(f'g.item:not(.chip)[data-kind="transition"][data-id="{key}"]')
             expect(transition).to_have_attribute("aria-label", re.compile(description))
         expect(self.page.locator('g.item[data-kind="link"][data-id$="/Search/search_ball"]')).to_have_count(1)
-        expect(self.page.get_by_label("Findings", exact=True).get_by_text("the design is sound")).to_be_visible()
+        expect(self.page.get_by_label("Findings", exact=True).get_by_text("No problems found")).to_be_visible()
 
 
 def test_by_mouse(sketches: str, first_page: Page) -> None:
@@ -67,7 +67,7 @@ def test_by_mouse(sketches: str, first_page: Page) -> None:
     user.type_name("Rest")
     user.drag_from("Rest", 0, user.at("states", "Idle"))
     user.expect_selected("Rest/0")
-    page.get_by_label("After, seconds in this state").click()
+    page.get_by_label("After (seconds in this state)").click()
     page.keyboard.type("3")
     expect(page.locator('g.item[data-id="Rest/0"][aria-label*="3 s"]')).to_have_count(1)
     page.get_by_role("link", name="SearchBall").drag_to(

@@ -1,4 +1,4 @@
-"""Automatic layout in one window: found beside the server, shown on the canvas, and taken or not."""
+"""Automatic layout in one window: computed in the background, previewed on the canvas, applied or discarded."""
 
 from collections.abc import Collection, Iterator
 from dataclasses import dataclass, field
@@ -8,7 +8,8 @@ from nicegui.events import ClickEventArguments, Handler
 
 from vicode.diagram import NodeLayout
 from vicode.diagram.layout import LayoutMethod, LayoutService
-from vicode.editor.canvas.protocol import NodePosition as Spot
+from vicode.editor.canvas.protocol import NodePosition
+from vicode.editor.pages import texts
 from vicode.editor.pages.canvas_controller import CanvasController
 from vicode.editor.pages.shortcuts import ESCAPE_ATTRIBUTE
 from vicode.editor.panels.command import Command, MenuGroup
@@ -17,23 +18,23 @@ from vicode.editor.panels.window_context import WindowContext
 from vicode.editor.session import apply_layout
 from vicode.model.design import Design
 
-# Beyond so many states Graphviz needs longer, and a person expects it.
+# Graphviz needs longer for more states than this.
 _MANY = 500
 _LIMIT_S, _LONG_LIMIT_S = 5.0, 15.0
-_WORDS = {LayoutMethod.GRAPHVIZ: "by Graphviz", LayoutMethod.LAYERS: "in layers"}
+_WORDS = {LayoutMethod.GRAPHVIZ: "with Graphviz", LayoutMethod.LAYERS: "in layers"}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LayoutProposal:
-    """Places that are shown and not yet taken."""
+    """Positions in preview; `only` names the states that move, None for the whole diagram."""
 
-    placement: NodeLayout
+    layout: NodeLayout
     only: tuple[str, ...] | None
 
 
 @dataclass(eq=False)
 class AutoLayout:
-    """The bar over the canvas that tells of a layout under way, and asks whether its places are wanted."""
+    """The bar over the canvas that shows the progress of a layout, then buttons to apply or discard it."""
 
     context: WindowContext
     canvas_controller: CanvasController
@@ -42,31 +43,37 @@ class AutoLayout:
     bar: ui.element = field(init=False)
 
     def __post_init__(self) -> None:
-        """Build the bar, which is not seen before there is something to tell."""
+        """Build the bar, hidden at first."""
         self.bar = ui.element("div").classes("layout-bar").props('role="region" aria-label="Layout"')
         self.bar.set_visibility(False)
         self.canvas_controller.on_preview = self.finish_preview
 
     def commands(self) -> tuple[Command, ...]:
-        """What can be asked of it."""
-        label = "Lay out what is selected, or everything"
-        return (Command("lay-out", label, self.start, MenuGroup.EDIT, icon="auto_awesome_mosaic"),)
+        return (
+            Command(
+                "lay-out",
+                "Auto-layout selection or whole diagram",
+                self.start,
+                MenuGroup.EDIT,
+                icon="auto_awesome_mosaic",
+            ),
+        )
 
     def start(self) -> None:
-        """Find places for the selected states, or for everything, and show them."""
+        """Compute a layout for the selected states, or for the whole diagram, and preview it."""
         if self.service is None:
             self.discard_preview()
             self.context.run_in_background(self._propose(), "lay out")
 
     async def cancel(self) -> None:
-        """Give up looking for places."""
+        """Cancel the computation."""
         service, self.service = self.service, None
         self.bar.set_visibility(False)
         if service is not None:
             await run.io_bound(service.close)
 
     def finish_preview(self, *, accepted: bool) -> None:
-        """Take the places that are shown, as one edit, or leave everything as it was."""
+        """Apply the previewed positions as one edit, or discard them."""
         if not accepted:
             self.discard_preview()
             return
@@ -74,11 +81,11 @@ class AutoLayout:
         if proposal is None:
             return
         self.bar.set_visibility(False)
-        self.context.edit("lay out", lambda design: apply_layout(design, proposal.placement, proposal.only))
+        self.context.edit("lay out", lambda design: apply_layout(design, proposal.layout, proposal.only))
         self.canvas_controller.canvas.end_preview()
 
     def discard_preview(self) -> None:
-        """End a preview: it is not wanted, or the design it was made for changed."""
+        """End the preview: the user cancelled it, or the design changed."""
         if self.proposal is not None:
             self.proposal = None
             self.bar.set_visibility(False)
@@ -86,28 +93,28 @@ class AutoLayout:
 
     async def _propose(self) -> None:
         design, rev = self.context.design, self.context.document.rev
-        only = tuple(thing.id for thing in self.context.selected if thing.kind == "states") or None
+        only = tuple(item.id for item in self.context.selected if item.kind == "states") or None
         count = len(only or design.states)
         limit_s = _LIMIT_S if count <= _MANY else _LONG_LIMIT_S
-        self._show_progress(_count(count), limit_s)
+        self._show_progress(_format_count(count), limit_s)
         self.service = service = LayoutService()
         layout = await run.io_bound(service.compute, design, only=only, timeout_s=limit_s)
-        is_wanted, self.service = self.service is service, None
+        is_current, self.service = self.service is service, None
         await run.io_bound(service.close)
-        if layout is None or self.canvas_controller.canvas.is_deleted or not is_wanted:
+        if layout is None or self.canvas_controller.canvas.is_deleted or not is_current:
             return
         self.bar.set_visibility(False)
         if self.context.document.rev != rev:
-            self.context.show_toast("The design changed meanwhile: lay it out again", "info")
+            self.context.show_toast(texts.LAYOUT_OUTDATED, "info")
             return
-        self.proposal = LayoutProposal(placement=layout.layout, only=only)
+        self.proposal = LayoutProposal(layout=layout.layout, only=only)
         self.canvas_controller.canvas.show_preview(list(_node_positions(design, layout.layout, only)))
-        self._show_preview(f"{_count(count)} {_WORDS[LayoutMethod(layout.method)]}", layout.note)
+        self._show_preview(f"{_format_count(count)} {_WORDS[LayoutMethod(layout.method)]}", layout.note)
 
     def _show_progress(self, what: str, limit_s: float) -> None:
         self.bar.clear()
         with self.bar:
-            ui.label(f"Laying out {what}, {limit_s:g} s at most").classes("layout-words").props('role="status"')
+            ui.label(texts.layout_running(what, limit_s)).classes("layout-words").props('role="status"')
             ui.element("div").classes("layout-progress").style(f"--limit: {limit_s:g}s")
             self._cancel_button(self.cancel)
         self.bar.set_visibility(True)
@@ -128,18 +135,18 @@ class AutoLayout:
         self.bar.set_visibility(True)
 
 
-def _count(states: int) -> str:
+def _format_count(states: int) -> str:
     return f"{states} state" + ("" if states == 1 else "s")
 
 
-def _node_positions(design: Design, placement: NodeLayout, only: Collection[str] | None) -> Iterator[Spot]:
-    """The places of a layout as the canvas wants them."""
-    for name, (x, y) in placement.states.items():
+def _node_positions(design: Design, layout: NodeLayout, only: Collection[str] | None) -> Iterator[NodePosition]:
+    """Yield the positions of a layout in the format of the canvas."""
+    for name, (x, y) in layout.states.items():
         if only is None or name in only:
             yield {"of": "states", "id": name, "x": x, "y": y}
     if only is not None:
         return
-    for alias, (x, y) in placement.uses.items():
+    for alias, (x, y) in layout.uses.items():
         yield {"of": "components", "id": alias, "x": x, "y": y}
     if design.common.transitions or design.common.actions:
-        yield {"of": "common", "id": "@common", "x": placement.common[0], "y": placement.common[1]}
+        yield {"of": "common", "id": "@common", "x": layout.common[0], "y": layout.common[1]}

@@ -1,62 +1,59 @@
-"""What keeps a window's work from being lost: recovery after a crash, saving by itself, and news of what others do."""
+"""Autosave and recovery in the user interface, and notices about changes by other users."""
 
 import contextlib
 import time
 
 from nicegui import app, run
 
+from vicode.editor.pages import texts
 from vicode.editor.panels.command import Command, MenuGroup
 from vicode.editor.panels.conflict_dialog import ask_to_resolve_conflict
 from vicode.editor.panels.window_context import WindowContext
 from vicode.editor.session.autosave import AutosaveService
 
 _TICK_S = 0.5
-# Journals take a tenth of the time at most, however large the designs are and however many work on them.
-_SHARE = 9
+# Writing recovery files takes at most a tenth of the time, whatever the number and size of the designs.
+_PAUSE_FACTOR = 9
 
 
 def run_autosave(autosave: AutosaveService) -> None:
-    """Let a keeper look after the designs for as long as the server runs."""
-    rests_until_s = 0.0
+    """Save idle documents and write recovery files while the server runs."""
+    paused_until_s = 0.0
 
-    async def look() -> None:
-        nonlocal rests_until_s
+    async def tick() -> None:
+        nonlocal paused_until_s
         autosave.save_idle_documents()
-        begun_s = time.perf_counter()
-        if begun_s < rests_until_s:
+        started_s = time.perf_counter()
+        if started_s < paused_until_s:
             return
         for snapshot in autosave.pending_snapshots():
-            # Writing a large design takes a while; the next look waits for it.
+            # Writing a large design takes a while; the timer waits for it.
             with contextlib.suppress(OSError):
                 await run.io_bound(autosave.recovery.write, snapshot)
         ended_s = time.perf_counter()
-        rests_until_s = ended_s + _SHARE * (ended_s - begun_s)
+        paused_until_s = ended_s + _PAUSE_FACTOR * (ended_s - started_s)
 
-    app.timer(_TICK_S, look)
+    app.timer(_TICK_S, tick)
     app.on_shutdown(autosave.close)
 
 
 class AutosaveControls:
-    """Offers in one window what was lost, and tells there what others did to the whole design."""
+    """Offers recovery, the autosave and conflict commands, and shows notices of the document in one window."""
 
-    def __init__(self, context: WindowContext, keeper: AutosaveService | None) -> None:
-        """Begin with the news of now; an offer, if there is something to recover, comes with the page."""
-        self.context, self.autosave = context, keeper
+    def __init__(self, context: WindowContext, autosave: AutosaveService | None) -> None:
+        self.context, self.autosave = context, autosave
         self.shown_notice = context.document.shared.notice
-        if keeper is not None:
+        if autosave is not None:
             from vicode.editor.panels.recovery_dialog import offer_recovery
 
-            offer_recovery(context, keeper)
+            offer_recovery(context, autosave)
 
     def commands(self) -> tuple[Command, ...]:
-        """What can be asked of it."""
         return (
-            Command(
-                "autosave", "Save by itself, or only when asked", self.toggle_autosave, MenuGroup.DESIGN, icon="update"
-            ),
+            Command("autosave", "Toggle autosave", self.toggle_autosave, MenuGroup.DESIGN, icon="update"),
             Command(
                 "conflict",
-                "Choose between your work and the file",
+                "Resolve conflict with the file on disk",
                 self.resolve_conflict,
                 MenuGroup.DESIGN,
                 icon="difference",
@@ -64,26 +61,26 @@ class AutosaveControls:
         )
 
     def toggle_autosave(self) -> None:
-        """Save this project by itself from now on, or no more; for everybody who works on it."""
+        """Switch autosave of this project for all users."""
         workspace = self.context.workspace
         if self.autosave is None:
             workspace.autosave = not workspace.autosave
         else:
             self.autosave.set_autosave(workspace, is_on=not workspace.autosave)
-        words = "saves by itself now" if workspace.autosave else "is saved only when asked now"
-        self.context.show_toast(f"{workspace.project.name} {words}", "info")
+        text = texts.autosave_switched(workspace.project.name, is_on=workspace.autosave)
+        self.context.show_toast(text, "info")
         self.context.notify_listeners()
 
     def resolve_conflict(self) -> None:
-        """Show what both this program and another changed in the file."""
+        """Open the conflict dialog."""
         if self.context.document.shared.disk_conflict is None:
-            self.context.show_toast("Nothing to choose: the file was not changed where you work", "info")
+            self.context.show_toast(texts.NO_CONFLICT, "info")
         ask_to_resolve_conflict(self.context)
 
     def refresh(self) -> None:
-        """Tell what others did to the whole design: merges from disk, jumps in the history."""
-        news = self.context.document.shared.notice
-        if news != self.shown_notice:
-            self.shown_notice = news
-            if news.user_id != self.context.document.user_id:
-                self.context.show_toast(news.text, "info")
+        """Show new notices: merges from disk, jumps in the history."""
+        notice = self.context.document.shared.notice
+        if notice != self.shown_notice:
+            self.shown_notice = notice
+            if notice.user_id != self.context.document.user_id:
+                self.context.show_toast(notice.text, "info")

@@ -1,16 +1,18 @@
-"""The page of a file that cannot be read as a design: its text, what is wrong where, and a way to mend it."""
+"""The page of a file that is not a valid design: a text editor with the errors."""
 
 from pathlib import Path
 
 from nicegui import ui
 
 from vicode.editor.code import CodeAssist
+from vicode.editor.pages import texts
 from vicode.editor.pages.shortcuts import register_shortcuts
 from vicode.editor.pages.theme import Theme, apply_theme
 from vicode.editor.panels.code_editor import CodeEditorFactory
 from vicode.editor.panels.command import Command, MenuGroup
 from vicode.editor.panels.design_dialogs import DesignDialogs
 from vicode.editor.panels.designs_list import DesignsList
+from vicode.editor.panels.texts import pluralize
 from vicode.editor.panels.toasts import show_toast
 from vicode.editor.panels.undo_bar import UndoBar
 from vicode.editor.panels.widgets import primary_button
@@ -26,10 +28,10 @@ from vicode.editor.view.page_urls import design_url
 
 
 class BrokenPage:
-    """One window on the text of a file; it is checked while it is typed, and written when it is saved."""
+    """One window on the text of a file, checked as the user types."""
 
     def __init__(self, library: Library, workspace: Workspace, file: Path, name: str) -> None:
-        """Build the page for the browser that asks for it."""
+        """Build the page for the current request."""
         self.workspace, self.file, self.name = workspace, file, name
         self.disk_text = ""
         editors = CodeEditorFactory()
@@ -53,53 +55,50 @@ class BrokenPage:
         self.editor.on_value_change(self._check)
 
     def save(self) -> None:
-        """Write the text; once it can be read, the design is opened."""
+        """Write the text; open the design if it is valid."""
         text = str(self.editor.value or "")
         try:
             write_fixed_text(self.file, text, self.disk_text)
             self.workspace.sync_from_disk()
         except FileModifiedError:
-            show_toast(f"{self.name} was changed by another program: reload the page to see its text", "warning")
+            show_toast(texts.file_changed(self.name), "warning")
             return
         except OSError as error:
-            show_toast(f"Not saved: {error.strerror}", "negative")
+            show_toast(texts.not_saved(error.strerror), "negative")
             return
         self.disk_text = text
         component = self._check().component
         if component and self.workspace.files.get(component, Path()).resolve() == self.file.resolve():
             ui.navigate.to(design_url(self.workspace.key, component))
         else:
-            show_toast("Saved; it cannot be opened as a design yet", "warning")
+            show_toast(texts.SAVED_WITH_ERRORS, "warning")
 
     def _open(self) -> None:
         try:
             self.disk_text = read_file_text(self.file)
         except UnicodeDecodeError as error:
             self.editor.disable()
-            self.note.set_text(
-                f"This is no UTF-8 text (byte {error.start}): save it as UTF-8 in the program it comes from."
-            )
+            self.note.set_text(texts.not_utf8(error.start))
             return
         except OSError as error:
             self.editor.disable()
-            self.note.set_text(f"It cannot be read: {error.strerror}")
+            self.note.set_text(texts.unreadable(error.strerror))
             return
         self.editor.set_value(self.disk_text)
         self._check()
 
     def _check(self) -> ParsedText:
         text = str(self.editor.value or "")
-        reading = parse_text(text, self.name)
-        self.code_assist.show_marks(text, reading.marks)
-        count = len(reading.findings)
-        mistakes = f"{count} mistake{'s' * (count != 1)}" if count else "No mistakes: save it to open the design"
-        self.note.set_text(mistakes)
+        parsed = parse_text(text, self.name)
+        self.code_assist.show_marks(text, parsed.marks)
+        count = len(parsed.findings)
+        self.note.set_text(pluralize(count, "error") if count else texts.NO_ERRORS_IN_FILE)
         self.messages.clear()
         with self.messages:
-            for mark in reading.marks[:50]:
+            for mark in parsed.marks[:50]:
                 button = ui.element("button").classes(f"field-message {mark.severity}").props('type="button"')
                 with button:
                     column = mark.start - text.rfind("\n", 0, mark.start)
                     ui.label(f"Line {mark.line}, column {column}: {mark.message}")
                 button.on("click", lambda mark=mark: self.code_assist.go_to(mark.start))
-        return reading
+        return parsed

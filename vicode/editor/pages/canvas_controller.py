@@ -1,4 +1,4 @@
-"""The drawing of the open design in one window: the canvas, what it shows, and the gestures made on it."""
+"""Connects the canvas of one window to the design: draws changes and applies gestures."""
 
 from collections.abc import Callable, Mapping
 from functools import partial
@@ -9,6 +9,7 @@ from nicegui import ui
 from vicode.editor.canvas import Canvas
 from vicode.editor.canvas.commands import CANVAS_COMMANDS, CommandGroup
 from vicode.editor.canvas.protocol import Gesture, SceneItem
+from vicode.editor.pages import texts
 from vicode.editor.panels.command import Command, MenuGroup
 from vicode.editor.panels.use_dialog import ask_for_component
 from vicode.editor.panels.window_context import WindowContext
@@ -20,7 +21,7 @@ from vicode.model.design import Point
 from vicode.model.edits import add_use
 from vicode.model.merge import find_renamed_states
 
-# The field is there as soon as its code editor is, which is a large script to load the first time.
+# The field appears when its code editor has loaded, a large script.
 _FOCUS_GUARD = """
 (function focus(left) {
   const field = document.querySelector(".inspector .expression-field .cm-content");
@@ -29,16 +30,15 @@ _FOCUS_GUARD = """
 })(100);
 """
 
-_PLACES = {CommandGroup.VIEW: MenuGroup.VIEW, CommandGroup.NAVIGATE: MenuGroup.VIEW}
-# What the page does for the canvas, when its menu or keys ask for it.
+_MENU_GROUPS = {CommandGroup.VIEW: MenuGroup.VIEW, CommandGroup.NAVIGATE: MenuGroup.VIEW}
+# Commands of the page that the menu and the keys of the canvas trigger.
 _PAGE_COMMAND_NAMES = ("lay-out", "links", "help", "breakpoint", "simulate-here")
 
 
 class CanvasController:
-    """Builds the canvas; `update` brings it up to date after a change of the design."""
+    """Builds the canvas; `update` applies changes of the design to it."""
 
     def __init__(self, context: WindowContext) -> None:
-        """Draw the design as it is now."""
         self.context = context
         self.on_preview: Callable[..., None] = lambda **_answer: None
         context.run_canvas_command = self.run_command
@@ -51,7 +51,7 @@ class CanvasController:
         self.canvas.load(self.scene)
 
     def commands(self, known: tuple[Command, ...]) -> tuple[Command, ...]:
-        """What can be asked of the canvas, but for what the page knows already; the canvas hears the keys."""
+        """Return the canvas commands that are not among `known`. The canvas itself handles their keys."""
         self.page_commands = {each.name: each.handler for each in known if each.name in _PAGE_COMMAND_NAMES}
         names = {each.name for each in known}
         return tuple(
@@ -59,7 +59,7 @@ class CanvasController:
                 each.name,
                 each.label,
                 partial(self.run_command, each.name),
-                _PLACES.get(each.group, MenuGroup.EDIT),
+                _MENU_GROUPS.get(each.group, MenuGroup.EDIT),
                 keys=each.keys,
                 on_canvas=True,
             )
@@ -68,51 +68,51 @@ class CanvasController:
         )
 
     def run_command(self, command: str) -> None:
-        """Do what a command of the canvas does."""
+        """Run a command of the canvas by its name."""
         self.canvas.run_command(command)
 
     def update(self) -> None:
-        """Draw what changed in the design, and forget selected things that are gone."""
+        """Draw the changes of the design, and remove deleted items from the selection."""
         scene = self._draw()
         if [state.name for state in self.design.states] != [state.name for state in self.context.design.states]:
             for old, new in find_renamed_states(self.design, self.context.design).items():
                 self.canvas.state_renamed(old, new)
         self.canvas.apply(self.context.document.shared.scene_diff(self.scene, scene))
         self.scene = scene
-        followed = [rebase_selection(thing, self.design, self.context.design) for thing in self.context.selected]
+        rebased = [rebase_selection(item, self.design, self.context.design) for item in self.context.selected]
         self.design = self.context.design
-        self.context.selected = tuple(thing for thing in followed if thing is not None and self._exists(thing))
+        self.context.selected = tuple(item for item in rebased if item is not None and self._exists(item))
 
     def show_selection(self) -> None:
-        """Select on the canvas what is selected on the desk."""
-        items = [{"of": thing.kind, "id": thing.id} for thing in self.context.selected if thing.kind != "design"]
+        """Show the selection of the window on the canvas."""
+        items = [{"of": item.kind, "id": item.id} for item in self.context.selected if item.kind != "design"]
         self.canvas.select(cast("list[SceneItem]", items))
 
-    def center_on(self, thing: ItemRef) -> None:
-        """Bring a thing to the middle of the canvas, if it is drawn."""
-        if any(item["id"] == thing.id for item in self.scene.get(thing.kind, ()) or () if isinstance(item, dict)):
-            self.canvas.centre(cast("Any", thing.kind), thing.id)
+    def center_on(self, item: ItemRef) -> None:
+        """Scroll an item to the middle of the canvas, if it is drawn."""
+        if any(node["id"] == item.id for node in self.scene.get(item.kind, ()) or () if isinstance(node, dict)):
+            self.canvas.centre(cast("Any", item.kind), item.id)
 
-    def scroll_to_initial(self, thing: ItemRef) -> None:
-        """Bring the thing that the page was opened for into view."""
-        self.canvas.scroll_to_initial(cast("Any", thing.kind), thing.id)
+    def scroll_to_initial(self, item: ItemRef) -> None:
+        """Scroll to the item that the URL of the page selects."""
+        self.canvas.scroll_to_initial(cast("Any", item.kind), item.id)
 
     def _draw(self) -> Scene:
         desk = self.context
         return desk.document.shared.scene(desk.workspace.project)
 
-    def _exists(self, thing: ItemRef) -> bool:
-        if thing.kind in ("design", "common"):
+    def _exists(self, item: ItemRef) -> bool:
+        if item.kind in ("design", "common"):
             return True
-        return any(item["id"] == thing.id for item in self.scene.get(thing.kind, ())) or (
-            thing.kind == "transitions" and self.context.document.has_decision(thing.id)
+        return any(node["id"] == item.id for node in self.scene.get(item.kind, ())) or (
+            item.kind == "transitions" and self.context.document.has_decision(item.id)
         )
 
     def _on_gesture(self, gesture: Gesture) -> None:
         payload = cast("Mapping[str, Any]", gesture)
         match payload["kind"]:
             case "select":
-                # Pressing a thing may take over a name typed just before, and the thing is called otherwise since.
+                # The click may have committed a name that was being typed: the item may have a new name.
                 items = (self._rebase(payload) or {}).get("items", ())
                 self.context.select(*(ItemRef(kind=str(item["of"]), id=str(item["id"])) for item in items))
             case "open":
@@ -124,8 +124,8 @@ class CanvasController:
             case "use":
                 self._use(payload)
             case "renamed-meanwhile":
-                words = f"{payload['name']} is called {payload['id']} by now: what you type becomes its name"
-                self.context.show_toast(words, "info")
+                text = texts.renamed_while_typing(payload["name"], payload["id"])
+                self.context.show_toast(text, "info")
             case "tooltip":
                 self._show_tooltip(str(payload["of"]), str(payload["id"]))
             case "preview":
@@ -145,15 +145,15 @@ class CanvasController:
     def _edit(self, gesture: Mapping[str, Any]) -> None:
         payload = self._rebase(gesture)
         if payload is None:
-            self.context.show_toast("That is gone by now", "warning")
+            self.context.show_toast(texts.ITEM_MISSING, "warning")
             self.canvas.load(self.scene)
             return
-        known, onto = self.context.workspace.project.interfaces(), self.context.selected
-        more = {
+        known, selected = self.context.workspace.project.interfaces(), self.context.selected
+        handlers = {
             "duplicate": clipboard.duplicate_items,
-            "paste": lambda document, wish: clipboard.paste(document, wish, known, onto),
+            "paste": lambda document, payload: clipboard.paste(document, payload, known, selected),
         }
-        outcome = apply_gesture(self.context.document, payload, more)
+        outcome = apply_gesture(self.context.document, payload, handlers)
         if outcome.error:
             self.context.show_toast(outcome.error, "warning")
             self.canvas.load(self.scene)
@@ -168,7 +168,7 @@ class CanvasController:
         try:
             text = clipboard.copy_as_text(self.context.design, payload["items"])
         except (KeyError, TypeError, AttributeError):
-            # Only an old page, or somebody else's script, names things in another way.
+            # Only an outdated page or a foreign script sends other data.
             text = None
         self.canvas.write_clipboard(text)
 
@@ -189,23 +189,23 @@ class CanvasController:
         )
         component = next(dropped, None)
         if component is None:
-            self.context.show_toast("Only another component of this project can be used here", "warning")
+            self.context.show_toast(texts.ONLY_PROJECT_COMPONENTS, "warning")
         else:
             self._add_use(component, at)
 
     def _add_use(self, component: str, at: Point) -> None:
-        """Use a component at a place; one that is used already is only shown."""
-        used = next((use.alias for use in self.context.design.uses if use.component == component), None)
-        if used is None:
-            self.context.edit(f"use {component}", lambda design: add_use(design, component, at))
-            used = self.context.design.uses[-1].alias
+        """Add a component at a position; select it if the design uses it already."""
+        alias = next((use.alias for use in self.context.design.uses if use.component == component), None)
+        if alias is None:
+            self.context.edit(f"add component {component}", lambda design: add_use(design, component, at))
+            alias = self.context.design.uses[-1].alias
         else:
-            self.context.show_toast(f"{component} is used here already, as {used}", "info")
-        self.context.select(ItemRef(kind="components", id=used))
+            self.context.show_toast(texts.already_used(component, alias), "info")
+        self.context.select(ItemRef(kind="components", id=alias))
         self.canvas.focus()
 
     def _rebase(self, payload: Mapping[str, Any]) -> Mapping[str, Any] | None:
-        """A gesture as it is meant in the design as it is now; None when what it was made on is gone."""
+        """Rebase a gesture on the current design; None if its item no longer exists."""
         document, rev = self.context.document, payload.get("rev")
         shown = document.shared.design_at(rev if isinstance(rev, int) else document.rev)
         return rebase_gesture(payload, shown, document.design)

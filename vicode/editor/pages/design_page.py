@@ -1,4 +1,4 @@
-"""The page that edits a design: canvas in the middle, designs to the left, inspector to the right, findings below."""
+"""The page that edits a design: designs on the left, diagram in the middle, inspector on the right, dock below."""
 
 import contextlib
 from collections.abc import Callable
@@ -31,99 +31,110 @@ from vicode.editor.session import DocumentSession, Library, Workspace
 from vicode.editor.session.autosave import AutosaveService
 from vicode.editor.view.page_urls import design_url
 
-# What others do is seen in the drawing first; the panels say it when there is time.
+# Changes by other users are drawn first; the panels follow.
 _CANVAS_DELAY_S = 0.02
 _PANELS_DELAY_S = 0.1
 
 
 class DesignPage:
-    """One window on one design; everything in it can be rebuilt from the document."""
+    """One window on one design. All its content can be rebuilt from the document."""
 
     def __init__(
         self,
         library: Library,
         workspace: Workspace,
         document: DocumentSession,
-        way: PageRequest,
-        keeper: AutosaveService | None,
+        request: PageRequest,
+        autosave: AutosaveService | None,
     ) -> None:
-        """Build the page for the browser that asks for it."""
-        person = identify_user(library.users)
-        hand = DocumentSession(document.shared, person.id)
-        self.context = desk = WindowContext(workspace=workspace, document=hand, client=ui.context.client)
-        theme = Theme(desk.code_editors, apply_theme())
-        problems = FindingNavigator(desk)
+        """Build the page for the current request."""
+        user = identify_user(library.users)
+        session = DocumentSession(document.shared, user.id)
+        self.context = context = WindowContext(workspace=workspace, document=session, client=ui.context.client)
+        theme = Theme(context.code_editors, apply_theme())
+        findings = FindingNavigator(context)
         with ui.element("div").classes("shell"):
             skip = ui.element("a").classes("skip-link")
-            desk.offer_undo = UndoBar().show
-            dialogs = DesignDialogs(show_toast=show_toast, offer_undo=desk.offer_undo)
+            context.offer_undo = UndoBar().show
+            dialogs = DesignDialogs(show_toast=show_toast, offer_undo=context.offer_undo)
             head = ui.element("header").classes("head")
             self.designs = DesignsList(library, (workspace.key, document.design.component), dialogs)
             with ui.element("main").classes("design-view").props("tabindex=-1") as main:
-                self.view = DesignView(desk)
-            self.side_panels = SidePanels(desk, self.view.canvas_controller.canvas, problems)
-        self.autosave = AutosaveControls(desk, keeper)
-        self.tour = Tour(desk, lambda: self.view.is_table_shown, starts_automatically=way.tour)
-        going = Navigator(desk, way.index, way.trail)
+                self.view = DesignView(context)
+            self.side_panels = SidePanels(context, self.view.canvas_controller.canvas, findings)
+        self.autosave = AutosaveControls(context, autosave)
+        self.tour = Tour(context, lambda: self.view.is_table_shown, starts_automatically=request.tour)
+        navigator = Navigator(context, request.index, request.trail)
         new = Command("new-design", "New design", lambda: dialogs.ask_new(workspace), MenuGroup.DESIGN, icon="add")
-        own = (new, *problems.commands(), *going.commands(), *self.autosave.commands(), *self.tour.commands())
-        commands = self._commands(theme, own)
-        going.palette.commands = commands
+        own_commands = (
+            new,
+            *findings.commands(),
+            *navigator.commands(),
+            *self.autosave.commands(),
+            *self.tour.commands(),
+        )
+        commands = self._commands(theme, own_commands)
+        navigator.palette.commands = commands
         with head:
-            self.header = Header(desk, commands, way.trail)
+            self.header = Header(context, commands, request.trail)
         with skip.props(f"href=#{main.html_id}"):
             ui.label("Skip to the design")
-        PresenceSync(desk, person, self.view.canvas_controller.canvas, self.header.presence_bar)
+        PresenceSync(context, user, self.view.canvas_controller.canvas, self.header.presence_bar)
         register_shortcuts(commands)
-        arrived = going.select_initial(way.select)
-        desk.subscribe(self._refresh)
+        initial_item = navigator.select_initial(request.select)
+        context.subscribe(self._refresh)
         self._refresh()
         self.view.canvas_controller.canvas.on_ready = self.side_panels.build
-        if arrived:
-            self.view.canvas_controller.scroll_to_initial(arrived)
+        if initial_item:
+            self.view.canvas_controller.scroll_to_initial(initial_item)
         self._scheduled: set[Callable[[], None]] = set()
-        ui.context.client.on_delete(hand.subscribe(self._on_change))
+        ui.context.client.on_delete(session.subscribe(self._on_change))
         ui.timer(1.0, self._follow_disk)
 
     def _commands(self, theme: Theme, others: tuple[Command, ...]) -> tuple[Command, ...]:
-        """All that can be asked of this page, in the order in which it is listed."""
-        actions = PageCommands(self.context, self.view.canvas_controller, theme)
-        commands = (*actions.commands(), *others, *self.view.commands())
-        commands += ExportDialog(self.context, lambda: actions.links_shown).commands()
+        """Return all commands of the page in their listing order."""
+        page_commands = PageCommands(self.context, self.view.canvas_controller, theme)
+        commands = (*page_commands.commands(), *others, *self.view.commands())
+        commands += ExportDialog(self.context, lambda: page_commands.links_shown).commands()
         commands += (docs_command(self.context),)
         help_ = Command(
-            "help", "Keys and gestures", lambda: show_help(commands), MenuGroup.VIEW, icon="help", keys=("?",)
+            "help",
+            "Keyboard shortcuts and gestures",
+            lambda: show_help(commands),
+            MenuGroup.VIEW,
+            icon="help",
+            keys=("?",),
         )
         commands += (*self.side_panels.commands(), help_)
         return (*commands, *self.view.canvas_controller.commands(commands))
 
     def _follow_disk(self) -> None:
-        # The folder itself may go while the editor is open; what is open here stays, and can be saved elsewhere.
+        # The folder may be deleted while the editor is open; the open design stays.
         with contextlib.suppress(OSError):
             self.context.workspace.poll_disk()
         self.designs.refresh()
-        became = self.context.workspace.removed_components.get(self.context.design.component)
-        if became is not None:
+        new_name = self.context.workspace.removed_components.get(self.context.design.component)
+        if new_name is not None:
             key = self.context.workspace.key
-            # The home offers to put back what was thrown away: the offer here goes with the page.
-            away = f"{HOME}?gone={quote(key)}/{quote(self.context.design.component)}"
-            ui.navigate.to(design_url(key, became) if became else away)
+            # The home page offers to restore a deleted design: an offer on this page would disappear with it.
+            home_url = f"{HOME}?gone={quote(key)}/{quote(self.context.design.component)}"
+            ui.navigate.to(design_url(key, new_name) if new_name else home_url)
 
-    def _on_change(self, by: DocumentSession) -> None:
-        """Follow a change: at once if it was made here, else a moment later, so that many come as one."""
-        if by is self.context.document:
+    def _on_change(self, origin: DocumentSession) -> None:
+        """Show a change: immediately if this window made it, else delayed, to combine several changes."""
+        if origin is self.context.document:
             self._refresh_canvas()
             self._refresh_panels()
         else:
             self._schedule(_CANVAS_DELAY_S, self._refresh_canvas)
             self._schedule(_PANELS_DELAY_S, self._refresh_panels)
 
-    def _schedule(self, pause_s: float, act: Callable[[], None]) -> None:
-        if act not in self._scheduled and core.loop is not None:
-            self._scheduled.add(act)
-            # The more windows there are, the more edits each takes at once. Generating reads beside the event loop.
-            pause_s *= max(1.0, len(self.context.presence.presences) / 12)
-            core.loop.call_soon_threadsafe(core.loop.call_later, pause_s, act)
+    def _schedule(self, delay_s: float, action: Callable[[], None]) -> None:
+        if action not in self._scheduled and core.loop is not None:
+            self._scheduled.add(action)
+            # With more windows, each combines more edits.
+            delay_s *= max(1.0, len(self.context.presence.presences) / 12)
+            core.loop.call_soon_threadsafe(core.loop.call_later, delay_s, action)
 
     def _refresh_canvas(self) -> None:
         self._scheduled.discard(self._refresh_canvas)

@@ -1,4 +1,4 @@
-"""The documentation of a project as it would be now, beside the editor; its pages follow what is edited."""
+"""Serves the documentation of a project including unsaved edits; its pages reload after changes."""
 
 import contextlib
 import threading
@@ -27,18 +27,18 @@ _RELOAD_SCRIPT = Path(__file__).with_name("docs_reload.js")
 
 @dataclass(eq=False)
 class _ProjectDocs:
-    """The site of one project, planned anew when the project is another one."""
+    """The site of one project, planned again when the project has changed."""
 
     builder: "SiteBuilder | None" = None
     shown: "DocsSnapshot | None" = None
     find: "Callable[[str], PlannedFile | None]" = lambda _path: None
     lock: threading.Lock = field(default_factory=threading.Lock)
 
-    def find_file(self, snapshot: "DocsSnapshot", path: str, *, is_made: bool) -> tuple[str, str] | None:
-        """The key of a file, and its text if it is to be made; None where there is none.
+    def find_file(self, snapshot: "DocsSnapshot", path: str, *, render: bool) -> tuple[str, str] | None:
+        """Return the key of a file, and its text if `render`; None if there is no such file.
 
         Raises:
-            OSError: The project is gone.
+            OSError: The project cannot be read.
         """
         from vicode.docsite import SiteBuilder
         from vicode.editor.session.docs_snapshot import load_docs_subject
@@ -46,15 +46,15 @@ class _ProjectDocs:
         with self.lock:
             self.builder = self.builder or SiteBuilder()
             if snapshot != self.shown:
-                # Only the page that is asked for is drawn: nobody waits for those of all the others.
+                # Only the requested page is rendered.
                 self.find = self.builder.make_file_lookup(load_docs_subject(snapshot))
                 self.shown = snapshot
-            found = self.find(path)
-            return None if found is None else (found.key, found.render() if is_made else "")
+            file = self.find(path)
+            return None if file is None else (file.key, file.render() if render else "")
 
 
 def serve_docs_preview(library: Library) -> None:
-    """Answer the addresses of `page_address`."""
+    """Serve the URLs of `docs_url`."""
     sites: dict[str, _ProjectDocs] = {}
 
     @app.api_route("/docs/{key}/{path}", methods=["GET", "HEAD"])
@@ -65,22 +65,22 @@ def serve_docs_preview(library: Library) -> None:
         if workspace is None:
             return Response(status_code=404)
         if path == _RELOAD_SCRIPT.name:
-            return _answer(path, _RELOAD_SCRIPT.read_text(encoding="utf-8"), "")
+            return _respond(path, _RELOAD_SCRIPT.read_text(encoding="utf-8"), "")
         with contextlib.suppress(OSError):
             workspace.poll_disk()
         if key not in sites:
             sites[key] = _ProjectDocs()
-        found = None
+        file = None
         with contextlib.suppress(OSError):
-            found = await run.io_bound(
-                sites[key].find_file, take_snapshot(workspace), path, is_made=request.method == "GET"
+            file = await run.io_bound(
+                sites[key].find_file, take_snapshot(workspace), path, render=request.method == "GET"
             )
-        if found is None:
+        if file is None:
             from vicode.docsite import not_found_page
 
-            return _answer("missing.html", not_found_page(site_name=workspace.project.name), "missing", status=404)
-        mark, text = found
-        return _answer(path, text, mark)
+            return _respond("missing.html", not_found_page(site_name=workspace.project.name), "missing", status=404)
+        version, text = file
+        return _respond(path, text, version)
 
     @app.on_shutdown
     def close() -> None:
@@ -90,24 +90,24 @@ def serve_docs_preview(library: Library) -> None:
 
 
 def docs_command(context: WindowContext) -> Command:
-    """Show the page of the open design, at the selected state, in a tab of its own."""
+    """Return the command that opens the page of the design, at the selected state, in a new tab."""
 
     def show() -> None:
         from vicode.docsite import SiteUrls, state_anchor
 
-        project, only = context.workspace.project, context.single_selection
-        place = state_anchor(only.id) if only is not None and only.kind == "states" else ""
+        project, item = context.workspace.project, context.single_selection
+        anchor = state_anchor(item.id) if item is not None and item.kind == "states" else ""
         file = SiteUrls(project).component(context.design.component)
-        ui.navigate.to(docs_url(context.workspace.key, file, place), new_tab=True)
+        ui.navigate.to(docs_url(context.workspace.key, file, anchor), new_tab=True)
 
-    return Command("page", "Show its page beside the editor", show, MenuGroup.VIEW, icon="menu_book")
+    return Command("page", "Open documentation", show, MenuGroup.VIEW, icon="menu_book")
 
 
-def _answer(path: str, text: str, mark: str, *, status: int = 200) -> Response:
-    """A file, with the mark by which a page learns that it has become another one."""
+def _respond(path: str, text: str, version: str, *, status: int = 200) -> Response:
+    """Respond with a file, and with its version as ETag, which the reload script compares."""
     suffix = Path(path).suffix
     if suffix == ".html":
-        script = f'<script src="{_RELOAD_SCRIPT.name}" data-version="{escape(mark)}" defer></script>'
+        script = f'<script src="{_RELOAD_SCRIPT.name}" data-version="{escape(version)}" defer></script>'
         text = text.replace("</head>", f"{script}\n</head>", 1)
-    headers = {"etag": f'"{mark}"', "cache-control": "no-store", "x-content-type-options": "nosniff"}
+    headers = {"etag": f'"{version}"', "cache-control": "no-store", "x-content-type-options": "nosniff"}
     return Response(text, status_code=status, media_type=_TYPES.get(suffix, "text/plain"), headers=headers)

@@ -1,11 +1,11 @@
-// A page of the documentation that is shown beside the editor: loads itself again when it has become another one.
+// Reloads a documentation page served by the editor when it has changed.
 (() => {
   "use strict";
 
   const version = `"${document.currentScript.dataset.version}"`;
   const PAUSE_MS = 1000;
 
-  // Who looks for something goes on.
+  // Do not interrupt a search.
   const isSearchActive = () => Boolean(document.activeElement?.matches("#search") && document.activeElement.value);
 
   async function poll() {
@@ -13,7 +13,7 @@
       const isOld = !document.hidden && !isSearchActive() && (await fetch(location.pathname, { method: "HEAD" })).headers.get("etag") !== version;
       if (isOld && !isSearchActive()) return location.reload();
     } catch {
-      // The editor was ended. What is shown stays.
+      // The editor was stopped. Keep the page.
     }
     setTimeout(poll, PAUSE_MS);
   }

@@ -1,4 +1,4 @@
-"""The home of a folder: its designs as cards, what they use, what is broken; the place to begin and to come back to."""
+"""The home page of a folder: designs as cards, unreadable files, dependencies, hand-written components."""
 
 import contextlib
 from functools import partial
@@ -10,6 +10,7 @@ from vicode.diagram.dependency_graph import dependency_diagram
 from vicode.diagram.palettes import css_variable_palette
 from vicode.diagram.render import render_diagram
 from vicode.diagram.svg import write_svg
+from vicode.editor.pages import texts
 from vicode.editor.pages.shortcuts import register_shortcuts
 from vicode.editor.pages.theme import Theme, apply_theme
 from vicode.editor.panels.cards import broken_card, design_card, hand_written_row
@@ -29,16 +30,16 @@ _SHEET = Path(__file__).parent / "home.css"
 
 
 class HomePage:
-    """One window on a folder; built anew when something in it has changed."""
+    """One window on a folder, rebuilt when its content has changed."""
 
     def __init__(self, library: Library, index: SearchIndex, removed: str = "") -> None:
-        """Build the page for the browser that asks for it; `removed`, PROJECT/COMPONENT, is what it came from."""
+        """Build the page; `removed`, PROJECT/COMPONENT, is the deleted design that the window showed before."""
         self.library = library
         self.rendered_key: object = None
         self.search_text = ""
         theme = Theme(CodeEditorFactory(), apply_theme())
         ui.add_css(_SHEET.read_text(encoding="utf-8"))
-        palette = CommandPalette(index, _go)
+        palette = CommandPalette(index, _navigate)
         self.commands = (
             Command(
                 "find",
@@ -51,7 +52,7 @@ class HomePage:
             ),
             Command(
                 "theme",
-                "Light, dark, or as the system",
+                "Theme",
                 lambda: show_toast(theme.toggle(), "info"),
                 MenuGroup.VIEW,
                 icon="contrast",
@@ -68,13 +69,13 @@ class HomePage:
         self._offer_restore(removed)
         ui.timer(1.0, self._follow_disk)
 
-    def _offer_restore(self, gone: str) -> None:
-        """Offer to put back the design that was thrown away while this window showed it."""
-        key, _slash, component = gone.partition("/")
+    def _offer_restore(self, removed: str) -> None:
+        """Offer to restore the design that was deleted while this window showed it."""
+        key, _slash, component = removed.partition("/")
         workspace = self.library.workspace(key)
-        thrown = workspace.trashed_designs.get(component) if workspace else None
-        if workspace is not None and thrown is not None:
-            self.dialogs.offer_restore(workspace, thrown)
+        trashed = workspace.trashed_designs.get(component) if workspace else None
+        if workspace is not None and trashed is not None:
+            self.dialogs.offer_restore(workspace, trashed)
 
     def _head(self) -> None:
         with ui.element("header").classes("head"):
@@ -93,20 +94,20 @@ class HomePage:
 
     def _follow_disk(self) -> None:
         for workspace in self.library.workspaces:
-            # A folder may go while the editor is open.
+            # The folder may be deleted while the editor is open.
             with contextlib.suppress(OSError):
                 workspace.sync_from_disk()
         self._refresh()
 
     def _refresh(self) -> None:
         overviews = [self.library.overview(workspace) for workspace in self.library.workspaces]
-        shape = (
+        key = (
             self.search_text,
             [(each.cards(), each.broken_files(), each.workspace.project.components) for each in overviews],
         )
-        if shape == self.rendered_key:
+        if key == self.rendered_key:
             return
-        self.rendered_key = shape
+        self.rendered_key = key
         self.palette.commands = (*self.commands, *self._new_design_commands())
         self.body.clear()
         with self.body:
@@ -116,10 +117,10 @@ class HomePage:
                 self._project(overview)
 
     def _new_design_commands(self) -> list[Command]:
-        """A new design, in each of the projects."""
+        """Return a command per project that creates a design in it."""
         workspaces = self.library.workspaces
         if not workspaces:
-            return [Command("new-design", "New design", self._make_first, MenuGroup.DESIGN, icon="add")]
+            return [Command("new-design", "New design", self._create_first_design, MenuGroup.DESIGN, icon="add")]
         return [
             Command(
                 f"new-design-{workspace.key}",
@@ -133,11 +134,11 @@ class HomePage:
 
     def _empty(self) -> None:
         with ui.column().classes("home-empty"):
-            ui.label("No designs here yet").classes("home-title").props('role="heading" aria-level="1"')
-            ui.label("A design is a state machine in a YAML file; ten lines are enough to begin.").classes("empty")
-            primary_button("Make the first design", self._make_first, icon="add")
+            ui.label(texts.NO_DESIGNS_TITLE).classes("home-title").props('role="heading" aria-level="1"')
+            ui.label(texts.NO_DESIGNS_HELP).classes("empty")
+            primary_button(texts.CREATE_FIRST_DESIGN, self._create_first_design, icon="add")
 
-    def _make_first(self) -> None:
+    def _create_first_design(self) -> None:
         self.dialogs.ask_new(self.library.ensure_project())
 
     def _project(self, overview: ProjectOverview) -> None:
@@ -164,32 +165,28 @@ class HomePage:
                 self._hand_written(overview)
 
     def _nothing(self, has_designs: bool) -> None:
-        words = (
-            f"Nothing here is called like “{self.search_text}”"
-            if has_designs
-            else "No designs yet: make one from a template"
-        )
-        ui.label(words).classes("empty")
+        text = texts.no_matching_designs(self.search_text) if has_designs else texts.NO_DESIGNS_IN_PROJECT
+        ui.label(text).classes("empty")
 
     def _uses(self, workspace: Workspace) -> None:
-        figure = dependency_diagram(workspace.project, lambda component: design_url(workspace.key, component))
-        if not figure.edges:
+        diagram = dependency_diagram(workspace.project, lambda component: design_url(workspace.key, component))
+        if not diagram.edges:
             return
-        _heading("Who uses whom")
+        _heading("Dependencies")
         with ui.row().classes("legend"):
-            ui.label("requires: read by its user").classes("legend-requires")
-            ui.label("modulates: steered by its user").classes("legend-modulates")
+            ui.label("requires: outputs are read").classes("legend-requires")
+            ui.label("modulates: parameters are set").classes("legend-modulates")
         drawing = render_diagram(
-            figure, title=f"Components of {workspace.project.name}", palette=css_variable_palette()
+            diagram, title=f"Components of {workspace.project.name}", palette=css_variable_palette()
         )
-        # Written by us with every text escaped; a link of SVG would not outlive the sanitizer.
+        # write_svg escapes all texts; the sanitizer would remove the links.
         ui.html(write_svg(drawing), sanitize=False).classes("home-uses").props('tabindex="0"')
 
     def _hand_written(self, overview: ProjectOverview) -> None:
         rows = overview.hand_written_components()
         if not rows:
             return
-        _heading("Written by hand")
+        _heading("Hand-written components")
         with ui.element("ul").classes("home-components"):
             for row in rows:
                 hand_written_row(overview.workspace, row)
@@ -202,5 +199,5 @@ def _heading(text: str) -> None:
     ui.label(text).classes("home-heading").props('role="heading" aria-level="2"')
 
 
-def _go(goal: SearchTarget) -> None:
-    ui.navigate.to(design_url(goal.project, goal.component, goal.selected))
+def _navigate(target: SearchTarget) -> None:
+    ui.navigate.to(design_url(target.project, target.component, target.selected))

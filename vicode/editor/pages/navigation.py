@@ -1,4 +1,4 @@
-"""The way through the designs: find a thing and go there, open a used component, come back; the address follows."""
+"""Navigation between designs: search, open a used component, go back. The URL follows the selection."""
 
 import json
 from collections.abc import Sequence
@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 from nicegui import ui
 
+from vicode.editor.pages import texts
 from vicode.editor.panels.command import Command, MenuGroup
 from vicode.editor.panels.command_palette import CommandPalette
 from vicode.editor.panels.window_context import WindowContext
@@ -18,26 +19,25 @@ HOME = "/"
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PageRequest:
-    """How one came to a page: the components on the way, what to select there; and the index of what there is."""
+    """Parameters of a page: the breadcrumb trail, the item to select, and the search index."""
 
     index: SearchIndex
     trail: tuple[str, ...] = ()
     select: str = ""
     tour: bool = False
-    """Whether the tour may begin by itself."""
+    """Whether the tour may start automatically."""
 
 
 class Navigator:
-    """Where one window can go from here.
+    """Navigation of one window.
 
     Args:
         context: the open design.
-        index: what can be found.
-        trail: the components one came through.
+        index: the search index.
+        trail: the components on the path to this design.
     """
 
     def __init__(self, context: WindowContext, index: SearchIndex, trail: Sequence[str]) -> None:
-        """Let the desk lead on to used components."""
         self._context, self._trail = context, tuple(trail)
         self._shown = context.selected
         here = SearchTarget(project=context.workspace.key, component=context.design.component)
@@ -46,7 +46,7 @@ class Navigator:
         context.subscribe(self._update_address)
 
     def commands(self) -> tuple[Command, ...]:
-        """Find, back and home."""
+        """Return the commands find, back and home."""
         return (
             Command(
                 "find",
@@ -57,46 +57,46 @@ class Navigator:
                 keys=("Ctrl+K",),
                 while_typing=True,
             ),
-            # Alt+Left is the browser's own, and works before the page is awake.
-            Command("back", "Back to where you came from", ui.navigate.back, MenuGroup.VIEW, icon="arrow_back"),
+            # The browser handles Alt+Left itself, also before the page is connected.
+            Command("back", "Go back", ui.navigate.back, MenuGroup.VIEW, icon="arrow_back"),
             Command(
                 "home", "All designs", lambda: ui.navigate.to(HOME), MenuGroup.VIEW, icon="home", keys=("Alt+Home",)
             ),
         )
 
-    def select_initial(self, wanted: str) -> ItemRef | None:
-        """Select what the address names; None if that is nothing here."""
-        selected = parse_selection(wanted)
+    def select_initial(self, selection: str) -> ItemRef | None:
+        """Select the item that the URL names; None if it does not exist."""
+        selected = parse_selection(selection)
         if selected is None or not self._context.is_shown(selected):
             return None
         self._context.selected = self._shown = (selected,)
         return selected
 
-    def go_to(self, goal: SearchTarget) -> None:
-        """Show a thing, here or in another design."""
-        desk = self._context
-        if (goal.project, goal.component) != (desk.workspace.key, desk.design.component):
-            ui.navigate.to(design_url(goal.project, goal.component, goal.selected))
-        elif goal.selected is None:
-            desk.select()
+    def go_to(self, target: SearchTarget) -> None:
+        """Show an item of this or another design."""
+        context = self._context
+        if (target.project, target.component) != (context.workspace.key, context.design.component):
+            ui.navigate.to(design_url(target.project, target.component, target.selected))
+        elif target.selected is None:
+            context.select()
         else:
-            desk.select(goal.selected)
-            desk.reveal(goal.selected)
+            context.select(target.selected)
+            context.reveal(target.selected)
 
     def open_component(self, component: str) -> None:
-        """Open the design of a component that this one uses."""
+        """Open the design of a used component."""
         workspace, here = self._context.workspace, self._context.design.component
         if workspace.project.design(component) is None:
-            self._context.show_toast(f"{component} is hand-written: it has no design to open", "info")
+            self._context.show_toast(texts.hand_written_component(component), "info")
         else:
             with self._context.client:
                 ui.navigate.to(design_url(workspace.key, component, trail=extend_trail(self._trail, here)))
 
     def _update_address(self) -> None:
-        """Keep the address true, so that it can be given to others, and Back finds what was selected."""
-        desk = self._context
-        if desk.selected == self._shown:
+        """Update the URL, so that it can be shared, and Back restores the selection."""
+        context = self._context
+        if context.selected == self._shown:
             return
-        self._shown = desk.selected
-        address = design_url(desk.workspace.key, desk.design.component, desk.single_selection, self._trail)
-        desk.client.run_javascript(f'history.replaceState(history.state, "", {json.dumps(address)})')
+        self._shown = context.selected
+        address = design_url(context.workspace.key, context.design.component, context.single_selection, self._trail)
+        context.client.run_javascript(f'history.replaceState(history.state, "", {json.dumps(address)})')

@@ -1,4 +1,4 @@
-"""What the commands of the design page do."""
+"""Implements the commands of the design page."""
 
 from collections.abc import Callable
 from functools import partial
@@ -6,10 +6,12 @@ from typing import TypeVar
 
 from nicegui import run
 
+from vicode.editor.pages import texts
 from vicode.editor.pages.canvas_controller import CanvasController
 from vicode.editor.pages.theme import Theme
 from vicode.editor.panels.command import Command, MenuGroup
 from vicode.editor.panels.conflict_dialog import ask_to_resolve_conflict
+from vicode.editor.panels.texts import SAVED, not_saved
 from vicode.editor.panels.window_context import WindowContext
 from vicode.editor.session import DiskConflictError, DocumentSession, apply_gesture
 from vicode.editor.session.descriptions import error_reason
@@ -20,13 +22,12 @@ T = TypeVar("T")
 class PageCommands:
     """The commands of one window."""
 
-    def __init__(self, context: WindowContext, drawing: CanvasController, theme: Theme) -> None:
-        """Work on what this window shows."""
-        self.context, self.canvas_controller, self.theme = context, drawing, theme
+    def __init__(self, context: WindowContext, canvas_controller: CanvasController, theme: Theme) -> None:
+        self.context, self.canvas_controller, self.theme = context, canvas_controller, theme
         self.links_shown = True
 
     def commands(self) -> tuple[Command, ...]:
-        """All of them, in the order in which they are listed."""
+        """Return the commands in their listing order."""
         design, edit, view = MenuGroup.DESIGN, MenuGroup.EDIT, MenuGroup.VIEW
         return (
             Command("save", "Save", self.save, design, icon="save", keys=("Ctrl+S",), while_typing=True),
@@ -35,74 +36,74 @@ class PageCommands:
             Command("redo", "Redo", self.redo, edit, icon="redo", keys=("Ctrl+Shift+Z", "Ctrl+Y")),
             Command(
                 "disable",
-                "Disable what is selected, or enable it again",
+                "Toggle disabled",
                 self.toggle_disabled,
                 edit,
                 icon="block",
                 keys=("D",),
             ),
-            Command("links", "Show or hide links to components", self.toggle_links, view, icon="hub"),
-            Command("theme", "Light, dark, or as the system", self.toggle_theme, view, icon="contrast"),
+            Command("links", "Toggle links to components", self.toggle_links, view, icon="hub"),
+            Command("theme", "Theme", self.toggle_theme, view, icon="contrast"),
         )
 
     def save(self) -> bool:
-        """Write the design into its file; false if it was not."""
-        desk = self.context
+        """Save the design to its file; return whether it was saved."""
+        context = self.context
         try:
-            desk.workspace.save(desk.document)
+            context.workspace.save(context.document)
         except DiskConflictError:
-            ask_to_resolve_conflict(desk)
+            ask_to_resolve_conflict(context)
             return False
         except (OSError, ValueError) as error:
-            # A design may hold for a while what no file can: two declarations of one name.
-            desk.show_toast(f"{desk.document.file.name} is not saved: {error_reason(error)}", "negative")
+            # A design may have a temporary state that no file can hold: two declarations with one name.
+            context.show_toast(not_saved(context.document.file.name, error_reason(error)), "negative")
             return False
-        desk.show_toast("Saved", "positive")
+        context.show_toast(SAVED, "positive")
         return True
 
     def undo(self) -> None:
-        """Take back what this person did last; says why not, if another changed it since."""
+        """Undo the last edit of this user; show an error if another user changed the same since."""
         self._show_error(self.context.document.undo())
 
     def redo(self) -> None:
-        """Do again what undo took back."""
+        """Redo the last undone edit."""
         self._show_error(self.context.document.redo())
 
     def generate_code(self) -> None:
-        """Write the code, after saving, and after showing what would change."""
+        """Save, show the changes of the generated files, and write them."""
         if self.context.document.is_saved or self.save():
             self.context.run_in_background(self._write_code(), "generate")
 
     def toggle_disabled(self) -> None:
-        """Disable the selected states and transitions, or enable them when all of them are disabled."""
+        """Disable the selected states and transitions, or enable them if all are disabled."""
         items = [{"of": thing.kind, "id": thing.id} for thing in self.context.selected]
         outcome = apply_gesture(self.context.document, {"kind": "disable", "items": items})
         if outcome.error:
             self.context.show_toast(outcome.error, "warning")
 
     def toggle_links(self) -> None:
-        """Show or hide what states require and modulate."""
+        """Show or hide the links of states to required and modulated components."""
         self.links_shown = not self.links_shown
         self.canvas_controller.canvas.show_links(self.links_shown)
 
     def toggle_theme(self) -> None:
-        """Go on to the next of system, dark and light."""
+        """Switch to the next theme: system, dark, light."""
         self.context.show_toast(self.theme.toggle(), "info")
 
-    def _show_error(self, refused: str) -> None:
-        if refused:
-            self.context.show_toast(refused, "warning")
+    def _show_error(self, error: str) -> None:
+        if error:
+            self.context.show_toast(error, "warning")
 
     async def _write_code(self) -> None:
-        """Show what would change, unless nothing would or the person does not want to be asked."""
+        """Ask for confirmation if files change, unless the user disabled it."""
         from vicode.editor.panels.generate_dialog import confirm_writing, is_confirmation_disabled
 
-        desk = self.context
-        prepared = await self._run_in_thread(desk.workspace.prepare_output)
+        context = self.context
+        prepared = await self._run_in_thread(context.workspace.prepare_output)
         if prepared is None:
             return
         if prepared.changes and (prepared.manual_edits or not await is_confirmation_disabled()):
-            confirm_writing(prepared, desk.design.component, self._write_answered)
+            confirm_writing(prepared, context.design.component, self._write_answered)
         else:
             await self._write(is_forced=False)
 
@@ -110,20 +111,20 @@ class PageCommands:
         self.context.run_in_background(self._write(is_forced=is_forced), "write code")
 
     async def _write(self, *, is_forced: bool) -> None:
-        desk = self.context
-        outcome = await self._run_in_thread(partial(desk.workspace.generate, is_forced=is_forced))
+        context = self.context
+        outcome = await self._run_in_thread(partial(context.workspace.generate, is_forced=is_forced))
         if outcome is not None:
-            desk.show_toast(outcome.message, "positive" if outcome.is_complete else "negative")
+            context.show_toast(outcome.message, "positive" if outcome.is_complete else "negative")
 
     async def _run_in_thread(self, work: Callable[[DocumentSession], T]) -> T | None:
-        """Do something with the open design beside the event loop; None if it could not be done, which was said."""
-        desk = self.context
+        """Run a function of the document in a thread. Errors are shown; the result is then None."""
+        context = self.context
         try:
-            done = await run.io_bound(work, desk.document)
+            result = await run.io_bound(work, context.document)
         except DiskConflictError:
-            ask_to_resolve_conflict(desk)
+            ask_to_resolve_conflict(context)
             return None
         except OSError as error:
-            desk.show_toast(f"Not generated: {error}", "negative")
+            context.show_toast(texts.not_generated(error), "negative")
             return None
-        return None if self.canvas_controller.canvas.is_deleted else done
+        return None if self.canvas_controller.canvas.is_deleted else result

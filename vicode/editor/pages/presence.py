@@ -1,4 +1,4 @@
-"""One window among the others: it is announced while it is connected, and shows what the others are at."""
+"""Presence of one window: announces it while it is connected, and shows the other users."""
 
 from typing import cast
 
@@ -15,12 +15,12 @@ _UPDATE_DELAY_S = 0.04
 
 
 class PresenceSync:
-    """Keeps the company informed of this window, and this window of the company."""
+    """Synchronizes one window with the presence room of the design."""
 
-    def __init__(self, context: WindowContext, person: User, canvas: Canvas, chips: PresenceBar) -> None:
-        """Come in when the browser connects; go when it is closed, or loses the server."""
-        self.context, self.person, self.canvas, self.presence_bar = context, person, canvas, chips
-        chips.rename = self.rename
+    def __init__(self, context: WindowContext, user: User, canvas: Canvas, presence_bar: PresenceBar) -> None:
+        """Join when the browser connects; leave when it disconnects or closes."""
+        self.context, self.person, self.canvas, self.presence_bar = context, user, canvas, presence_bar
+        presence_bar.rename = self.rename
         self.shown_typing: object = None
         self.is_update_scheduled = False
         client = ui.context.client
@@ -31,7 +31,7 @@ class PresenceSync:
         context.subscribe(lambda: context.presence.update(context.window, selected=context.selected))
 
     def rename(self, name: str) -> None:
-        """Give this person another name, here and in the browser's memory."""
+        """Rename the user in all windows, and store the name in the browser."""
         store_name(name)
         self.person = self.context.document.shared.users.get_or_create_user(self.person.id, name)
         for presence in self.context.presence.presences:
@@ -45,7 +45,7 @@ class PresenceSync:
     def _on_presence_change(self) -> None:
         if not self.is_update_scheduled and core.loop is not None:
             self.is_update_scheduled = True
-            # Where many are, news of people may wait; edits do not.
+            # With many users, presence updates may wait; edits do not.
             core.loop.call_later(_UPDATE_DELAY_S * max(1, len(self.context.presence.presences) / 4), self._show)
 
     def _show(self) -> None:

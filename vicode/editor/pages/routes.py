@@ -5,6 +5,7 @@ import contextlib
 from nicegui import ui
 from starlette.requests import Request
 
+from vicode.editor.pages import texts
 from vicode.editor.pages.autosave_ui import run_autosave
 from vicode.editor.pages.design_page import DesignPage
 from vicode.editor.pages.docs_preview import serve_docs_preview
@@ -19,7 +20,7 @@ from vicode.editor.view.page_urls import broken_file_url, parse_trail
 
 
 def register_pages(library: Library, autosave: AutosaveService | None = None, *, tour: bool = False) -> None:
-    """Serve the designs of a library: `/` is their home, `/design/PROJECT/COMPONENT` edits one."""
+    """Register the pages: `/` is the home page, `/design/PROJECT/COMPONENT` edits a design."""
     index = SearchIndex(library)
     if autosave is not None:
         run_autosave(autosave)
@@ -39,24 +40,24 @@ def register_pages(library: Library, autosave: AutosaveService | None = None, *,
         workspace = _workspace_as_on_disk(library, key)
         document = workspace.open_document(component) if workspace else None
         if workspace is None or document is None:
-            _nothing(f"There is no design {component[:80]} here", "It may have been renamed or removed.", workspace)
+            _show_not_found(texts.design_not_found(component[:80]), texts.MAYBE_REMOVED, workspace)
             return
         ui.page_title(f"{component} – vicode")
         query = request.query_params
         trail = parse_trail(query.get("from", ""), workspace.project.interfaces(), component)
         ui.on_exception(show_internal_error)
-        way = PageRequest(index=index, trail=trail, select=query.get("select", ""), tour=tour)
-        DesignPage(library, workspace, document, way, autosave)
+        page_request = PageRequest(index=index, trail=trail, select=query.get("select", ""), tour=tour)
+        DesignPage(library, workspace, document, page_request, autosave)
 
     @ui.page("/broken/{key}/{file:path}", title="vicode")
     def broken(key: str, file: str) -> None:
         from vicode.editor.pages.broken_page import BrokenPage
 
         workspace = _workspace_as_on_disk(library, key)
-        # Only what was found to be broken is opened, so that no address leads to any other file.
+        # Only files known to be unreadable are opened, so that a URL cannot name any other file.
         path = workspace.broken_files.get(file) if workspace else None
         if workspace is None or path is None:
-            _nothing(f"There is no broken file {file[:80]} here", "It may have been mended or removed.")
+            _show_not_found(texts.file_not_found(file[:80]), texts.MAYBE_FIXED)
             return
         ui.page_title(f"{file} – vicode")
         ui.on_exception(show_internal_error)
@@ -64,7 +65,7 @@ def register_pages(library: Library, autosave: AutosaveService | None = None, *,
 
 
 def _workspace_as_on_disk(library: Library, key: str) -> Workspace | None:
-    """The project of a key; a file may be younger than what was read last."""
+    """Return the project of a key, after reading changed files."""
     workspace = library.workspace(key)
     if workspace:
         with contextlib.suppress(OSError):
@@ -72,14 +73,14 @@ def _workspace_as_on_disk(library: Library, key: str) -> Workspace | None:
     return workspace
 
 
-def _nothing(title: str, hint: str, workspace: Workspace | None = None) -> None:
-    """Say that there is nothing at an address; what is sought may be in a file that cannot be read."""
+def _show_not_found(title: str, hint: str, workspace: Workspace | None = None) -> None:
+    """Show that nothing exists at the URL, with links to unreadable files of the project."""
     apply_theme()
     with ui.element("main").classes("nothing"):
         ui.label(title).classes("dialog-title").props("role=heading aria-level=1")
         ui.label(hint).classes("empty")
         if workspace is not None and workspace.broken_file_names:
-            ui.label("Or it is in a file that cannot be read just now:").classes("empty")
+            ui.label(texts.MAYBE_IN_UNREADABLE_FILE).classes("empty")
             for file in workspace.broken_file_names:
                 ui.link(file, broken_file_url(workspace.key, file))
-        ui.link("Show the designs", "/")
+        ui.link("Show all designs", "/")

@@ -1,4 +1,4 @@
-"""What stands beside the drawing: the dock below it and the side to its right, filled once the drawing is shown."""
+"""The panels around the diagram: the dock below and the side panel on the right."""
 
 from typing import TYPE_CHECKING
 
@@ -29,40 +29,39 @@ _FOCUS_SEARCH = """
 
 
 class SidePanels:
-    """Builds both with their tabs; `build` fills them. The panels take longer to load than all that is drawn before."""
+    """Builds both tab bars. `build` adds the panels, after the diagram is shown, as they take longer to load."""
 
-    def __init__(self, context: WindowContext, canvas: Canvas, problems: FindingNavigator) -> None:
-        """Make room for the panels."""
-        self._context, self._canvas, self._finding_navigator = context, canvas, problems
+    def __init__(self, context: WindowContext, canvas: Canvas, findings: FindingNavigator) -> None:
+        self._context, self._canvas, self._finding_navigator = context, canvas, findings
         self._simulator: SimulationController | None = None
         add_splitters()
-        with ui.element("section").classes("dock").props('aria-label="Below the drawing"'):
+        with ui.element("section").classes("dock").props('aria-label="Bottom panel"'):
             dock_splitter()
-            self.dock = Tabs(_DOCK, "dock", "Panels below")
+            self.dock = Tabs(_DOCK, "dock", "Bottom panels")
         with ui.element("aside").classes("side").props('aria-label="Inspector"'):
             side_splitter()
-            self.side = Tabs(_SIDE, "side", "Panels beside")
+            self.side = Tabs(_SIDE, "side", "Side panels")
 
     def build(self) -> None:
-        """Build the panels that are in sight."""
+        """Build the visible panels."""
         from vicode.editor.panels.code_panel import CodePanel
         from vicode.editor.panels.findings_panel import FindingsPanel
         from vicode.editor.panels.history_panel import HistoryPanel
         from vicode.editor.panels.inspector import Inspector
 
-        desk = self._context
-        self.side.build({_INSPECT: lambda: Inspector(desk), _CODE: lambda: CodePanel(desk)})
+        context = self._context
+        self.side.build({_INSPECT: lambda: Inspector(context), _CODE: lambda: CodePanel(context)})
         self.dock.build(
             {
-                _FINDINGS: lambda: FindingsPanel(desk, self._finding_navigator),
+                _FINDINGS: lambda: FindingsPanel(context, self._finding_navigator),
                 _SEARCH: self._search_panel,
-                _HISTORY: lambda: HistoryPanel(desk),
+                _HISTORY: lambda: HistoryPanel(context),
                 _SIMULATE: self._simulation_panel,
             }
         )
 
     def commands(self) -> tuple[Command, ...]:
-        """What can be asked of the panels below."""
+        """Return the commands of the panels."""
         return (
             *simulation_commands(self._simulate, lambda: self.dock.show(_SIMULATE)),
             Command(
@@ -77,12 +76,12 @@ class SidePanels:
         )
 
     def design_changed(self) -> None:
-        """Let what runs know that it is no longer what is drawn."""
+        """Tell the simulation that the design has changed."""
         if self._simulator is not None:
             self._simulator.check_design()
 
     def refresh(self) -> None:
-        """Show the desk as it is now."""
+        """Update the visible panels."""
         self.dock.refresh()
         self.side.refresh()
 

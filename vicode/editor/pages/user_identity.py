@@ -1,4 +1,4 @@
-"""Who opens a page: a browser is known by an id for as long as the editor runs, and by a chosen name for a year."""
+"""Identifies users: a browser has an id while the editor runs, and keeps the user's name for a year."""
 
 import json
 from urllib.parse import quote, unquote
@@ -12,13 +12,13 @@ NAME_COOKIE = "vicode_name"
 _YEAR_S = 365 * 24 * 3600
 
 
-def identify_user(people: UserDirectory) -> User:
-    """The person at the browser that asks for the page being built."""
+def identify_user(users: UserDirectory) -> User:
+    """Return the user of the current request."""
     name = unquote(ui.context.client.request.cookies.get(NAME_COOKIE, ""))
-    return people.get_or_create_user(str(app.storage.browser["id"]), name)
+    return users.get_or_create_user(str(app.storage.browser["id"]), name)
 
 
 def store_name(name: str) -> None:
-    """Let the browser remember a name."""
+    """Store the name of the user in a cookie."""
     cookie = f"{NAME_COOKIE}={quote(clean_name(name), safe='')}; path=/; max-age={_YEAR_S}; samesite=strict"
     ui.run_javascript(f"document.cookie = {json.dumps(cookie)}")

@@ -14,7 +14,7 @@ from vicode.model.design import Action, Assign, Call, Code, Declaration, Design,
 from vicode.model.edits import update_actions
 from vicode.model.expressions import build_scope
 
-# Whoever adds an action types it next; without the focus the letters would be commands of the drawing.
+# Focus a new action: otherwise typed letters would be commands of the canvas.
 _FOCUS_LAST = """
 (function focus(left) {
   const field = document.querySelector('[data-adds="LIST"]')?.previousElementSibling?.querySelector(".cm-content");
@@ -27,7 +27,7 @@ _FOCUS_LAST = """
 def actions_panel(
     context: WindowContext, path: DesignPath, actions: tuple[Action, ...], *, calls: bool = True
 ) -> list[Field]:
-    """Show the actions a path leads to, each editable, with buttons to add, move and remove."""
+    """Build forms for the actions at a path, with buttons to add, move and remove them."""
     fields: list[Field] = []
     for index, action in enumerate(actions):
         with ui.column().classes("card"):
@@ -49,26 +49,26 @@ def actions_panel(
 
 
 def python_code(text: str) -> Code:
-    """A piece of Python code."""
+    """Create code with a Python text."""
     return replace_python(None, text)
 
 
 def replace_python(code: Code | None, text: str) -> Code:
-    """The same code with another text in Python; what is written in other languages stays."""
+    """Replace the Python text of code; texts in other languages stay."""
     others = tuple(pair for pair in (code.texts if code else ()) if pair[0] != "python")
-    # Lines that end are what a block of YAML holds; one line may stand alone.
+    # A YAML block of several lines ends with a newline; a single line does not.
     ended = text + "\n" if "\n" in text and not text.endswith("\n") else text
     return Code(texts=((("python", ended), *others) if text.strip() else others))
 
 
 def parse_assignments(text: str) -> tuple[tuple[str, str], ...]:
-    """Lines `name = expression` (or `name: expression`) as pairs."""
+    """Parse lines `name = expression` (or `name: expression`)."""
     halves = (line.partition("=" if "=" in line else ":") for line in text.splitlines())
     return tuple((name.strip(), value.strip()) for name, _sign, value in halves if name.strip())
 
 
 def format_assignments(pairs: tuple[tuple[str, str], ...]) -> str:
-    """Pairs as lines `name = expression`."""
+    """Format pairs as lines `name = expression`."""
     return "\n".join(f"{name} = {value}" for name, value in pairs)
 
 
@@ -86,8 +86,8 @@ def _action_fields(context: WindowContext, path: DesignPath, index: int, action:
     here = (*path, index)
 
     def read(design: Design) -> Action | None:
-        found = _actions_at(design, path)
-        return found[index] if index < len(found) else None
+        declarations = _actions_at(design, path)
+        return declarations[index] if index < len(declarations) else None
 
     def write(make: Callable[[Action, str], Action]) -> Callable[[Design, str], Design]:
         def change(design: Design, value: str) -> Design:
@@ -107,7 +107,7 @@ def _action_fields(context: WindowContext, path: DesignPath, index: int, action:
             return [code_field(context, bound)]
         case Assign():
             bound = FieldBinding(
-                label="name = expression, a line each",
+                label="name = expression, one per line",
                 path=(*here, "set"),
                 read=lambda design: _values_of(read(design)),
                 write=write(_set_values),
@@ -115,7 +115,7 @@ def _action_fields(context: WindowContext, path: DesignPath, index: int, action:
             return [pairs_field(context, bound, lambda: settable_declarations(context))]
         case Call():
             bound = FieldBinding(
-                label="parameter = expression, a line each",
+                label="parameter = expression, one per line",
                 path=(*here, "with"),
                 read=lambda design: _values_of(read(design)),
                 write=write(_set_values),
@@ -125,17 +125,17 @@ def _action_fields(context: WindowContext, path: DesignPath, index: int, action:
 
 
 def settable_declarations(context: WindowContext) -> tuple[Declaration, ...]:
-    """What may be set: own variables and outputs, and variables of used components as `alias.variable`."""
-    found = [*context.design.variables, *context.design.outputs]
+    """Return the variables and outputs of the design, and variables of used components as `alias.variable`."""
+    declarations = [*context.design.variables, *context.design.outputs]
     for use in context.design.uses:
         interface = context.workspace.project.interface(use.component)
         variables = interface.variables if interface else ()
-        found += [replace(each, name=f"{use.alias}.{each.name}") for each in variables]
-    return tuple(found)
+        declarations += [replace(each, name=f"{use.alias}.{each.name}") for each in variables]
+    return tuple(declarations)
 
 
 def component_parameters(context: WindowContext, alias: str) -> tuple[Declaration, ...]:
-    """The parameters that a used component takes."""
+    """Return the parameters of a used component."""
     use = context.design.use(alias)
     interface = context.workspace.project.interface(use.component) if use else None
     return interface.parameters if interface else ()
@@ -177,7 +177,7 @@ def _set_values(action: Action, text: str) -> Action:
 
 
 def _first_assignment(context: WindowContext) -> tuple[str, str]:
-    """What a new assignment begins with: the first that may be set, and a value of its type."""
+    """Return a default assignment: the first settable declaration, and a value of its type."""
     settable = settable_declarations(context)
     if not settable:
         return ("name", "0")
@@ -192,7 +192,7 @@ def _adder(context: WindowContext, path: DesignPath, label: str, icon: str, make
     def add() -> None:
         action, client = make(), ui.context.client
         context.edit(f"add {label.lower()}", lambda design: update_actions(design, path, lambda old: (*old, action)))
-        # The form with the new action comes a moment later.
+        # The form with the new action is built later.
         count = len(_actions_at(context.design, path))
         client.run_javascript(_FOCUS_LAST.replace("LIST", f"{path[-1]}-{count}"))
 

@@ -1,7 +1,8 @@
-"""The cards of the home page: designs with pictures and findings, files that cannot be read, hand-written parts."""
+"""Cards and rows of the home page: designs, unreadable files, hand-written components."""
 
 from nicegui import ui
 
+from vicode.editor.panels import texts
 from vicode.editor.panels.design_dialogs import DesignDialogs
 from vicode.editor.panels.design_menu import add_design_menu
 from vicode.editor.panels.thumbnails import thumbnail_address
@@ -15,10 +16,10 @@ _ICONS = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.NOTE: "
 
 
 def design_card(workspace: Workspace, card: DesignCard, dialogs: DesignDialogs) -> None:
-    """A design: the picture and the name lead to it."""
+    """Build the card of a design. Picture and name link to it."""
     address = design_url(workspace.key, card.component)
-    with ui.element("article").classes("design-card") as whole:
-        whole.props["aria-label"] = card.component
+    with ui.element("article").classes("design-card") as article:
+        article.props["aria-label"] = card.component
         with ui.link(target=address).classes("card-picture").props('tabindex="-1" aria-hidden="true"'):
             for theme in ("light", "dark"):
                 picture = ui.element("img").classes(f"is-{theme}").props('alt="" loading="lazy"')
@@ -26,10 +27,10 @@ def design_card(workspace: Workspace, card: DesignCard, dialogs: DesignDialogs) 
         with ui.element("div").classes("card-text"):
             with ui.element("div").classes("card-line").props('role="heading" aria-level="2"'):
                 ui.link(card.component, address).classes("card-name")
-            ui.label(card.doc or "No doc yet").classes("card-doc")
+            ui.label(card.doc or texts.NO_DESCRIPTION).classes("card-doc")
             with ui.row().classes("card-facts"):
                 _facts(card)
-        add_design_menu(workspace, card.component, dialogs, whole)
+        add_design_menu(workspace, card.component, dialogs, article)
 
 
 def _facts(card: DesignCard) -> None:
@@ -38,35 +39,35 @@ def _facts(card: DesignCard) -> None:
     for severity, count in card.counts.items():
         with ui.row().classes(f"fact {severity}"):
             ui.icon(_ICONS[severity]).props('aria-hidden="true"')
-            ui.label(f"{count} {severity}{'s' * (count != 1)}")
+            ui.label(texts.pluralize(count, severity))
     if not card.counts:
         with ui.row().classes("fact sound"):
             ui.icon("check").props('aria-hidden="true"')
-            ui.label("Sound")
-    ui.label(f"{card.states} state{'s' * (card.states != 1)}").classes("fact")
+            ui.label(texts.NO_PROBLEMS)
+    ui.label(texts.pluralize(card.states, "state")).classes("fact")
     if card.is_root:
-        ui.label("Starts here").classes("fact root")
+        ui.label("Root of an agent").classes("fact root")
 
 
-def broken_card(workspace: Workspace, broken: BrokenFile) -> None:
-    """A file that holds no design that can be read, with what is wrong first."""
-    with ui.element("article").classes("design-card is-broken") as whole:
-        whole.props["aria-label"] = broken.file
+def broken_card(workspace: Workspace, file: BrokenFile) -> None:
+    """Build the card of an unreadable file, with its first error."""
+    with ui.element("article").classes("design-card is-broken") as article:
+        article.props["aria-label"] = file.file
         with ui.element("div").classes("card-picture"):
             ui.icon("broken_image").props('aria-hidden="true"')
         with ui.element("div").classes("card-text"):
             with ui.element("div").classes("card-line").props('role="heading" aria-level="2"'):
-                ui.label(broken.file).classes("card-name")
-            line = f"Line {broken.line}: " if broken.line else ""
-            ui.label(line + broken.reason).classes("card-doc")
+                ui.label(file.file).classes("card-name")
+            line = f"Line {file.line}: " if file.line else ""
+            ui.label(line + file.reason).classes("card-doc")
             with ui.row().classes("card-facts"), ui.row().classes("fact error"):
                 ui.icon("error").props('aria-hidden="true"')
                 ui.label("Cannot be read")
-            ui.link("Mend its text", broken_file_url(workspace.key, broken.file))
+            ui.link("Fix the file", broken_file_url(workspace.key, file.file))
 
 
 def hand_written_row(workspace: Workspace, row: HandWrittenComponent) -> None:
-    """A component without a design, with the designs that use it."""
+    """Build the row of a component without a design, with links to the designs that use it."""
     with ui.element("li").classes("component-row"):
         ui.label(row.component).classes("component-name")
         ui.label(row.implementation).classes("mono small")

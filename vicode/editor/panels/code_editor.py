@@ -1,4 +1,4 @@
-"""Code editors whose colours follow the window, light or dark."""
+"""Code editors that follow the light or dark theme of the window."""
 
 from weakref import WeakSet
 
@@ -8,10 +8,10 @@ from nicegui.events import CodeMirrorFocusChangeEventArguments, Handler
 
 
 class CodeEditorFactory:
-    """Makes the code editors of one window and keeps their colours."""
+    """Creates the code editors of one window and switches their theme."""
 
     def __init__(self) -> None:
-        """Begin with light colours; the window says when it knows better."""
+
         self._theme: SUPPORTED_THEMES = "vscodeLight"
         self._editors: WeakSet[ui.codemirror] = WeakSet()
 
@@ -20,13 +20,13 @@ class CodeEditorFactory:
         on_focus: Handler[CodeMirrorFocusChangeEventArguments] | None = None,
         language: SUPPORTED_LANGUAGES | None = "Python",
     ) -> ui.codemirror:
-        """An empty editor of code in a language."""
+        """Create an empty code editor."""
         editor = ui.codemirror(language=language, theme=self._theme, on_focus_change=on_focus)
         self._editors.add(editor)
         return editor
 
     def set_dark(self, *, is_dark: bool) -> None:
-        """Use dark or light colours in all of them from now on."""
+        """Switch all editors to the dark or light theme."""
         self._theme = "githubDark" if is_dark else "vscodeLight"
         for editor in tuple(self._editors):
             if not editor.is_deleted:

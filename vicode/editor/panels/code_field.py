@@ -1,4 +1,4 @@
-"""Fields for what is written in Python or as expressions: coloured, completed, with every mistake at its characters."""
+"""Fields for Python code and expressions, with highlighting, completion and marks at errors."""
 
 from collections.abc import Callable, Iterable, Sequence
 from contextlib import suppress
@@ -9,6 +9,7 @@ from nicegui import ui
 from nicegui.events import CodeMirrorFocusChangeEventArguments
 
 from vicode.editor.code import CodeAssist
+from vicode.editor.panels import texts
 from vicode.editor.panels.dialogs import titled_dialog
 from vicode.editor.panels.fields import Field, FieldBinding
 from vicode.editor.panels.widgets import icon_button
@@ -34,7 +35,7 @@ _ANSWER_TIMEOUT_S = 5
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CodeFieldSpec:
-    """What is written in a field: what completes it, where its mistakes are, how it looks."""
+    """The content type of a code field: completion, marks and style."""
 
     complete: Callable[[str, int], CompletionResult]
     find_marks: Callable[[str], Sequence[CodeMark]]
@@ -44,10 +45,10 @@ class CodeFieldSpec:
 
 
 def code_field(context: WindowContext, binding: FieldBinding) -> Field:
-    """Python code; `bound.path` leads to its texts by language."""
+    """Build a field for Python code; `binding.path` leads to the texts by language."""
     path = (*binding.path, "python") if binding.path[-1:] == ("code",) else binding.path
     lint_path = (*binding.path, "python")
-    writing = CodeFieldSpec(
+    spec = CodeFieldSpec(
         complete=lambda text, at: complete_python(context.workspace.project, context.design, text, at),
         find_marks=lambda text: mark_text(
             text, path, context.document.findings, context.linter.lints_for(lint_path, text)
@@ -56,62 +57,62 @@ def code_field(context: WindowContext, binding: FieldBinding) -> Field:
         is_expression=False,
         lint_path=lint_path,
     )
-    return _build(context, binding, writing)
+    return _build(context, binding, spec)
 
 
 def expression_field(context: WindowContext, binding: FieldBinding) -> Field:
-    """One expression, in as many lines as it needs."""
-    writing = CodeFieldSpec(
+    """Build a field for one expression, which may have several lines."""
+    spec = CodeFieldSpec(
         complete=lambda text, at: complete_expression(context.workspace.project, context.design, text, at),
         find_marks=lambda text: mark_text(text, binding.path, context.document.findings),
         css_class="code-field expression-field",
     )
-    return _build(context, binding, writing)
+    return _build(context, binding, spec)
 
 
 def pairs_field(context: WindowContext, binding: FieldBinding, settable: Callable[[], Iterable[Declaration]]) -> Field:
-    """Lines `name = expression`; `settable` are what the names may be."""
-    writing = CodeFieldSpec(
+    """Build a field for lines `name = expression`; `settable` returns the allowed names."""
+    spec = CodeFieldSpec(
         complete=lambda text, at: complete_assignments(context.workspace.project, context.design, settable(), text, at),
         find_marks=lambda text: mark_assignments(text, binding.path, context.document.findings),
         css_class="code-field expression-field",
     )
-    return _build(context, binding, writing)
+    return _build(context, binding, spec)
 
 
 def _build(
-    context: WindowContext, binding: FieldBinding, writing: CodeFieldSpec, *, is_large: bool = False
+    context: WindowContext, binding: FieldBinding, spec: CodeFieldSpec, *, is_large: bool = False
 ) -> "CodeField":
-    made: list[CodeField] = []
+    fields: list[CodeField] = []
 
     def focus(event: CodeMirrorFocusChangeEventArguments) -> None:
-        for code in made:
+        for code in fields:
             code.focus(has_focus=event.focused)
 
     with ui.column().classes("field"):
         with ui.row().classes("field-head"):
             if not is_large:
                 ui.label(binding.label).classes("field-label")
-                icon_button("open_in_full", f"Enlarge: {binding.label}", lambda: _enlarge(made[0], writing))
-        editor = context.code_editors.create(on_focus=focus, language=None if writing.is_expression else "Python")
-        editor.classes(writing.css_class + (" is-large" if is_large else ""))
-        aid = CodeAssist(
+                icon_button("open_in_full", f"Enlarge: {binding.label}", lambda: _enlarge(fields[0], spec))
+        editor = context.code_editors.create(on_focus=focus, language=None if spec.is_expression else "Python")
+        editor.classes(spec.css_class + (" is-large" if is_large else ""))
+        code_assist = CodeAssist(
             editor,
             label=binding.label,
-            complete=writing.complete,
-            is_expression=writing.is_expression,
+            complete=spec.complete,
+            is_expression=spec.is_expression,
             hint=binding.hint,
         )
         messages = ui.column().classes("field-messages").props('role="status"')
-    made.append(CodeField(context, binding, editor, spec=writing, code_assist=aid, messages=messages))
-    return made[0]
+    fields.append(CodeField(context, binding, editor, spec=spec, code_assist=code_assist, messages=messages))
+    return fields[0]
 
 
-def _enlarge(small: Field, writing: CodeFieldSpec) -> None:
-    """The same text in a wide editor; both follow each other, as long as there is a place for it."""
-    desk, bound = small.context, small.binding
-    with titled_dialog(bound.label, "code-dialog") as dialog:
-        large = _build(desk, bound, writing, is_large=True)
+def _enlarge(small: Field, spec: CodeFieldSpec) -> None:
+    """Open the text in a large editor. Both editors stay in sync until the path is removed."""
+    context, binding = small.context, small.binding
+    with titled_dialog(binding.label, "code-dialog") as dialog:
+        large = _build(context, binding, spec, is_large=True)
         with ui.row().classes("dialog-buttons"):
             ui.button("Close", on_click=dialog.close).props("flat no-caps")
 
@@ -120,13 +121,13 @@ def _enlarge(small: Field, writing: CodeFieldSpec) -> None:
             large.refresh()
             return
         stop()
-        desk.show_toast("Somebody else removed, renamed or moved what this code belongs to", "warning")
+        context.show_toast(texts.CODE_OWNER_CHANGED, "warning")
         large.is_closing = True
-        # What was typed till now belongs to where the code is by now, if it is anywhere.
+        # Text typed before belongs to the new path of the code, if it still exists.
         small.transfer_input_from(large)
-        desk.run_in_background(tell_last(), "last words")
+        context.run_in_background(send_last_input(), "last input")
 
-    async def tell_last() -> None:
+    async def send_last_input() -> None:
         with suppress(TimeoutError):
             script = _SEND_LAST_INPUT.format(small=small.element.id, large=large.element.id)
             await dialog.client.run_javascript(script, timeout=_ANSWER_TIMEOUT_S)
@@ -136,27 +137,27 @@ def _enlarge(small: Field, writing: CodeFieldSpec) -> None:
         stop()
         dialog.delete()
 
-    stop = desk.subscribe(follow)
+    stop = context.subscribe(follow)
     dialog.on("hide", close)
 
 
 @dataclass(eq=False)
 class CodeField(Field):
-    """A code editor with its aid; the messages below it can be read, and followed, without a mouse.
+    """A code editor with messages below it that can be read and followed with the keyboard.
 
-    While somebody types nothing of the editor element itself may be changed from here, not even a class: NiceGUI
-    sends its value along, which is older than what stands in the browser. The aid sends marks, and nothing else.
+    While the user types, the server must not change the editor element, not even a class: NiceGUI would send its
+    value as well, which is older than the text in the browser. `CodeAssist` sends marks only.
     """
 
     spec: CodeFieldSpec = field(kw_only=True)
     code_assist: CodeAssist = field(kw_only=True)
     messages: ui.column = field(kw_only=True)
     is_closing: bool = False
-    """Whether its dialog is about to close: what is typed here is taken over another way."""
+    """Whether its dialog is about to close; its input is then transferred separately."""
     _shown: object = None
 
     def __post_init__(self) -> None:
-        """Watch for typing; the editor tells its focus in a way of its own."""
+        """Subscribe to changes; the editor reports its focus through its own event."""
         self.element.on_value_change(lambda event: self._on_typed(event.value))
         if self.spec.lint_path:
             self.context.linter.subscribe(self)
@@ -164,11 +165,11 @@ class CodeField(Field):
 
     @property
     def is_deleted(self) -> bool:
-        """Whether the form it stood in was built anew."""
+        """Whether its form was rebuilt."""
         return self.element.is_deleted
 
     def refresh(self) -> None:
-        """Show what the design holds, and what is wrong with it."""
+        """Show the value of the design and its findings."""
         super().refresh()
         if self.is_deleted:
             return
@@ -191,7 +192,7 @@ class CodeField(Field):
             for mark in marks[:_SHOWN_MESSAGES]:
                 self._message(mark, f"Line {mark.line}: " if is_long else "")
             if len(marks) > _SHOWN_MESSAGES:
-                ui.label(f"and {len(marks) - _SHOWN_MESSAGES} more").classes("empty")
+                ui.label(texts.more(len(marks) - _SHOWN_MESSAGES)).classes("empty")
 
     def _message(self, mark: CodeMark, line: str) -> None:
         button = ui.element("button").classes(f"field-message {mark.severity}").props('type="button"')

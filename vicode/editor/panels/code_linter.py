@@ -1,4 +1,4 @@
-"""What the linter says of the open design's Python, asked beside the event loop while somebody looks at code."""
+"""Runs the linter on the Python code of the open design, in a thread, while code fields are shown."""
 
 from typing import Protocol
 from weakref import WeakSet
@@ -13,36 +13,36 @@ from vicode.model.texts import iter_texts
 
 
 class LintSubscriber(Protocol):
-    """A field that shows remarks."""
+    """A field that shows lint warnings."""
 
     @property
     def is_deleted(self) -> bool:
-        """Whether it is on no page any more."""
+        """Whether it was removed from the page."""
 
     def refresh(self) -> None:
-        """Show what there is now."""
+        """Show the current warnings."""
 
 
 class CodeLinter:
-    """The remarks for one window; asked anew when the design has changed, the newest answer counts."""
+    """The lint warnings of one window, updated when the design has changed."""
 
     def __init__(self, workspace: Workspace, document: DocumentSession) -> None:
-        """Nothing is known yet, and nothing is asked before a field follows."""
+
         self._workspace, self._document = workspace, document
         self._subscribers: WeakSet[LintSubscriber] = WeakSet()
-        self._found: LintWarnings = {}
+        self._warnings: LintWarnings = {}
         self._texts: dict[DesignPath, str] = {}
         self._linted_rev = -1
         self._is_busy = False
 
-    def subscribe(self, follower: LintSubscriber) -> None:
-        """Refresh a field whenever there are new remarks, as long as it lives."""
-        self._subscribers.add(follower)
+    def subscribe(self, subscriber: LintSubscriber) -> None:
+        """Refresh a field when there are new warnings, as long as it exists."""
+        self._subscribers.add(subscriber)
 
     def lints_for(self, path: DesignPath, text: str) -> tuple[LintWarning, ...]:
-        """The remarks on the code at a path, if they were made of this very text; asks for newer ones if it is time."""
+        """Return the warnings for the code at a path, if they belong to this text; start the linter if necessary."""
         self._lint_if_needed()
-        return self._found.get(path, ()) if self._texts.get(path) == text else ()
+        return self._warnings.get(path, ()) if self._texts.get(path) == text else ()
 
     def _lint_if_needed(self) -> None:
         if not self._is_busy and self._linted_rev != self._document.rev:
@@ -53,14 +53,14 @@ class CodeLinter:
         try:
             while self._linted_rev != self._document.rev:
                 self._linted_rev, design = self._document.rev, self._document.design
-                found = await run.io_bound(lint_design, self._workspace.project, design)
-                # Nothing comes back while the server is shutting down.
-                if found is None:
+                warnings = await run.io_bound(lint_design, self._workspace.project, design)
+                # The result is None while the server shuts down.
+                if warnings is None:
                     return
-                self._found = found
-                self._texts = {each.path: each.text for each in iter_texts(design) if each.language == "python"}
+                self._warnings = warnings
+                self._texts = {item.path: item.text for item in iter_texts(design) if item.language == "python"}
         finally:
             self._is_busy = False
-        for follower in tuple(self._subscribers):
-            if not follower.is_deleted:
-                follower.refresh()
+        for subscriber in tuple(self._subscribers):
+            if not subscriber.is_deleted:
+                subscriber.refresh()

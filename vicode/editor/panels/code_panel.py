@@ -1,6 +1,6 @@
-"""The code generated from the open design, as it is typed; nothing is written to disk here.
+"""The code generated from the open design, updated while the user edits; writes no files.
 
-What is selected in the drawing is brought forward in the code, and a click in the code selects in the drawing.
+The code of the selected item is highlighted; a click in the code selects the item.
 """
 
 from nicegui import run, ui
@@ -13,14 +13,14 @@ from vicode.editor.session.code_preview import CodePreview, PreviewFile
 from vicode.editor.view import ItemRef
 
 _SHOWN_LANGUAGE: dict[str, SUPPORTED_LANGUAGES] = {"python": "Python", "cpp": "C++", "xabsl": "C"}
-"""How code is coloured; of what the editor knows C is next to XABSL."""
+"""Highlighting per language; C is the closest to XABSL that the editor supports."""
 
 
 class CodePanel:
-    """A read-only view of every file that is generated for the design."""
+    """A read-only view of the files generated for the design."""
 
     def __init__(self, context: WindowContext) -> None:
-        """Build it; `refresh` fills it."""
+        """Build the empty panel; `refresh` fills it."""
         self.context = context
         self.shown_rev = -1
         self.is_busy = False
@@ -37,7 +37,7 @@ class CodePanel:
             self.code_assist = CodeAssist(self.editor, label="Generated code", on_line_selected=self._select_at)
 
     def refresh(self) -> None:
-        """Generate anew if the design has changed since, and bring what is selected forward."""
+        """Generate the code if the design has changed, and highlight the selection."""
         if not self.is_busy and self.shown_rev != self.context.document.rev:
             self.is_busy = True
             self.context.run_in_background(self._generate(), "preview")
@@ -45,22 +45,22 @@ class CodePanel:
 
     @property
     def file(self) -> PreviewFile | None:
-        """The file that is shown."""
+        """The shown file."""
         return next((file for file in self.preview.files if file.path == self.file_select.value), None)
 
     async def _generate(self) -> None:
-        """Generate beside the event loop until the newest design is shown."""
+        """Generate in a thread until the newest design is shown."""
         try:
             while self.shown_rev != self.context.document.rev:
                 self.shown_rev = self.context.document.rev
-                # What is asked for is taken here, not in the thread, where it could change meanwhile.
+                # Read the inputs here: they could change while the thread runs.
                 workspace, design = self.context.workspace, self.context.design
-                around = (workspace.source_paths, workspace.output_folder)
-                shown = await run.io_bound(code_preview.preview_code, workspace.project, design, *around)
-                # Nothing comes back while the server is shutting down.
-                if shown is None or self.editor.is_deleted:
+                paths = (workspace.source_paths, workspace.output_folder)
+                preview = await run.io_bound(code_preview.preview_code, workspace.project, design, *paths)
+                # The result is None while the server shuts down.
+                if preview is None or self.editor.is_deleted:
                     return
-                self.preview = shown
+                self.preview = preview
                 self._show()
         finally:
             self.is_busy = False
@@ -89,21 +89,21 @@ class CodePanel:
         self._highlight_selection()
 
     def _highlight_selection(self) -> None:
-        file, thing = self.file, self.context.single_selection
-        marked = (thing, file)
-        if marked == self.highlighted:
+        file, item = self.file, self.context.single_selection
+        highlighted = (item, file)
+        if highlighted == self.highlighted:
             return
-        self.highlighted = marked
-        first, last = file.item_lines(thing) if file and thing else (0, 0)
+        self.highlighted = highlighted
+        first, last = file.item_lines(item) if file and item else (0, 0)
         self.code_assist.highlight_lines(first, last, reveal=True)
 
     def _select_at(self, line: int) -> None:
-        thing = self.file.item_at(line) if self.file else None
-        if thing is None or thing == self.context.single_selection or thing.kind == "design":
+        item = self.file.item_at(line) if self.file else None
+        if item is None or item == self.context.single_selection or item.kind == "design":
             return
-        # Who reads here is not to be moved away from the line.
-        self.highlighted = (thing, self.file)
-        first, last = self.file.item_lines(thing) if self.file else (0, 0)
+        # Do not scroll the code while the user reads it.
+        self.highlighted = (item, self.file)
+        first, last = self.file.item_lines(item) if self.file else (0, 0)
         self.code_assist.highlight_lines(first, last, reveal=False)
-        self.context.select(thing)
-        self.context.reveal(ItemRef(kind=thing.kind, id=thing.id))
+        self.context.select(item)
+        self.context.reveal(ItemRef(kind=item.kind, id=item.id))

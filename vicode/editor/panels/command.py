@@ -1,4 +1,4 @@
-"""A command: one thing a person can ask of the page, by a button, a key, a menu or the palette."""
+"""Commands of a page: run by a button, a key, a menu or the command palette."""
 
 from collections.abc import Callable
 from dataclasses import KW_ONLY, dataclass
@@ -8,7 +8,7 @@ CommandHandler = Callable[[], object]
 
 
 class MenuGroup(StrEnum):
-    """Under which heading a command is listed."""
+    """The heading under which a command is listed."""
 
     DESIGN = "Design"
     EDIT = "Edit"
@@ -18,10 +18,10 @@ class MenuGroup(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class Command:
-    """What the page can do; `keys` are spelt "Ctrl+Shift+Z" (Ctrl is Cmd on a Mac).
+    """A command; `keys` are written "Ctrl+Shift+Z" (Ctrl is Cmd on a Mac).
 
-    Keys of a command that is not `while_typing` are left to text fields and to the canvas, which have their own;
-    `on_canvas`: only the canvas hears them.
+    Without `while_typing`, text fields and the canvas handle the keys themselves. With `on_canvas`, only the canvas
+    handles them.
     """
 
     name: str

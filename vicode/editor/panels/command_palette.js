@@ -1,4 +1,4 @@
-// The search palette: a field and a list in a dialog of the browser's own. It holds what was found last; Python finds.
+// The command palette: an input and a list in a native dialog. The search itself runs on the server.
 export default {
   template: `
     <dialog ref="box" class="palette" aria-label="Find anything" @click="onBackdropClick">
@@ -11,7 +11,7 @@ export default {
             :aria-controls="$.uid + '-list'" :aria-activedescendant="hits.length ? optionId(at) : null"
             v-model="text" @input="sendQuery" @keydown="onKeyDown">
         </div>
-        <ul ref="list" class="palette-list" role="listbox" :id="$.uid + '-list'" aria-label="Found">
+        <ul ref="list" class="palette-list" role="listbox" :id="$.uid + '-list'" aria-label="Results">
           <li v-for="(hit, index) in hits" :key="index" :id="optionId(index)" role="option" class="palette-hit"
             :aria-selected="index === at" @mousemove="at = index" @click="choose(index, shown)">
             <i class="q-icon material-icons" aria-hidden="true">{{ hit.icon }}</i>
@@ -22,12 +22,12 @@ export default {
             <span class="palette-kind">{{ hit.kind }}</span>
           </li>
         </ul>
-        <div class="palette-foot"><span role="status">{{ words }}</span><span aria-hidden="true">↑ ↓ to move, Enter to go there, Esc to leave</span></div>
+        <div class="palette-foot"><span role="status">{{ words }}</span><span aria-hidden="true">↑ ↓ to navigate, Enter to open, Esc to close</span></div>
       </div>
     </dialog>`,
   data: () => ({ text: "", shown: "", hits: [], at: 0, words: "", opening: 0 }),
   mounted() {
-    // Its keys open it here and now: what is typed next must not fall on the drawing below.
+    // Opens without the server: text typed next must not reach the canvas.
     this.onCommand = (event) => {
       if (event.detail !== "find") return;
       event.preventDefault();
@@ -47,10 +47,10 @@ export default {
       this.$refs.field.focus();
       this.sendQuery();
     },
-    /** What Python found for a text. Questions asked before the page could speak may be heard in any order. */
+    /** Shows the results of a query. Answers may arrive in any order. */
     answer({ text, hits, words }) {
       if (text !== this.text) return;
-      // Who went down the list before this answer came stays on what was chosen, if it is still there.
+      // Keep a row that the user selected before the answer, if it is still in the list.
       const chosen = this.at && hitKey(this.hits[this.at]);
       this.shown = text;
       this.hits = hits;
@@ -71,7 +71,7 @@ export default {
       else return;
       event.preventDefault();
     },
-    /** Single steps go round; pages stop at the ends. */
+    /** Single steps wrap around; pages stop at the ends. */
     move(by) {
       const count = this.hits.length;
       if (!count) return;
@@ -82,7 +82,7 @@ export default {
     show() {
       this.$nextTick(() => document.getElementById(this.optionId(this.at))?.scrollIntoView({ block: "nearest" }));
     },
-    /** Python finds again by the text: of the one in the field the first is wanted, though it may not be shown yet. */
+    /** The server repeats the search: the first result of the text in the field may not be shown yet. */
     choose(index, text) {
       this.$refs.box.close();
       this.$emit("choose", { text, opening: this.opening, index });
@@ -96,7 +96,7 @@ export default {
   },
 };
 
-/** By what one thing found is told from the others. */
+/** Identifies a result. */
 function hitKey(hit) {
   const title = hit.parts.map((part) => part.text).join("");
   return [hit.kind, hit.where, hit.detail, title].join("\n");

@@ -1,4 +1,4 @@
-"""The search palette: finds everything of the folder by name, and goes there."""
+"""The command palette: finds designs, items and commands by name, and opens them."""
 
 from collections.abc import Callable, Sequence
 from typing import Any
@@ -7,6 +7,7 @@ from nicegui import ui
 from nicegui.events import GenericEventArguments
 
 from vicode.editor.panels.command import Command
+from vicode.editor.panels.texts import NO_RESULTS, pluralize
 from vicode.editor.session.search_index import (
     SearchIndex,
     SearchItem,
@@ -30,32 +31,31 @@ _MAX_DETAIL_LENGTH = 160
 
 
 class CommandPalette(ui.element, component="command_palette.js"):
-    """Opens over the page; `open` shows it.
+    """A dialog over the page; `open` shows it.
 
     Args:
-        index: what there is to find.
-        navigate: leads to a thing.
-        current: the design that is open, None on the home page.
+        index: the search index.
+        navigate: opens a search result.
+        current: the open design, None on the home page.
     """
 
     def __init__(self, index: SearchIndex, navigate: NavigateTo, current: SearchTarget | None = None) -> None:
-        """Build it closed."""
         super().__init__()
         self._index, self._navigate, self._current = index, navigate, current
         self.commands: Sequence[Command] = ()
         self._items: list[SearchItem] = []
         self._last_result: tuple[str, tuple[SearchMatch, ...]] = ("", ())
         self._opening_id: object = None
-        # Handlers added after the first rendering would make NiceGUI mount the element anew.
+        # Adding handlers after the first rendering would make NiceGUI mount the element again.
         self.on("ask", self._on_query)
         self.on("choose", self._on_choose)
 
     def open(self) -> None:
-        """Show it."""
+        """Open the palette."""
         self.run_method("open")
 
     def _reload_items(self, event: GenericEventArguments) -> None:
-        """Look at what there is now, once every time it is opened."""
+        """Load the searchable items, once each time the palette is opened."""
         opening = event.args.get("opening") if isinstance(event.args, dict) else None
         if opening == self._opening_id:
             return
@@ -67,7 +67,7 @@ class CommandPalette(ui.element, component="command_palette.js"):
         self._reload_items(event)
         text = _text(event)
         matches = self._find(text)
-        count = f"{len(matches)} found" if matches else "Nothing found: try fewer or other letters"
+        count = pluralize(len(matches), "result") if matches else NO_RESULTS
         self.run_method("answer", {"text": text, "hits": [_hit(match) for match in matches], "words": count})
 
     def _on_choose(self, event: GenericEventArguments) -> None:
@@ -76,11 +76,11 @@ class CommandPalette(ui.element, component="command_palette.js"):
         index = event.args.get("index")
         if not isinstance(index, int) or not 0 <= index < len(matches):
             return
-        thing = matches[index].item
-        if thing.target is not None:
-            self._navigate(thing.target)
+        item = matches[index].item
+        if item.target is not None:
+            self._navigate(item.target)
             return
-        command = next((each for each in self.commands if each.name == thing.command), None)
+        command = next((each for each in self.commands if each.name == item.command), None)
         if command is not None:
             command.handler()
 
@@ -106,24 +106,24 @@ def _command_item(command: Command) -> SearchItem:
 
 
 def _hit(match: SearchMatch) -> dict[str, Any]:
-    """What a line of the list shows; all of it is set as text."""
-    thing = match.item
+    """Return the texts of a row."""
+    item = match.item
     return {
-        "icon": _ICONS[thing.kind],
-        "kind": str(thing.kind),
-        "parts": _parts(thing.title, match.positions),
-        "detail": " ".join(thing.detail.split())[:_MAX_DETAIL_LENGTH],
-        "where": thing.location,
-        "keys": thing.keys,
+        "icon": _ICONS[item.kind],
+        "kind": str(item.kind),
+        "parts": _parts(item.title, match.positions),
+        "detail": " ".join(item.detail.split())[:_MAX_DETAIL_LENGTH],
+        "where": item.location,
+        "keys": item.keys,
     }
 
 
-def _parts(title: str, places: Sequence[int]) -> list[dict[str, Any]]:
-    """The title in runs of letters that were found or not."""
-    found = set(places)
+def _parts(title: str, positions: Sequence[int]) -> list[dict[str, Any]]:
+    """Split a title into runs of matched and unmatched letters."""
+    matched_positions = set(positions)
     parts: list[dict[str, Any]] = []
-    for at, letter in enumerate(title):
-        is_found = at in found
+    for position, letter in enumerate(title):
+        is_found = position in matched_positions
         if parts and parts[-1]["found"] == is_found:
             parts[-1]["text"] += letter
         else:

@@ -1,10 +1,11 @@
-"""What to do when the file was changed on disk where unsaved work was done: one choice for each place, or for all."""
+"""The conflict dialog: the file on disk and the unsaved design changed the same place; choose a side for each."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
 
 from nicegui import ui
 
+from vicode.editor.panels import texts
 from vicode.editor.panels.dialogs import titled_dialog
 from vicode.editor.panels.widgets import primary_button
 from vicode.editor.panels.window_context import WindowContext
@@ -14,88 +15,87 @@ from vicode.editor.session.document import DiskVersion
 from vicode.findings import DesignPath
 from vicode.model.merge import Conflict
 
-_SIDES = (("mine", "Yours"), ("theirs", "On disk"))
+_SIDES = (("mine", "Your version"), ("theirs", "On disk"))
 
 
 def ask_to_resolve_conflict(context: WindowContext) -> None:
-    """Ask; nothing is lost either way: what is not taken stays in the history, on both sides."""
-    sheet = context.document.shared
-    if sheet.disk_conflict is None:
+    """Open the dialog if there is a conflict. Discarded changes of both sides stay in the history."""
+    shared = context.document.shared
+    if shared.disk_conflict is None:
         return
-    name, is_gone = context.document.file.name, context.document.is_file_missing
-    if sheet.conflicts:
-        with titled_dialog(f"{name} was changed by another program", "conflict") as dialog:
-            _ask_for_choices(_ConflictPrompt(context, dialog, sheet.disk_conflict, sheet.conflicts))
+    name, is_deleted = context.document.file.name, context.document.is_file_missing
+    if shared.conflicts:
+        with titled_dialog(texts.changed_by_another_program(name), "conflict") as dialog:
+            _ask_for_choices(_ConflictPrompt(context, dialog, shared.disk_conflict, shared.conflicts))
         return
-    if sheet.disk_conflict.design is not None:
-        # What touched was taken back here.
+    if shared.disk_conflict.design is not None:
+        # The conflicting edits were undone.
         context.workspace.resolve_conflict(context.document)
-        context.show_toast("Merged with what another program wrote", "info")
+        context.show_toast(texts.MERGED_WITH_DISK, "info")
         return
-    what = "was deleted by another program" if is_gone else "holds no design any more"
-    with titled_dialog(f"{name} {what}", "conflict") as dialog:
-        _ask_to_overwrite(_ConflictPrompt(context, dialog, sheet.disk_conflict), is_gone=is_gone)
+    with titled_dialog(texts.file_missing(name, is_deleted=is_deleted), "conflict") as dialog:
+        _ask_to_overwrite(_ConflictPrompt(context, dialog, shared.disk_conflict), is_deleted=is_deleted)
 
 
 @dataclass(frozen=True, slots=True)
 class _ConflictPrompt:
-    """Which question a dialog asked."""
+    """An open dialog, with the conflict that it shows."""
 
     context: WindowContext
     dialog: ui.dialog
-    clash: DiskVersion
+    disk_version: DiskVersion
     conflicts: tuple[Conflict, ...] = ()
 
 
-def _ask_to_overwrite(asked: _ConflictPrompt, *, is_gone: bool) -> None:
-    name = asked.context.document.file.name
-    aside = "" if is_gone else f" What it holds now is put aside as {name}.edited."
-    ui.label(f"Your design is here. Saving writes the file anew.{aside}")
+def _ask_to_overwrite(prompt: _ConflictPrompt, *, is_deleted: bool) -> None:
+    name = prompt.context.document.file.name
+    ui.label(texts.save_again(name, is_deleted=is_deleted))
     with ui.row().classes("dialog-buttons"):
-        ui.button("Cancel", on_click=asked.dialog.close).props("flat no-caps")
-        primary_button("Write the file", lambda: _resolve(asked, (), "Saved"))
+        ui.button("Cancel", on_click=prompt.dialog.close).props("flat no-caps")
+        primary_button("Save file", lambda: _resolve(prompt, (), texts.SAVED))
 
 
-def _ask_for_choices(asked: _ConflictPrompt) -> None:
-    conflicts = asked.conflicts
+def _ask_for_choices(prompt: _ConflictPrompt) -> None:
+    conflicts = prompt.conflicts
     chosen: dict[DesignPath, str] = {conflict.path: "mine" for conflict in conflicts}
-    count = "one place" if len(conflicts) == 1 else f"{len(conflicts)} places"
-    ui.label(f"It touches your unsaved work in {count}; all other changes of both come together.").classes("small")
+    ui.label(texts.conflict_count(len(conflicts))).classes("small")
     with ui.column().classes("conflict-list"):
         for conflict in conflicts:
             _conflict(conflict, chosen)
 
-    def settle(side: str, said: str) -> Callable[[], None]:
-        def act() -> None:
-            taken = [path for path, choice in chosen.items() if (side or choice) == "theirs"]
-            _resolve(asked, taken, said)
+    def resolve_all(side: str, message: str) -> Callable[[], None]:
+        def handle_click() -> None:
+            paths = [path for path, choice in chosen.items() if (side or choice) == "theirs"]
+            _resolve(prompt, paths, message)
 
-        return act
+        return handle_click
 
     with ui.row().classes("dialog-buttons"):
-        ui.button("Cancel", on_click=asked.dialog.close).props("flat no-caps")
-        ui.button("Take theirs", on_click=settle("theirs", "Opened as it is on disk")).props("flat no-caps")
-        keep = settle("mine", "Saved over the change on disk")
+        ui.button("Cancel", on_click=prompt.dialog.close).props("flat no-caps")
+        ui.button("Use version on disk", on_click=resolve_all("theirs", texts.LOADED_DISK_VERSION)).props(
+            "flat no-caps"
+        )
+        keep = resolve_all("mine", texts.SAVED_YOUR_VERSION)
         if len(conflicts) == 1:
-            primary_button("Keep yours", keep)
+            primary_button("Keep your version", keep)
         else:
-            ui.button("Keep yours", on_click=keep).props("flat no-caps")
-            primary_button("Save as chosen", settle("", "Saved as chosen"))
+            ui.button("Keep your version", on_click=keep).props("flat no-caps")
+            primary_button("Save merged version", resolve_all("", texts.SAVED_MERGED_VERSION))
 
 
 def _conflict(conflict: Conflict, chosen: dict[DesignPath, str]) -> None:
-    """One place with what stands there on both sides; the side that is pressed is taken."""
+    """Show both values of a conflict; a click selects one."""
     texts = {"mine": describe_value(conflict.ours), "theirs": describe_value(conflict.theirs)}
     ui.label(describe_path(conflict.path)).classes("conflict-place")
     buttons: dict[str, ui.element] = {}
 
     def choose(side: str) -> Callable[[], None]:
-        def act() -> None:
+        def handle_click() -> None:
             chosen[conflict.path] = side
             for name, button in buttons.items():
                 button.props(f'aria-pressed="{str(name == side).lower()}"')
 
-        return act
+        return handle_click
 
     with ui.element("div").classes("conflict-sides"):
         for side, title in _SIDES:
@@ -108,27 +108,30 @@ def _conflict(conflict: Conflict, chosen: dict[DesignPath, str]) -> None:
     choose("mine")()
 
 
-def _resolve(asked: _ConflictPrompt, theirs_at: list[DesignPath] | tuple[()], said: str) -> None:
-    desk, dialog = asked.context, asked.dialog
-    if (desk.document.shared.disk_conflict, desk.document.shared.conflicts) != (asked.clash, asked.conflicts):
-        # Somebody else has answered, or changed something, here or in the file: this answer is for what was asked.
+def _resolve(prompt: _ConflictPrompt, theirs_at: list[DesignPath] | tuple[()], message: str) -> None:
+    context, dialog = prompt.context, prompt.dialog
+    if (context.document.shared.disk_conflict, context.document.shared.conflicts) != (
+        prompt.disk_version,
+        prompt.conflicts,
+    ):
+        # The conflict has changed since the dialog opened: this answer does not apply.
         dialog.close()
-        if desk.document.shared.disk_conflict is None:
-            desk.show_toast("It was settled meanwhile: History has what was not taken", "info")
+        if context.document.shared.disk_conflict is None:
+            context.show_toast(texts.CONFLICT_ALREADY_RESOLVED, "info")
         else:
-            desk.show_toast("Something was changed meanwhile: choose once more", "info")
-        ask_to_resolve_conflict(desk)
+            context.show_toast(texts.CONFLICT_CHANGED, "info")
+        ask_to_resolve_conflict(context)
         return
     try:
-        desk.workspace.resolve_conflict(desk.document, theirs_at)
-        desk.workspace.save(desk.document)
+        context.workspace.resolve_conflict(context.document, theirs_at)
+        context.workspace.save(context.document)
     except (OSError, ValueError) as error:
-        desk.show_toast(f"{desk.document.file.name} is not saved: {error_reason(error)}", "negative")
+        context.show_toast(texts.not_saved(context.document.file.name, error_reason(error)), "negative")
         return
     except DiskConflictError:
-        # It was changed once more while the dialog was open.
+        # The file changed again while the dialog was open.
         dialog.close()
-        ask_to_resolve_conflict(desk)
+        ask_to_resolve_conflict(context)
         return
-    desk.show_toast(said, "positive")
+    context.show_toast(message, "positive")
     dialog.close()

@@ -1,4 +1,4 @@
-"""The selected transition, stay or group: where it leads and its guard."""
+"""The form of a transition, stay or group: target and guard."""
 
 from collections.abc import Callable
 from dataclasses import replace
@@ -22,7 +22,7 @@ _CODE_HINT = "return self.perception.ball_seen\n"
 
 
 def decision_panel(context: WindowContext, key: str) -> list[Field]:
-    """Build the form of a decision; empty if it is gone."""
+    """Build the form of a decision; return no fields if it does not exist."""
     located = find_decision(context.design, parse_transition_key(key))
     if located is None:
         return []
@@ -31,10 +31,10 @@ def decision_panel(context: WindowContext, key: str) -> list[Field]:
     panel_title(_kind(decision), source, _select_source(context, located.source))
     fields = _target_field(context, path, decision)
     fields.append(expression_field(context, _guard_binding(path, "When", "when")))
-    fields.append(text_field(context, _guard_binding(path, "After, seconds in this state", "after"), monospace=True))
+    fields.append(text_field(context, _guard_binding(path, "After (seconds in this state)", "after"), monospace=True))
     fields += _code(context, path, decision.guard)
-    fields.append(text_field(context, _decision_binding(path, "Doc", "doc"), multiline=True))
-    fields.append(checkbox_field(context, _decision_binding(path, "Disabled: kept, but never tested", "disabled")))
+    fields.append(text_field(context, _decision_binding(path, "Description", "doc"), multiline=True))
+    fields.append(checkbox_field(context, _decision_binding(path, "Disabled (never tested)", "disabled")))
     if isinstance(decision, DecisionGroup):
         heading("Then")
         decisions_list(context, located.source, (*path, "then"), decision.then)
@@ -84,7 +84,7 @@ def _guard_binding(path: DesignPath, label: str, attribute: str) -> FieldBinding
 
 
 def _code(context: WindowContext, path: DesignPath, guard: Guard) -> list[Field]:
-    """The predicate in code, or a button that adds one."""
+    """Build the field of the code predicate, or a button that adds it."""
 
     def set_code(text: str) -> Callable[[Design], Design]:
         return lambda design: _change_guard(
@@ -94,7 +94,7 @@ def _code(context: WindowContext, path: DesignPath, guard: Guard) -> list[Field]
     if guard.code is None:
         add = set_code(_CODE_HINT)
         ui.button(
-            "Predicate in code",
+            "Code predicate",
             icon="add",
             on_click=lambda: context.edit("add code", lambda design: assign_id(add(design), path)),
         ).props("flat dense no-caps size=sm")
@@ -105,16 +105,16 @@ def _code(context: WindowContext, path: DesignPath, guard: Guard) -> list[Field]
         code = located.decision.guard.code if located else None
         return (code.in_language("python") or "") if code else ""
 
-    bound = FieldBinding(
-        label="Predicate: the body of a function that returns a bool",
+    binding = FieldBinding(
+        label="Predicate (body of a function that returns a bool)",
         path=(*path, "code"),
         read=read,
         write=lambda design, value: _change_guard(
             design, path, lambda old: replace(old, code=replace_python(old.code, value))
         ),
     )
-    field = code_field(context, bound)
-    ui.button("Remove the code", on_click=lambda: context.edit("remove code", set_code(""))).props(
+    field = code_field(context, binding)
+    ui.button("Remove code", on_click=lambda: context.edit("remove code", set_code(""))).props(
         "flat dense no-caps size=sm"
     )
     return [field]
@@ -130,8 +130,8 @@ def _change_guard(design: Design, path: DesignPath, change: Callable[[Guard], Gu
 
 
 def _select_source(context: WindowContext, source: str) -> Callable[[], None]:
-    thing = ItemRef(kind="common", id=COMMON) if source == COMMON else ItemRef(kind="states", id=source)
-    return lambda: context.select(thing)
+    item = ItemRef(kind="common", id=COMMON) if source == COMMON else ItemRef(kind="states", id=source)
+    return lambda: context.select(item)
 
 
 def _remove_button(context: WindowContext, path: DesignPath) -> None:

@@ -1,10 +1,11 @@
-"""The decisions of a state as an ordered, indented list; a click selects one."""
+"""The decisions of a state as an ordered, indented list."""
 
 from collections.abc import Callable
 
 from nicegui import ui
 
 from vicode.editor.panels.draggable_rows import DraggableRows
+from vicode.editor.panels.texts import NO_TRANSITIONS
 from vicode.editor.panels.widgets import add_button, reorder_buttons
 from vicode.editor.panels.window_context import WindowContext
 from vicode.editor.session.form_key import MAX_STATES_IN_MENU
@@ -15,9 +16,9 @@ from vicode.model.edits import add_transition, decisions_path, remove_decisions,
 
 
 def decisions_list(context: WindowContext, source: str, path: DesignPath, items: tuple[Decision, ...]) -> None:
-    """Show the decisions a path leads to, with buttons to add, move and remove."""
+    """List the decisions at a path, with buttons to add, move and remove them."""
     if not items:
-        ui.label("None yet: it stays here.").classes("empty")
+        ui.label(NO_TRANSITIONS).classes("empty")
     _rows(context, path, items)
     with ui.row().classes("adders"):
         _add_target_menu(context, source)
@@ -26,7 +27,7 @@ def decisions_list(context: WindowContext, source: str, path: DesignPath, items:
 
 
 def _add_target_menu(context: WindowContext, source: str) -> None:
-    """A new transition to a state: from a menu, or by typing when there are more states than anybody would scroll."""
+    """Add the menu for a new transition; with many states, a filtered select instead."""
 
     def targets() -> list[str]:
         return [state.name for state in context.design.states]
@@ -44,22 +45,27 @@ def _add_target_menu(context: WindowContext, source: str) -> None:
             for target in targets():
                 ui.menu_item(f"to {target}", on_click=_connect_handler(context, source, target)).classes("mono")
 
-    with add_button("Transition", "Add: Transition"), ui.menu().props("auto-close") as menu:
-        # Other people's states shall be in it, but not make every form anew.
+    with add_button("Transition", "Add Transition"), ui.menu().props("auto-close") as menu:
+        # Filled when it opens: rebuilding each form when a state is added would be slow.
         menu.on("before-show", fill)
 
 
 def _rows(context: WindowContext, path: DesignPath, items: tuple[Decision, ...]) -> None:
-    dragging = DraggableRows(lambda held, onto: _mover(context, (*path, held), onto)())
+    dragging = DraggableRows(lambda from_index, target_index: _mover(context, (*path, from_index), target_index)())
     for index, item in enumerate(items):
         here = (*path, index)
-        thing = ItemRef(kind="transitions", id=transition_key(here))
-        marks = (" is-selected" if context.single_selection == thing else "") + (
+        decision_ref = ItemRef(kind="transitions", id=transition_key(here))
+        marks = (" is-selected" if context.single_selection == decision_ref else "") + (
             " is-disabled" if item.disabled else ""
         )
         with ui.row().classes("decision-row" + marks) as row:
             dragging.add(row, index)
-            with ui.element("button").classes("decision").props('type="button"').on("click", _opener(context, thing)):
+            with (
+                ui.element("button")
+                .classes("decision")
+                .props('type="button"')
+                .on("click", _opener(context, decision_ref))
+            ):
                 ui.label(f"{index + 1}").classes("order")
                 ui.label(_target(item) + (" (disabled)" if item.disabled else "")).classes("decision-target")
                 ui.label(guard_label(item.guard, context.design.time_unit) or "always").classes("decision-guard mono")
@@ -87,10 +93,10 @@ def _target(item: Decision) -> str:
             return "if"
 
 
-def _opener(context: WindowContext, thing: ItemRef) -> Callable[[], None]:
+def _opener(context: WindowContext, decision_ref: ItemRef) -> Callable[[], None]:
     def select() -> None:
-        context.select(thing)
-        context.reveal(thing)
+        context.select(decision_ref)
+        context.reveal(decision_ref)
 
     return select
 
@@ -111,12 +117,12 @@ def _adder(context: WindowContext, path: DesignPath, label: str, make: Callable[
             f"add {label.lower()}", lambda design: update_decisions(design, path, lambda items: (*items, decision))
         )
 
-    add_button(label, f"Add: {label}", add)
+    add_button(label, f"Add {label}", add)
 
 
 def _mover(context: WindowContext, path: DesignPath, to_index: int) -> Callable[[], None]:
     def move() -> None:
-        context.edit("change the order", lambda design: reorder_decision(design, path, to_index))
+        context.edit("reorder transitions", lambda design: reorder_decision(design, path, to_index))
         if context.single_selection == ItemRef(kind="transitions", id=transition_key(path)):
             context.select(ItemRef(kind="transitions", id=transition_key((*path[:-1], to_index))))
 

@@ -1,10 +1,11 @@
-"""Asks what is to become of a design: a new one, another name, a copy, the trash; undo is offered afterwards."""
+"""Dialogs to create, rename, duplicate and delete designs, with undo."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
 
 from nicegui import ui
 
+from vicode.editor.panels import texts
 from vicode.editor.panels.dialogs import titled_dialog
 from vicode.editor.panels.widgets import primary_button
 from vicode.editor.session import Workspace, rename_component, templates, trash
@@ -17,81 +18,80 @@ ShowToast = Callable[[str, str], None]
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class DesignDialogs:
-    """The dialogs of one page; `offer_undo` shows words with a button that takes back what was done."""
+    """The dialogs of one page; `offer_undo` shows a message with an undo button."""
 
     show_toast: ShowToast
     offer_undo: Callable[[str, Callable[[], object]], None]
 
     def ask_new(self, workspace: Workspace) -> None:
-        """A new design, from a template."""
+        """Ask for name and template of a new design."""
         choices = templates.list_templates()
         titles = {each.name: f"{each.title}: {each.doc}" for each in choices}
         with titled_dialog(f"New design in {workspace.project.name}") as dialog:
             name = _name_field("Component", "", "FollowBall")
-            ui.label("Begin with").classes("field-label")
-            begin = ui.radio(titles, value=choices[0].name).classes("template-choice")
+            ui.label("Template").classes("field-label")
+            template_choice = ui.radio(titles, value=choices[0].name).classes("template-choice")
 
             def create() -> None:
-                wanted = name.value.strip()
-                template = next(each for each in choices if each.name == begin.value)
-                refused = trash.validate_component_name(workspace, wanted)
-                if refused or not self._run_file_operation(
-                    lambda: workspace.create(wanted, _text_of(template, wanted, workspace))
+                new_name = name.value.strip()
+                template = next(each for each in choices if each.name == template_choice.value)
+                error = trash.validate_component_name(workspace, new_name)
+                if error or not self._run_file_operation(
+                    lambda: workspace.create(new_name, _text_of(template, new_name, workspace))
                 ):
-                    self._show_error(refused)
+                    self._show_error(error)
                     _suggest_valid_name(name)
                     return
                 dialog.close()
-                ui.navigate.to(design_url(workspace.key, wanted))
+                ui.navigate.to(design_url(workspace.key, new_name))
 
             _buttons(dialog, "Create", create, name)
 
     def ask_duplicate(self, workspace: Workspace, component: str) -> None:
-        """A copy under another name."""
+        """Ask for the name of a copy."""
         with titled_dialog(f"Duplicate {component}") as dialog:
             name = _name_field("Name of the copy", trash.copy_name(workspace, component), "")
 
             def copy() -> None:
-                wanted = name.value.strip()
-                refused = trash.validate_component_name(workspace, wanted)
-                if refused or not self._run_file_operation(
-                    lambda: trash.duplicate_design(workspace, component, wanted)
+                new_name = name.value.strip()
+                error = trash.validate_component_name(workspace, new_name)
+                if error or not self._run_file_operation(
+                    lambda: trash.duplicate_design(workspace, component, new_name)
                 ):
-                    self._show_error(refused)
+                    self._show_error(error)
                     _suggest_valid_name(name)
                     return
                 dialog.close()
-                self.show_toast(f"{wanted} is a copy of {component}", "positive")
+                self.show_toast(texts.duplicated(component, new_name), "positive")
 
             _buttons(dialog, "Duplicate", copy, name)
 
     def ask_rename(self, workspace: Workspace, component: str) -> None:
-        """Another name, with all that changes listed while it is typed."""
+        """Ask for a new name; list the changed files while the user types."""
         with titled_dialog(f"Rename {component}") as dialog:
             name = _name_field("New name", component, "")
-            ui.label("What changes").classes("field-label")
-            listed = ui.column().classes("change-list").props('aria-live="polite"')
+            ui.label("Changes").classes("field-label")
+            change_list = ui.column().classes("change-list").props('aria-live="polite"')
 
             def plan() -> rename_component.ComponentRenamePlan:
                 return rename_component.plan_component_rename(workspace, component, name.value.strip())
 
             def show() -> None:
-                planned = plan()
-                listed.clear()
-                with listed:
-                    for change in planned.changes:
+                rename_plan = plan()
+                change_list.clear()
+                with change_list:
+                    for change in rename_plan.changes:
                         ui.label(change.file.name).classes("mono")
                         ui.label(change.summary)
-                    if planned.changes and workspace.broken_file_names:
-                        unread = f"Not looked into, as it cannot be read: {', '.join(workspace.broken_file_names)}"
-                        ui.label(unread).classes("empty")
-                    if planned.error:
-                        ui.label(f"Not possible: {planned.error}").classes("empty")
+                    if rename_plan.changes and workspace.broken_file_names:
+                        ui.label(texts.skipped_files(workspace.broken_file_names)).classes("empty")
+                    if rename_plan.error:
+                        ui.label(texts.cannot_rename(rename_plan.error)).classes("empty")
 
             def rename() -> None:
-                planned = plan()
-                if planned.error or not self._rename(workspace, planned):
-                    self._show_error(planned.error)
+                rename_plan = plan()
+                if rename_plan.error or not self._rename(workspace, rename_plan):
+                    self._show_error(rename_plan.error)
                     _suggest_valid_name(name)
                     return
                 dialog.close()
@@ -101,16 +101,16 @@ class DesignDialogs:
             _buttons(dialog, "Rename everywhere", rename, name)
 
     def ask_move_to_trash(self, workspace: Workspace, component: str) -> None:
-        """Move a design to the trash."""
-        refused = trash.validate_move_to_trash(workspace, component)
-        if refused:
-            self.show_toast(_capitalize(refused), "warning")
+        """Ask for confirmation, and move a design to the trash."""
+        error = trash.validate_move_to_trash(workspace, component)
+        if error:
+            self.show_toast(texts.sentence(error), "warning")
             return
         users = trash.find_dependents(workspace, component)
         with titled_dialog(f"Move {component} to the trash?") as dialog:
-            ui.label(f"{workspace.files[component].name} goes to the trash of this computer; Undo puts it back.")
+            ui.label(texts.trash_explanation(workspace.files[component].name))
             if users:
-                ui.label(f"Still used by {', '.join(users)}: these get findings until they use something else.")
+                ui.label(texts.still_used_by(users))
 
             def remove() -> None:
                 dialog.close()
@@ -121,44 +121,47 @@ class DesignDialogs:
     def _move_to_trash(self, workspace: Workspace, component: str) -> None:
         self.offer_restore(workspace, trash.move_to_trash(workspace, component))
 
-    def offer_restore(self, workspace: Workspace, thrown: TrashedDesign) -> None:
-        """Offer to put a design back that was thrown away."""
+    def offer_restore(self, workspace: Workspace, trashed: TrashedDesign) -> None:
+        """Offer to restore a design from the trash."""
 
         def undo() -> None:
-            refused = trash.restore_from_trash(workspace, thrown)
-            self.show_toast(_capitalize(refused) or f"{thrown.component} is back", "warning" if refused else "positive")
+            error = trash.restore_from_trash(workspace, trashed)
+            text = texts.sentence(error) or texts.restored(trashed.component)
+            self.show_toast(text, "warning" if error else "positive")
 
-        self.offer_undo(f"{thrown.component} is in the trash", undo)
+        self.offer_undo(texts.moved_to_trash(trashed.component), undo)
 
-    def _rename(self, workspace: Workspace, planned: rename_component.ComponentRenamePlan) -> bool:
+    def _rename(self, workspace: Workspace, rename_plan: rename_component.ComponentRenamePlan) -> bool:
         def rename() -> None:
-            refused = rename_component.apply_component_rename(workspace, planned)
-            if refused:
-                self._show_error(refused)
+            error = rename_component.apply_component_rename(workspace, rename_plan)
+            if error:
+                self._show_error(error)
                 return
-            back = rename_component.plan_component_rename(workspace, planned.new, planned.old)
-            self.offer_undo(f"{planned.old} is {planned.new} now", lambda: self._rename_back(workspace, back))
+            inverse_plan = rename_component.plan_component_rename(workspace, rename_plan.new, rename_plan.old)
+            self.offer_undo(
+                texts.renamed(rename_plan.old, rename_plan.new), lambda: self._rename_back(workspace, inverse_plan)
+            )
 
         return self._run_file_operation(rename)
 
-    def _rename_back(self, workspace: Workspace, planned: rename_component.ComponentRenamePlan) -> None:
-        again = rename_component.plan_component_rename(workspace, planned.old, planned.new)
-        refused = again.error
-        if refused or not self._run_file_operation(lambda: rename_component.apply_component_rename(workspace, again)):
-            self._show_error(refused)
+    def _rename_back(self, workspace: Workspace, rename_plan: rename_component.ComponentRenamePlan) -> None:
+        plan = rename_component.plan_component_rename(workspace, rename_plan.old, rename_plan.new)
+        error = plan.error
+        if error or not self._run_file_operation(lambda: rename_component.apply_component_rename(workspace, plan)):
+            self._show_error(error)
             return
-        self.show_toast(f"It is {planned.new} again", "positive")
+        self.show_toast(texts.renamed_back(rename_plan.new), "positive")
 
-    def _show_error(self, refused: str) -> None:
-        if refused:
-            self.show_toast(_capitalize(refused), "warning")
+    def _show_error(self, error: str) -> None:
+        if error:
+            self.show_toast(texts.sentence(error), "warning")
 
-    def _run_file_operation(self, act: Callable[[], object]) -> bool:
-        """Do something to files; what the system has against it is told."""
+    def _run_file_operation(self, action: Callable[[], object]) -> bool:
+        """Run a file operation; show an error and return False if it fails."""
         try:
-            act()
+            action()
         except OSError as error:
-            self.show_toast(f"Not done: {error}", "negative")
+            self.show_toast(texts.operation_failed(error), "negative")
             return False
         return True
 
@@ -174,19 +177,15 @@ def _name_field(label: str, value: str, example: str) -> ui.input:
 
 
 def _suggest_valid_name(field: ui.input) -> None:
-    """Put the nearest name there is into a field whose text is none; one press more takes it."""
-    wanted = str(field.value).strip()
-    if not is_valid_name(wanted) and name_from_text(wanted):
-        field.set_value(name_from_text(wanted))
+    """Replace an invalid name in a field by a similar valid one."""
+    new_name = str(field.value).strip()
+    if not is_valid_name(new_name) and name_from_text(new_name):
+        field.set_value(name_from_text(new_name))
 
 
-def _buttons(dialog: ui.dialog, label: str, act: Callable[[], object], field: ui.input | None) -> None:
+def _buttons(dialog: ui.dialog, label: str, action: Callable[[], object], field: ui.input | None) -> None:
     if field is not None:
-        field.on("keydown.enter", act)
+        field.on("keydown.enter", action)
     with ui.row().classes("dialog-buttons"):
         ui.button("Cancel", on_click=dialog.close).props("flat no-caps")
-        primary_button(label, act)
-
-
-def _capitalize(words: str) -> str:
-    return words[:1].upper() + words[1:]
+        primary_button(label, action)

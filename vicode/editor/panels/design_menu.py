@@ -1,4 +1,4 @@
-"""What can be done with a design as a whole, as a menu: by its button, or by a right click on what stands for it."""
+"""The menu of a design: opened by a button, or by a right click on its row or card."""
 
 from nicegui import ui
 
@@ -7,10 +7,10 @@ from vicode.editor.panels.widgets import icon_button
 from vicode.editor.session import Workspace
 
 
-def add_design_menu(workspace: Workspace, component: str, dialogs: DesignDialogs, around: ui.element) -> None:
+def add_design_menu(workspace: Workspace, component: str, dialogs: DesignDialogs, area: ui.element) -> None:
     """Add the button; a right click within `around` opens the same menu.
 
-    The menu is made when it is first wanted: a folder has many designs, and few of them are renamed.
+    The menu is built when it is first opened, as a folder may have many designs.
     """
     menus: list[ui.menu] = []
 
@@ -22,17 +22,19 @@ def add_design_menu(workspace: Workspace, component: str, dialogs: DesignDialogs
 
     button = icon_button("more_vert", f"More for {component}", show).classes("more-button")
     button.props("aria-haspopup=menu")
-    around.on("contextmenu.prevent", show)
+    area.on("contextmenu.prevent", show)
 
 
 def _menu(workspace: Workspace, component: str, dialogs: DesignDialogs) -> ui.menu:
-    asked = (
+    entries = (
         ("Rename everywhere…", dialogs.ask_rename),
         ("Duplicate…", dialogs.ask_duplicate),
         ("Move to trash…", dialogs.ask_move_to_trash),
     )
-    # Quasar would open it at each click on the button as well, and shut what was just opened.
+    # Without this, Quasar toggles the menu at each click on the button, too.
     with ui.menu().props("no-parent-event") as menu:
-        for label, ask in asked:
-            ui.menu_item(label, lambda ask=ask: ask(workspace, component)).props("role=menuitem")
+        for label, open_dialog in entries:
+            ui.menu_item(label, lambda open_dialog=open_dialog: open_dialog(workspace, component)).props(
+                "role=menuitem"
+            )
     return menu

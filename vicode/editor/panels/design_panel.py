@@ -1,10 +1,11 @@
-"""The design itself: what it is for, how often it works, what it declares, uses and does in every state."""
+"""The form of the design: description, frequency, declarations, used components, common transitions and actions."""
 
 from collections.abc import Callable
 from dataclasses import replace
 
 from nicegui import ui
 
+from vicode.editor.panels import texts
 from vicode.editor.panels.actions_panel import actions_panel, replace_python
 from vicode.editor.panels.code_field import code_field
 from vicode.editor.panels.collapsible import collapsible_section
@@ -23,13 +24,13 @@ def design_panel(context: WindowContext) -> list[Field]:
     """Build the form of the design."""
     panel_title("Component", context.design.component)
     fields = [
-        text_field(context, _attribute_binding("Doc", "doc"), multiline=True),
+        text_field(context, _attribute_binding("Description", "doc"), multiline=True),
         text_field(context, _frequency(), monospace=True),
         choice_field(context, _attribute_binding("Initial state", "initial"), state_names),
-        checkbox_field(context, _attribute_binding("Resume: go on where it was left", "resume")),
+        checkbox_field(context, _attribute_binding("Resume where it left off", "resume")),
     ]
     _xabsl(context, fields)
-    heading("Uses", hint="components it requires or modulates")
+    heading("Uses", hint="components this design requires or modulates")
     _uses(context)
     for section, title, hint in SECTIONS:
         heading(title, hint=hint)
@@ -41,29 +42,27 @@ def design_panel(context: WindowContext) -> list[Field]:
 
 
 def _xabsl(context: WindowContext, fields: list[Field]) -> None:
-    """How it is called in XABSL, and what it takes over from there: few need it."""
+    """Build the section of the XABSL attributes."""
     design = context.design
-    said = [f"{design.xabsl_name} in XABSL"] if design.xabsl_name else []
-    said += ["calculates as XABSL"] if design.arithmetic else []
-    said += [f"times in {design.time_unit}"] if design.time_unit else []
+    parts = [f"{design.xabsl_name} in XABSL"] if design.xabsl_name else []
+    parts += ["XABSL arithmetic"] if design.arithmetic else []
+    parts += [f"time unit {design.time_unit}"] if design.time_unit else []
 
     def build() -> None:
         fields.append(text_field(context, _attribute_binding("Name in XABSL", "xabsl_name"), monospace=True))
         fields.append(choice_field(context, _attribute_binding("Arithmetic", "arithmetic"), lambda _design: ["xabsl"]))
         fields[-1].element.props("clearable")
-        ui.label("xabsl: calculates and restarts as XABSL does; empty: as every design.").classes("empty")
-        fields.append(
-            choice_field(context, _attribute_binding("Unit of times", "time_unit"), lambda _design: ["s", "ms"])
-        )
+        ui.label(texts.ARITHMETIC_HELP).classes("empty")
+        fields.append(choice_field(context, _attribute_binding("Time unit", "time_unit"), lambda _design: ["s", "ms"]))
         fields[-1].element.props("clearable")
-        ui.label("Of state_time and component_time in expressions; empty: seconds.").classes("empty")
+        ui.label(texts.TIME_UNIT_HELP).classes("empty")
 
-    collapsible_section(context, "xabsl", "XABSL", "; ".join(said) or "name, arithmetic, unit of times", build)
+    collapsible_section(context, "xabsl", "XABSL", "; ".join(parts) or "name, arithmetic, time unit", build)
 
 
 def _common_doc() -> FieldBinding:
     return FieldBinding(
-        label="Doc of what is common",
+        label="Description (all states)",
         path=("common", "doc"),
         read=lambda design: design.common.doc,
         write=lambda design, value: replace(design, common=replace(design.common, doc=value)),
@@ -71,11 +70,11 @@ def _common_doc() -> FieldBinding:
 
 
 def _code(context: WindowContext, fields: list[Field]) -> None:
-    """The code for module and class, built when it is opened: code editors are a large script to load."""
-    written = [
+    """Build the section of module and member code; collapsed, as code editors load a large script."""
+    code_names = [
         name for name, code in (("module", context.design.module), ("members", context.design.members)) if code.texts
     ]
-    hint = f"written: {', '.join(written)}" if written else "for the top of the module, and for the class"
+    hint = ", ".join(code_names) or "module and class members"
 
     def build() -> None:
         fields.extend([code_field(context, _module_code()), code_field(context, _member_code())])
@@ -84,10 +83,10 @@ def _code(context: WindowContext, fields: list[Field]) -> None:
 
 
 def common_panel(context: WindowContext) -> list[Field]:
-    """Build the form of what is common to all states."""
-    heading("Common transitions", hint="tested before those of every state")
+    """Build the form of the common transitions and actions."""
+    heading("Common transitions", hint="tested in every state, before its own transitions")
     decisions_list(context, COMMON, ("common", "transitions"), context.design.common.transitions)
-    heading("Common actions", hint="done before those of every state")
+    heading("Common actions", hint="run in every state, before its own actions")
     fields = actions_panel(context, ("common", "actions"), context.design.common.actions)
     return [*fields, text_field(context, _common_doc(), multiline=True)]
 
@@ -107,7 +106,7 @@ def _frequency() -> FieldBinding:
         path=("frequency",),
         read=lambda design: number_text.format_number(design.frequency_hz),
         write=lambda design, text: replace(design, frequency_hz=number_text.parse_frequency(text)),
-        hint="at every step",
+        hint="every step",
         validate=number_text.validate_frequency,
     )
 
@@ -135,20 +134,20 @@ def _uses(context: WindowContext) -> None:
         with ui.row().classes("use-row"):
             ui.label(use.alias).classes("mono alias")
             ui.label(use.component).classes("component-name")
-            icon_button("close", f"Stop using {use.alias}", _use_remover(context, use.alias))
+            icon_button("close", f"Remove {use.alias}", _use_remover(context, use.alias))
     used = {use.component for use in context.design.uses} | {context.design.component}
-    free = sorted(name for name in context.workspace.project.interfaces() if name not in used)
-    with ui.row().classes("adders"), add_button("Component", "Use one more component") as button:
-        if not free:
+    available_components = sorted(name for name in context.workspace.project.interfaces() if name not in used)
+    with ui.row().classes("adders"), add_button("Component", "Add Component") as button:
+        if not available_components:
             button.disable()
         with ui.menu().props("auto-close"):
-            for name in free:
+            for name in available_components:
                 ui.menu_item(name, on_click=_use_adder(context, name)).classes("mono")
 
 
 def _use_adder(context: WindowContext, component: str) -> Callable[[], None]:
-    return lambda: context.edit(f"use {component}", lambda design: add_use(design, component))
+    return lambda: context.edit(f"add component {component}", lambda design: add_use(design, component))
 
 
 def _use_remover(context: WindowContext, alias: str) -> Callable[[], None]:
-    return lambda: context.edit(f"stop using {alias}", lambda design: remove_uses(design, [alias]))
+    return lambda: context.edit(f"remove component {alias}", lambda design: remove_uses(design, [alias]))

@@ -1,4 +1,4 @@
-"""The list of designs: every project of the folder with its components."""
+"""The list of the designs of all projects of the folder."""
 
 import re
 from dataclasses import dataclass
@@ -8,18 +8,19 @@ from nicegui import ui
 
 from vicode.editor.panels.design_dialogs import DesignDialogs
 from vicode.editor.panels.design_menu import add_design_menu
+from vicode.editor.panels.texts import NO_MATCHING_DESIGNS, unreadable_file
 from vicode.editor.panels.widgets import icon_button
 from vicode.editor.session import Library, Workspace
 from vicode.editor.view.page_urls import broken_file_url, design_url
 
 _MAX_SOLID_NAME = 18
 _FILTER_THRESHOLD = 25
-"""Of more designs, one is found by typing a part of its name."""
+"""The filter is shown for more designs than this."""
 
 
 @dataclass(frozen=True, slots=True)
 class _Row:
-    """A line of the list, what is sought in it, and where it leads."""
+    """A row of the list: the name to filter by, the URL and the element."""
 
     name: str
     address: str
@@ -28,7 +29,7 @@ class _Row:
 
 @dataclass(frozen=True, slots=True)
 class _UnsavedMark:
-    """What tells in the line of a design that it is unsaved: it comes and goes, and the line stays."""
+    """The mark of unsaved changes in a row."""
 
     workspace: Workspace
     component: str
@@ -43,40 +44,40 @@ class _UnsavedMark:
         self.update_label()
 
     def update_label(self) -> None:
-        """A name in parts is read out as one."""
+        """Set the accessible name, as the label of a long name is split into parts."""
         if len(self.component) > _MAX_SOLID_NAME:
             self.link.props["aria-label"] = self.component + (", unsaved" if self.dot.visible else "")
 
 
 class DesignsList:
-    """The designs; built anew when files come or go."""
+    """The list, rebuilt when files are added or removed."""
 
-    def __init__(self, library: Library, here: tuple[str, str], dialogs: DesignDialogs) -> None:
+    def __init__(self, library: Library, current: tuple[str, str], dialogs: DesignDialogs) -> None:
         """Build it; `current` is the project's key and the component that is open."""
-        self.library, self.current, self.dialogs = library, here, dialogs
+        self.library, self.current, self.dialogs = library, current, dialogs
         self.rendered_key: object = None
         self._rows: list[_Row] = []
         self._marks: list[_UnsavedMark] = []
         with ui.element("nav").classes("designs").props('aria-label="Designs"'):
             self._filter = ui.input(placeholder="Filter", on_change=self._apply_filter).classes("designs-filter")
             self._filter.props('dense borderless clearable debounce=150 aria-label="Filter designs"')
-            # What stands in the field is told at once, its value only when nobody types any more.
-            told = "(event) => emit(event.target.value)"
-            self._filter.on("keydown.enter", lambda event: self._open_first(str(event.args)), js_handler=told)
+            # Sends the current text: the value of the field is updated with a delay.
+            emit_text = "(event) => emit(event.target.value)"
+            self._filter.on("keydown.enter", lambda event: self._open_first(str(event.args)), js_handler=emit_text)
             self.body = ui.element("div")
-            self._none = ui.label("No design has this in its name.").classes("empty")
+            self._no_matches = ui.label(NO_MATCHING_DESIGNS).classes("empty")
         self.refresh()
 
     def refresh(self) -> None:
-        """Show what there is now."""
-        shape = [
+        """Show the current designs."""
+        key = [
             (each.key, sorted(each.project.interfaces()), each.broken_file_names) for each in self.library.workspaces
         ]
-        if shape == self.rendered_key:
+        if key == self.rendered_key:
             for mark in self._marks:
                 mark.refresh()
             return
-        self.rendered_key = shape
+        self.rendered_key = key
         self._rows, self._marks = [], []
         self.body.clear()
         with self.body:
@@ -86,27 +87,27 @@ class DesignsList:
         self._apply_filter()
 
     def _apply_filter(self) -> None:
-        """Show the designs with all typed parts in their names."""
-        found = self._matching_rows(str(self._filter.value or ""))
+        """Show the designs whose names contain all words of the filter."""
+        matching_rows = self._matching_rows(str(self._filter.value or ""))
         for row in self._rows:
-            row.element.set_visibility(row in found)
-        self._none.set_visibility(bool(self._rows) and not found)
+            row.element.set_visibility(row in matching_rows)
+        self._no_matches.set_visibility(bool(self._rows) and not matching_rows)
 
     def _matching_rows(self, text: str) -> list[_Row]:
         parts = text.casefold().split() if self._filter.visible else []
         return [row for row in self._rows if all(part in row.name.casefold() for part in parts)]
 
     def _open_first(self, text: str) -> None:
-        found = self._matching_rows(text)
-        if found:
-            ui.navigate.to(found[0].address)
+        matching_rows = self._matching_rows(text)
+        if matching_rows:
+            ui.navigate.to(matching_rows[0].address)
 
     def _project(self, workspace: Workspace) -> None:
         with ui.row().classes("project-head"):
             ui.label(workspace.project.name).classes("project-name")
             icon_button("add", f"New design in {workspace.project.name}", lambda: self.dialogs.ask_new(workspace))
-        with ui.element("div").props("role=list") as listed:
-            listed.props["aria-label"] = workspace.project.name
+        with ui.element("div").props("role=list") as design_list:
+            design_list.props["aria-label"] = workspace.project.name
             for design in sorted(workspace.project.designs, key=lambda each: each.component.casefold()):
                 self._design(workspace, design.component)
             for file in workspace.broken_file_names:
@@ -132,7 +133,7 @@ class DesignsList:
 
 
 def _name(component: str) -> None:
-    """A name, which breaks between its words where it is long."""
+    """Build a label; a long name may break between its words."""
     if len(component) <= _MAX_SOLID_NAME:
         ui.label(component).classes("design-name")
     else:
@@ -145,5 +146,5 @@ def _broken(workspace: Workspace, file: str) -> ui.element:
     with ui.element("div").props("role=listitem") as row, ui.link(target=address).classes("design-link is-broken"):
         ui.icon("error").props('aria-hidden="true"')
         ui.label(file).classes("design-name")
-        ui.tooltip(f"{file} cannot be read: open its text to mend it")
+        ui.tooltip(unreadable_file(file))
     return row

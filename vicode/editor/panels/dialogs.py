@@ -1,4 +1,4 @@
-"""Dialogs with a title that is also their name for screen readers."""
+"""Dialogs whose title is also their accessible name."""
 
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -8,12 +8,12 @@ from nicegui import ui
 
 @contextmanager
 def titled_dialog(title: str, css_class: str = "") -> Iterator[ui.dialog]:
-    """A dialog to be filled, with a style class of its own if it has a look of its own; it opens when it is left.
+    """Create a dialog; the body of the context manager builds its content, then it opens.
 
-    It stays when what was pressed for it is built anew, as a change by somebody else does.
+    The dialog is a child of the page: it stays open when the panel of the button that opened it is rebuilt.
     """
     with ui.context.client.content, ui.dialog() as dialog, ui.card().classes(f"dialog {css_class}"):
-        # Set, not written into a text of props: titles hold names.
+        # Not through `props(text)`, as titles contain names with arbitrary characters.
         dialog.props["aria-label"] = title
         ui.label(title).classes("dialog-title").props("role=heading aria-level=2")
         yield dialog

@@ -1,9 +1,10 @@
-"""A readable diff: the text on disk to the left, the new one to the right."""
+"""A side-by-side diff: the text on disk on the left, the new text on the right."""
 
 from html import escape
 
 from nicegui import ui
 
+from vicode.editor.panels.texts import more
 from vicode.editor.session.text_diff import DiffRow, LineStatus, side_by_side
 
 _SIGNS = {LineStatus.ADDED: "+", LineStatus.REMOVED: "−", LineStatus.CHANGED: "±"}
@@ -12,20 +13,20 @@ _MAX_ROWS = 2000
 
 
 def diff_view(old: str | None, new: str | None) -> ui.html:
-    """Build it; None: there is no file on that side."""
+    """Build the diff; None means that there is no file on that side."""
     rows = side_by_side(old or "", new or "")
-    # Where nothing stands on the left, all the room belongs to the right.
+    # For a new file, only the right side is shown.
     is_new = old is None
     body = "".join(_row(row, is_new=is_new) for row in rows[:_MAX_ROWS])
     if len(rows) > _MAX_ROWS:
-        body += f'<tr class="gap"><td colspan="5">and {len(rows) - _MAX_ROWS} more lines</td></tr>'
+        body += f'<tr class="gap"><td colspan="5">{more(len(rows) - _MAX_ROWS, "lines")}</td></tr>'
     left = "" if is_new else '<th scope="col" colspan="2">on disk</th>'
     right = "generated" if new is not None else "will be deleted"
     head = f'<tr>{left}<td></td><th scope="col" colspan="2">{right}</th></tr>'
     left = "" if is_new else '<col class="number"><col>'
     columns = f'<colgroup>{left}<col class="sign"><col class="number"><col></colgroup>'
     table = f'<table class="diff mono">{columns}<thead>{head}</thead><tbody>{body}</tbody></table>'
-    # Everything that comes from a text is escaped here; nothing else is in it.
+    # All texts are escaped above.
     return (
         ui.html(table, sanitize=False).classes("diff-box").props('tabindex="0" role="region" aria-label="Differences"')
     )

@@ -1,4 +1,4 @@
-"""Rows that the mouse takes to another place of their list."""
+"""Rows that can be reordered with the mouse."""
 
 from collections.abc import Callable
 
@@ -10,15 +10,14 @@ _DROP = "(event) => { event.preventDefault(); event.currentTarget.classList.remo
 
 
 class DraggableRows:
-    """The rows of one list; `move` is called with the old and the new index of the one that was dropped."""
+    """The rows of one list; `move` is called with the old and the new index of a dropped row."""
 
     def __init__(self, move: Callable[[int, int], None]) -> None:
-        """Begin with no rows."""
         self._move = move
         self._dragged_index: int | None = None
 
     def add(self, row: ui.element, index: int) -> None:
-        """Let a row be dragged, and others be dropped on it."""
+        """Make a row draggable, and a drop target for other rows."""
         row.props("draggable=true")
         row.on("dragstart", lambda: self._start_drag(index))
         row.on("dragend", lambda: self._start_drag(None))
@@ -30,7 +29,7 @@ class DraggableRows:
         self._dragged_index = index
 
     def _drop(self, index: int) -> None:
-        # What was dropped may be anything, from any window.
-        held, self._dragged_index = self._dragged_index, None
-        if held is not None and held != index:
-            self._move(held, index)
+        # The dropped item may come from another list or window.
+        from_index, self._dragged_index = self._dragged_index, None
+        if from_index is not None and from_index != index:
+            self._move(from_index, index)

@@ -1,4 +1,4 @@
-"""Takes the drawing out: as a file to download, or as text on the clipboard, with a look at it first."""
+"""Exports the diagram as a file or as text on the clipboard, with a preview."""
 
 import base64
 import json
@@ -7,6 +7,7 @@ from collections.abc import Callable
 from nicegui import run, ui
 
 from vicode.diagram.export_formats import ExportFormat, ExportOptions
+from vicode.editor.panels import texts
 from vicode.editor.panels.command import Command, MenuGroup
 from vicode.editor.panels.dialogs import titled_dialog
 from vicode.editor.panels.widgets import primary_button
@@ -14,37 +15,36 @@ from vicode.editor.panels.window_context import WindowContext
 from vicode.model.names import snake_case
 
 _TITLES = {
-    ExportFormat.SVG: "SVG, sharp at every size",
-    ExportFormat.PDF: "PDF, one page",
-    ExportFormat.PNG: "PNG, for slides",
-    ExportFormat.MERMAID: "Mermaid, for READMEs",
+    ExportFormat.SVG: "SVG (scalable)",
+    ExportFormat.PDF: "PDF (one page)",
+    ExportFormat.PNG: "PNG (for slides)",
+    ExportFormat.MERMAID: "Mermaid (for READMEs)",
     ExportFormat.PLANTUML: "PlantUML",
-    ExportFormat.DOT: "DOT, for Graphviz",
+    ExportFormat.DOT: "DOT (Graphviz)",
 }
 _TEXTS = (ExportFormat.MERMAID, ExportFormat.PLANTUML, ExportFormat.DOT)
-_ALL, _SELECTED = "Everything", "What is selected"
-# Also where a page is not served securely, and has only the old way.
+_ALL, _SELECTED = "Whole diagram", "Selection"
+# Also works on pages without HTTPS, which lack the clipboard API.
 _WRITE = "return Quasar.copyToClipboard(%s).then(() => true, () => false)"
-# A browser may ask first whether it is allowed.
+# The browser may ask the user for permission.
 _CLIPBOARD_TIMEOUT_S = 60
-# A look at more would be slower than the download.
+# The preview of a larger diagram would be slower than the download.
 _MAX_PREVIEW_STATES = 400
 
 
 class ExportDialog:
-    """Asks what to take out, and how.
+    """Asks for format and options of an export.
 
     Args:
-        context: the open design, and what is selected.
-        links_shown: whether the drawing shows used components just now.
+        context: the open design and the selection.
+        links_shown: whether the canvas shows the links to used components.
     """
 
     def __init__(self, context: WindowContext, links_shown: Callable[[], bool]) -> None:
-        """Open it by its commands."""
         self._context, self._links_shown = context, links_shown
 
     def commands(self) -> tuple[Command, ...]:
-        """The dialog, and a way past it for each text."""
+        """Return the command of the dialog, and a copy command for each text format."""
         copies = tuple(
             Command(
                 f"copy-{form}",
@@ -57,78 +57,78 @@ class ExportDialog:
         )
         keys = ("Ctrl+Shift+E",)
         ask = Command(
-            "export", "Export the drawing…", self.ask, MenuGroup.DESIGN, icon="download", keys=keys, while_typing=True
+            "export", "Export diagram…", self.ask, MenuGroup.DESIGN, icon="download", keys=keys, while_typing=True
         )
         return (ask, *copies)
 
     def ask(self) -> None:
-        """Ask, showing what would come out."""
+        """Open the dialog."""
         selected = _selected_states(self._context)
         with titled_dialog(f"Export {self._context.design.component}") as dialog:
             with ui.element("div").classes("export-choices"):
                 form = ui.select(_TITLES, value=ExportFormat.SVG, label="Format").props("outlined dense options-dense")
                 scopes = [_ALL, _SELECTED] if selected else [_ALL]
-                scope = ui.select(scopes, value=scopes[-1], label="What").props("outlined dense options-dense")
+                scope = ui.select(scopes, value=scopes[-1], label="Scope").props("outlined dense options-dense")
                 links = ui.switch("Used components", value=self._links_shown())
-                dark = ui.switch("Dark colours", value=False)
-            look = ui.element("div").classes("export-preview").props("tabindex=0 role=group aria-label=Preview")
+                dark = ui.switch("Dark theme", value=False)
+            preview = ui.element("div").classes("export-preview").props("tabindex=0 role=group aria-label=Preview")
 
-            def wish() -> ExportOptions:
+            def options() -> ExportOptions:
                 only = selected if scope.value == _SELECTED else None
                 return ExportOptions(only=only, links=bool(links.value), dark=bool(dark.value))
 
             def show() -> None:
-                look.clear()
-                with look:
-                    _show_preview(self._context, form.value, wish())
+                preview.clear()
+                with preview:
+                    _show_preview(self._context, form.value, options())
 
             for choice in (form, scope, links, dark):
                 choice.on_value_change(show)
             show()
             with ui.row().classes("dialog-buttons"):
                 ui.button("Cancel", on_click=dialog.close).props("flat no-caps")
-                ui.button("Copy text", on_click=lambda: _copy(self._context, form.value, wish())).props(
+                ui.button("Copy text", on_click=lambda: _copy(self._context, form.value, options())).props(
                     "flat no-caps"
                 ).bind_enabled_from(form, "value", lambda chosen: chosen in (*_TEXTS, ExportFormat.SVG))
-                primary_button("Download", lambda: _download(self._context, form.value, wish()), icon="download")
+                primary_button("Download", lambda: _download(self._context, form.value, options()), icon="download")
         dialog.on("hide", dialog.delete)
 
 
 def _selected_states(context: WindowContext) -> frozenset[str]:
-    return frozenset(thing.id for thing in context.selected if thing.kind == "states")
+    return frozenset(item.id for item in context.selected if item.kind == "states")
 
 
-def _show_preview(context: WindowContext, form: ExportFormat, wish: ExportOptions) -> None:
-    """A picture as a picture, a text as a text; it comes when it is drawn."""
+def _show_preview(context: WindowContext, form: ExportFormat, options: ExportOptions) -> None:
+    """Show the preview when it is rendered."""
     if len(context.design.states) > _MAX_PREVIEW_STATES:
-        ui.label(f"{len(context.design.states)} states: too many to look at here").classes("empty")
+        ui.label(texts.preview_too_large(len(context.design.states))).classes("empty")
         return
 
     async def draw() -> None:
-        content = await run.io_bound(_exported, context, form if form in _TEXTS else ExportFormat.SVG, wish)
-        # Another choice may have been made meanwhile, or the dialog closed.
-        if content is None or place.is_deleted:
+        content = await run.io_bound(_exported, context, form if form in _TEXTS else ExportFormat.SVG, options)
+        # The user may have chosen other options or closed the dialog.
+        if content is None or container.is_deleted:
             return
-        place.clear()
-        with place:
+        container.clear()
+        with container:
             if form in _TEXTS:
                 ui.label(content.decode()).classes("mono export-text")
             else:
-                image = ui.element("img").props('alt="The drawing as it would come out"')
+                image = ui.element("img").props('alt="Preview of the exported diagram"')
                 image.props["src"] = f"data:image/svg+xml;base64,{base64.b64encode(content).decode()}"
 
-    with ui.element("div").style("display: contents") as place:
-        ui.label("Drawing …").classes("empty").props('role="status"')
-    # A large drawing takes seconds; nobody waits for it.
-    context.run_in_background(draw(), "look")
+    with ui.element("div").style("display: contents") as container:
+        ui.label(texts.RENDERING).classes("empty").props('role="status"')
+    # A large diagram takes seconds.
+    context.run_in_background(draw(), "preview")
 
 
 def _copier(context: WindowContext, form: ExportFormat) -> Callable[[], None]:
     return lambda: _copy(context, form, ExportOptions(only=_selected_states(context) or None))
 
 
-def _copy(context: WindowContext, form: ExportFormat, wish: ExportOptions) -> None:
-    text = json.dumps(_exported(context, form, wish).decode())
+def _copy(context: WindowContext, form: ExportFormat, options: ExportOptions) -> None:
+    text = json.dumps(_exported(context, form, options).decode())
 
     async def write() -> None:
         try:
@@ -136,24 +136,24 @@ def _copy(context: WindowContext, form: ExportFormat, wish: ExportOptions) -> No
         except TimeoutError:
             is_done = False
         if is_done:
-            context.show_toast(f"{form.label} of {context.design.component} is on the clipboard", "positive")
+            context.show_toast(texts.copied(context.design.component, form.label), "positive")
         else:
-            context.show_toast("The browser let nothing be put on the clipboard: export it as a file", "warning")
+            context.show_toast(texts.CLIPBOARD_DENIED, "warning")
 
     context.run_in_background(write(), "copy")
 
 
-def _download(context: WindowContext, form: ExportFormat, wish: ExportOptions) -> None:
+def _download(context: WindowContext, form: ExportFormat, options: ExportOptions) -> None:
     async def paint() -> None:
-        # Large pictures take seconds; the others must not wait for them.
-        content = await run.io_bound(_exported, context, form, wish)
+        # Large images take seconds.
+        content = await run.io_bound(_exported, context, form, options)
         if content is not None:
             ui.download(content, f"{snake_case(context.design.component)}{form.suffix}", form.media_type)
 
     context.run_in_background(paint(), "export")
 
 
-def _exported(context: WindowContext, form: ExportFormat, wish: ExportOptions) -> bytes:
-    from vicode.diagram.export import export_design  # noqa: PLC0415 - many ways of drawing, none of them the first page's
+def _exported(context: WindowContext, form: ExportFormat, options: ExportOptions) -> bytes:
+    from vicode.diagram.export import export_design  # noqa: PLC0415 - loads all renderers, which the first page does not need
 
-    return export_design(context.design, form, wish)
+    return export_design(context.design, form, options)

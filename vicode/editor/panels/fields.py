@@ -1,4 +1,4 @@
-"""Form fields that show one value of the design and change it, without disturbing who types in them."""
+"""Form fields that show and change one value of the design, and keep text that the user is typing."""
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field, replace
@@ -8,6 +8,7 @@ from nicegui import ui
 from nicegui.elements.mixins.disableable_element import DisableableElement
 from nicegui.elements.mixins.value_element import ValueElement
 
+from vicode.editor.panels import texts
 from vicode.editor.panels.text_input import TextInput
 from vicode.editor.panels.window_context import WindowContext
 from vicode.editor.session.descriptions import describe_path
@@ -24,10 +25,10 @@ ListOptions = Callable[[Design], Sequence[str]]
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class FieldBinding:
-    """What a field shows and changes. `path` leads to the value in the design, for findings and undo labels.
+    """The value that a field shows and changes.
 
-    Where the names in a path may change while the field stays, `get_path` tells it of a design. `validate` says in
-    words why a value cannot be taken over, nothing if it can.
+    `path` is the path of the value, for findings and undo labels; `get_path` computes it where names in the path may
+    change while the field exists. `validate` returns an error message, or "" for a valid value.
     """
 
     label: str
@@ -39,13 +40,13 @@ class FieldBinding:
     get_path: Callable[[Design], DesignPath] | None = None
 
     def locate(self, design: Design) -> DesignPath:
-        """Where the value stands in a design."""
+        """Return the path of the value in a design."""
         return self.get_path(design) if self.get_path else self.path
 
 
 @dataclass(eq=False)
 class Field:
-    """A field on the screen; `refresh` shows the design's value unless somebody is typing in it."""
+    """A form field; `refresh` shows the value of the design unless the user is typing."""
 
     context: WindowContext
     binding: FieldBinding
@@ -53,13 +54,13 @@ class Field:
     message: ui.label | None = None
     has_focus: bool = False
     error: str = ""
-    """Why what stands in the field is not in the design."""
+    """Why the text of the field is not in the design; "" if it is."""
     _value_at_error: Any = None
     _browser_state: SentValues = field(default_factory=SentValues)
     _shown_design: Design | None = None
 
     def __post_init__(self) -> None:
-        """Watch for typing."""
+        """Subscribe to focus and input, and show the value."""
         self.element.on("focus", lambda: self.focus(has_focus=True))
         self.element.on("blur", lambda: self.focus(has_focus=False))
         self.element.on_value_change(lambda event: self._on_typed(event.value))
@@ -68,9 +69,9 @@ class Field:
         self.refresh()
 
     def refresh(self) -> None:
-        """Show what the design holds, and what is wrong with it."""
+        """Show the value of the design and its findings."""
         value = self.binding.read(self.context.design)
-        # What was refused stays to be mended, until the design itself has another value.
+        # A rejected text stays until the value in the design changes.
         if self.error and value != self._value_at_error:
             self.error = ""
         if not self.has_focus and not self.error:
@@ -82,7 +83,7 @@ class Field:
             self._show_findings(self.message)
 
     def focus(self, *, has_focus: bool) -> None:
-        """Note whether somebody is typing here, and let the others know."""
+        """Record the focus, and show it to other users."""
         self.has_focus = has_focus
         self.context.presence.update(self.context.window, editing_path=self.path if has_focus else ())
         if not has_focus:
@@ -90,89 +91,93 @@ class Field:
 
     @property
     def path(self) -> DesignPath:
-        """Where the value stands in the design as it is now."""
+        """The path of the value in the current design."""
         return self.binding.locate(self.context.design)
 
     def transfer_input_from(self, old: "Field", sent_text: str = "") -> None:
-        """Hear what is typed as a change of what the field before showed, to which others may have added since.
+        """Merge further input relative to the value that the replaced field showed.
 
-        What the field before has `sent_text` is noted there: it may tell more, or the same once more.
+        `sent_text` is recorded in the replaced field, which may still send the same text or more.
         """
         self._browser_state.transfer_input_from(old._browser_state)
         if sent_text and not self.binding.validate(sent_text):
             old._browser_state.field_merge.record_sent(sent_text, self._normalize(sent_text))
 
     def apply_delayed_input(self, text: str) -> None:
-        """Take over what was typed into the field that stood here before."""
+        """Apply text typed into the replaced field."""
         self.element.set_value(text)
 
     def commit_delayed_input(self, text: str) -> None:
-        """Take over what was typed here, though the form shows another thing by now."""
-        now = self.binding.read(self.context.design)
-        if self.is_path_valid() and not self.binding.validate(text) and text != now:
-            wanted = self._browser_state.field_merge.merge_typed(text, now)
+        """Apply text typed into this field after the form has switched to another item."""
+        current = self.binding.read(self.context.design)
+        if self.is_path_valid() and not self.binding.validate(text) and text != current:
+            new_value = self._browser_state.field_merge.merge_typed(text, current)
             self._browser_state.field_merge.record_sent(text, self._normalize(text))
-            self.context.edit(f"edit {describe_path(self.path)}", lambda design: self.binding.write(design, wanted))
+            self.context.edit(f"edit {describe_path(self.path)}", lambda design: self.binding.write(design, new_value))
 
     def _record_shown(self, value: Any) -> None:
         number = self.element.server_seq if isinstance(self.element, TextInput) else 0
         self._browser_state.record_shown(value, number)
 
     def _on_browser_text(self, number: int, text: str) -> None:
-        """Note what the browser showed when a text was typed, of all that it was sent."""
+        """Select the value that the browser showed when the text was typed."""
         self._browser_state.select_base(number)
         if text == self.element.value and self.is_path_valid() and not self.binding.validate(text):
-            # Nothing else will: another one has made the same of it.
+            # No change event follows: another user typed the same text.
             self._browser_state.field_merge.record_sent(text, self._normalize(text))
 
     def _normalize(self, value: Any) -> Any:
-        """What the design would hold if the value alone was written."""
+        """Return the value that the design would have after writing `value`."""
         return self.binding.read(self.binding.write(self.context.design, value))
 
     def is_path_valid(self) -> bool:
-        """Whether the path still leads to what the field was made for: nothing was put before it, or taken away."""
-        before, now = self._shown_design, self.context.design
-        return before is now or (before is not None and has_same_structure(before, now, self.binding.locate(before)))
+        """Whether the path still leads to the same item: no item before it was added or removed."""
+        before, current = self._shown_design, self.context.design
+        return before is current or (
+            before is not None and has_same_structure(before, current, self.binding.locate(before))
+        )
 
     def other_findings(self) -> list[Finding]:
-        """What is wrong with the value though it does not stand in the design."""
+        """Return findings from outside the design."""
         return []
 
     def _on_typed(self, value: Any) -> None:
-        now = self.binding.read(self.context.design)
-        self.error, self._value_at_error = self.binding.validate(value), now
-        if self.error or value == now:
-            if value == now:
-                self._record_shown(now)
+        current = self.binding.read(self.context.design)
+        self.error, self._value_at_error = self.binding.validate(value), current
+        if self.error or value == current:
+            if value == current:
+                self._record_shown(current)
             self.refresh()
             return
         if not self.is_path_valid():
-            # It would go into what stands there now.
-            self.context.show_toast("Somebody else changed the order here just now: look again", "warning")
+            # The edit would change another item.
+            self.context.show_toast(texts.ORDER_CHANGED, "warning")
             return
-        wanted = self._browser_state.field_merge.merge_typed(value, now)
+        new_value = self._browser_state.field_merge.merge_typed(value, current)
         write, key = self.binding.write, "/".join(map(str, self.path)) + self.binding.label
-        # Noted before the edit is told to all fields, this one among them.
+        # Recorded before the edit notifies all fields, including this one.
         self._browser_state.field_merge.record_sent(value, self._normalize(value))
-        self.context.edit(f"edit {describe_path(self.path)}", lambda design: write(design, wanted), coalesce_key=key)
+        self.context.edit(f"edit {describe_path(self.path)}", lambda design: write(design, new_value), coalesce_key=key)
         self._shown_design = self.context.design
 
     def _show_findings(self, message: ui.label) -> None:
-        found = findings_at(self.path, self.context.document.findings)
-        words = [f"{each.message}{f' ({each.fix})' if each.fix else ''}" for each in (*found, *self.other_findings())]
+        findings = findings_at(self.path, self.context.document.findings)
+        messages = [
+            f"{each.message}{f' ({each.fix})' if each.fix else ''}" for each in (*findings, *self.other_findings())
+        ]
         names = self.context.presence.names_editing(self.path, self.context.window)
-        others = [f"{' and '.join(names)} {'types' if len(names) == 1 else 'type'} here too"] if names else []
-        text = " · ".join(([self.error] if self.error else words) + others)
+        others = [texts.others_typing(names)] if names else []
+        text = " · ".join(([self.error] if self.error else messages) + others)
         if message.text != text:
             message.set_text(text)
             message.set_visibility(bool(text))
-        is_wrong = bool(self.error or words)
+        is_wrong = bool(self.error or messages)
         self.element.classes(add="has-finding" if is_wrong else None, remove=None if is_wrong else "has-finding")
         message.classes(add=None if is_wrong else "is-info", remove="is-info" if is_wrong else None)
 
 
 def findings_at(path: DesignPath, findings: Iterable[Finding]) -> list[Finding]:
-    """The findings about what stands at a path, or in it."""
+    """Return the findings at a path or below it."""
     return [
         finding
         for finding in findings
@@ -183,7 +188,7 @@ def findings_at(path: DesignPath, findings: Iterable[Finding]) -> list[Finding]:
 def text_field(
     context: WindowContext, binding: FieldBinding, *, monospace: bool = False, multiline: bool = False
 ) -> Field:
-    """A text in a line, or in as many as it needs; its findings stand below."""
+    """Build a text field with its findings below."""
     with ui.column().classes("field"):
         element = TextInput(binding.label, placeholder=binding.hint, multiline=multiline, monospace=monospace)
         element.props("debounce=250")
@@ -195,7 +200,7 @@ def text_field(
 def choice_field(
     context: WindowContext, binding: FieldBinding, options: ListOptions, *, multiple: bool = False
 ) -> Field:
-    """One, or several, of the design's options; what the design holds can always be chosen, known or not."""
+    """Build a select for one or several options. The current value is always an option."""
     if not multiple:
         binding = _none_for_empty(binding)
     with ui.column().classes("field"):
@@ -209,7 +214,7 @@ def choice_field(
 
 
 def _none_for_empty(binding: FieldBinding) -> FieldBinding:
-    """The same value, None where it is empty: a choice of one shows nothing as None."""
+    """Map the empty text to None, the empty value of a select."""
     return replace(
         binding,
         read=lambda design: binding.read(design) or None,
@@ -219,20 +224,20 @@ def _none_for_empty(binding: FieldBinding) -> FieldBinding:
 
 @dataclass(eq=False)
 class ChoiceField(Field):
-    """A choice; without the design's value among its options it would choose something else by itself."""
+    """A select. Its options always include the current value; otherwise the element would change it."""
 
     options: ListOptions = field(default=lambda _design: ())
 
     def refresh(self) -> None:
-        """Show what the design holds, and what it offers."""
+        """Show the value and the options of the design."""
         if self.has_focus:
             super().refresh()
             return
         design, element = self.context.design, cast("ui.select", self.element)
-        wanted = list(dict.fromkeys([*self.options(design), *_as_list(self.binding.read(design))]))
-        self._set_options([*wanted, *(each for each in _as_list(element.value) if each not in wanted)])
+        new_value = list(dict.fromkeys([*self.options(design), *_as_list(self.binding.read(design))]))
+        self._set_options([*new_value, *(each for each in _as_list(element.value) if each not in new_value)])
         super().refresh()
-        self._set_options(wanted)
+        self._set_options(new_value)
 
     def _set_options(self, options: list[str]) -> None:
         element = cast("ui.select", self.element)
@@ -245,16 +250,16 @@ def _as_list(value: Any) -> list[str]:
 
 
 def state_names(design: Design) -> list[str]:
-    """What a choice among states offers."""
+    """Return the options of a choice among states."""
     return [state.name for state in design.states]
 
 
 def checkbox_field(context: WindowContext, binding: FieldBinding) -> Field:
-    """Yes or no."""
+    """Build a checkbox."""
     return Field(context, binding, ui.checkbox(binding.label).props("dense"))
 
 
 def set_enabled(element: DisableableElement, *, flag: bool) -> None:
-    """Enable or disable a button, only sending what changed."""
+    """Enable or disable a button, without an update if nothing changed."""
     if element.enabled != flag:
         element.set_enabled(flag)

@@ -1,10 +1,11 @@
-"""Going from finding to finding, and the quick fixes of each."""
+"""Navigation between findings, and their quick fixes."""
 
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from nicegui import ui
 
+from vicode.editor.panels import texts
 from vicode.editor.panels.command import Command, MenuGroup
 from vicode.editor.panels.window_context import WindowContext
 from vicode.editor.session.finding_list import next_finding
@@ -17,13 +18,13 @@ if TYPE_CHECKING:
 
 @dataclass(eq=False)
 class FindingNavigator:
-    """The findings of one window's design: which one is at hand."""
+    """The current finding of one window."""
 
     context: WindowContext
     current: Finding | None = field(default=None, init=False)
 
     def commands(self) -> tuple[Command, ...]:
-        """Next and previous."""
+        """Return the commands for the next and the previous finding."""
         return (
             Command(
                 name="next-finding",
@@ -46,40 +47,40 @@ class FindingNavigator:
         )
 
     def move_by(self, step: int) -> None:
-        """Select what the next, or the previous, finding is about."""
+        """Select the item of the next or previous finding."""
         findings = self.context.document.findings
-        found = next_finding(findings, self.current, step)
-        if found is None:
-            self.context.show_toast("No findings: the design is sound", "positive")
+        finding = next_finding(findings, self.current, step)
+        if finding is None:
+            self.context.show_toast(texts.NO_PROBLEMS, "positive")
             return
-        self.select_finding(found)
+        self.select_finding(finding)
 
     def select_finding(self, finding: Finding) -> None:
-        """Select what a finding is about and bring it into view."""
+        """Select the item of a finding and scroll to it."""
         self.current = finding
-        things: tuple[ItemRef, ...] = ()
+        items: tuple[ItemRef, ...] = ()
         if finding.subject is not None:
-            thing = item_at_path(finding.subject.path)
-            things = () if thing.kind == "design" else (thing,)
-            self.context.reveal(thing)
-        if self.context.selected != things:
-            self.context.select(*things)
+            item = item_at_path(finding.subject.path)
+            items = () if item.kind == "design" else (item,)
+            self.context.reveal(item)
+        if self.context.selected != items:
+            self.context.select(*items)
         else:
             self.context.notify_listeners()
 
     def fill_fix_menu(self, menu: ui.menu, finding: Finding) -> None:
-        """Put the fixes of a finding into a menu, found when it opens: each is tried on the whole design."""
+        """Fill the menu of a finding with its fixes. Computed when the menu opens, as each is tried on the design."""
         menu.clear()
-        from vicode.editor.session.fixes import find_fixes  # noqa: PLC0415 - wanted when somebody looks at a finding
+        from vicode.editor.session.fixes import find_fixes  # noqa: PLC0415 - not needed before a menu opens
 
         fixes = find_fixes(self.context.workspace.project, self.context.design, finding)
         with menu:
             for fix in fixes:
                 ui.menu_item(fix.label, on_click=lambda fix=fix: self.apply_fix(fix)).props("role=menuitem")
             if not fixes:
-                ui.menu_item("No mend is certain here").props("disable role=menuitem")
+                ui.menu_item(texts.NO_FIX).props("disable role=menuitem")
 
     def apply_fix(self, fix: "Fix") -> None:
-        """Mend; one edit, so that undo takes it back."""
+        """Apply a fix as one edit, which can be undone."""
         self.context.edit(f"fix: {fix.label}", fix.edit)
-        self.context.show_toast(f"{fix.label}: done. Ctrl+Z takes it back.", "positive")
+        self.context.show_toast(texts.fix_applied(fix.label), "positive")

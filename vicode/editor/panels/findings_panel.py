@@ -1,4 +1,4 @@
-"""What is wrong with the open design, as it is typed: by severity and thing, filtered, with quick fixes."""
+"""The findings of the open design, updated while the user edits: by severity and item, with filter and quick fixes."""
 
 from collections.abc import Iterator
 from itertools import islice
@@ -6,6 +6,7 @@ from pathlib import PurePath
 
 from nicegui import ui
 
+from vicode.editor.panels import texts
 from vicode.editor.panels.finding_navigation import FindingNavigator
 from vicode.editor.panels.window_context import WindowContext
 from vicode.editor.session.finding_list import filter_findings, group_by_severity
@@ -16,15 +17,15 @@ from vicode.findings import Finding, Severity
 _ICONS = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.NOTE: "info"}
 _MAX_SHOWN = 200
 _Row = tuple[Finding, str, bool, bool]
-"""A finding, what it is about, whether it is the first about that, and whether it is the one at hand."""
+"""A finding, the label of its item, whether it is the first of that item, and whether it is the current one."""
 
 
 class FindingsPanel:
-    """The list below the canvas."""
+    """The list of findings in the dock."""
 
-    def __init__(self, context: WindowContext, problems: FindingNavigator) -> None:
-        """Build it; `refresh` fills it."""
-        self.context, self.navigator = context, problems
+    def __init__(self, context: WindowContext, navigator: FindingNavigator) -> None:
+        """Build the empty panel; `refresh` fills it."""
+        self.context, self.navigator = context, navigator
         self.hidden_severities: set[Severity] = set()
         self.shown: object = None
         self.rows: dict[_Row, ui.element] = {}
@@ -40,23 +41,23 @@ class FindingsPanel:
         self.more.set_visibility(False)
 
     def refresh(self) -> None:
-        """Show the findings of the design as it is now."""
+        """Show the current findings."""
         findings = self.context.document.findings
-        wanted = filter_findings(findings, self.filter.value or "", self.hidden_severities)
-        shown = (findings, wanted, self.navigator.current)
+        matching = filter_findings(findings, self.filter.value or "", self.hidden_severities)
+        shown = (findings, matching, self.navigator.current)
         if shown == self.shown:
             return
         self.shown = shown
-        self.summary.set_text(summarize_findings(findings, len(wanted)))
+        self.summary.set_text(summarize_findings(findings, len(matching)))
         for severity, button in self.toggles.items():
             count = sum(each.severity is severity for each in findings)
             button.set_visibility(bool(count))
             button.set_text(str(count))
-        self._fill(wanted)
+        self._fill(matching)
 
-    def _fill(self, wanted: tuple[Finding, ...]) -> None:
-        """Make what is new and take away what is gone: when many work at once, most of it stays."""
-        rows = dict.fromkeys(islice(self._rows_of(wanted), _MAX_SHOWN))
+    def _fill(self, matching: tuple[Finding, ...]) -> None:
+        """Add new rows and remove obsolete ones; all other rows stay."""
+        rows = dict.fromkeys(islice(self._rows_of(matching), _MAX_SHOWN))
         for row in [row for row in self.rows if row not in rows]:
             self.rows.pop(row).delete()
         for index, row in enumerate(rows):
@@ -65,28 +66,28 @@ class FindingsPanel:
                     self.rows[row] = self._build(row)
             if self.list.default_slot.children[index] is not self.rows[row]:
                 self.rows[row].move(target_index=index)
-        left = len(wanted) - _MAX_SHOWN
-        self.more.set_text(f"and {left} more: type into the filter to find them")
-        self.more.set_visibility(left > 0)
+        hidden_count = len(matching) - _MAX_SHOWN
+        self.more.set_text(texts.more_findings(hidden_count))
+        self.more.set_visibility(hidden_count > 0)
 
-    def _rows_of(self, wanted: tuple[Finding, ...]) -> Iterator[_Row]:
-        for _severity, findings in group_by_severity(wanted):
+    def _rows_of(self, matching: tuple[Finding, ...]) -> Iterator[_Row]:
+        for _severity, findings in group_by_severity(matching):
             before = ""
             for finding in findings:
-                words = item_label(self.context.design, finding.subject.path) if finding.subject else ""
-                yield finding, words, words != before, finding == self.navigator.current
-                before = words
+                label = item_label(self.context.design, finding.subject.path) if finding.subject else ""
+                yield finding, label, label != before, finding == self.navigator.current
+                before = label
 
     def _build(self, row_: _Row) -> ui.element:
-        finding, words, is_first, is_current = row_
+        finding, label, is_first, is_current = row_
         severity = finding.severity
         here = " is-current" if is_current else ""
-        with ui.element("div").classes(f"finding-row{here}").props('role="listitem"') as whole:
+        with ui.element("div").classes(f"finding-row{here}").props('role="listitem"') as element:
             with ui.element("button").classes(f"finding {severity}").props('type="button"') as row:
                 ui.icon(_ICONS[severity]).props('aria-hidden="true"')
                 ui.label(f"{severity} {finding.rule.code}").classes("finding-code mono")
-                ui.label(words).classes("finding-thing" + ("" if is_first else " is-same"))
-                # What was wrong when the file was read stands in the file, not in the drawing.
+                ui.label(label).classes("finding-thing" + ("" if is_first else " is-same"))
+                # A finding from reading the file has a line instead of an item.
                 line = (
                     f"{PurePath(finding.location.file).name}, line {finding.location.line}: "
                     if finding.location
@@ -97,7 +98,7 @@ class FindingsPanel:
             row.on("click", lambda: self.navigator.select_finding(finding))
             if is_fixable(finding):
                 self._fix_button(finding)
-        return whole
+        return element
 
     def _fix_button(self, finding: Finding) -> None:
         button = ui.button("Fix", icon="auto_fix_high", color=None).props("flat dense no-caps size=sm")
@@ -122,9 +123,9 @@ class FindingsPanel:
 
 
 def summarize_findings(findings: tuple[Finding, ...], shown: int | None = None) -> str:
-    """The number of findings in words."""
+    """Summarize the findings: "1 error, 2 warnings; 2 shown"."""
     if not findings:
-        return "No findings: the design is sound"
+        return texts.NO_PROBLEMS
     counts = [(sum(each.severity == severity for each in findings), severity) for severity in Severity]
-    words = ", ".join(f"{count} {severity}{'s' * (count != 1)}" for count, severity in counts if count)
-    return words if shown in (None, len(findings)) else f"{words}; {shown} shown"
+    label = ", ".join(texts.pluralize(count, severity) for count, severity in counts if count)
+    return label if shown in (None, len(findings)) else f"{label}; {shown} shown"

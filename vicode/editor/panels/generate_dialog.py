@@ -1,4 +1,4 @@
-"""Before code is written: which files are new, changed or edited by hand, each with its differences."""
+"""Confirmation before code is written: new, changed and manually edited files with their differences."""
 
 from collections.abc import Callable
 from pathlib import Path
@@ -7,6 +7,7 @@ from nicegui import ui
 
 from vicode.editor.panels.dialogs import titled_dialog
 from vicode.editor.panels.diff_view import diff_view
+from vicode.editor.panels.texts import files_to_write
 from vicode.editor.panels.widgets import primary_button
 from vicode.editor.session.code_generation import PendingOutput
 from vicode.output import FileDiff, FileStatus
@@ -16,12 +17,12 @@ _WORDS = {FileStatus.NEW: "new", FileStatus.CHANGED: "changed", FileStatus.STALE
 _KEY = "vicode-generate-unasked"
 
 
-# A browser that is too busy to answer would not show the question either.
+# A browser that does not answer in this time would not show the dialog either.
 _ANSWER_TIMEOUT_S = 60.0
 
 
 async def is_confirmation_disabled() -> bool:
-    """Whether the person chose, in this browser, not to be asked before code is written."""
+    """Whether the user disabled the confirmation in this browser."""
     try:
         return bool(await ui.run_javascript(f'localStorage.getItem("{_KEY}") === "yes"', timeout=_ANSWER_TIMEOUT_S))
     except TimeoutError:
@@ -29,15 +30,16 @@ async def is_confirmation_disabled() -> bool:
 
 
 def confirm_writing(prepared: PendingOutput, component: str, write: Callable[[bool], None]) -> None:
-    """Show what would change; `write` is called with whether edited files are to be set aside, or not at all.
+    """Show the changes. On confirmation, `write` is called with whether edited files must be backed up.
 
-    The files of the open component come first, as it is what was worked on.
+    The files of the open component come first.
     """
-    changes = tuple(sorted(prepared.changes, key=lambda each: _plain(Path(each.path).stem) != _plain(component)))
+    changes = tuple(
+        sorted(prepared.changes, key=lambda each: _normalize_name(Path(each.path).stem) != _normalize_name(component))
+    )
     unchanged = len(prepared.differences) - len(changes)
     with titled_dialog("Write the generated code?", "generate-dialog") as dialog:
-        rest = f"; {unchanged} more {'is' if unchanged == 1 else 'are'} up to date" if unchanged else ""
-        ui.label(f"{_count(len(changes))} in {prepared.folder.name}/{rest}.").classes("small")
+        ui.label(files_to_write(len(changes), prepared.folder.name, unchanged)).classes("small")
         with ui.element("div").classes("generate-files"):
             _files(prepared, changes)
         if prepared.skipped:
@@ -45,35 +47,35 @@ def confirm_writing(prepared: PendingOutput, component: str, write: Callable[[bo
         for path, findings in prepared.manual_edits.items():
             for finding in findings[:3]:
                 ui.label(f"{path}: {finding.message}").classes("field-finding")
-        unasked = ui.checkbox("Do not ask again in this browser").props("dense")
+        skip_confirmation = ui.checkbox("Don't ask again in this browser").props("dense")
 
-        def answer() -> None:
-            if unasked.value:
+        def confirm() -> None:
+            if skip_confirmation.value:
                 ui.run_javascript(f'localStorage.setItem("{_KEY}", "yes")')
             dialog.close()
             write(bool(prepared.manual_edits))
 
         with ui.row().classes("dialog-buttons"):
             ui.button("Cancel", on_click=dialog.close).props("flat no-caps")
-            label = "Keep the edits as .edited, and write" if prepared.manual_edits else "Write"
-            primary_button(label, answer).props("autofocus")
+            label = "Back up edits as .edited and write" if prepared.manual_edits else "Write"
+            primary_button(label, confirm).props("autofocus")
     dialog.on("hide", dialog.delete)
 
 
 def _files(prepared: PendingOutput, changes: tuple[FileDiff, ...]) -> None:
-    """The list of files to the left, the differences of the chosen one to the right."""
-    listed = ui.column().classes("generate-list").props('role="list"')
-    shown = ui.element("div").classes("generate-diff")
+    """Build the list of files, and the differences of the selected one."""
+    file_list = ui.column().classes("generate-list").props('role="list"')
+    diff = ui.element("div").classes("generate-diff")
     buttons: list[ui.element] = []
 
     def show(at: int) -> None:
-        shown.clear()
-        with shown:
+        diff.clear()
+        with diff:
             diff_view(changes[at].old, changes[at].new)
         for index, button in enumerate(buttons):
             button.props(f'aria-pressed="{str(index == at).lower()}"')
 
-    with listed:
+    with file_list:
         for at, change in enumerate(changes):
             buttons.append(_file(change, is_edited=change.path in prepared.manual_edits))
             buttons[-1].on("click", lambda at=at: show(at))
@@ -92,10 +94,6 @@ def _file(change: FileDiff, *, is_edited: bool) -> ui.element:
     return button
 
 
-def _count(number: int) -> str:
-    return f"{number} file{'s' * (number != 1)} would change"
-
-
-def _plain(name: str) -> str:
-    """A name as all languages write it, but for case and underscores."""
+def _normalize_name(name: str) -> str:
+    """Normalize a name: the languages differ in case and underscores."""
     return name.replace("_", "").casefold()

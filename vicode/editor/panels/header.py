@@ -1,4 +1,4 @@
-"""The bar at the top: where one is, what is unsaved, undo and redo, save and generate."""
+"""The header: breadcrumbs, save status, users, and buttons for the main commands."""
 
 from collections.abc import Sequence
 
@@ -16,16 +16,16 @@ _ICONS = ("find", "undo", "redo", "lay-out", "links", "page", "theme", "help")
 
 
 class Header:
-    """Builds the bar; `refresh` keeps its labels true."""
+    """Builds the header; `refresh` updates its labels."""
 
     def __init__(self, context: WindowContext, commands: Sequence[Command], trail: Sequence[str] = ()) -> None:
-        """Build it; `trail` are the components one came through."""
+        """Build the header; `trail` are the components on the path to this design."""
         self.context = context
         named = {command.name: command for command in commands}
         ui.link("vicode", "/").classes("brand").props('aria-label="vicode, all designs"')
         self._build_breadcrumbs(trail)
         self.save_status = ui.label().classes("saved").props('role="status"')
-        self.conflict_button = ui.button("Choose …", on_click=lambda: ask_to_resolve_conflict(context)).props(
+        self.conflict_button = ui.button("Resolve…", on_click=lambda: ask_to_resolve_conflict(context)).props(
             "flat dense no-caps"
         )
         ui.element("div").classes("spacer")
@@ -36,9 +36,9 @@ class Header:
         primary_button(generate.label, generate.handler, icon=generate.icon)
 
     def _build_breadcrumbs(self, trail: Sequence[str]) -> None:
-        """The way back: the project, the components one came through, and this one."""
+        """Build links to the project and to the components on the path to this design."""
         key, here = self.context.workspace.key, self.context.design.component
-        with ui.element("nav").classes("crumbs").props('aria-label="Way here"'):
+        with ui.element("nav").classes("crumbs").props('aria-label="Breadcrumb"'):
             ui.link(self.context.workspace.project.name, f"/#{key}").classes("crumb")
             for at, name in enumerate(trail):
                 _separator()
@@ -49,12 +49,12 @@ class Header:
     def _file_status(self) -> tuple[str, str]:
         document = self.context.document
         if document.shared.disk_conflict is not None:
-            return "Changed on disk, too", "is-conflicting"
-        autosave = " · saves by itself" if self.context.workspace.autosave else ""
+            return "Conflict: file changed on disk", "is-conflicting"
+        autosave = " · Autosave on" if self.context.workspace.autosave else ""
         return (f"Saved{autosave}", "") if document.is_saved else (f"Unsaved changes{autosave}", "is-unsaved")
 
     def refresh(self) -> None:
-        """Show whether it is saved and what undo and redo would do."""
+        """Show the save status, and enable undo and redo."""
         document = self.context.document
         text, kind = self._file_status()
         if self.save_status.text != text:

@@ -1,4 +1,4 @@
-"""The help: every command with its keys, and what a hand does on the canvas."""
+"""The help dialog: all commands with keys, and the gestures of the canvas."""
 
 from collections.abc import Iterable, Sequence
 
@@ -12,28 +12,28 @@ _PAGE = {MenuGroup.DESIGN: "Design", MenuGroup.EDIT: "Edit", MenuGroup.VIEW: "Vi
 
 
 def show_help(commands: Sequence[Command]) -> None:
-    """Show it; Escape closes it."""
-    with titled_dialog("Keys and gestures", "help") as dialog:
+    """Open the dialog."""
+    with titled_dialog("Keyboard shortcuts and gestures", "help") as dialog:
         with ui.element("div").classes("help-scroll"), ui.element("div").classes("help-columns"):
             for group in CommandGroup:
                 _section(f"Canvas: {group.lower()}", _canvas_rows(group))
             for place, title in _PAGE.items():
                 _section(f"Page: {title.lower()}", _page_rows(commands, place))
-            _section("Canvas: by hand", GESTURE_HELP)
+            _section("Canvas: mouse and touch", GESTURE_HELP)
         with ui.row().classes("dialog-buttons"):
             ui.button("Close", on_click=dialog.close).props("flat no-caps autofocus")
     dialog.on("hide", dialog.delete)
 
 
 def _canvas_rows(group: CommandGroup) -> list[tuple[str, str]]:
-    here = (each for each in CANVAS_COMMANDS if each.group is group and (each.keys or each.keys_label))
-    return [(each.keys_label or " or ".join(each.keys), each.label) for each in here]
+    shown = (each for each in CANVAS_COMMANDS if each.group is group and (each.keys or each.keys_label))
+    return [(each.keys_label or " or ".join(each.keys), each.label) for each in shown]
 
 
 def _page_rows(commands: Iterable[Command], place: MenuGroup) -> list[tuple[str, str]]:
-    own = {each.name for each in CANVAS_COMMANDS}
-    here = (each for each in commands if each.menu_group == place and each.keys and each.name not in own)
-    return [(" or ".join(each.keys), each.label) for each in here]
+    canvas_names = {each.name for each in CANVAS_COMMANDS}
+    shown = (each for each in commands if each.menu_group == place and each.keys and each.name not in canvas_names)
+    return [(" or ".join(each.keys), each.label) for each in shown]
 
 
 def _section(title: str, rows: Iterable[tuple[str, str]]) -> None:

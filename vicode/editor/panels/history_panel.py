@@ -1,4 +1,4 @@
-"""The history of the design as a list: who did what and when; a click, or Enter, goes to that point."""
+"""The edit history of the design as a list; a click or Enter goes to that step."""
 
 import time
 from collections.abc import Callable
@@ -6,6 +6,7 @@ from collections.abc import Callable
 from nicegui import ui
 
 from vicode.editor.panels.dialogs import titled_dialog
+from vicode.editor.panels.texts import history_jump_warning
 from vicode.editor.panels.widgets import primary_button
 from vicode.editor.panels.window_context import WindowContext
 from vicode.editor.session.history_rows import HistoryRow, list_history_rows
@@ -20,10 +21,9 @@ _WALK = """(event) => {
 
 
 class HistoryPanel:
-    """Builds the list; `refresh` adds new steps and marks where the design is."""
+    """Builds the list; `refresh` adds new steps and marks the current one."""
 
     def __init__(self, context: WindowContext) -> None:
-        """Build it empty."""
         self.context = context
         self.limit = _PAGE
         self.shown: dict[int, HistoryRow] = {}
@@ -33,30 +33,30 @@ class HistoryPanel:
         self.more = ui.button("Show older steps", on_click=self._show_more).props("flat dense no-caps")
 
     def refresh(self) -> None:
-        """Show the history as it is now; only what changed is built."""
+        """Show the current history; unchanged rows stay."""
         history = self.context.document.history
         lines = {line.entry.id: line for line in list_history_rows(history, self.limit)}
         for id_ in [each for each in self.shown if each not in lines]:
             self.rows.pop(id_).delete()
             del self.shown[id_]
         with self.list:
-            for place, (id_, line) in enumerate(lines.items()):
+            for index, (id_, line) in enumerate(lines.items()):
                 if id_ not in self.shown:
                     self.rows[id_] = self._row(line)
-                    self.rows[id_].move(target_index=place)
+                    self.rows[id_].move(target_index=index)
                 elif self.shown[id_] != line:
                     self._style_row(self.rows[id_], line)
         self.shown = lines
         self.more.set_visibility(len(history.entries) > len(lines))
 
     def _row(self, line: HistoryRow) -> ui.element:
-        step, people = line.entry, self.context.document.shared.users
+        step, users = line.entry, self.context.document.shared.users
         row = ui.element("button").classes("history-row").props('type="button"')
         with row:
             ui.icon("play_arrow").classes("history-now").props('aria-hidden="true"')
             ui.label(time.strftime("%H:%M:%S", time.localtime(step.at_s))).classes("history-time mono")
             ui.label(step.label).classes("history-label")
-            ui.label(people.name_of(step.user_id) if step.user_id else "").classes("history-person")
+            ui.label(users.name_of(step.user_id) if step.user_id else "").classes("history-person")
         row.on("click", self._jump_handler(step.id))
         self._style_row(row, line)
         return row
@@ -72,27 +72,27 @@ class HistoryPanel:
         self.refresh()
 
     def _jump_handler(self, step: int) -> Callable[[], None]:
-        def go() -> None:
-            left = self._describe_left_steps(step)
-            if left:
-                self._ask(step, left)
+        def jump() -> None:
+            left_steps = self._describe_left_steps(step)
+            if left_steps:
+                self._ask(step, left_steps)
             else:
                 self._jump(step)
 
-        return go
+        return jump
 
     def _jump(self, step: int) -> None:
-        refused = self.context.document.jump_to(step)
-        if refused:
-            self.context.show_toast(refused, "warning")
+        error = self.context.document.jump_to(step)
+        if error:
+            self.context.show_toast(error, "warning")
 
     def _describe_left_steps(self, step: int) -> str:
-        """Whose steps a jump would leave, and how many: "3 steps of Ana"; nothing if only one's own."""
+        """Describe the steps of other users that a jump would leave: "3 steps of Ana"; "" if there are none."""
         document = self.context.document
-        kept = {each.id for each in document.history.moved_to(step).path}
-        left = [each for each in document.history.path if each.id not in kept]
+        kept_ids = {each.id for each in document.history.moved_to(step).path}
+        left_steps = [each for each in document.history.path if each.id not in kept_ids]
         counts: dict[str, int] = {}
-        for each in left:
+        for each in left_steps:
             if each.user_id not in ("", DISK_USER, document.user_id):
                 counts[each.user_id] = counts.get(each.user_id, 0) + 1
         name = document.shared.users.name_of
@@ -100,15 +100,15 @@ class HistoryPanel:
             f"{count} {'step' if count == 1 else 'steps'} of {name(who)}" for who, count in counts.items()
         )
 
-    def _ask(self, step: int, left: str) -> None:
+    def _ask(self, step: int, left_steps: str) -> None:
         label = self.context.document.history.entries[step].label
         with titled_dialog(f"Go to “{label}”?") as dialog:
-            ui.label(f"This leaves {left}, for everybody here. They stay in the history.")
+            ui.label(history_jump_warning(left_steps))
 
-            def go() -> None:
+            def jump() -> None:
                 self._jump(step)
                 dialog.close()
 
             with ui.row().classes("dialog-buttons"):
                 ui.button("Cancel", on_click=dialog.close).props("flat no-caps")
-                primary_button("Go there", go)
+                primary_button("Go to step", jump)

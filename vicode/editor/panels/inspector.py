@@ -1,4 +1,4 @@
-"""The panel on the right: a form for what is selected, the design itself if nothing is."""
+"""The inspector: a form for the selected item, or for the design if nothing is selected."""
 
 from collections import deque
 
@@ -16,8 +16,8 @@ from vicode.editor.session.project_paths import project_structure_key
 from vicode.editor.session.rebase import rebase_selection
 from vicode.editor.view import ItemRef
 
-# Who went into a field by keys gets back by one. A list that is open, or a completion, takes Escape for itself.
-_BACK_TO_CANVAS = """(event) => {
+# Escape returns the focus to the canvas, unless it closes an open list or completion.
+_FOCUS_CANVAS = """(event) => {
   if (event.defaultPrevented || event.target.getAttribute("aria-expanded") === "true") return;
   document.querySelector(".canvas")?.shadowRoot?.querySelector(".stage")?.focus();
 }"""
@@ -27,43 +27,43 @@ _MAX_TEXT_LENGTH = 200_000
 
 
 class Inspector:
-    """Builds a form when another thing is selected or its outline changed, else only refreshes the fields."""
+    """Builds a form when the selection or the structure of the item changes; else it refreshes the fields."""
 
     def __init__(self, context: WindowContext) -> None:
-        """Build the empty panel; `refresh` fills it."""
+        """Build the empty inspector; `refresh` fills it."""
         self.context = context
         self.form_key: object = None
         self.fields: list[Field] = []
         self.form_selection: tuple[ItemRef, ...] | None = None
         self.last_seen = (context.selected, context.design)
         self.form_id = 0
-        """Of the thing that is shown: a browser keeps the focus in a form as long as it stays the same."""
+        """Identifies the shown item: the browser keeps the focus in a rebuilt form with the same id."""
         self.shown_form_id = 0
         self.body = ui.column().classes("inspector")
-        self.body.on("keydown.escape", js_handler=_BACK_TO_CANVAS)
+        self.body.on("keydown.escape", js_handler=_FOCUS_CANVAS)
         self.rebuild_timer = ui.timer(_REBUILD_DELAY_S, self.refresh, active=False)
         self.previous_forms: deque[tuple[int, list[Field]]] = deque(maxlen=_MAX_PREVIOUS_FORMS)
-        """The forms before this one, with their numbers: a browser may still show one of them."""
+        """The previous forms with their ids: the browser may still show one of them."""
         ui.on("delayed-input", lambda event: self.apply_delayed_input(event.args))
         ui.on("input-transferred", lambda event: self.transfer_input(event.args))
 
     def refresh(self) -> None:
-        """Show the selected thing as it is now."""
+        """Show the current state of the selected item."""
         self._update_form_id()
         project = project_structure_key(self.context.workspace.project)
-        shape = (
+        key = (
             self.context.selected,
             form_key.form_structure_key(self.context.design, self.context.single_selection),
             project,
         )
-        if shape == self.form_key:
+        if key == self.form_key:
             self._refresh_fields()
         elif self._is_being_edited():
-            # Somebody else changed the form: who types here goes on, and gets the new one afterwards.
+            # Another user changed the structure: rebuild the form after the user has stopped typing.
             self._refresh_fields()
             self.rebuild_timer.activate()
         else:
-            self.form_key, self.form_selection = shape, self.context.selected
+            self.form_key, self.form_selection = key, self.context.selected
             self.rebuild_timer.deactivate()
             self.body.clear()
             self.previous_forms.append((self.shown_form_id, self.fields))
@@ -73,9 +73,9 @@ class Inspector:
                 self.fields = self._build()
 
     def apply_delayed_input(self, payload: object) -> None:
-        """Bring what was typed into a field of a form before, and left before the browser knew, where it belongs.
+        """Apply text from a field of a previous form that the user left before the browser got the new form.
 
-        Fields that are shown tell what is typed by themselves. The payload comes from a browser.
+        Fields of the current form send their input themselves. The payload comes from the browser and is untrusted.
         """
         if not isinstance(payload, dict):
             return
@@ -93,9 +93,9 @@ class Inspector:
                     new.apply_delayed_input(text)
 
     def transfer_input(self, payload: object) -> None:
-        """Note that what is typed into a field goes on from what stood in one of a form before.
+        """Record that a field continues the input of a field of a previous form.
 
-        The payload comes from a browser.
+        The payload comes from the browser and is untrusted.
         """
         if not isinstance(payload, dict):
             return
@@ -105,7 +105,7 @@ class Inspector:
             new.transfer_input_from(old)
 
     def _update_form_id(self) -> None:
-        """Tell another thing that is selected from the same one under another name or number."""
+        """Change the form id if another item is selected, but not if the same item was renamed or moved."""
         before, now = self.last_seen, (self.context.selected, self.context.design)
         self.last_seen = now
         if tuple(rebase_selection(thing, before[1], now[1]) for thing in before[0]) != now[0]:
@@ -116,28 +116,28 @@ class Inspector:
             field.refresh()
 
     def _is_being_edited(self) -> bool:
-        """Whether a field has the focus that still leads where it did."""
+        """Whether the focused field still belongs to the same value."""
         is_same = self.form_selection == self.context.selected
         return is_same and any(field.has_focus and field.is_path_valid() for field in self.fields)
 
     def _build(self) -> list[Field]:
-        desk = self.context
-        if len(desk.selected) > 1:
-            multi_selection_panel(desk)
+        context = self.context
+        if len(context.selected) > 1:
+            multi_selection_panel(context)
             return []
-        match desk.single_selection:
+        match context.single_selection:
             case ItemRef(kind="states", id=name):
-                return state_panel(desk, name)
+                return state_panel(context, name)
             case ItemRef(kind="transitions", id=key):
-                return decision_panel(desk, key)
+                return decision_panel(context, key)
             case ItemRef(kind="components", id=alias):
-                return use_panel(desk, alias)
+                return use_panel(context, alias)
             case ItemRef(kind="links", id=key):
-                return link_panel(desk, key)
+                return link_panel(context, key)
             case ItemRef(kind="common"):
-                return common_panel(desk)
+                return common_panel(context)
             case _:
-                return design_panel(desk)
+                return design_panel(context)
 
 
 def _find_field(number: object, fields: list[Field]) -> Field | None:
@@ -145,10 +145,10 @@ def _find_field(number: object, fields: list[Field]) -> Field | None:
 
 
 def _find_counterpart(old: Field, before: list[Field], now: list[Field]) -> Field | None:
-    """The field of the form as it is now that took the place of one: of the same kind and label, and as many before."""
+    """Find the field of the new form that corresponds to an old one: same type, label and position among these."""
 
     def alike(fields: list[Field]) -> list[Field]:
         return [each for each in fields if type(each) is type(old) and each.binding.label == old.binding.label]
 
-    place, there = alike(before).index(old), alike(now)
-    return there[place] if place < len(there) else None
+    index, candidates = alike(before).index(old), alike(now)
+    return candidates[index] if index < len(candidates) else None

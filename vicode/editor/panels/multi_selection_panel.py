@@ -1,4 +1,4 @@
-"""Several selected things: what can be done with all of them at once."""
+"""The panel for several selected items: commands for all of them."""
 
 from collections import Counter
 from functools import partial
@@ -8,7 +8,7 @@ from nicegui import ui
 from vicode.editor.panels.widgets import heading, icon_button, panel_title
 from vicode.editor.panels.window_context import WindowContext
 
-_WORDS = {
+_NOUNS = {
     "states": ("state", "states"),
     "transitions": ("transition", "transitions"),
     "components": ("component", "components"),
@@ -23,7 +23,7 @@ _ALIGN = (
     ("align-middle", "align_vertical_center", "Align middles (Alt+V)"),
     ("align-bottom", "align_vertical_bottom", "Align bottom edges (Alt+S)"),
 )
-_SPREAD = (
+_DISTRIBUTE = (
     ("distribute-across", "horizontal_distribute", "Distribute horizontally (Alt+Shift+H)"),
     ("distribute-down", "vertical_distribute", "Distribute vertically (Alt+Shift+V)"),
 )
@@ -36,18 +36,18 @@ _EDIT = (
 
 
 def multi_selection_panel(context: WindowContext) -> None:
-    """Build it for what is selected."""
-    counts = Counter(thing.kind for thing in context.selected)
-    parts = [f"{counts[of]} {words[counts[of] > 1]}" for of, words in _WORDS.items() if counts[of]]
+    """Build the panel for the selection."""
+    counts = Counter(item.kind for item in context.selected)
+    parts = [f"{counts[kind]} {nouns[counts[kind] > 1]}" for kind, nouns in _NOUNS.items() if counts[kind]]
     panel_title(", ".join(parts) + " selected")
-    boxes = sum(counts[of] for of in ("states", "components", "common"))
-    if boxes > 1:
-        heading("Line up")
+    node_count = sum(counts[kind] for kind in ("states", "components", "common"))
+    if node_count > 1:
+        heading("Align")
         _row(context, _ALIGN)
-    if boxes > 2:
-        heading("Spread out")
-        _row(context, _SPREAD)
-    heading("All of them")
+    if node_count > 2:
+        heading("Distribute")
+        _row(context, _DISTRIBUTE)
+    heading("Edit")
     _row(context, _EDIT)
 
 

@@ -1,4 +1,4 @@
-"""Fields for names: taken over when Enter is pressed or the field is left, as everything that says it follows."""
+"""Fields for names, committed by Enter or when the field loses focus, as a rename updates all references."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
@@ -6,6 +6,7 @@ from typing import Any
 
 from nicegui import ui
 
+from vicode.editor.panels import texts
 from vicode.editor.panels.dialogs import titled_dialog
 from vicode.editor.panels.fields import Field, FieldBinding
 from vicode.editor.panels.text_input import TextInput
@@ -24,7 +25,7 @@ from vicode.editor.view import ItemRef
 from vicode.model.rename import SymbolRef
 
 RenameCallback = Callable[[str, str], str]
-"""Takes a new name over, given the old one and the new one; why not, in words."""
+"""Renames from the old to the new name; returns an error message, or "" on success."""
 
 
 def name_field(
@@ -33,7 +34,7 @@ def name_field(
     rename: RenameCallback,
     on_name_changed: Callable[[str], None] = lambda _name: None,
 ) -> "NameField":
-    """A name in a line; `rename` takes another one over, `on_name_changed` hears the design's name when it is another."""
+    """Build a name field; `rename` applies a new name, `on_name_changed` gets each new name of the design."""
     with ui.column().classes("field"):
         element = TextInput(binding.label, monospace=True).props("maxlength=80")
         message = ui.label().classes("field-finding").props('role="status"')
@@ -41,18 +42,18 @@ def name_field(
     return NameField(context, binding, element, message, rename=rename, on_name_changed=on_name_changed)
 
 
-def rename_declaration(context: WindowContext, thing: SymbolRef, new: str) -> str:
-    """Give a declared thing another name; returns why not.
+def rename_declaration(context: WindowContext, item: SymbolRef, new: str) -> str:
+    """Rename a declaration; return an error message, or "" on success.
 
-    What only the open design says is an edit of it; what nothing says but its own line is written at once. Else all
-    that changes, and what a person must look at, is listed first, and the name stays until that was agreed to.
+    A symbol that only the open design uses is renamed by an edit of the design, one without references is written
+    immediately. Otherwise a dialog lists the changes and ambiguous places; the name stays until the user confirms.
     """
-    plan = plan_symbol_rename(context.workspace, thing, new)
+    plan = plan_symbol_rename(context.workspace, item, new)
     if plan.error:
         return plan.error
     design = plan.design
     if design is not None and not plan.ambiguous_places:
-        context.edit(f"rename {thing.name} to {new}", lambda _design: design)
+        context.edit(f"rename {item.name} to {new}", lambda _design: design)
     elif plan.is_declaration_only:
         _rename_in_files(context, plan)
     else:
@@ -60,10 +61,10 @@ def rename_declaration(context: WindowContext, thing: SymbolRef, new: str) -> st
     return ""
 
 
-def rename_node(context: WindowContext, thing: ItemRef, new: str) -> str:
-    """Give a state, or a used component, another name as the drawing does; returns why not."""
-    is_shown = thing in context.selected
-    outcome = apply_gesture(context.document, {"kind": "rename", "of": thing.kind, "id": thing.id, "name": new})
+def rename_node(context: WindowContext, item: ItemRef, new: str) -> str:
+    """Rename a state or an alias as on the canvas; return an error message, or "" on success."""
+    is_shown = item in context.selected
+    outcome = apply_gesture(context.document, {"kind": "rename", "of": item.kind, "id": item.id, "name": new})
     if outcome.new_selection and is_shown:
         context.select(*outcome.new_selection)
     return outcome.error
@@ -71,96 +72,94 @@ def rename_node(context: WindowContext, thing: ItemRef, new: str) -> str:
 
 @dataclass(eq=False)
 class NameField(Field):
-    """A name that is being typed is nobody's: it counts when it is done, and what cannot be taken over stays."""
+    """A field whose text is applied when the user commits it. A rejected text stays in the field."""
 
     rename: RenameCallback = field(default=lambda _old, _new: "")
     on_name_changed: Callable[[str], None] = field(default=lambda _name: None)
     is_optional: bool = False
-    """Whether it is a text that may be missing, and no name."""
+    """Whether the text may be empty."""
     is_multiline: bool = False
-    """Whether it is a text of several lines: Enter is part of it."""
+    """Whether the text may have several lines; Enter then inserts a line break."""
     _shown_name: str = ""
 
     def __post_init__(self) -> None:
-        """Take the name over when it is typed."""
+        """Subscribe to events that commit the text."""
         super().__post_init__()
-        # A key that saves, or leads elsewhere, tells of a change without leaving the field.
+        # Shortcuts that save or navigate send a change event while the field keeps the focus.
         for event in ("change",) if self.is_multiline else ("keydown.enter", "change"):
             self.element.on(event, self.commit)
 
     def refresh(self) -> None:
-        """Show the design's name unless another one is being typed here; who types is told of a new one."""
-        now = str(self.binding.read(self.context.design) or "")
-        is_own = str(self.element.value or "").strip() not in (self._shown_name, now)
-        if self.has_focus and is_own and now not in ("", self._shown_name) and self._shown_name:
-            self.error = f"somebody named it {now} just now; Enter gives it your name"
-            self._value_at_error = now
-        if now != self._shown_name:
-            self.on_name_changed(now)
+        """Show the name of the design unless the user is typing; report a rename by another user."""
+        current_name = str(self.binding.read(self.context.design) or "")
+        is_own = str(self.element.value or "").strip() not in (self._shown_name, current_name)
+        if self.has_focus and is_own and current_name not in ("", self._shown_name) and self._shown_name:
+            self.error = texts.renamed_by_another_user(current_name)
+            self._value_at_error = current_name
+        if current_name != self._shown_name:
+            self.on_name_changed(current_name)
             if self.has_focus and not is_own:
-                # Nothing is typed that could be lost.
-                self.element.set_value(now)
-        self._shown_name = now
+                # The user has not typed anything.
+                self.element.set_value(current_name)
+        self._shown_name = current_name
         super().refresh()
 
     def focus(self, *, has_focus: bool) -> None:
-        """Take over what was typed before the field shows the design's name again."""
+        """Commit the text before the field shows the name of the design again."""
         if not has_focus:
             self.commit()
         super().focus(has_focus=has_focus)
 
     def apply_delayed_input(self, text: str) -> None:
-        """Take over a name that was typed and done before the form was built anew."""
+        """Commit a name that was typed before the form was rebuilt."""
         super().apply_delayed_input(text)
         self.commit()
 
     def commit_delayed_input(self, text: str) -> None:
-        """Give the thing its name, though another one is shown by now."""
+        """Commit a name after the form has switched to another item."""
         if not self.binding.validate(text) and text.strip() not in ("", self._shown_name):
             self.rename(self._shown_name, text.strip())
 
     def commit(self) -> None:
-        """Take over what stands in the field."""
+        """Commit the text of the field."""
         old, new = str(self.binding.read(self.context.design) or ""), str(self.element.value or "").strip()
-        # What the field showed is nobody's wish, though the design may have another name since.
+        # The text that the field showed is not input, though the design may have a newer name.
         if (not old and not self.is_optional) or new in (old, self._shown_name):
             self.error = ""
         else:
             self.error, self._value_at_error = self.rename(old, new), self.binding.read(self.context.design)
             if self.element.is_deleted:
-                # The form was built anew for the thing under its new name.
+                # The form was rebuilt for the new name.
                 return
             if not self.error:
-                # It is the design's name by now, or nobody's before somebody agreed to it.
+                # The name is applied, or the user must confirm it first.
                 self.element.set_value(str(self.binding.read(self.context.design) or ""))
         self.refresh()
 
     def _on_typed(self, value: Any) -> None:
-        """A name on its way: what can be none at all is told at once, the rest when it is done."""
-        now = self.binding.read(self.context.design)
-        self.error, self._value_at_error = ("" if value == now else self.binding.validate(value)), now
+        """Validate while the user types; all other checks run on commit."""
+        current_name = self.binding.read(self.context.design)
+        self.error, self._value_at_error = ("" if value == current_name else self.binding.validate(value)), current_name
         self.refresh()
 
 
 def _ask(context: WindowContext, plan: SymbolRenamePlan) -> None:
-    """List what a name changes in the project's files, and change it."""
+    """Open a dialog that lists the changes in the files of the project, and applies them."""
     what = describe_symbol(plan.symbol)
     with titled_dialog(f"Rename {what} to {plan.new}") as dialog:
         if plan.changes:
-            ui.label("What changes, and is written at once").classes("field-label")
+            ui.label(texts.SAVED_IMMEDIATELY).classes("field-label")
             with ui.column().classes("change-list"):
                 for change in plan.changes:
                     ui.label(change.file.name).classes("mono")
                     ui.label(change.summary)
         if plan.ambiguous_places:
-            ui.label("Look here by hand: code that says the name, and may mean something else").classes("field-label")
+            ui.label(texts.CHECK_MANUALLY).classes("field-label")
             with ui.column().classes("manual-list").props("role=list"):
-                for words in plan.ambiguous_places:
-                    ui.label(words).props("role=listitem")
+                for place in plan.ambiguous_places:
+                    ui.label(place).props("role=listitem")
         if context.workspace.broken_file_names:
-            ui.label(
-                f"Not looked into, as it cannot be read: {', '.join(context.workspace.broken_file_names)}"
-            ).classes("empty")
+            ui.label(texts.skipped_files(context.workspace.broken_file_names)).classes("empty")
         if plan.note:
             ui.label(plan.note).classes("field-finding")
 
@@ -178,39 +177,39 @@ def _ask(context: WindowContext, plan: SymbolRenamePlan) -> None:
 
 
 def _rename_in_files(context: WindowContext, plan: SymbolRenamePlan) -> None:
-    """Write it, and offer to take it back."""
+    """Apply the rename, and offer to undo it."""
     if apply_rename_plan(context, plan):
-        whole = RenameEdit(workspace=context.workspace, symbol=plan.symbol, new=plan.new)
-        context.document.record_compound(whole)
-        context.offer_undo(f"{plan.symbol.name} is {plan.new} now", lambda: _undo_rename(context, whole))
+        edit = RenameEdit(workspace=context.workspace, symbol=plan.symbol, new=plan.new)
+        context.document.record_compound(edit)
+        context.offer_undo(texts.renamed(plan.symbol.name, plan.new), lambda: _undo_rename(context, edit))
 
 
 def _apply_in_design(context: WindowContext, plan: SymbolRenamePlan) -> None:
-    """Rename in the one design that says it, as it is by now."""
-    again = plan_symbol_rename(context.workspace, plan.symbol, plan.new)
-    design = again.design
+    """Rename in the only design that uses the symbol, with a plan for its current state."""
+    current_plan = plan_symbol_rename(context.workspace, plan.symbol, plan.new)
+    design = current_plan.design
     if design is None:
-        context.show_toast(again.error or "A design has changed meanwhile: rename it once more", "warning")
+        context.show_toast(texts.sentence(current_plan.error) or texts.DESIGN_CHANGED_RENAME_AGAIN, "warning")
         return
     context.edit(f"rename {plan.symbol.name} to {plan.new}", lambda _design: design)
 
 
 def apply_rename_plan(context: WindowContext, plan: SymbolRenamePlan) -> bool:
-    """Write what a plan says; what stands in the way is told."""
+    """Apply a plan; show an error and return False if that is not possible."""
     try:
-        refused = apply_symbol_rename(context.workspace, plan, context.document.user_id)
+        error_text = apply_symbol_rename(context.workspace, plan, context.document.user_id)
     except (OSError, ValueError) as error:
-        refused = f"not done: {error_reason(error)}"
-    if refused:
-        context.show_toast(f"{refused[:1].upper()}{refused[1:]}", "warning")
+        error_text = texts.operation_failed(error_reason(error))
+    if error_text:
+        context.show_toast(texts.sentence(error_text), "warning")
     context.notify_listeners()
-    return not refused
+    return not error_text
 
 
-def _undo_rename(context: WindowContext, whole: RenameEdit) -> None:
-    refused = context.document.undo_compound(whole)
-    if refused:
-        context.show_toast(refused, "warning")
+def _undo_rename(context: WindowContext, edit: RenameEdit) -> None:
+    error_text = context.document.undo_compound(edit)
+    if error_text:
+        context.show_toast(error_text, "warning")
         return
     context.notify_listeners()
-    context.show_toast(f"It is {whole.symbol.name} again", "positive")
+    context.show_toast(texts.renamed_back(edit.symbol.name), "positive")

@@ -1,12 +1,12 @@
-"""The grips beside the drawing: dragged, or moved by arrow keys; every browser keeps how large its panels are."""
+"""The splitters between diagram and panels, moved by mouse or arrow keys. The browser stores the sizes."""
 
 from nicegui import ui
 
-# Part of the page, so that the sizes are right before anything is drawn. The server need not know them.
+# Part of the page, so that the sizes are correct at the first paint.
 _SPLITTER_SCRIPT = """
 <script>
 (() => {
-  const GRIPS = {
+  const SPLITTERS = {
     side: {
       at: "clientX", least: 280, most: () => Math.min(1200, innerWidth - 480),
       usual: () => (innerWidth <= 1100 ? 312 : innerWidth < 2560 ? 368 : 448), keys: { ArrowLeft: 32, ArrowRight: -32 },
@@ -16,45 +16,51 @@ _SPLITTER_SCRIPT = """
       usual: () => (innerHeight <= 800 ? 104 : 152), keys: { ArrowUp: 24, ArrowDown: -24 },
     },
   };
-  for (const [name, grip] of Object.entries(GRIPS)) {
+  for (const [name, splitter] of Object.entries(SPLITTERS)) {
     const key = `vicode-${name}-size`;
-    const most = () => Math.max(grip.least, grip.most());
-    const clamp = (size) => Math.round(Math.max(grip.least, Math.min(most(), size)));
-    const kept = () => { try { return Number(localStorage.getItem(key)) || 0; } catch { return 0; } };
-    const keep = (size) => { try { localStorage.setItem(key, size); } catch { /* a private window keeps nothing */ } };
-    const onGrip = (event) => event.target.closest?.(`.${name}-splitter`);
+    const most = () => Math.max(splitter.least, splitter.most());
+    const clamp = (size) => Math.round(Math.max(splitter.least, Math.min(most(), size)));
+    const readSize = () => { try { return Number(localStorage.getItem(key)) || 0; } catch { return 0; } };
+    const storeSize = (size) => {
+      try { localStorage.setItem(key, size); } catch { /* private windows have no storage */ }
+    };
+    const findSplitter = (event) => event.target.closest?.(`.${name}-splitter`);
     let size = 0;
     const show = (wanted) => {
       size = clamp(wanted);
       document.documentElement.style.setProperty(`--${name}`, size + "px");
       document.querySelector(`.${name}-splitter`)?.setAttribute("aria-valuenow", size);
     };
-    show(kept() || grip.usual());
+    show(readSize() || splitter.usual());
     document.addEventListener("pointerdown", (event) => {
-      const held = onGrip(event);
+      const held = findSplitter(event);
       if (!held || event.button !== 0) return;
       event.preventDefault();
       held.focus();
       held.setPointerCapture(event.pointerId);
-      const from = event[grip.at] + size;
-      const move = (moved) => show(from - moved[grip.at]);
+      const from = event[splitter.at] + size;
+      const move = (moved) => show(from - moved[splitter.at]);
       held.addEventListener("pointermove", move);
       held.addEventListener("lostpointercapture", () => {
         held.removeEventListener("pointermove", move);
-        keep(size);
+        storeSize(size);
       }, { once: true });
     });
-    // The grip comes later than this script: it says its size when it is reached.
-    document.addEventListener("focusin", (event) => onGrip(event) && show(size));
-    document.addEventListener("dblclick", (event) => { if (onGrip(event)) { show(grip.usual()); keep(size); } });
+    // The splitter is created after this script: set its value when it gets the focus.
+    document.addEventListener("focusin", (event) => findSplitter(event) && show(size));
+    document.addEventListener("dblclick", (event) => {
+      if (!findSplitter(event)) return;
+      show(splitter.usual());
+      storeSize(size);
+    });
     document.addEventListener("keydown", (event) => {
-      const step = { ...grip.keys, Home: most(), End: -most() }[event.key];
-      if (!onGrip(event) || !step) return;
+      const step = { ...splitter.keys, Home: most(), End: -most() }[event.key];
+      if (!findSplitter(event) || !step) return;
       event.preventDefault();
       show(size + step);
-      keep(size);
+      storeSize(size);
     });
-    addEventListener("resize", () => show(kept() || grip.usual()));
+    addEventListener("resize", () => show(readSize() || splitter.usual()));
   }
 })();
 </script>
@@ -62,22 +68,22 @@ _SPLITTER_SCRIPT = """
 
 
 def add_splitters() -> None:
-    """Give the page the sizes that its browser keeps; once, before the panels."""
+    """Add the script of the splitters to the page; call once, before the panels are built."""
     ui.add_body_html(_SPLITTER_SCRIPT)
 
 
 def side_splitter() -> None:
-    """Build the grip at the left edge of the side panel."""
-    grip = _splitter("side", "vertical", "Width of the side panel")
-    grip.props('aria-valuemin="280" aria-valuemax="1200" aria-valuenow="368"')
+    """Build the splitter at the left edge of the side panel."""
+    splitter = _splitter("side", "vertical", "Width of the side panel")
+    splitter.props('aria-valuemin="280" aria-valuemax="1200" aria-valuenow="368"')
 
 
 def dock_splitter() -> None:
-    """Build the grip at the upper edge of the dock."""
-    grip = _splitter("dock", "horizontal", "Height of the panels below")
-    grip.props('aria-valuemin="64" aria-valuemax="640" aria-valuenow="104"')
+    """Build the splitter at the upper edge of the dock."""
+    splitter = _splitter("dock", "horizontal", "Height of the bottom panel")
+    splitter.props('aria-valuemin="64" aria-valuemax="640" aria-valuenow="104"')
 
 
 def _splitter(name: str, direction: str, label: str) -> ui.element:
-    grip = ui.element("div").classes(f"{name}-splitter")
-    return grip.props(f'role="separator" tabindex="0" aria-orientation="{direction}" aria-label="{label}"')
+    splitter = ui.element("div").classes(f"{name}-splitter")
+    return splitter.props(f'role="separator" tabindex="0" aria-orientation="{direction}" aria-label="{label}"')

@@ -1,10 +1,11 @@
-"""The selected state: name, marks, what it requires and modulates, code, and its transitions in order."""
+"""The form of a state."""
 
 from dataclasses import replace
 from typing import Any
 
 from nicegui import ui
 
+from vicode.editor.panels import texts
 from vicode.editor.panels.actions_panel import (
     actions_panel,
     component_parameters,
@@ -25,32 +26,32 @@ from vicode.model.edits import update_state
 
 
 def state_panel(context: WindowContext, name: str) -> list[Field]:
-    """Build the form of a state; empty if it is gone."""
+    """Build the form of a state; return no fields if it does not exist."""
     state = context.design.state(name)
     if state is None:
         return []
     path = ("states", name)
-    # The field says it to the eye.
+    # Sighted users read the name in the field.
     panel_title("State", name, is_visually_hidden=True)
     fields = [
         _title(context, name),
-        text_field(context, _attribute_binding(name, "Doc", "doc"), multiline=True),
+        text_field(context, _attribute_binding(name, "Description", "doc"), multiline=True),
         checkbox_field(context, _initial(name)),
-        checkbox_field(context, _attribute_binding(name, "Final: the component is done here", "final")),
-        checkbox_field(context, _attribute_binding(name, "Disabled: kept, but not in the component", "disabled")),
+        checkbox_field(context, _attribute_binding(name, "Final (the component is done)", "final")),
+        checkbox_field(context, _attribute_binding(name, "Disabled (not generated)", "disabled")),
     ]
     _team(context, state, fields)
-    heading("Requires", hint="stepped before, to be read")
+    heading("Requires", hint="updated before this state runs")
     fields.append(_requires(context, name))
-    heading("Modulates", hint="steered after the actions")
+    heading("Modulates", hint="controlled by this state")
     fields += _modulates(context, state)
-    heading("Transitions", hint="the first that holds is taken")
+    heading("Transitions", hint="the first whose guard holds is taken")
     decisions_list(context, name, (*path, "transitions"), state.transitions)
-    heading("Actions", hint="at each iteration, in order")
+    heading("Actions", hint="run in order in each iteration")
     fields += actions_panel(context, (*path, "actions"), state.actions)
-    heading("Enter", hint="once, when it is entered")
+    heading("Enter", hint="run once on entry")
     fields += actions_panel(context, (*path, "enter"), state.enter, calls=False)
-    heading("Leave", hint="once, when it is left")
+    heading("Leave", hint="run once on exit")
     fields += actions_panel(context, (*path, "leave"), state.leave, calls=False)
     return fields
 
@@ -60,18 +61,18 @@ def _aliases(design: Design) -> list[str]:
 
 
 def _title(context: WindowContext, name: str) -> Field:
-    """The name changes when Enter is pressed or the field is left, as the whole design follows it."""
+    """Build the name field, committed by Enter or when it loses focus, as a rename updates the design."""
 
-    def take(old: str, new: str) -> str:
+    def rename(old: str, new: str) -> str:
         return rename_node(context, ItemRef(kind="states", id=old), new)
 
-    bound = FieldBinding(
+    binding = FieldBinding(
         label="State",
         read=lambda design: name if design.state(name) else "",
         write=lambda design, _value: design,
         path=("states", name, "name"),
     )
-    return name_field(context, bound, take)
+    return name_field(context, binding, rename)
 
 
 def _attribute_binding(name: str, label: str, attribute: str) -> FieldBinding:
@@ -88,29 +89,31 @@ def _attribute_binding(name: str, label: str, attribute: str) -> FieldBinding:
 
 
 def _team(context: WindowContext, state: State, fields: list[Field]) -> None:
-    """What robots of a team agree on, and the name in XABSL: few need them."""
-    said = []
+    """Build the section of team and XABSL attributes."""
+    parts = []
     if state.capacity is not None:
-        said.append(f"room for {number_text.format_number(state.capacity)}")
+        parts.append(f"capacity {number_text.format_number(state.capacity)}")
     if state.synchronized is not None:
-        said.append(f"{number_text.format_number(state.synchronized)} enter together")
+        parts.append(f"synchronized {number_text.format_number(state.synchronized)}")
     if state.xabsl_name:
-        said.append(f"{state.xabsl_name} in XABSL")
+        parts.append(f"{state.xabsl_name} in XABSL")
 
     def build() -> None:
         fields.append(
-            text_field(context, _count(state.name, "Capacity: robots in it at once", "capacity"), monospace=True)
+            text_field(
+                context, _count(state.name, "Capacity (robots in this state at once)", "capacity"), monospace=True
+            )
         )
-        ui.label("One that finds no room stays where it is until others leave.").classes("empty")
-        label = "Synchronized: robots that enter at once"
+        ui.label(texts.CAPACITY_HELP).classes("empty")
+        label = "Synchronized (robots that enter together)"
         fields.append(text_field(context, _count(state.name, label, "synchronized"), monospace=True))
-        ui.label("Each waits where it is until so many are ready.").classes("empty")
+        ui.label(texts.SYNCHRONIZED_HELP).classes("empty")
         fields.append(
             text_field(context, _attribute_binding(state.name, "Name in XABSL", "xabsl_name"), monospace=True)
         )
 
     collapsible_section(
-        context, f"team {state.name}", "Team and XABSL", "; ".join(said) or "capacity, synchronized, name", build
+        context, f"team {state.name}", "Team and XABSL", "; ".join(parts) or "capacity, synchronized, name", build
     )
 
 
@@ -128,7 +131,7 @@ def _count(name: str, label: str, attribute: str) -> FieldBinding:
         path=("states", name, attribute),
         read=read,
         write=write,
-        hint="no limit" if attribute == "capacity" else "each by itself",
+        hint="no limit" if attribute == "capacity" else "not synchronized",
         validate=number_text.validate_count,
     )
 
@@ -147,17 +150,17 @@ def _requires(context: WindowContext, name: str) -> Field:
         state = design.state(name)
         return list(state.requires) if state else []
 
-    bound = FieldBinding(
+    binding = FieldBinding(
         label="Components",
         path=("states", name, "requires"),
         read=read,
         write=lambda design, value: update_state(design, name, lambda state: replace(state, requires=tuple(value))),
     )
-    return choice_field(context, bound, _aliases, multiple=True)
+    return choice_field(context, binding, _aliases, multiple=True)
 
 
 def _modulates(context: WindowContext, state: State) -> list[Field]:
-    """One field a call with its parameters, and a choice that adds or removes calls."""
+    """Build a select that adds or removes calls, and a field for the parameters of each call."""
     name = state.name
 
     def write(design: Design, value: list[str]) -> Design:
@@ -171,8 +174,8 @@ def _modulates(context: WindowContext, state: State) -> list[Field]:
         now = design.state(name)
         return [call.alias for call in now.modulates] if now else []
 
-    bound = FieldBinding(label="Components", path=("states", name, "modulates"), read=read, write=write)
-    fields = [choice_field(context, bound, _aliases, multiple=True)]
+    binding = FieldBinding(label="Components", path=("states", name, "modulates"), read=read, write=write)
+    fields = [choice_field(context, binding, _aliases, multiple=True)]
     fields += [_parameters(context, name, call.alias) for call in state.modulates]
     return fields
 
@@ -194,19 +197,19 @@ def _parameters(context: WindowContext, name: str, alias: str) -> Field:
         call = call_in(design)
         return format_assignments(call.arguments) if call else ""
 
-    bound = FieldBinding(
+    binding = FieldBinding(
         label=f"{alias}: parameter = expression",
         path=("states", name, "modulates", alias),
         read=read,
         write=write,
         hint=describe_parameters(context, alias),
     )
-    return pairs_field(context, bound, lambda: component_parameters(context, alias))
+    return pairs_field(context, binding, lambda: component_parameters(context, alias))
 
 
 def describe_parameters(context: WindowContext, alias: str) -> str:
-    """The parameters that a used component takes, with units, for an empty field."""
+    """Describe the parameters of a used component, with units, as a placeholder."""
     parameters = component_parameters(context, alias)
     if not parameters:
-        return "takes no parameters"
+        return "no parameters"
     return ", ".join(f"{each.name}{f' [{each.unit}]' if each.unit else ''}" for each in parameters)

@@ -1,9 +1,10 @@
-"""The design as a table in one window: a bar of buttons above the grid, both doing what keys do in a cell."""
+"""The design as a table: a grid, and a toolbar with the commands of its keys."""
 
 from collections.abc import Callable
 
 from nicegui import ui
 
+from vicode.editor.panels.texts import SELECT_ROW_FIRST
 from vicode.editor.panels.widgets import icon_button
 from vicode.editor.panels.window_context import WindowContext
 from vicode.editor.session.table_edits import Payload, apply_table_edit
@@ -11,35 +12,34 @@ from vicode.editor.table import TableGrid
 from vicode.editor.view import TableData, diff_tables, item_row_id, make_table, parse_row_id
 
 _BUTTONS = (
-    ("arrow_upward", "Earlier (Alt+Up)", {"kind": "move", "by": -1}),
-    ("arrow_downward", "Later (Alt+Down)", {"kind": "move", "by": 1}),
+    ("arrow_upward", "Move up (Alt+Up)", {"kind": "move", "by": -1}),
+    ("arrow_downward", "Move down (Alt+Down)", {"kind": "move", "by": 1}),
     ("delete", "Remove (Ctrl+Delete)", {"kind": "remove"}),
 )
 
 
 class TablePanel:
-    """Builds the table; `refresh` brings it up to date after a change of the design or the selection."""
+    """Builds the table; `refresh` shows changes of the design and the selection."""
 
     def __init__(self, context: WindowContext) -> None:
-        """Build it as the design is now."""
         self.context = context
         with ui.row().classes("table-bar").props('role="toolbar" aria-label="Table"'):
             self._adder("State", "add-state", "New state (Ctrl+Shift+Enter)")
-            self._adder("Transition", "add-transition", "New transition of this state (Ctrl+Enter)")
-            for icon, label, wish in _BUTTONS:
-                icon_button(icon, label, self._on_selected(wish))
+            self._adder("Transition", "add-transition", "New transition from this state (Ctrl+Enter)")
+            for icon, label, edit in _BUTTONS:
+                icon_button(icon, label, self._on_selected(edit))
         self.shown = self._table()
         with ui.element("div").classes("table-space"):
             self.grid = TableGrid(self._on_edit, self._select)
         self.grid.load(self.shown)
 
     def refresh(self) -> None:
-        """Show the design and the selection as they are now."""
+        """Show the current design and selection."""
         table = self._table()
         if table != self.shown:
             self.grid.apply(table, diff_tables(self.shown, table))
             self.shown = table
-        self.grid.select([item_row_id(thing) for thing in self.context.selected])
+        self.grid.select([item_row_id(item) for item in self.context.selected])
 
     def _table(self) -> TableData:
         return make_table(self.context.design, self.context.document.findings)
@@ -49,15 +49,15 @@ class TablePanel:
         with button.props("flat dense no-caps"):
             ui.tooltip(tip)
 
-    def _on_selected(self, wish: Payload) -> Callable[[], None]:
-        def act() -> None:
-            only = self.context.single_selection
-            if only is None and wish["kind"] != "add-state":
-                self.context.show_toast("Select a row first", "info")
+    def _on_selected(self, edit: Payload) -> Callable[[], None]:
+        def run() -> None:
+            item = self.context.single_selection
+            if item is None and edit["kind"] != "add-state":
+                self.context.show_toast(SELECT_ROW_FIRST, "info")
                 return
-            self._on_edit({**wish, "row": item_row_id(only) if only else ""})
+            self._on_edit({**edit, "row": item_row_id(item) if item else ""})
 
-        return act
+        return run
 
     def _select(self, row: str) -> None:
         if row in {each["id"] for each in self.shown["rows"]}:

@@ -1,4 +1,4 @@
-"""Panels behind tabs: built when first shown, brought up to date only while they are shown."""
+"""Tabs whose panels are built when first shown, and refreshed only while shown."""
 
 from collections.abc import Callable, Mapping, Sequence
 from typing import Protocol
@@ -7,23 +7,22 @@ from nicegui import ui
 
 
 class Panel(Protocol):
-    """What stands behind a tab; building it fills the current slot."""
+    """The content of a tab; its constructor fills the current slot."""
 
     def refresh(self) -> None:
-        """Show the desk as it is now; called after every change while the panel is shown."""
+        """Show the current state; called after each change while the panel is shown."""
 
 
 class Tabs:
-    """A bar of tabs; their panels come with `build`, so that the page is there before what is behind its tabs.
+    """A tab bar. `build` adds the panels later, so that the page appears first.
 
     Args:
-        names: the word on each tab; the first is shown.
-        css_prefix: the style class of bar and panels, such as "side".
-        label: what the tabs are of, for the ear.
+        names: the tab titles; the first tab is shown.
+        css_prefix: prefix of the style classes of bar and panels, such as "side".
+        label: accessible name of the tab bar.
     """
 
     def __init__(self, names: Sequence[str], css_prefix: str, label: str) -> None:
-        """Build the bar, with room for the panels."""
         self._builders: Mapping[str, Callable[[], Panel]] = {}
         self._panels: dict[str, Panel] = {}
         self._slots: dict[str, ui.tab_panel] = {}
@@ -31,8 +30,8 @@ class Tabs:
             self._bar.props["aria-label"] = label
             for name in names:
                 ui.tab(name)
-        kept = ui.tab_panels(self._bar, value=names[0], keep_alive=True)
-        with kept.props("animated=false").classes(f"{css_prefix}-panels"):
+        tab_panels = ui.tab_panels(self._bar, value=names[0], keep_alive=True)
+        with tab_panels.props("animated=false").classes(f"{css_prefix}-panels"):
             for name in names:
                 self._slots[name] = ui.tab_panel(name)
                 self._slots[name].props["aria-label"] = name
@@ -40,7 +39,7 @@ class Tabs:
 
     @property
     def shown(self) -> str:
-        """The word on the tab that is open."""
+        """Title of the open tab."""
         return str(self._bar.value)
 
     def show(self, name: str) -> None:
@@ -48,13 +47,13 @@ class Tabs:
         self._bar.set_value(name)
 
     def build(self, builders: Mapping[str, Callable[[], Panel]]) -> None:
-        """Build the panel that is shown, and the others once they are; `builders` are by the words on the tabs."""
+        """Build the shown panel; the others when they are first shown. Keys of `builders` are tab titles."""
         if not self._builders:
             self._builders = builders
             self.refresh()
 
     def refresh(self) -> None:
-        """Bring the shown panel up to date."""
+        """Refresh the shown panel."""
         if not self._builders:
             return
         name = self.shown

@@ -1,5 +1,5 @@
-// A field for text that a server shows and changes, too. What is typed here is told with the number of the text it was
-// typed on; a text that was sent before the server heard that is not shown: it would take away what was typed.
+// A text field that the server changes, too. Input contains the sequence number of the text it is based on. A text that
+// the server sent before it received the input is ignored: it would overwrite the input.
 export default {
   template: `<q-input ref="qRef" v-bind="$attrs" :model-value="text" @update:model-value="sendText" @blur="showDeferred" />`,
   props: { id: String, value: String, serverSeq: Number, ackedSeq: Number },
@@ -10,7 +10,7 @@ export default {
     this.recordNative();
   },
   beforeUnmount() {
-    // Who comes back to it finds what was here: a tab, for one.
+    // Keep the text for when the element is mounted again, in a tab for example.
     const element = mounted_app.elements[this.id.slice(1)];
     if (element) Object.assign(element.props, { value: this.text, serverSeq: this.baseSeq, ackedSeq: this.clientSeq });
   },
@@ -22,7 +22,7 @@ export default {
       this.nativeText = this.$refs.qRef?.nativeEl?.value;
       this.$emit("update:value", { text, base_seq: this.baseSeq, client_seq: this.clientSeq });
     },
-    /** Shows text number `serverSeq`, sent by a server that had heard so much. */
+    /** Shows text number `serverSeq`, sent after the server received input `ackedSeq`. */
     show(text, serverSeq, ackedSeq) {
       if (ackedSeq < this.clientSeq || serverSeq <= this.baseSeq) return;
       if (this.nativeText !== this.$refs.qRef?.nativeEl?.value) {
@@ -34,13 +34,13 @@ export default {
       this.baseSeq = serverSeq;
       this.$nextTick(this.recordNative);
     },
-    /** What was typed and taken back is not told: what came meanwhile can be shown. */
+    /** Input that was undone is not sent: a deferred text can be shown. */
     showDeferred() {
       const { deferred } = this;
       this.deferred = null;
       if (deferred) this.show(...deferred);
     },
-    /** A browser has a spelling of its own: of the ends of lines, for one. */
+    /** The browser may normalize the text, line endings for example. */
     recordNative() {
       this.nativeText = this.$refs.qRef?.nativeEl?.value;
     },

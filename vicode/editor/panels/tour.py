@@ -1,4 +1,4 @@
-"""The tour of the first run: a card that points at one thing after the other and goes on when it was done."""
+"""The tour for new users: cards that point at parts of the page and advance when the user has done a step."""
 
 from collections.abc import Callable
 from dataclasses import asdict, dataclass
@@ -12,9 +12,10 @@ from vicode.model.traversal import iter_transitions
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TourStep:
-    """One card. `at` selects what it points at (empty: nothing); `completed_by` says which deed ends the step.
+    """One card.
 
-    `completed_by` is "" (Next does), "selected", "state-added", "transition-added", "restored" or "table".
+    `target` is a CSS selector of the highlighted element. `completed_by` is the event that completes the step: "" (the
+    button Next), "selected", "state-added", "transition-added", "restored" or "table".
     """
 
     title: str
@@ -26,61 +27,62 @@ class TourStep:
 STEPS = (
     TourStep(
         title="A state machine",
-        text="Boxes are states, arrows are transitions with what must hold for them. Eight cards, two minutes; "
-        "what you change here can be undone, and nothing is saved unless you say so.",
+        text="Boxes are states; arrows are transitions, labeled with their guards. This tour takes two minutes. "
+        "You can undo all changes, and nothing is saved until you save.",
         target=".design-view",
     ),
     TourStep(
         title="Select a state",
-        text="Click a box. Its form opens on the right: what it requires, does, and where it leads.",
+        text="Click a box. Its properties open on the right: components, actions and transitions.",
         target=".side",
         completed_by="selected",
     ),
     TourStep(
         title="Add a state",
-        text="Double click where nothing is, or press S. Type a name, then Enter.",
+        text="Double-click an empty place, or press S. Type a name, then press Enter.",
         target=".design-view",
         completed_by="state-added",
     ),
     TourStep(
-        title="Connect it",
-        text="Select a state and drag from one of its round handles to another state. By keys: T, then the target.",
+        title="Add a transition",
+        text="Select a state and drag from one of its round handles to another state. "
+        "Or press T, then choose the target.",
         target=".design-view",
         completed_by="transition-added",
     ),
     TourStep(
-        title="Take it back",
-        text="Press Ctrl+Z (or the arrow above) until the drawing is as it was.",
+        title="Undo",
+        text="Press Ctrl+Z (or the arrow above) until your changes are undone.",
         target=".head",
         completed_by="restored",
     ),
     TourStep(
         title="Findings",
-        text="What is wrong or left over stands here while you work. A click leads to the place; some mend themselves.",
+        text="Errors and warnings appear here while you work. Click one to go to its item; some have a quick fix.",
         target=".dock",
     ),
     TourStep(
-        title="The same as a table",
-        text="Press F4, or this switch: every state and transition in a row, edited by keys alone.",
+        title="Table view",
+        text="Press F4 or this switch: all states and transitions as rows, edited with the keyboard.",
         target=".view-switch",
         completed_by="table",
     ),
     TourStep(
-        title="Out comes code",
-        text="Generate writes it; the tab 'Generated code' shows it while you draw. Ctrl+K finds anything, "
-        "? lists all keys, and 'Tour' among the commands begins this again.",
+        title="Generate code",
+        text="Generate writes the code; the tab 'Generated code' previews it. Ctrl+K finds everything, "
+        "? lists all keyboard shortcuts, and the command 'Start tour' shows this tour again.",
         target=".head",
     ),
 )
 
 
 class Tour(ui.element, component="vicode_tour.js"):
-    """Shows itself once to each browser; `start` shows it again.
+    """The tour; opens once per browser, and with `start`.
 
     Args:
-        context: what is worked on.
-        shows_table: whether the table is shown now.
-        starts_automatically: whether it may begin by itself.
+        context: the open design.
+        shows_table: whether the table is shown.
+        starts_automatically: whether the tour may open automatically.
     """
 
     def __init__(self, context: WindowContext, shows_table: Callable[[], bool], *, starts_automatically: bool) -> None:
@@ -91,26 +93,25 @@ class Tour(ui.element, component="vicode_tour.js"):
         self.props["facts"] = self._facts()
 
     def refresh(self) -> None:
-        """Tell the cards what stands there now."""
+        """Send the current facts to the browser."""
         facts = self._facts()
         if facts != self.props["facts"]:
             self.props["facts"] = facts
 
     def commands(self) -> tuple[Command, ...]:
-        """What can be asked of it."""
-        return (Command("tour", "Tour: what is where, in two minutes", self.start, MenuGroup.VIEW, icon="school"),)
+        return (Command("tour", "Start tour", self.start, MenuGroup.VIEW, icon="school"),)
 
     def start(self) -> None:
-        """Begin from the first card."""
+        """Show the first card."""
         self.run_method("start")
 
     def _facts(self) -> dict[str, object]:
-        design, only = self._context.design, self._context.single_selection
+        design, item = self._context.design, self._context.single_selection
         names = [state.name for state in design.states]
         return {
             "states": len(design.states),
             "transitions": sum(1 for _each in iter_transitions(design)),
-            # Its number in the list: one that is made comes last, and is called otherwise a moment later.
-            "selected": names.index(only.id) if only is not None and only.kind == "states" and only.id in names else -1,
+            # The index, as a new state is renamed later; new states are last.
+            "selected": names.index(item.id) if item is not None and item.kind == "states" and item.id in names else -1,
             "table": self._shows_table(),
         }

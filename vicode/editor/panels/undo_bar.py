@@ -1,4 +1,4 @@
-"""A bar at the foot of the page that says what was done, with a button that takes it back."""
+"""A bar at the bottom of the page with a message and an undo button."""
 
 from collections.abc import Callable
 
@@ -8,22 +8,22 @@ from vicode.editor.panels.widgets import icon_button
 
 
 class UndoBar:
-    """Shows the newest offer until it is taken, dismissed, or another one comes."""
+    """Shows the last message until it is undone, dismissed or replaced."""
 
     def __init__(self) -> None:
-        """Build it hidden."""
+        """Build the hidden bar."""
         self._undo_action: Callable[[], object] = lambda: None
         with ui.element("div").classes("undo-bar").props('role="status"') as self._bar:
-            self._words = ui.label()
-            # Without a colour of Quasar's, which is too dark to be read on the bar of a light page.
+            self._label = ui.label()
+            # Quasar's color is too dark on the bar of a light page.
             ui.button("Undo", on_click=self._undo, color=None).props("flat no-caps dense")
             icon_button("close", "Dismiss", self._hide)
         self._hide()
 
     def show(self, text: str, undo: Callable[[], object]) -> None:
-        """Say what was done; `undo` takes it back."""
+        """Show a message; the button calls `undo`."""
         self._undo_action = undo
-        self._words.set_text(text)
+        self._label.set_text(text)
         self._bar.set_visibility(True)
 
     def _undo(self) -> None:

@@ -1,25 +1,26 @@
-"""Asks which component is to be used: type a part of its name, Enter takes the first that fits."""
+"""The dialog to add a component: filtered by name; Enter adds the first match."""
 
 from collections.abc import Callable, Sequence
 
 from nicegui import ui
 
 from vicode.editor.panels.dialogs import titled_dialog
+from vicode.editor.panels.texts import NO_SUCH_COMPONENT
 from vicode.model.project import Interface
 
 
 def ask_for_component(interfaces: Sequence[Interface], on_chosen: Callable[[str], None]) -> None:
-    """Show the components of a project; `on_chosen` is called with the name of the chosen one."""
-    with titled_dialog("Use a component", "use-dialog") as dialog:
-        wanted = (
-            ui.input("Component", placeholder="a part of its name")
+    """Open the dialog; `on_chosen` is called with the name of the selected component."""
+    with titled_dialog("Add component", "use-dialog") as dialog:
+        name = (
+            ui.input("Component", placeholder="Filter by name")
             .props("outlined dense stack-label autofocus")
             .classes("full")
         )
         rows = ui.element("div").classes("choices")
 
-    def fitting() -> list[Interface]:
-        part = wanted.value.strip().casefold()
+    def matching() -> list[Interface]:
+        part = name.value.strip().casefold()
         return [each for each in interfaces if part in each.component.casefold()]
 
     def choose(component: str) -> None:
@@ -29,17 +30,17 @@ def ask_for_component(interfaces: Sequence[Interface], on_chosen: Callable[[str]
     def show() -> None:
         rows.clear()
         with rows:
-            for each in fitting():
+            for each in matching():
                 _row(each, choose)
-            if not fitting():
-                ui.label("No component of this project is called so.").classes("empty")
+            if not matching():
+                ui.label(NO_SUCH_COMPONENT).classes("empty")
 
     def choose_first() -> None:
-        if found := fitting():
+        if found := matching():
             choose(found[0].component)
 
-    wanted.on_value_change(show)
-    wanted.on("keydown.enter", choose_first)
+    name.on_value_change(show)
+    name.on("keydown.enter", choose_first)
     dialog.on("hide", dialog.delete)
     show()
 

@@ -1,7 +1,9 @@
-"""The selected component: what it shows to this design, and the states that use it."""
+"""The forms of a used component and of a link to it."""
 
 from nicegui import ui
 
+from vicode.editor.panels import texts
+from vicode.editor.panels.declarations import format_arguments
 from vicode.editor.panels.fields import Field, FieldBinding
 from vicode.editor.panels.name_field import name_field, rename_node
 from vicode.editor.panels.project.component_forms import component_form
@@ -16,7 +18,7 @@ from vicode.model.project import INTERNAL, WORLD, Interface
 
 
 def use_panel(context: WindowContext, alias: str) -> list[Field]:
-    """Build the panel of a used component: the name it has here, and what it shows."""
+    """Build the form of a used component: its alias and interface."""
     use = context.design.use(alias)
     if use is None:
         return []
@@ -25,7 +27,7 @@ def use_panel(context: WindowContext, alias: str) -> list[Field]:
     panel_title("Component", use.component)
     fields: list[Field] = [_alias(context, alias)]
     if interface is None:
-        ui.label("Nothing in the project declares it.").classes("field-finding")
+        ui.label(texts.NOT_DECLARED).classes("field-finding")
         return fields
     if project.design(use.component) is None:
         _hand_written(context, use, fields)
@@ -33,30 +35,30 @@ def use_panel(context: WindowContext, alias: str) -> list[Field]:
         _designed(context, use, interface)
 
     def remove() -> None:
-        context.edit(f"stop using {alias}", lambda design: remove_uses(design, [alias]))
+        context.edit(f"remove component {alias}", lambda design: remove_uses(design, [alias]))
         context.select()
 
-    ui.button("Stop using it", icon="delete", on_click=remove).props("flat dense no-caps color=negative")
+    ui.button("Remove component", icon="delete", on_click=remove).props("flat dense no-caps color=negative")
     return fields
 
 
 def _hand_written(context: WindowContext, use: Use, fields: list[Field]) -> None:
-    """Of a component without a design the form: what it shows stands in project.yaml."""
+    """Build the form of a component without a design, declared in project.yaml."""
     components = context.workspace.project.components
     number = next(at for at, each in enumerate(components) if each.component == use.component)
-    ui.label(_ORIGINS.get(components[number].implementation, "Written by hand")).classes("small")
-    ui.label("Of all designs; a change is written into project.yaml at once.").classes("empty")
+    ui.label(_ORIGINS.get(components[number].implementation, "Hand-written")).classes("small")
+    ui.label(texts.PROJECT_SCOPE).classes("empty")
     component_form(context, ProjectNodePath.top_level("components", number), fields, alias=use.alias)
 
 
 def _designed(context: WindowContext, use: Use, interface: Interface) -> None:
-    """Of a component with a design what it shows: its form is elsewhere."""
+    """Show the interface of a component with its own design."""
     alias = use.alias
     if interface.title:
         ui.label(interface.title).classes("interface-title")
     ui.label(interface.doc).classes("doc")
     ui.label(_facts(interface)).classes("small")
-    ui.button("Open its design", icon="open_in_new", on_click=lambda: context.open_component(use.component)).props(
+    ui.button("Open design", icon="open_in_new", on_click=lambda: context.open_component(use.component)).props(
         "flat no-caps dense"
     )
     heading(f"Outputs, read as {alias}.…")
@@ -66,50 +68,50 @@ def _designed(context: WindowContext, use: Use, interface: Interface) -> None:
 
 
 def _alias(context: WindowContext, alias: str) -> Field:
-    def take(old: str, new: str) -> str:
+    def rename(old: str, new: str) -> str:
         return rename_node(context, ItemRef(kind="components", id=old), new)
 
-    bound = FieldBinding(
-        label="Used here as",
+    binding = FieldBinding(
+        label="Alias",
         read=lambda design: alias if design.use(alias) else "",
         write=lambda design, _value: design,
         path=("uses", alias),
     )
-    return name_field(context, bound, take)
+    return name_field(context, binding, rename)
 
 
 def _facts(interface: Interface) -> str:
-    """What project.yaml says of it beside its declarations."""
+    """Describe frequency and XABSL name."""
     rate = (
-        f"Works at {number_text.format_number(interface.frequency_hz)} Hz"
+        f"Runs at {number_text.format_number(interface.frequency_hz)} Hz"
         if interface.frequency_hz
-        else "Works at every step"
+        else "Runs on every step"
     )
-    return rate + (f", in XABSL {interface.xabsl_name}" if interface.xabsl_name else "")
+    return rate + (f"; {interface.xabsl_name} in XABSL" if interface.xabsl_name else "")
 
 
 def _about(declaration: Declaration) -> str:
-    """Type, unit, range, value, arguments and the name in XABSL, as far as they are said."""
-    given = declaration.arguments
+    """Describe type, unit, range, value, arguments and XABSL name."""
+    arguments = declaration.arguments
     parts = [
-        f"takes {', '.join(each.name for each in given) or 'nothing'}" if given is not None else "",
+        format_arguments(arguments) if arguments is not None else "",
         declaration.type,
         declaration.unit,
         f"{number_text.format_number(declaration.range[0])} to {number_text.format_number(declaration.range[1])}"
         if declaration.range
         else "",
         f"= {declaration.initial}" if declaration.initial else "",
-        f"in XABSL {declaration.xabsl_name}" if declaration.xabsl_name else "",
+        f"{declaration.xabsl_name} in XABSL" if declaration.xabsl_name else "",
     ]
     return ", ".join(part for part in parts if part)
 
 
-_ORIGINS = {WORLD: "Handed on to the world", INTERNAL: "A memory that all designs share"}
+_ORIGINS = {WORLD: "Provided by the world", INTERNAL: "Memory shared by all designs"}
 
 
 def _table(declarations: tuple[Declaration, ...]) -> None:
     if not declarations:
-        ui.label("None.").classes("empty")
+        ui.label(texts.NO_DECLARATIONS).classes("empty")
     for declaration in declarations:
         with ui.row().classes("interface-row"):
             ui.label(declaration.name).classes("mono")
@@ -118,16 +120,17 @@ def _table(declarations: tuple[Declaration, ...]) -> None:
 
 
 def link_panel(context: WindowContext, key: str) -> list[Field]:
-    """Build the panel of a link between a state and a component."""
+    """Build the form of a link between a state and a component."""
     kind, state, alias = key.split("/")
     panel_title(f"{state} {kind}", alias)
-    ui.button("Open the state", on_click=lambda: context.select(ItemRef(kind="states", id=state))).props(
+    ui.button("Go to state", on_click=lambda: context.select(ItemRef(kind="states", id=state))).props(
         "flat dense no-caps"
     )
 
     def remove() -> None:
         context.edit(
-            f"{state}: no {alias}", lambda design: remove_link(design, state, alias, modulates=kind == "modulates")
+            f"unlink {alias} from {state}",
+            lambda design: remove_link(design, state, alias, modulates=kind == "modulates"),
         )
         context.select()
 

@@ -1,4 +1,4 @@
-// The tour: a card beside what it speaks of, and a ring around that. Python tells what was done; then it goes on.
+// The tour: a card next to its target element, and a ring around the target. Facts from the server complete a step.
 const KEY = "vicode-tour";
 const WATCH_MS = 150;
 const GAP = 12;
@@ -27,7 +27,7 @@ export default {
   },
   watch: {
     facts(now) {
-      if (this.step && isDone(this.step.completed_by, { now, stepFacts: this.stepFacts, startFacts: this.startFacts })) this.next();
+      if (this.step && isCompleted(this.step.completed_by, { now, stepFacts: this.stepFacts, startFacts: this.startFacts })) this.next();
     },
   },
   mounted() {
@@ -53,7 +53,7 @@ export default {
       this.stepFacts = this.facts;
       this.$nextTick(() => {
         this.updatePosition();
-        // What is done on the drawing by keys is done there; else the card's own button is at hand.
+        // Focus the canvas for steps that use its keys, else the button of the card.
         if (this.step?.completed_by && at > 0) findCanvas()?.focus();
         else this.$refs.next?.focus({ preventScroll: true });
       });
@@ -68,11 +68,11 @@ export default {
       try {
         localStorage.setItem(KEY, "over");
       } catch {
-        // A private window keeps nothing: it comes again in the next one.
+        // Private windows have no storage: the tour opens again.
       }
       findCanvas()?.focus();
     },
-    /** Escape ends the tour, but what is being typed has it first. */
+    /** Escape ends the tour, except in text fields. */
     onKeyDown(event) {
       if (event.key !== "Escape" || !this.step || document.querySelector(".q-dialog, dialog[open], .q-menu")) return;
       if (event.composedPath()[0].closest?.("input, textarea, [contenteditable=true]")) return;
@@ -102,8 +102,8 @@ const isDismissed = () => {
 
 const findCanvas = () => document.querySelector(".vicode-canvas[data-ready]")?.shadowRoot?.querySelector(".stage");
 
-/** Whether what a step asks for was done; facts are compared with those of its begin, and of the tour's. */
-function isDone(wish, { now, stepFacts, startFacts }) {
+/** Whether a step is completed: compares the facts with those at the start of the step and of the tour. */
+function isCompleted(condition, { now, stepFacts, startFacts }) {
   const checks = {
     selected: () => now.selected >= 0 && now.selected < stepFacts.states,
     "state-added": () => now.states > stepFacts.states,
@@ -111,10 +111,10 @@ function isDone(wish, { now, stepFacts, startFacts }) {
     restored: () => now.states === startFacts.states && now.transitions === startFacts.transitions,
     table: () => now.table,
   };
-  return checks[wish]?.() ?? false;
+  return checks[condition]?.() ?? false;
 }
 
-/** Left of a part at the right, above one at the bottom, below a bar at the top; inside a large one, where it hides least. */
+/** Places the card next to its target; inside a large target, near the bottom. */
 function placeCard(box, card) {
   const clampX = (x) => Math.max(GAP, Math.min(innerWidth - card.width - GAP, x));
   const clampY = (y) => Math.max(GAP, Math.min(innerHeight - card.height - GAP, y));

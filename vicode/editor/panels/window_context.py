@@ -1,4 +1,4 @@
-"""A desk: one browser window at work on one design. Panels read it, edit through it, and are told of changes."""
+"""The state shared by the panels of one window: the open design, the selection, and the services of the page."""
 
 from collections.abc import Callable, Coroutine
 from dataclasses import dataclass, field

@@ -1,4 +1,4 @@
-"""Forms of declarations in project.yaml: constants, and what hand-written components show, as those of a design."""
+"""Forms of the declarations in project.yaml: constants, and the interfaces of hand-written components."""
 
 from collections.abc import Callable
 
@@ -18,6 +18,7 @@ from vicode.editor.panels.project.project_fields import (
     write_project,
 )
 from vicode.editor.panels.project.removal import confirm_and_remove
+from vicode.editor.panels.texts import sentence
 from vicode.editor.panels.widgets import add_button, icon_button
 from vicode.editor.panels.window_context import WindowContext
 from vicode.editor.session.project_paths import ProjectNodePath
@@ -29,97 +30,99 @@ _UNIT = TextAttribute(label="Unit", attribute="unit")
 
 def declaration_form(
     context: WindowContext,
-    spot: ProjectNodePath,
+    node_path: ProjectNodePath,
     label: str,
     fields: list[Field],
     on_refresh: Callable[[], None] = lambda: None,
 ) -> None:
-    """Build the form of a declaration; `label` is that of its name, `on_refresh` is called when it may be another."""
-    whole, called = form_group(context, spot)
-    with whole:
-        fields.append(project_name_field(context, label, spot, called))
-        value = _VALUES.get(spot.kind, "Initial")
-        lines = (
+    """Build the form of a declaration; `label` is the label of the name field."""
+    group, show_name = form_group(context, node_path)
+    with group:
+        fields.append(project_name_field(context, label, node_path, show_name))
+        value = _VALUES.get(node_path.kind, "Initial")
+        attributes = (
             TextAttribute(label="Type", attribute="type"),
             TextAttribute(label=value, attribute="initial"),
             _UNIT,
             DOC,
         )
-        fields.extend(project_text_field(context, spot, line, on_refresh) for line in lines)
-        add_remove_button(context, spot, called)
+        fields.extend(project_text_field(context, node_path, attribute, on_refresh) for attribute in attributes)
+        add_remove_button(context, node_path, show_name)
 
         def more() -> None:
-            fields.append(project_text_field(context, spot, RANGE, caption))
-            fields.append(project_text_field(context, spot, XABSL_NAME, caption))
-            if spot.kind == "output":
-                _arguments(context, spot, fields)
+            fields.append(project_text_field(context, node_path, RANGE, caption))
+            fields.append(project_text_field(context, node_path, XABSL_NAME, caption))
+            if node_path.kind == "output":
+                _arguments(context, node_path, fields)
 
         def caption() -> None:
-            found = spot.get(context.workspace.project)
-            said = declaration_caption(found, spot.kind) if found is not None else ""
-            for whole in told:
-                whole.props["caption"] = said
-                whole.update()
+            node = node_path.get(context.workspace.project)
+            summary = declaration_caption(node, node_path.kind) if node is not None else ""
+            for group in sections:
+                group.props["caption"] = summary
+                group.update()
 
-        # What is open is built at once, before there is a fold to tell.
-        told: list[ui.expansion] = []
-        told.append(collapsible_section(context, f"project {spot.steps}", "More", "", more).classes("declaration-more"))
+        # `caption` runs before the section exists if the section is open.
+        sections: list[ui.expansion] = []
+        sections.append(
+            collapsible_section(context, f"project {node_path.steps}", "More", "", more).classes("declaration-more")
+        )
         caption()
 
 
 def form_group(
-    context: WindowContext, spot: ProjectNodePath, look: str = ""
+    context: WindowContext, node_path: ProjectNodePath, look: str = ""
 ) -> tuple[ui.element, Callable[[str], None]]:
-    """A frame around the form of a thing, and what calls it by another name."""
-    whole = ui.element("div").classes(f"declaration {look}").props("role=group")
+    """Build a group for the form of a node; return it with a function that sets its name."""
+    group = ui.element("div").classes(f"declaration {look}").props("role=group")
 
-    def call_it(name: str) -> None:
-        whole.props["aria-label"] = f"{spot.kind} {name}"
-        whole.update()
-        for button in whole.default_slot.children:
+    def show_name(name: str) -> None:
+        group.props["aria-label"] = f"{node_path.kind} {name}"
+        group.update()
+        for button in group.default_slot.children:
             if isinstance(button, ui.button):
-                verb = str(button.props["aria-label"]).partition(" ")[0]
-                button.props["aria-label"] = f"{verb} {spot.kind} {name}"
+                verb = "Move up" if "move-up" in button.classes else "Remove"
+                button.props["aria-label"] = f"{verb} {node_path.kind} {name}"
                 button.update()
 
-    call_it(spot.name(context.workspace.project))
-    return whole, call_it
+    show_name(node_path.name(context.workspace.project))
+    return group, show_name
 
 
-def add_remove_button(context: WindowContext, spot: ProjectNodePath, called: Callable[[str], None]) -> None:
-    """A button that removes a thing; where the order has a meaning, one that puts it before the one before."""
-    if spot.section in _ORDERED and spot.steps[-1][1]:
+def add_remove_button(context: WindowContext, node_path: ProjectNodePath, show_name: Callable[[str], None]) -> None:
+    """Build the remove button, and a "Move up" button where the order matters."""
+    if node_path.section in _ORDERED and node_path.steps[-1][1]:
 
-        def put_earlier() -> None:
-            what = f"{spot.name(context.workspace.project)} is earlier"
-            show_write_error(context, write_project(context, spot.move_up, what, spot, is_agreed=True))
+        def move_up() -> None:
+            what = f"move {node_path.name(context.workspace.project)} up"
+            show_write_error(context, write_project(context, node_path.move_up, what, node_path, is_confirmed=True))
 
-        icon_button("arrow_upward", "Earlier:", put_earlier).classes("move-up")
-    icon_button("close", "Remove", lambda: confirm_and_remove(context, spot))
-    called(spot.name(context.workspace.project))
+        icon_button("arrow_upward", "Move up:", move_up).classes("move-up")
+    icon_button("close", "Remove", lambda: confirm_and_remove(context, node_path))
+    show_name(node_path.name(context.workspace.project))
 
 
-def _arguments(context: WindowContext, spot: ProjectNodePath, fields: list[Field]) -> None:
-    """What a function takes; an output without arguments is a value."""
-    output = spot.get(context.workspace.project)
+def _arguments(context: WindowContext, node_path: ProjectNodePath, fields: list[Field]) -> None:
+    """Build the forms of the arguments. An output with arguments is a function, without a value."""
+    output = node_path.get(context.workspace.project)
     if output is None:
         return
     for number in range(len(output.arguments or ())):
-        declaration_form(context, spot.child("arguments", number), "Name", fields)
+        declaration_form(context, node_path.child("arguments", number), "Name", fields)
     with ui.row().classes("adders"):
-        name = f"Argument: {output.name} is a function of one more"
-        add_button("Argument", name, lambda: show_write_error(context, write_node(context, spot, add_argument)))
+        name = f"Add Argument to {output.name}"
+        add_button("Argument", name, lambda: show_write_error(context, write_node(context, node_path, add_argument)))
         if output.arguments is not None:
-            words = "No function: it is a value again"
+            label = f"Remove arguments of {output.name}"
             add_button(
-                "No function",
-                words,
-                lambda: show_write_error(context, write_node(context, spot, remove_arguments)),
+                "Remove arguments",
+                label,
+                lambda: show_write_error(context, write_node(context, node_path, remove_arguments)),
                 icon="close",
             )
 
 
-def show_write_error(context: WindowContext, refused: str) -> None:
-    """Say why something was not written."""
-    if refused:
-        context.show_toast(refused[:1].upper() + refused[1:], "warning")
+def show_write_error(context: WindowContext, error: str) -> None:
+    """Show an error, if there is one."""
+    if error:
+        context.show_toast(sentence(error), "warning")

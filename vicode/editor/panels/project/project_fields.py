@@ -1,4 +1,4 @@
-"""Fields of what project.yaml declares: each change is written into the file at once, and can be taken back."""
+"""Fields of the declarations in project.yaml. Each change is saved immediately and can be undone."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
@@ -6,6 +6,7 @@ from typing import Any
 
 from nicegui import ui
 
+from vicode.editor.panels import texts
 from vicode.editor.panels.fields import ChoiceField, Field, FieldBinding, findings_at
 from vicode.editor.panels.name_field import NameField, rename_declaration
 from vicode.editor.panels.text_input import TextInput
@@ -22,7 +23,7 @@ from vicode.model.project import Project
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TextAttribute:
-    """An attribute that is typed as a text. `format` and `parse` lead there and back, `validate` says why not."""
+    """An attribute edited as text: `format` and `parse` convert it, `validate` returns an error message or ""."""
 
     label: str
     attribute: str
@@ -33,12 +34,12 @@ class TextAttribute:
     is_multiline: bool = False
 
 
-DOC = TextAttribute(label="Doc", attribute="doc", is_multiline=True)
+DOC = TextAttribute(label="Description", attribute="doc", is_multiline=True)
 XABSL_NAME = TextAttribute(label="Name in XABSL", attribute="xabsl_name")
 RANGE = TextAttribute(
     label="Range",
     attribute="range",
-    hint="lowest, highest: 0, 9000",
+    hint="minimum, maximum: 0, 9000",
     format=number_text.format_range,
     parse=number_text.parse_range,
     validate=number_text.validate_range,
@@ -46,7 +47,7 @@ RANGE = TextAttribute(
 FREQUENCY = TextAttribute(
     label="Frequency, Hz",
     attribute="frequency_hz",
-    hint="at every step",
+    hint="every step",
     format=number_text.format_number,
     parse=number_text.parse_frequency,
     validate=number_text.validate_frequency,
@@ -55,97 +56,107 @@ FREQUENCY = TextAttribute(
 
 @dataclass(eq=False)
 class ProjectTextField(NameField):
-    """A text that is taken over when it is done; `on_refresh` is called when what is shown may be another."""
+    """A text field that writes project.yaml on commit; `on_refresh` is called after each refresh."""
 
     on_refresh: Callable[[], None] = field(default=lambda: None)
     get_file_path: Callable[[], DesignPath] = field(default=tuple)
-    """Where it stands in project.yaml."""
+    """Returns the path of the value in project.yaml."""
 
     def other_findings(self) -> list[Finding]:
-        """What is wrong with it in project.yaml."""
+        """Return the findings in project.yaml."""
         return findings_at(self.get_file_path(), self.context.workspace.project_findings)
 
     def refresh(self) -> None:
-        """Show what the file says."""
+        """Show the value of the file."""
         super().refresh()
         self.on_refresh()
 
 
 def project_name_field(
-    context: WindowContext, label: str, spot: ProjectNodePath, on_renamed: Callable[[str], None] = lambda _name: None
+    context: WindowContext,
+    label: str,
+    node_path: ProjectNodePath,
+    on_renamed: Callable[[str], None] = lambda _name: None,
 ) -> Field:
-    """The name of a thing: all that say it follow, after it was agreed to; `on_renamed` hears it when it is another."""
+    """Build a field that renames a node and its references; `on_renamed` gets each new name."""
 
-    def take(_old: str, new: str) -> str:
-        return rename_declaration(context, spot.symbol_ref(context.workspace.project), new)
+    def commit(_old: str, new: str) -> str:
+        return rename_declaration(context, node_path.symbol_ref(context.workspace.project), new)
 
-    bound = FieldBinding(
+    binding = FieldBinding(
         label=label,
-        read=lambda _design: spot.name(context.workspace.project),
+        read=lambda _design: node_path.name(context.workspace.project),
         write=_same,
         validate=lambda text: validate_identifier(str(text)),
     )
-    element, message = _input(bound, is_code=True)
+    element, message = _input(binding, is_code=True)
     element.props("maxlength=80")
-    return NameField(context, bound, element, message, rename=take, on_name_changed=on_renamed)
+    return NameField(context, binding, element, message, rename=commit, on_name_changed=on_renamed)
 
 
 def project_text_field(
-    context: WindowContext, spot: ProjectNodePath, line: TextAttribute, on_refresh: Callable[[], None] = lambda: None
+    context: WindowContext,
+    node_path: ProjectNodePath,
+    attribute: TextAttribute,
+    on_refresh: Callable[[], None] = lambda: None,
 ) -> Field:
-    """A text of a thing, or a number."""
+    """Build a field for a text or number attribute of a node."""
 
     def read(_design: Design) -> str:
-        thing = spot.get(context.workspace.project)
-        return "" if thing is None else line.format(getattr(thing, line.attribute))
+        node = node_path.get(context.workspace.project)
+        return "" if node is None else attribute.format(getattr(node, attribute.attribute))
 
     def change(text: str) -> Callable[[Any], Any]:
-        changes: dict[str, Any] = {line.attribute: line.parse(text)}
-        return lambda thing: replace(thing, **changes)
+        changes: dict[str, Any] = {attribute.attribute: attribute.parse(text)}
+        return lambda node: replace(node, **changes)
 
-    return project_custom_field(context, spot, line, (read, change), on_refresh)
+    return project_custom_field(context, node_path, attribute, (read, change), on_refresh)
 
 
 def project_custom_field(
     context: WindowContext,
-    spot: ProjectNodePath,
-    line: TextAttribute,
+    node_path: ProjectNodePath,
+    attribute: TextAttribute,
     accessors: tuple[Callable[[Design], str], Callable[[str], Callable[[Any], Any]]],
     on_refresh: Callable[[], None] = lambda: None,
 ) -> Field:
-    """A text that `accessors` read, and make a change of the thing of."""
+    """Build a text field; `accessors` read the text, and turn a text into a change of the node."""
     read, change = accessors
 
-    def take(_old: str, new: str) -> str:
-        return line.validate(new) or write_node(context, spot, change(new))
+    def commit(_old: str, new: str) -> str:
+        return attribute.validate(new) or write_node(context, node_path, change(new))
 
-    bound = FieldBinding(
-        label=line.label, hint=line.hint, read=read, write=_same, validate=lambda text: line.validate(str(text))
+    binding = FieldBinding(
+        label=attribute.label,
+        hint=attribute.hint,
+        read=read,
+        write=_same,
+        validate=lambda text: attribute.validate(str(text)),
     )
-    is_text = line.attribute in ("doc", "title")
-    element, message = _input(bound, is_code=not is_text, is_long=line.is_multiline)
+    is_text = attribute.attribute in ("doc", "title")
+    element, message = _input(binding, is_code=not is_text, is_long=attribute.is_multiline)
     element.props("maxlength=2000")
 
-    def place() -> DesignPath:
-        return (*spot.path(context.workspace.project), *_file_key(spot, line))
+    def get_file_path() -> DesignPath:
+        return (*node_path.path(context.workspace.project), *_file_key(node_path, attribute))
 
-    made = ProjectTextField(
+    project_field = ProjectTextField(
         context,
-        bound,
+        binding,
         element,
         message,
-        rename=take,
+        rename=commit,
         on_refresh=on_refresh,
-        get_file_path=place,
-        is_multiline=line.is_multiline,
+        get_file_path=get_file_path,
+        is_multiline=attribute.is_multiline,
     )
-    made.is_optional = True
-    return made
+    project_field.is_optional = True
+    return project_field
 
 
-def _file_key(spot: ProjectNodePath, line: TextAttribute) -> DesignPath:
+def _file_key(node_path: ProjectNodePath, attribute: TextAttribute) -> DesignPath:
     """The key below which an attribute stands in the file: of an element none, it is its value."""
-    match (spot.section, line.attribute):
+    match (node_path.section, attribute.attribute):
         case ("elements", _):
             return ()
         case ("constants", "initial"):
@@ -154,8 +165,8 @@ def _file_key(spot: ProjectNodePath, line: TextAttribute) -> DesignPath:
             return ("default",)
         case (_, "frequency_hz"):
             return ("frequency",)
-        case (_, attribute):
-            return (attribute,)
+        case (_, name):
+            return (name,)
 
 
 def _input(binding: FieldBinding, *, is_code: bool, is_long: bool = False) -> tuple[TextInput, ui.label]:
@@ -166,102 +177,102 @@ def _input(binding: FieldBinding, *, is_code: bool, is_long: bool = False) -> tu
     return element, message
 
 
-def project_checkbox(context: WindowContext, spot: ProjectNodePath, label: str, attribute: str) -> Field:
-    """Yes or no."""
+def project_checkbox(context: WindowContext, node_path: ProjectNodePath, label: str, attribute: str) -> Field:
+    """Build a checkbox."""
 
     def read(_design: Design) -> bool:
-        return bool(getattr(spot.get(context.workspace.project), attribute, False))
+        return bool(getattr(node_path.get(context.workspace.project), attribute, False))
 
     box = ui.checkbox(label).props("dense").classes("wide")
     return _ProjectCheckbox(
-        context, FieldBinding(label=label, read=read, write=_same), box, spot=spot, attribute=attribute
+        context, FieldBinding(label=label, read=read, write=_same), box, node_path=node_path, attribute=attribute
     )
 
 
 def project_choice_field(
-    context: WindowContext, spot: ProjectNodePath, label: str, attribute: str, options: Callable[[], Sequence[str]]
+    context: WindowContext, node_path: ProjectNodePath, label: str, attribute: str, options: Callable[[], Sequence[str]]
 ) -> Field:
-    """One of several names."""
+    """Build a select of one name."""
 
     def read(_design: Design) -> str | None:
-        return getattr(spot.get(context.workspace.project), attribute, None) or None
+        return getattr(node_path.get(context.workspace.project), attribute, None) or None
 
     with ui.column().classes("field"):
         element = ui.select(list(options()), label=label, value=None).props("outlined dense options-dense stack-label")
         message = ui.label().classes("field-finding").props('role="status"')
         message.set_visibility(False)
-    bound = FieldBinding(label=label, read=read, write=_same)
+    binding = FieldBinding(label=label, read=read, write=_same)
     return _ProjectChoice(
-        context, bound, element, message, options=lambda _design: options(), spot=spot, attribute=attribute
+        context, binding, element, message, options=lambda _design: options(), node_path=node_path, attribute=attribute
     )
 
 
 @dataclass(eq=False)
 class _ProjectCheckbox(Field):
-    spot: ProjectNodePath = field(kw_only=True)
+    node_path: ProjectNodePath = field(kw_only=True)
     attribute: str = field(kw_only=True)
 
     def _on_typed(self, value: Any) -> None:
-        _write_value(self, self.spot, self.attribute, value)
+        _write_value(self, self.node_path, self.attribute, value)
 
 
 @dataclass(eq=False)
 class _ProjectChoice(ChoiceField):
-    spot: ProjectNodePath = field(kw_only=True)
+    node_path: ProjectNodePath = field(kw_only=True)
     attribute: str = field(kw_only=True)
 
     def _on_typed(self, value: Any) -> None:
         if value is not None:
-            _write_value(self, self.spot, self.attribute, value)
+            _write_value(self, self.node_path, self.attribute, value)
 
 
-def _write_value(made: Field, spot: ProjectNodePath, attribute: str, value: Any) -> None:
-    """Write what was chosen; what cannot be is told, and shown no more."""
-    if value == made.binding.read(made.context.design):
+def _write_value(project_field: Field, node_path: ProjectNodePath, attribute: str, value: Any) -> None:
+    """Write a value; on failure show an error and the old value."""
+    if value == project_field.binding.read(project_field.context.design):
         return
     changes = {attribute: value}
-    refused = write_node(made.context, spot, lambda thing: replace(thing, **changes))
-    if refused:
-        made.context.show_toast(refused[:1].upper() + refused[1:], "warning")
-        made.has_focus = False
-        made.refresh()
+    error = write_node(project_field.context, node_path, lambda node: replace(node, **changes))
+    if error:
+        project_field.context.show_toast(texts.sentence(error), "warning")
+        project_field.has_focus = False
+        project_field.refresh()
 
 
 def _same(design: Design, _value: Any) -> Design:
     return design
 
 
-def write_node(context: WindowContext, spot: ProjectNodePath, change: Callable[[Any], Any]) -> str:
-    """Write another thing into project.yaml; returns why not."""
+def write_node(context: WindowContext, node_path: ProjectNodePath, change: Callable[[Any], Any]) -> str:
+    """Change a node in project.yaml; return an error message, or "" on success."""
     project = context.workspace.project
-    name = " of ".join(reversed(spot.names(project) or (project.name,)))
-    return write_project(context, lambda project: spot.update(project, change), name, spot)
+    name = "edit " + " of ".join(reversed(node_path.names(project) or (project.name,)))
+    return write_project(context, lambda project: node_path.update(project, change), name, node_path)
 
 
 def write_project(
     context: WindowContext,
     change: Callable[[Project], Project],
     what: str,
-    spot: ProjectNodePath | None = None,
+    node_path: ProjectNodePath | None = None,
     *,
-    is_agreed: bool = False,
+    is_confirmed: bool = False,
 ) -> str:
-    """Write another project.yaml, say so, and offer to take it back; returns why not. See `change_project_file`."""
+    """Change project.yaml and offer to undo it; return an error message, or "" on success. See `edit_project_file`."""
     try:
-        written = edit_project_file(context.workspace, change, spot, summary=what, allow_errors=is_agreed)
+        result = edit_project_file(context.workspace, change, node_path, summary=what, allow_errors=is_confirmed)
     except OSError as error:
-        return f"not written: {error_reason(error)}"
-    edit = written.edit
+        return texts.not_written(error_reason(error))
+    edit = result.edit
     if edit is not None:
-        broken = f"; now with errors: {', '.join(written.broken_designs)}" if written.broken_designs else ""
+        message = texts.project_saved(what, result.broken_designs)
         context.document.record_compound(edit)
-        context.offer_undo(f"project.yaml is written: {what}{broken}", lambda: _undo(context, edit))
+        context.offer_undo(message, lambda: _undo(context, edit))
         context.notify_listeners()
-    return written.error
+    return result.error
 
 
 def _undo(context: WindowContext, edit: ProjectEdit) -> None:
-    refused = context.document.undo_compound(edit)
-    if refused:
-        context.show_toast(refused, "warning")
+    error = context.document.undo_compound(edit)
+    if error:
+        context.show_toast(error, "warning")
     context.notify_listeners()

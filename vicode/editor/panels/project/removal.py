@@ -1,9 +1,10 @@
-"""Removes what project.yaml declares; where others say it, they are listed first."""
+"""Removes nodes of project.yaml, after confirmation if they are used."""
 
 from itertools import groupby
 
 from nicegui import ui
 
+from vicode.editor.panels import texts
 from vicode.editor.panels.dialogs import titled_dialog
 from vicode.editor.panels.project.project_fields import write_project
 from vicode.editor.panels.widgets import primary_button
@@ -14,51 +15,49 @@ from vicode.editor.session.references import ReferenceLocation, find_references
 _MAX_LISTED = 40
 
 
-def confirm_and_remove(context: WindowContext, spot: ProjectNodePath) -> None:
-    """Remove a thing: at once where nothing says it, else after it was shown what does."""
+def confirm_and_remove(context: WindowContext, node_path: ProjectNodePath) -> None:
+    """Remove a node; if it is used, list the references and ask for confirmation."""
     project = context.workspace.project
-    name, names = spot.name(project), spot.names(project)
+    name, names = node_path.name(project), node_path.names(project)
     if not name:
         return
-    if spot.section == "elements" and len(ProjectNodePath(steps=spot.steps[:-1]).get(project).elements) == 1:
-        context.show_toast("An enumeration has at least one element: remove the enumeration", "warning")
+    if node_path.section == "elements" and len(ProjectNodePath(steps=node_path.steps[:-1]).get(project).elements) == 1:
+        context.show_toast(texts.LAST_ELEMENT, "warning")
         return
-    mentions = find_references(project, spot.symbol_ref(project))
-    if not mentions:
-        _remove(context, spot)
+    references = find_references(project, node_path.symbol_ref(project))
+    if not references:
+        _remove(context, node_path)
         return
-    with titled_dialog(f"Remove {spot.kind} {name}?") as dialog:
-        ui.label("It is used here; what says it gets findings until it says something else:").classes("field-label")
-        _list(mentions)
+    with titled_dialog(f"Remove {node_path.kind} {name}?") as dialog:
+        ui.label(texts.USED_BY_FOLLOWING).classes("field-label")
+        _list(references)
         if context.workspace.broken_file_names:
-            ui.label(
-                f"Not looked into, as it cannot be read: {', '.join(context.workspace.broken_file_names)}"
-            ).classes("empty")
+            ui.label(texts.skipped_files(context.workspace.broken_file_names)).classes("empty")
 
-        def go_on() -> None:
+        def remove() -> None:
             dialog.close()
-            if spot.names(context.workspace.project) == names:
-                _remove(context, spot)
+            if node_path.names(context.workspace.project) == names:
+                _remove(context, node_path)
             else:
-                context.show_toast(f"Somebody else removed, renamed or moved {name}: look again", "warning")
+                context.show_toast(texts.changed_by_another_user(name), "warning")
 
         with ui.row().classes("dialog-buttons"):
             ui.button("Cancel", on_click=dialog.close).props("flat no-caps autofocus")
-            primary_button("Remove anyway", go_on)
+            primary_button("Remove anyway", remove)
     dialog.on("hide", dialog.delete)
 
 
-def _list(mentions: tuple[ReferenceLocation, ...]) -> None:
+def _list(references: tuple[ReferenceLocation, ...]) -> None:
     with ui.column().classes("change-list reference-list").props('role="list"'):
-        for component, found in groupby(mentions[:_MAX_LISTED], key=lambda each: each.component):
+        for component, locations in groupby(references[:_MAX_LISTED], key=lambda each: each.component):
             ui.label(component or "project.yaml").classes("mono").props('role="listitem"')
-            ui.label("; ".join(each.description for each in found)).props('role="listitem"')
-        if len(mentions) > _MAX_LISTED:
-            ui.label(f"and {len(mentions) - _MAX_LISTED} more places").props('role="listitem"')
+            ui.label("; ".join(each.description for each in locations)).props('role="listitem"')
+        if len(references) > _MAX_LISTED:
+            ui.label(texts.more(len(references) - _MAX_LISTED, "places")).props('role="listitem"')
 
 
-def _remove(context: WindowContext, spot: ProjectNodePath) -> None:
-    name = spot.name(context.workspace.project)
-    refused = write_project(context, spot.remove, f"no {spot.kind} {name} any more", spot, is_agreed=True)
-    if refused:
-        context.show_toast(refused[:1].upper() + refused[1:], "warning")
+def _remove(context: WindowContext, node_path: ProjectNodePath) -> None:
+    name = node_path.name(context.workspace.project)
+    error = write_project(context, node_path.remove, f"remove {node_path.kind} {name}", node_path, is_confirmed=True)
+    if error:
+        context.show_toast(texts.sentence(error), "warning")

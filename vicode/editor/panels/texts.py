@@ -1,0 +1,199 @@
+"""Messages, dialog texts and empty states of the panels, and format functions for texts with values.
+
+Labels of single widgets stay where the widget is built.
+"""
+
+from collections.abc import Sequence
+
+NO_PROBLEMS = "No problems found"
+NO_FIX = "No automatic fix available"
+NO_TRANSITIONS = "No transitions"
+NO_DECLARATIONS = "None"
+NO_SUCH_COMPONENT = "No such component."
+NO_MATCHING_DESIGNS = "No designs match the filter."
+NO_DESCRIPTION = "No description"
+NO_RESULTS = "No results."
+NO_MATCHES_TO_REPLACE = "No matches to replace"
+ENTER_SEARCH_TERM = "Enter a search term"
+SELECT_ROW_FIRST = "Select a row first"
+RENDERING = "Rendering…"
+SAVED = "Saved"
+
+INTERNAL_ERROR = "Internal error; the change may not be saved. See the server log."
+CLIPBOARD_DENIED = "Clipboard access denied. Download the file instead."
+
+PROJECT_SCOPE = "Shared by all designs; saved immediately."
+NOT_DECLARED = "Not declared in the project."
+LAST_ELEMENT = "An enumeration needs at least one element. Remove the enumeration instead."
+CAPACITY_HELP = "A robot waits in its current state until there is room."
+SYNCHRONIZED_HELP = "Robots wait in their current state until this many are ready."
+ARITHMETIC_HELP = "xabsl: arithmetic and restart semantics of XABSL. Empty: default semantics."
+TIME_UNIT_HELP = "Unit of state_time and component_time in expressions. Empty: seconds."
+USER_NAME_HELP = "Other users see this name next to your selection and in the history."
+
+ORDER_CHANGED = "Another user changed the order here. Check the list and enter the value again."
+CODE_OWNER_CHANGED = "Another user removed, renamed or moved the owner of this code."
+DESIGN_CHANGED_RENAME_AGAIN = "The design changed. Rename again."
+USED_BY_FOLLOWING = "It is used in these places, which will report errors:"
+CHECK_MANUALLY = "Check manually: code that uses this name, possibly with another meaning"
+SAVED_IMMEDIATELY = "Changes (saved immediately)"
+
+MERGED_WITH_DISK = "Merged with the changes on disk"
+LOADED_DISK_VERSION = "Loaded the version on disk"
+SAVED_YOUR_VERSION = "Saved your version"
+SAVED_MERGED_VERSION = "Saved the merged version"
+CONFLICT_ALREADY_RESOLVED = "The conflict is already resolved. See History for the other version."
+CONFLICT_CHANGED = "The file changed again. Review the conflicts."
+RECOVERY_TITLE = "Recover unsaved changes?"
+RECOVERY_REASON = "The editor stopped before these changes were saved."
+
+
+def pluralize(number: int, noun: str) -> str:
+    """Format a count: "1 state", "2 states"."""
+    return f"{number} {noun}{'s' * (number != 1)}"
+
+
+def sentence(text: str) -> str:
+    """Capitalize the first letter of a reason that is shown on its own."""
+    return text[:1].upper() + text[1:]
+
+
+def more(number: int, noun: str = "") -> str:
+    """Format the number of rows that a list leaves out."""
+    return f"and {number} more{f' {noun}' if noun else ''}"
+
+
+def more_findings(number: int) -> str:
+    return f"{more(number)}. Use the filter to narrow the list."
+
+
+def not_saved(file: str, reason: str) -> str:
+    return f"Could not save {file}: {reason}"
+
+
+def operation_failed(reason: object) -> str:
+    return f"Operation failed: {reason}"
+
+
+def renamed(old: str, new: str) -> str:
+    return f"Renamed {old} to {new}"
+
+
+def renamed_back(name: str) -> str:
+    return f"Renamed back to {name}"
+
+
+def cannot_rename(reason: str) -> str:
+    return f"Cannot rename: {reason}"
+
+
+def renamed_by_another_user(name: str) -> str:
+    return f"Another user renamed it to {name}. Press Enter to use your name instead."
+
+
+def skipped_files(files: Sequence[str]) -> str:
+    return f"Skipped (unreadable): {', '.join(files)}"
+
+
+def changed_by_another_user(name: str) -> str:
+    return f"Another user removed, renamed or moved {name}. Check and try again."
+
+
+def others_typing(names: Sequence[str]) -> str:
+    return f"{' and '.join(names)} {'is' if len(names) == 1 else 'are'} also typing here"
+
+
+def fix_applied(label: str) -> str:
+    return f"Applied: {label}. Undo with Ctrl+Z."
+
+
+def replaced(number: int) -> str:
+    return f"Replaced {pluralize(number, 'result')}. Undo with Ctrl+Z."
+
+
+def duplicated(component: str, copy: str) -> str:
+    return f"Duplicated {component} as {copy}"
+
+
+def moved_to_trash(component: str) -> str:
+    return f"{component} moved to trash"
+
+
+def restored(component: str) -> str:
+    return f"{component} restored"
+
+
+def trash_explanation(file: str) -> str:
+    return f"{file} is moved to the system trash. You can undo this."
+
+
+def still_used_by(users: Sequence[str]) -> str:
+    return (
+        f"Still used by {', '.join(users)}. {'This design' if len(users) == 1 else 'These designs'} will report errors."
+    )
+
+
+def unreadable_file(file: str) -> str:
+    return f"{file} cannot be read. Open it to fix the errors."
+
+
+def project_saved(change: str, broken_designs: Sequence[str]) -> str:
+    errors = f"; new errors in {', '.join(broken_designs)}" if broken_designs else ""
+    return f"project.yaml saved: {change}{errors}"
+
+
+def not_written(reason: str) -> str:
+    return f"not saved: {reason}"
+
+
+def files_to_write(number: int, folder: str, unchanged: int) -> str:
+    rest = f"; {unchanged} up to date" if unchanged else ""
+    return f"{pluralize(number, 'file')} will change in {folder}/{rest}."
+
+
+def copied(component: str, form: str) -> str:
+    return f"Copied {component} as {form}"
+
+
+def preview_too_large(states: int) -> str:
+    return f"No preview for {pluralize(states, 'state')}. You can still download the file."
+
+
+def changed_by_another_program(file: str) -> str:
+    return f"{file} was changed by another program"
+
+
+def file_missing(file: str, *, is_deleted: bool) -> str:
+    what = "was deleted by another program" if is_deleted else "no longer contains a design"
+    return f"{file} {what}"
+
+
+def save_again(file: str, *, is_deleted: bool) -> str:
+    backup = "" if is_deleted else f" Its current content is kept as {file}.edited."
+    return f"Your version is still open. Saving writes the file again.{backup}"
+
+
+def conflict_count(number: int) -> str:
+    return f"{pluralize(number, 'conflict')}; everything else merged."
+
+
+def history_jump_warning(left: str) -> str:
+    return f"This leaves {left}, for all users. The steps stay in the history."
+
+
+def recovery_question(component: str, time: str, *, is_deleted: bool) -> str:
+    again = " Its file was deleted and will be created again." if is_deleted else ""
+    return f"Recover the unsaved changes to {component} from {time}?{again}"
+
+
+def recovered(component: str, overruled: int) -> str:
+    rest = f"; they replace {pluralize(overruled, 'change')} on disk (undo restores them)" if overruled else ""
+    return f"Recovered the changes to {component}{rest}"
+
+
+def not_recovered(reason: str) -> str:
+    return f"Could not recover: {reason}"
+
+
+def discarded(component: str) -> str:
+    return f"Discarded the changes to {component}"
