@@ -141,7 +141,7 @@ def test_a_new_assignment_begins_with_a_value_that_can_stand_there(editor: str, 
     open_design(page, editor, "Player")
     page.get_by_role("button", name="Add to actions: Set").click()
     expect(page.get_by_role("textbox", name="name = expression, one per line")).to_have_text("kick = Kick.front")
-    expect(page.get_by_text("No findings: problems found")).to_be_visible()
+    expect(page.get_by_text("No problems found")).to_be_visible()
 
 
 def test_what_the_project_declares_is_written_into_its_file(editor: str, page: Page, project: Path) -> None:

@@ -68,4 +68,4 @@ def test_a_sound_design_has_nothing_to_go_to(editor: str, page: Page) -> None:
     page.goto(editor + PLAYER)
     expect(state(page, "Kick")).to_be_visible()
     page.keyboard.press("F8")
-    expect(page.get_by_text("No findings: problems found").last).to_be_visible()
+    expect(page.get_by_text("No problems found").last).to_be_visible()

@@ -53,7 +53,7 @@ document.addEventListener("keydown", (event) => {
   // A command that the browser can start alone cancels the event.
   if (!dispatchEvent(new CustomEvent("vicode-command", { detail: command.name, cancelable: true }))) return;
   // The page is visible before its connection is open; commands wait for the connection.
-  => const send = () => => (window.did_handshake ? emitEvent("command-" + command.name) : setTimeout(send, 10));
+  const send = () => (window.did_handshake ? emitEvent("command-" + command.name) : setTimeout(send, 10));
   // Fields send typed text after a pause. Send it now, before the command.
   if (event.target.matches?.("input, textarea")) event.target.dispatchEvent(new Event("change", { bubbles: true }));
   queueMicrotask(send);
