@@ -13,7 +13,7 @@ PLACES = "document.querySelector('.vicode-canvas').vicode.positions()"
 
 
 def begin(page: Page) -> None:
-    page.get_by_role("button", name="Auto-layout selection or whole diagram").click()
+    page.get_by_role("button", name="Auto layout").click()
     expect(page.get_by_text("Preview:")).to_be_visible(timeout=40_000)
     # Keys are the drawing's from the moment it shows the preview.
     expect(page.locator("main.design-view .stage")).to_be_focused()
@@ -80,7 +80,7 @@ def test_a_layout_that_takes_long_is_called_off(editor: str, page: Page, project
     page.goto(editor + "design/forward/Ring", timeout=60_000)
     expect(page.locator(".vicode-canvas[data-ready]")).to_be_visible(timeout=40_000)
     before = page.evaluate(PLACES)
-    page.get_by_role("button", name="Auto-layout selection or whole diagram").click()
+    page.get_by_role("button", name="Auto layout").click()
     expect(page.get_by_text("Laying out 480 states, 5 s at most")).to_be_visible()
     if way == "button":
         page.get_by_label("Layout").get_by_role("button", name="Cancel").click()

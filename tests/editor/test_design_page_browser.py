@@ -92,7 +92,9 @@ def test_who_renames_a_state_types_on_in_the_next_field(editor: str, page: Page)
     # D disables what is selected, F makes it final, N makes a transition: not while one types.
     page.keyboard.type(" Defend now.")
     expect(page.get_by_label("State", exact=True)).to_have_value("Shoot")
-    expect(page.get_by_role("textbox", name="Description")).to_have_value("Kick, with the eyes on the ball. Defend now.")
+    expect(page.get_by_role("textbox", name="Description")).to_have_value(
+        "Kick, with the eyes on the ball. Defend now."
+    )
     page.get_by_role("tab", name="History").click()
     expect(page.get_by_role("group", name="History").get_by_role("button")).to_have_count(3)
 

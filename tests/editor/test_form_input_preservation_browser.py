@@ -46,7 +46,9 @@ def test_what_was_left_before_the_new_form_came_is_kept(
             page.keyboard.press("Control+s")
     line.release()
     expect(page.get_by_label("State", exact=True)).to_have_value("Shoot")
-    expect(page.get_by_role("textbox", name="Description")).to_have_value("Kick, with the eyes on the ball. Defend now.")
+    expect(page.get_by_role("textbox", name="Description")).to_have_value(
+        "Kick, with the eyes on the ball. Defend now."
+    )
     if way == "saving":
         wait_for_another(page, file, before)
     else:

@@ -52,7 +52,7 @@ class AutoLayout:
         return (
             Command(
                 "lay-out",
-                "Auto-layout selection or whole diagram",
+                "Auto layout",
                 self.start,
                 MenuGroup.EDIT,
                 icon="auto_awesome_mosaic",

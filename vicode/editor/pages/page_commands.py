@@ -36,13 +36,13 @@ class PageCommands:
             Command("redo", "Redo", self.redo, edit, icon="redo", keys=("Ctrl+Shift+Z", "Ctrl+Y")),
             Command(
                 "disable",
-                "Toggle disabled",
+                "Disable or enable",
                 self.toggle_disabled,
                 edit,
                 icon="block",
                 keys=("D",),
             ),
-            Command("links", "Toggle links to components", self.toggle_links, view, icon="hub"),
+            Command("links", "Show or hide links to components", self.toggle_links, view, icon="hub"),
             Command("theme", "Theme", self.toggle_theme, view, icon="contrast"),
         )
 
