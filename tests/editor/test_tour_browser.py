@@ -50,7 +50,7 @@ def test_the_tour_follows_what_is_done(editor: str, page: Page, project: Path) -
     page.get_by_role("region", name="Tour").get_by_role("button", name="Skip").click()
     page.get_by_label("Inspector").get_by_role("button", name="Transition").click()
     page.get_by_text("to Kick", exact=True).click()
-    expect_step(page, 5, "Take it back")
+    expect_step(page, 5, "Undo")
     for _edit in range(5):
         page.get_by_role("button", name="Undo").click()
     expect_step(page, 6, "Findings")

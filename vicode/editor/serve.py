@@ -79,13 +79,12 @@ def serve(path: Path, address: ServerAddress, *, open_browser: bool = True, tour
     # NiceGUI 3.18 parses props with it; CPython must not parse in two threads at once: see `model.python_parser`.
     ast.literal_eval = serialize_calls(ast.literal_eval)
     library = Library(path)
+    start = address.page_url(_first_page(library))
     register_pages(library, AutosaveService(library, open_recovery_store()), tour=tour)
     _add_access_control(app, address)
-    start = address.page_url(_first_page(library))
-    message = _startup_message(path, address, start)
     # Quasar's loading bar is a landmark without a name, and useless here: all traffic uses one socket.
-    app.config.quasar_config["loadingBar"] = {"skipHijack": True}
-    app.config.quasar_config["ripple"] = False
+    app.config.quasar_config.update({"loadingBar": {"skipHijack": True}, "ripple": False})
+    message = _startup_message(path, address, start)
     app.on_startup(lambda: background_tasks.create(_announce(message, address), name="announce"))
     GcPolicy(app).freeze_gc()
     gc.enable()

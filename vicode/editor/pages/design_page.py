@@ -66,14 +66,8 @@ class DesignPage:
         self.tour = Tour(context, lambda: self.view.is_table_shown, starts_automatically=request.tour)
         navigator = Navigator(context, request.index, request.trail)
         new = Command("new-design", "New design", lambda: dialogs.ask_new(workspace), MenuGroup.DESIGN, icon="add")
-        own_commands = (
-            new,
-            *findings.commands(),
-            *navigator.commands(),
-            *self.autosave.commands(),
-            *self.tour.commands(),
-        )
-        commands = self._commands(theme, own_commands)
+        parts = (findings, navigator, self.autosave, self.tour)
+        commands = self._commands(theme, (new, *(command for part in parts for command in part.commands())))
         navigator.palette.commands = commands
         with head:
             self.header = Header(context, commands, request.trail)
