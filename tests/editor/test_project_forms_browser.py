@@ -90,7 +90,7 @@ def test_a_constant_that_is_used_is_removed_after_its_users_were_listed(editor: 
     constant.get_by_role("button", name="Remove constant net_x").click()
     dialog.get_by_role("button", name="Remove anyway").click()
     expect(constant).to_have_count(0)
-    expect(page.get_by_text("now with errors: Player")).to_be_visible()
+    expect(page.get_by_text("new errors in Player")).to_be_visible()
     assert "net_x" not in file.read_text()
     undo(page)
     expect(constant.get_by_label("Value")).to_have_value("3000.0")
