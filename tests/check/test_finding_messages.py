@@ -108,4 +108,4 @@ def test_unknown_element_of_an_empty_enumeration() -> None:
         states=(State(name="Wait", transitions=(Transition(to="Wait", guard=Guard(when="Foot.a == 1")),)),)
     )
     finding = next(finding for finding in check_design(project, design) if finding.rule.code == "E306")
-    assert (finding.message, finding.fix) == ("'Foot' has no element 'a'", "it has none")
+    assert (finding.message, finding.fix) == ("'Foot' has no element 'a'", "add elements to the enumeration")

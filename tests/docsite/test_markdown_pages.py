@@ -107,7 +107,7 @@ def test_a_page_says_what_its_page_in_html_says(forward: dict[str, str]) -> None
     words = "".join(token.content for token in tokens_of(forward["component-Player.md"]) if not token.children)
     assert "if not kicker.busy and after 0.5 s – kicked" in words
     assert "log.info(" in words
-    assert "works whenever it is called: it has no frequency" in words
+    assert "XABSL options have no frequency" in words
     assert "class Player" in forward["python-Player.md"]
 
 

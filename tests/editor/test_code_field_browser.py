@@ -50,7 +50,7 @@ def test_a_guard_is_completed_marked_and_left_by_keyboard(editor: str, page: Pag
     # It is no condition yet: said in words below, and under the characters.
     inspector = page.get_by_label("Inspector")
     expect(page.locator(".squiggle.error")).to_have_text("perception.ball_age")
-    expect(inspector.get_by_role("button", name="expected bool, but this is float")).to_be_visible()
+    expect(inspector.get_by_role("button", name="expected bool, found float")).to_be_visible()
     expect(guard(page)).to_have_attribute("aria-invalid", "true")
     page.keyboard.type(" > lost_af")
     accept(page, "lost_after")

@@ -137,7 +137,7 @@ def test_mistakes_stand_at_their_characters(text: str, code: str, guilty: str | 
 def test_expected_types() -> None:
     assert parse_expression("tries", SCOPE, "float").diagnostics == ()
     (mistake,) = parse_expression("tries", SCOPE, "bool").diagnostics
-    assert (mistake.rule.code, mistake.fix) == ("E304", "compare it, for example != 0")
+    assert (mistake.rule.code, mistake.fix) == ("E304", "add a comparison, such as != 0")
     (mistake,) = parse_expression("speed", SCOPE, "int").diagnostics
     assert "round" in mistake.fix
 

@@ -1,4 +1,4 @@
-"""What constants and first values come to, computed before anything runs."""
+"""Evaluation of constants and initial values at generation time."""
 
 from collections.abc import Callable, Mapping
 from functools import lru_cache
@@ -27,7 +27,7 @@ from vicode.model.expressions import (
 from vicode.model.project import Enumeration, Project
 
 ConstantValue = bool | float | str
-"""A truth, a number, or the name of an element."""
+"""A bool, a number, or the name of an enumeration element."""
 
 _ARITHMETIC_FUNCTIONS = (
     *("clamp", "sign", "floor", "ceil", "sqrt", "exp", "log", "is_nan", "sin", "cos", "tan", "asin", "acos", "atan"),
@@ -61,11 +61,11 @@ _COMPARISONS: Mapping[str, Callable[[float, float], bool]] = {
 
 
 def evaluate_constants(project: Project) -> Mapping[str, ConstantValue]:
-    """The value of each constant, which may be made from those before it; those with mistakes are left out."""
+    """Evaluate the constants in order, each using the previous ones. Invalid constants are omitted."""
     return _evaluate_declarations(project.constants, project.enumerations)
 
 
-# Every edit asks for them, and hardly ever do they change.
+# Constants are evaluated after every edit, but rarely change.
 @lru_cache(maxsize=64)
 def _evaluate_declarations(
     constants: tuple[Declaration, ...], enumerations: tuple[Enumeration, ...]
@@ -82,7 +82,7 @@ def _evaluate_declarations(
 def evaluate_initial_value(
     text: str, type_: str, scope: Scope, constants: Mapping[str, ConstantValue]
 ) -> ConstantValue | None:
-    """The value of an expression; of an empty one false, 0 or the first element; None where it is not known."""
+    """Evaluate an expression. An empty one is false, 0 or the first element. Return None if the value is unknown."""
     if not text:
         return zero_value(type_, scope)
     parsed = parse_expression(text, scope, type_)
@@ -90,14 +90,14 @@ def evaluate_initial_value(
 
 
 def zero_value(type_: str, scope: Scope) -> ConstantValue | None:
-    """What a value of a type is where nothing was said: false, 0 or the first element."""
+    """Return the default value of a type: false, 0 or the first element."""
     if type_ in scope.enumerations:
         return next(iter(scope.enumerations[type_]), None)
     return None if type_ == UNKNOWN else False if type_ == "bool" else 0.0
 
 
 def evaluate(node: Expr, constants: Mapping[str, ConstantValue]) -> ConstantValue | None:
-    """What a tree of literals and constants comes to, None where that is known only when it runs."""
+    """Evaluate a tree of literals and constants. Return None if the value is known only at run time."""
     match node:
         case Number(value=value) | Boolean(value=value):
             return value
@@ -113,7 +113,6 @@ def evaluate(node: Expr, constants: Mapping[str, ConstantValue]) -> ConstantValu
 
 
 def _evaluate_operation(node: Expr, constants: Mapping[str, ConstantValue]) -> ConstantValue | None:
-    """The value of an operation on values."""
     match node:
         case Not(operand=operand):
             value = evaluate(operand, constants)

@@ -1,4 +1,4 @@
-"""Changes that go through a whole tree of decisions."""
+"""Edits of decision trees."""
 
 from collections.abc import Collection, Mapping
 from dataclasses import replace
@@ -7,12 +7,12 @@ from vicode.model.design import Decision, DecisionGroup, Transition
 
 
 def retarget(items: tuple[Decision, ...], old: str, new: str) -> tuple[Decision, ...]:
-    """The same decisions, leading to `new` where they led to `old`."""
+    """Replace the target `old` by `new` in all transitions."""
     return retarget_all(items, {old: new})
 
 
 def retarget_all(items: tuple[Decision, ...], new_targets: Mapping[str, str]) -> tuple[Decision, ...]:
-    """The same decisions, leading to new names where they led to old ones."""
+    """Replace the targets of all transitions according to a mapping of old to new names."""
 
     def renamed(item: Decision) -> Decision:
         if isinstance(item, DecisionGroup):
@@ -26,7 +26,7 @@ def retarget_all(items: tuple[Decision, ...], new_targets: Mapping[str, str]) ->
 
 
 def drop_targets(items: tuple[Decision, ...], targets: Collection[str]) -> tuple[Decision, ...]:
-    """The decisions without transitions to `new_targets`; a group that this leaves empty goes too."""
+    """Remove the transitions to `targets`, and groups that become empty."""
     kept: list[Decision] = []
     for item in items:
         if isinstance(item, Transition) and item.to in targets:

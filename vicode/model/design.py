@@ -1,23 +1,23 @@
-"""A design as a frozen value: one component drawn as a state machine."""
+"""The design of a component: a state machine as a frozen value."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 
 COMMON = "@common"
-"""Stands for the source of common transitions where a state's name would stand."""
+"""The source of common transitions, used in place of a state name."""
 
 Point = tuple[float, float]
-"""Centre on the canvas in pixels, x to the right, y downwards."""
+"""Center on the canvas in pixels, x to the right, y downwards."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Code:
-    """One piece of hand-written code, a text a language."""
+    """A block of hand-written code, as pairs of language and text."""
 
     texts: tuple[tuple[str, str], ...] = ()
 
     def in_language(self, language: str) -> str | None:
-        """The text in a language ("python", "cpp", "xabsl"), None when it is not written in it."""
+        """Return the code in a language ("python", "cpp", "xabsl"), None if there is none."""
         return dict(self.texts).get(language)
 
 
@@ -25,9 +25,9 @@ class Code:
 class Declaration:
     """A name with a type: parameter, output, variable, constant, or an argument of an output.
 
-    `type` is "bool", "int", "float" or an enumeration's name; empty means: as `initial`, else float.
-    `initial` is an expression's text: a parameter's default, a variable's or output's first value, a constant's value.
-    `range` is documentation and a hint for checks, both ends included, in `unit`.
+    `type` is "bool", "int", "float" or the name of an enumeration. If empty, it is inferred from `initial`, else float.
+    `initial` is an expression: the default of a parameter, the initial value of a variable or output, or the value of a
+    constant. `range` includes both bounds, in `unit`; it is used for documentation and checks only.
     """
 
     name: str
@@ -42,7 +42,7 @@ class Declaration:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Use:
-    """A component under the name (`alias`) that code, guards and links of this design use."""
+    """A used component and its alias in this design."""
 
     alias: str
     component: str
@@ -51,9 +51,9 @@ class Use:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Guard:
-    """The condition of a decision: every part that is given must hold; an empty guard always holds.
+    """The condition of a decision: all specified parts must hold. An empty guard always holds.
 
-    `when` is an expression's text, `after` seconds in the state (a number or a constant),
+    `when` is an expression, `after` the minimum time in the state in seconds (a number or a constant),
     `code` the body of a function returning bool.
     """
 
@@ -63,16 +63,15 @@ class Guard:
 
     @property
     def is_empty(self) -> bool:
-        """Nothing to test: it always holds."""
         return not self.when and not self.after and self.code is None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Transition:
-    """To another state when the guard holds; to the state itself it ends the decision and changes nothing.
+    """A transition to another state. A transition to the same state ends the decision without any other effect.
 
-    `label_at` is where its label was put by hand: the part of the way from 0 to 1, and the pixels beside it, to the
-    right of who walks along it; None: wherever there is room.
+    `label_at` is the manual position of the label: the fraction of the edge length from 0 to 1, and the offset in
+    pixels to the right of the edge direction. None means automatic placement.
     """
 
     to: str
@@ -85,7 +84,7 @@ class Transition:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Stay:
-    """Ends the decision without a change when the guard holds."""
+    """Ends the decision without a state change if the guard holds."""
 
     guard: Guard = field(default_factory=Guard)
     doc: str = ""
@@ -95,9 +94,9 @@ class Stay:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class DecisionGroup:
-    """A node of a decision tree: `then` is tested when the guard holds, else `otherwise`.
+    """A node of a decision tree: `then` is tested if the guard holds, else `otherwise`.
 
-    When all of them are exhausted the next item after the group is tested.
+    If no decision in it applies, the next item after the group is tested.
     """
 
     guard: Guard = field(default_factory=Guard)
@@ -113,14 +112,14 @@ Decision = Transition | Stay | DecisionGroup
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Assign:
-    """Set own variables and outputs, and variables of used components (`alias.variable`), in order."""
+    """Sets variables and outputs, and variables of used components (`alias.variable`), in order."""
 
     values: tuple[tuple[str, str], ...]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Call:
-    """Set the parameters of a used component (those left out take their defaults) and step it there."""
+    """Sets the parameters of a used component (others take their defaults) and steps it."""
 
     alias: str
     arguments: tuple[tuple[str, str], ...] = ()
@@ -128,7 +127,7 @@ class Call:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RunCode:
-    """Run hand-written code."""
+    """Runs hand-written code."""
 
     code: Code
     id: str = ""
@@ -139,11 +138,11 @@ Action = Assign | Call | RunCode
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class State:
-    """A state: what it requires, does at each iteration, and where it may go.
+    """A state with its requirements, actions and transitions.
 
-    `id` outlives a new name, so that code regions follow it. `modulates` are calls done after `actions`.
-    A `disabled` state is kept, and works as if it were not there (`vicode.model.disabled`).
-    `capacity` is the number of robots that may be in it, `synchronized` how many must enter at once.
+    `id` survives renaming and identifies code regions. `modulates` are calls that run after `actions`.
+    A `disabled` state stays in the design, but is not generated (`vicode.model.disabled`).
+    `capacity` is the maximum number of robots in the state, `synchronized` the number that must enter simultaneously.
     """
 
     name: str
@@ -164,13 +163,13 @@ class State:
 
     @property
     def all_actions(self) -> tuple[Action, ...]:
-        """What the state does at each iteration, modulations at the end."""
+        """The actions of each iteration, including modulations."""
         return self.actions + self.modulates
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CommonSection:
-    """Tested before and done before those of every state."""
+    """Actions and transitions that precede those of every state."""
 
     doc: str = ""
     at: Point | None = None
@@ -180,7 +179,7 @@ class CommonSection:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Design:
-    """One component as drawn. `frequency_hz` None: it works at every step it is given."""
+    """The design of one component. Without `frequency_hz` it runs on every step."""
 
     component: str
     xabsl_name: str = ""
@@ -200,15 +199,14 @@ class Design:
     states: tuple[State, ...] = ()
 
     def state(self, name: str) -> State | None:
-        """The state of this name (the first, should there be two)."""
+        """Return the first state with this name."""
         return next((state for state in self.states if state.name == name), None)
 
     def use(self, alias: str) -> Use | None:
-        """The use of this alias."""
         return next((use for use in self.uses if use.alias == alias), None)
 
     def declarations(self) -> Iterator[tuple[str, Declaration]]:
-        """Every own declaration with the section it stands in: parameters, outputs, variables."""
+        """Yield each declaration with its section: parameters, outputs, variables."""
         for section in ("parameters", "outputs", "variables"):
             for declaration in getattr(self, section):
                 yield section, declaration

@@ -1,4 +1,4 @@
-"""What of a design works: all but the disabled states and decisions, and the transitions that lead to such states."""
+"""Disabled states and decisions. Transitions to disabled states are disabled as well."""
 
 from collections.abc import Collection, Iterable
 from dataclasses import replace
@@ -10,25 +10,28 @@ from vicode.model.traversal import LocatedDecision, find_decision
 
 
 def disabled_states(design: Design) -> frozenset[str]:
-    """The names of the states that are kept without working."""
     return frozenset(state.name for state in design.states if state.disabled)
 
 
 def strip_disabled(design: Design) -> Design:
-    """The design as it works: what is disabled, and what leads there, is not in it."""
-    off = disabled_states(design)
+    """Remove disabled states and decisions, and transitions to disabled states."""
+    disabled = disabled_states(design)
     states = (state for state in design.states if not state.disabled)
     return replace(
         design,
-        common=replace(design.common, transitions=_strip_disabled_items(design.common.transitions, off)),
-        states=tuple(replace(state, transitions=_strip_disabled_items(state.transitions, off)) for state in states),
+        common=replace(design.common, transitions=_strip_disabled_items(design.common.transitions, disabled)),
+        states=tuple(
+            replace(state, transitions=_strip_disabled_items(state.transitions, disabled)) for state in states
+        ),
     )
 
 
 def strip_disabled_decision(decision: Decision, disabled: Collection[str]) -> Decision | None:
-    """A decision as it works, None when it does not; `disabled` are the disabled states.
+    """Remove the disabled parts of a decision. Return None if it is disabled, or a group that becomes empty.
 
-    A group that is left with nothing decides nothing, so it goes too.
+    Args:
+        decision: The decision.
+        disabled: The names of disabled states.
     """
     if decision.disabled or (isinstance(decision, Transition) and decision.to in disabled):
         return None
@@ -44,7 +47,7 @@ def strip_disabled_decision(decision: Decision, disabled: Collection[str]) -> De
 
 
 def is_enabled(located: LocatedDecision, disabled: Collection[str]) -> bool:
-    """Whether a decision at its place can ever be taken, as far as disabling goes."""
+    """Return whether neither a decision nor its source, enclosing groups or target are disabled."""
     is_inside = any(group.disabled for group, _is_then in located.groups)
     return (
         not is_inside
@@ -55,8 +58,10 @@ def is_enabled(located: LocatedDecision, disabled: Collection[str]) -> bool:
 
 def set_disabled(design: Design, states: Collection[str], paths: Collection[DesignPath], *, disabled: bool) -> Design:
     """Disable states and decisions (`disabled`), or enable them again."""
-    kept = tuple(replace(state, disabled=disabled) if state.name in states else state for state in design.states)
-    changed = replace(design, states=kept)
+    updated_states = tuple(
+        replace(state, disabled=disabled) if state.name in states else state for state in design.states
+    )
+    changed = replace(design, states=updated_states)
     for path in paths:
         located = find_decision(changed, path)
         if located is not None:
@@ -64,6 +69,6 @@ def set_disabled(design: Design, states: Collection[str], paths: Collection[Desi
     return changed
 
 
-def _strip_disabled_items(items: Iterable[Decision], off: Collection[str]) -> tuple[Decision, ...]:
-    enabled = (strip_disabled_decision(item, off) for item in items)
+def _strip_disabled_items(items: Iterable[Decision], disabled: Collection[str]) -> tuple[Decision, ...]:
+    enabled = (strip_disabled_decision(item, disabled) for item in items)
     return tuple(item for item in enabled if item is not None)

@@ -1,7 +1,4 @@
-"""Pure edits: a design and what to change in, a new design out.
-
-A thing that is not there leaves the design as it was.
-"""
+"""Pure functions that edit designs. An edit of a missing item returns the design unchanged."""
 
 from collections.abc import Callable, Collection, Mapping
 from dataclasses import replace
@@ -27,7 +24,7 @@ from vicode.model.traversal import has_code, iter_decisions
 
 
 def unique_name(wanted: str, taken: Collection[str]) -> str:
-    """`wanted`, or the first of `wanted2`, `wanted3`, … that is not taken."""
+    """Return `wanted`, or the first of `wanted2`, `wanted3`, … that is not taken."""
     number = 2
     name = wanted
     while name in taken:
@@ -36,19 +33,19 @@ def unique_name(wanted: str, taken: Collection[str]) -> str:
 
 
 def add_state(design: Design, state: State) -> Design:
-    """Add a state at the end; the first one of a design becomes the initial one."""
+    """Append a state. The first state of a design becomes the initial state."""
     initial = design.initial or state.name
     return replace(design, states=(*design.states, state), initial=initial)
 
 
 def update_state(design: Design, name: str, change: Callable[[State], State]) -> Design:
-    """Replace one state by what `change` makes of it; its name must stay."""
+    """Apply `change`, which must keep the name, to a state."""
     states = tuple(change(state) if state.name == name else state for state in design.states)
     return replace(design, states=states)
 
 
 def rename_state(design: Design, old: str, new: str) -> Design:
-    """Rename a state and all that leads to it; if it holds code an id keeps the marks of that code as they were."""
+    """Rename a state and update transitions to it. A state with code gets an id to keep its region marks valid."""
     if old == new or design.state(old) is None or design.state(new) is not None:
         return design
     states = tuple(
@@ -65,7 +62,7 @@ def rename_state(design: Design, old: str, new: str) -> Design:
 
 
 def remove_states(design: Design, names: Collection[str]) -> Design:
-    """Remove states with the transitions that lead to them."""
+    """Remove states and the transitions to them."""
     states = tuple(
         replace(state, transitions=drop_targets(state.transitions, names))
         for state in design.states
@@ -79,11 +76,11 @@ def remove_states(design: Design, names: Collection[str]) -> Design:
 
 
 def reorder_state(design: Design, name: str, to_index: int) -> Design:
-    """Move a state within the list of states, which is the order of the file and of the table."""
+    """Move a state in the list of states, which determines the order in the file and the table."""
     state = design.state(name)
     if state is None:
         return design
-    rest = [each for each in design.states if each is not state]
+    rest = [other for other in design.states if other is not state]
     rest.insert(max(0, min(to_index, len(rest))), state)
     return replace(design, states=tuple(rest))
 
@@ -91,7 +88,7 @@ def reorder_state(design: Design, name: str, to_index: int) -> Design:
 def move_nodes(
     design: Design, states: Mapping[str, Point], uses: Mapping[str, Point] | None = None, common: Point | None = None
 ) -> Design:
-    """Give states, used components and the badge of common transitions new centres."""
+    """Set the centers of states, used components and the badge of common transitions."""
     placed = tuple(replace(state, at=states.get(state.name, state.at)) for state in design.states)
     used = tuple(replace(use, at=(uses or {}).get(use.alias, use.at)) for use in design.uses)
     badge = replace(design.common, at=common) if common else design.common
@@ -99,14 +96,14 @@ def move_nodes(
 
 
 def add_transition(design: Design, source: str, to: str, guard: Guard | None = None) -> Design:
-    """Add a transition at the end of a state's (or with COMMON the common) ones."""
+    """Append a transition to a state, or to the common transitions if `source` is COMMON."""
     transition = Transition(to=to, guard=guard or Guard())
     return update_decisions(design, decisions_path(design, source), lambda items: (*items, transition))
 
 
 def assign_id(design: Design, path: DesignPath) -> Design:
-    """Give a decision an id, by which the marks of its code find it again after every other edit."""
-    located = next((each for each in iter_decisions(design) if each.path == path), None)
+    """Give a decision an id, so that its region marks stay valid after other edits."""
+    located = next((decision for decision in iter_decisions(design) if decision.path == path), None)
     if located is None or located.decision.id:
         return design
     to = located.decision.to if isinstance(located.decision, Transition) else "decision"
@@ -115,12 +112,11 @@ def assign_id(design: Design, path: DesignPath) -> Design:
 
 
 def decisions_path(design: Design, source: str) -> DesignPath:
-    """The path of the list that holds the decisions of a source."""
+    """Return the path of the decisions of a source."""
     return ("states", source, "transitions") if design.state(source) else ("common", "transitions")
 
 
 def replace_decision(design: Design, path: DesignPath, decision: Decision) -> Design:
-    """Put another decision in the place of one."""
     index = path[-1]
     return update_decisions(
         design, path[:-1], lambda items: tuple(decision if at == index else item for at, item in enumerate(items))
@@ -128,10 +124,10 @@ def replace_decision(design: Design, path: DesignPath, decision: Decision) -> De
 
 
 def remove_decisions(design: Design, paths: Collection[DesignPath]) -> Design:
-    """Remove decisions; a group goes with all it holds."""
-    there = {located.path for located in iter_decisions(design)}
-    # From the back, so that the paths still to come keep their meaning.
-    for path in sorted(there.intersection(paths), key=_path_sort_key, reverse=True):
+    """Remove decisions, including the content of groups."""
+    existing = {located.path for located in iter_decisions(design)}
+    # In reverse order, so that the remaining paths stay valid.
+    for path in sorted(existing.intersection(paths), key=_path_sort_key, reverse=True):
         design = _remove_decision(design, path)
     return design
 
@@ -148,7 +144,7 @@ def _remove_decision(design: Design, path: DesignPath) -> Design:
 
 
 def reorder_decision(design: Design, path: DesignPath, to_index: int) -> Design:
-    """Move a decision within its list, so that it is tested earlier or later."""
+    """Move a decision within its list."""
     index = path[-1]
 
     def moved(items: tuple[Decision, ...]) -> tuple[Decision, ...]:
@@ -164,7 +160,7 @@ def reorder_decision(design: Design, path: DesignPath, to_index: int) -> Design:
 def update_decisions(
     design: Design, path: DesignPath, change: Callable[[tuple[Decision, ...]], tuple[Decision, ...]]
 ) -> Design:
-    """Replace the list of decisions a path leads to by what `change` makes of it."""
+    """Apply `change` to the list of decisions at a path."""
     if path[:2] == ("common", "transitions"):
         items = _update_nested(design.common.transitions, path[2:], change)
         return replace(design, common=replace(design.common, transitions=items))
@@ -196,7 +192,7 @@ def _update_nested(
 def update_actions(
     design: Design, path: DesignPath, change: Callable[[tuple[Action, ...]], tuple[Action, ...]]
 ) -> Design:
-    """Replace the actions a path leads to: ("common", "actions") or ("states", name, enter | actions | leave)."""
+    """Apply `change` to actions: ("common", "actions") or ("states", name, "enter" | "actions" | "leave")."""
     if path[0] == "common":
         return replace(design, common=replace(design.common, actions=change(design.common.actions)))
     phase = str(path[2])
@@ -214,23 +210,23 @@ def update_actions(
 
 
 def replace_action(design: Design, path: DesignPath, *actions: Action) -> Design:
-    """Put other actions, or none, in the place of the one that a path ending in its number leads to."""
+    """Replace the action at a path by any number of actions."""
     index = path[-1]
 
     def change(old: tuple[Action, ...]) -> tuple[Action, ...]:
-        return tuple(each for at, action in enumerate(old) for each in (actions if at == index else (action,)))
+        return tuple(item for at, action in enumerate(old) for item in (actions if at == index else (action,)))
 
     return update_actions(design, path[:-1], change)
 
 
 def add_use(design: Design, component: str, at: Point | None = None) -> Design:
-    """Use a component under a free alias made of its name."""
+    """Add a component to `uses` with a unique alias derived from its name."""
     alias = unique_name(snake_case(component), {use.alias for use in design.uses})
     return replace(design, uses=(*design.uses, Use(alias=alias, component=component, at=at)))
 
 
 def remove_uses(design: Design, aliases: Collection[str]) -> Design:
-    """Stop using components: requirements, modulations and calls go; expressions that read them stay as they are."""
+    """Remove used components with their requirements, modulations and calls. Expressions are not changed."""
 
     def without_calls(actions: tuple[Action, ...]) -> tuple[Action, ...]:
         return tuple(action for action in actions if not (isinstance(action, Call) and action.alias in aliases))
@@ -251,7 +247,6 @@ def remove_uses(design: Design, aliases: Collection[str]) -> Design:
 
 
 def set_declarations(design: Design, section: str, declarations: tuple[Declaration, ...]) -> Design:
-    """Declare other parameters, outputs or variables."""
     match section:
         case "parameters":
             return replace(design, parameters=declarations)
@@ -262,7 +257,7 @@ def set_declarations(design: Design, section: str, declarations: tuple[Declarati
 
 
 def rename_use(design: Design, old: str, new: str) -> Design:
-    """Give a used component another alias, in links, calls, expressions and Python code (`self.alias`)."""
+    """Rename the alias of a used component in links, calls, expressions and Python code (`self.alias`)."""
     if old == new or design.use(old) is None or design.use(new) is not None:
         return design
     uses = tuple(replace(use, alias=new) if use.alias == old else use for use in design.uses)
@@ -270,7 +265,6 @@ def rename_use(design: Design, old: str, new: str) -> Design:
 
 
 def add_requirement(design: Design, state: str, alias: str) -> Design:
-    """Let a state require a used component."""
     return update_state(
         design,
         state,
@@ -279,7 +273,7 @@ def add_requirement(design: Design, state: str, alias: str) -> Design:
 
 
 def add_modulation(design: Design, state: str, alias: str) -> Design:
-    """Let a state modulate a used component, with its default parameters."""
+    """Add a modulation with default parameters."""
 
     def with_call(old: State) -> State:
         known = {call.alias for call in old.modulates}
@@ -289,12 +283,12 @@ def add_modulation(design: Design, state: str, alias: str) -> Design:
 
 
 def remove_link(design: Design, state: str, alias: str, *, modulates: bool) -> Design:
-    """Take a requirement, or the modulations and calls, of a component out of a state."""
+    """Remove the requirement, or the modulations and calls, of a component from a state."""
 
     def without(old: State) -> State:
         if not modulates:
             return replace(old, requires=tuple(name for name in old.requires if name != alias))
-        actions = tuple(each for each in old.actions if not (isinstance(each, Call) and each.alias == alias))
+        actions = tuple(action for action in old.actions if not (isinstance(action, Call) and action.alias == alias))
         return replace(old, actions=actions, modulates=tuple(call for call in old.modulates if call.alias != alias))
 
     return update_state(design, state, without)

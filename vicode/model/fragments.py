@@ -1,4 +1,4 @@
-"""A part of a design as a design of its own, and such a part put into another design."""
+"""Extraction of part of a design as a separate design, and insertion into another design."""
 
 import re
 from collections.abc import Collection, Iterable
@@ -25,7 +25,7 @@ from vicode.model.traversal import find_decision, iter_actions, iter_decisions, 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class FragmentSelection:
-    """What is to be taken out of a design: names of states, paths of decisions, aliases, the common part."""
+    """The part of a design to extract: state names, decision paths, aliases, and the common section."""
 
     states: Collection[str] = ()
     decisions: Collection[DesignPath] = ()
@@ -35,7 +35,7 @@ class FragmentSelection:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class InsertResult:
-    """A design with a part put in: the names its states got, and the components that are not to be had here."""
+    """A design with an inserted fragment, the new names of its states, and unavailable components."""
 
     design: Design
     states: tuple[str, ...] = ()
@@ -43,15 +43,15 @@ class InsertResult:
 
 
 def extract_fragment(design: Design, selection: FragmentSelection) -> Design:
-    """The wanted states with all they do and all the components they speak of.
+    """Extract states with the components that they refer to.
 
-    Decisions count where no state is wanted; having left their state, they stand among the common ones.
+    Without states, the selected decisions are extracted as common transitions.
     """
     states = tuple(state for state in design.states if state.name in selection.states)
     common = design.common if selection.common else CommonSection()
     if not states and not selection.common:
-        found = (find_decision(design, path) for path in selection.decisions)
-        common = CommonSection(transitions=tuple(each.decision for each in found if each is not None))
+        located = (find_decision(design, path) for path in selection.decisions)
+        common = CommonSection(transitions=tuple(item.decision for item in located if item is not None))
     part = Design(component=design.component, common=common, states=states)
     uses = tuple(use for use in design.uses if use.alias in selection.aliases or _references_alias(part, use.alias))
     return replace(part, uses=uses)
@@ -60,13 +60,13 @@ def extract_fragment(design: Design, selection: FragmentSelection) -> Design:
 def insert_fragment(
     design: Design, fragment: Design, *, available: Collection[str], offset: Point = (0, 0)
 ) -> InsertResult:
-    """Put a part into a design: names are made free, what leads to no state is left out.
+    """Insert a fragment into a design. Names are made unique, and transitions to missing states are dropped.
 
     Args:
-        design: where it goes.
-        fragment: what `extract_fragment` made, of this design or of another.
-        available: the components that may be used here; what uses others keeps speaking of them.
-        offset: how far the part goes from its own places.
+        design: The target design.
+        fragment: The result of `extract_fragment`, from any design.
+        available: The components that the design can use. References to other components are kept.
+        offset: The displacement of all positions in pixels.
     """
     design, fragment, missing = _insert_uses(design, fragment, available, offset)
     fragment = _with_unique_names(design, fragment)
@@ -76,9 +76,12 @@ def insert_fragment(
         kept = replace(state, at=_translated(state.at, offset), transitions=drop_targets(state.transitions, lost))
         design = add_state(design, _with_unique_ids(kept, taken))
     common = drop_targets(fragment.common.transitions, lost)
-    new = tuple(each for each in _decisions_with_unique_ids(common, taken) if each not in design.common.transitions)
+    new = tuple(item for item in _decisions_with_unique_ids(common, taken) if item not in design.common.transitions)
     design = update_decisions(design, ("common", "transitions"), lambda items: (*items, *new))
-    actions = (*design.common.actions, *(each for each in fragment.common.actions if each not in design.common.actions))
+    actions = (
+        *design.common.actions,
+        *(action for action in fragment.common.actions if action not in design.common.actions),
+    )
     design = replace(design, common=replace(design.common, actions=actions, at=design.common.at or fragment.common.at))
     return InsertResult(design=design, states=tuple(state.name for state in fragment.states), missing=missing)
 
@@ -86,7 +89,7 @@ def insert_fragment(
 def append_decisions(
     design: Design, fragment: Design, state_names: Iterable[str], *, available: Collection[str]
 ) -> InsertResult:
-    """Give the states of these names the common transitions of a part, as their last ones."""
+    """Append the common transitions of a fragment to states."""
     design, fragment, missing = _insert_uses(design, fragment, available, (0, 0))
     lost = _dangling_targets(design, fragment)
     taken = _used_ids(design)
@@ -98,7 +101,7 @@ def append_decisions(
 
 
 def duplicate_decision(design: Design, path: DesignPath) -> Design:
-    """Put the same decision once more, right behind itself."""
+    """Insert a copy of a decision after it."""
     located = find_decision(design, path)
     if located is None:
         return design
@@ -108,22 +111,22 @@ def duplicate_decision(design: Design, path: DesignPath) -> Design:
 
 
 def _references_alias(part: Design, alias: str) -> bool:
-    """Whether anything would change if the component had another alias."""
+    """Return whether the fragment refers to an alias."""
     return rename_alias(part, alias, f"{alias}_") != part
 
 
 def _insert_uses(
-    design: Design, part: Design, known: Collection[str], by: Point
+    design: Design, part: Design, available: Collection[str], offset: Point
 ) -> tuple[Design, Design, tuple[str, ...]]:
     missing = []
     for use in part.uses:
-        there = design.use(use.alias)
-        if there is not None and there.component == use.component:
+        existing = design.use(use.alias)
+        if existing is not None and existing.component == use.component:
             continue
-        alias = unique_name(use.alias, {each.alias for each in (*design.uses, *part.uses)} if there else ())
+        alias = unique_name(use.alias, {other.alias for other in (*design.uses, *part.uses)} if existing else ())
         part = rename_use(part, use.alias, alias)
-        if use.component in known:
-            new = Use(alias=alias, component=use.component, at=_translated(use.at, by))
+        if use.component in available:
+            new = Use(alias=alias, component=use.component, at=_translated(use.at, offset))
             design = replace(design, uses=(*design.uses, new))
         else:
             missing.append(use.component)
@@ -131,15 +134,15 @@ def _insert_uses(
 
 
 def _with_unique_names(design: Design, part: Design) -> Design:
-    """The part with new names for those states whose names are taken; a number at the end is counted on."""
+    """Rename states whose names are taken. A number at the end of a name is incremented."""
     taken = {state.name for state in design.states} | {state.id for state in design.states}
-    busy = taken | {state.name for state in part.states}
+    unavailable = taken | {state.name for state in part.states}
     names: dict[str, str] = {}
     for state in part.states:
         if state.name in taken:
             stem = re.sub(r"\d+\Z", "", state.name) or state.name
-            names[state.name] = _numbered_name(stem, busy)
-            busy.add(names[state.name])
+            names[state.name] = _numbered_name(stem, unavailable)
+            unavailable.add(names[state.name])
     states = (
         replace(state, name=names.get(state.name, state.name), transitions=retarget_all(state.transitions, names))
         for state in part.states
@@ -156,14 +159,14 @@ def _numbered_name(stem: str, taken: Collection[str]) -> str:
 
 
 def _dangling_targets(design: Design, part: Design) -> set[str]:
-    """The names that transitions of the part lead to and nothing has."""
-    there = {state.name for state in (*design.states, *part.states)}
+    """Return the targets of transitions in the fragment that do not exist."""
+    existing = {state.name for state in (*design.states, *part.states)}
     targets = {at.decision.to for at in iter_transitions(part) if isinstance(at.decision, Transition)}
-    return targets - there
+    return targets - existing
 
 
 def _used_ids(design: Design) -> set[str]:
-    """Everything that names code: no two pieces may share it."""
+    """Return all ids and names that identify code."""
     decisions = {located.decision.id for located in iter_decisions(design)}
     actions = {placed.action.id for placed in iter_actions(design) if isinstance(placed.action, RunCode)}
     states = {name for state in design.states for name in (state.id, state.name)}
@@ -171,7 +174,7 @@ def _used_ids(design: Design) -> set[str]:
 
 
 def _with_unique_ids(state: State, taken: set[str]) -> State:
-    """A state whose ids nobody has; those it has are `taken` afterwards."""
+    """Make the ids of a state unique and add them to `taken`."""
     own = "" if state.id in taken else state.id
     taken.update({own, state.name} - {""})
     return replace(
@@ -185,14 +188,14 @@ def _with_unique_ids(state: State, taken: set[str]) -> State:
 
 
 def _actions_with_unique_ids(actions: tuple[Action, ...], taken: set[str]) -> tuple[Action, ...]:
-    def free(action: Action) -> Action:
+    def with_unique_id(action: Action) -> Action:
         return replace(action, id=_unique_id(action.id, taken)) if isinstance(action, RunCode) else action
 
-    return tuple(free(action) for action in actions)
+    return tuple(with_unique_id(action) for action in actions)
 
 
 def _decisions_with_unique_ids(items: tuple[Decision, ...], taken: set[str]) -> tuple[Decision, ...]:
-    def free(item: Decision) -> Decision:
+    def with_unique_id(item: Decision) -> Decision:
         fresh = replace(item, id=_unique_id(item.id, taken))
         if isinstance(fresh, DecisionGroup):
             then, otherwise = (
@@ -202,7 +205,7 @@ def _decisions_with_unique_ids(items: tuple[Decision, ...], taken: set[str]) -> 
             return replace(fresh, then=then, otherwise=otherwise)
         return fresh
 
-    return tuple(free(item) for item in items)
+    return tuple(with_unique_id(item) for item in items)
 
 
 def _unique_id(wanted: str, taken: set[str]) -> str:
@@ -213,5 +216,5 @@ def _unique_id(wanted: str, taken: set[str]) -> str:
     return id_
 
 
-def _translated(at: Point | None, by: Point) -> Point | None:
-    return None if at is None else (at[0] + by[0], at[1] + by[1])
+def _translated(at: Point | None, offset: Point) -> Point | None:
+    return None if at is None else (at[0] + offset[0], at[1] + offset[1])

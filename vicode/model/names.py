@@ -1,4 +1,4 @@
-"""What may be a name, and names in other spellings."""
+"""Validation and conversion of names."""
 
 import keyword
 import re
@@ -10,17 +10,17 @@ _WORD_BOUNDARY = re.compile(r"(?<=[a-z0-9])(?=[A-Z])|(?<=[A-Z])(?=[A-Z][a-z])")
 
 
 def is_valid_name(text: str) -> bool:
-    """A name of a component, alias, parameter, output, variable, constant, enumeration or element."""
+    """Return whether a text is valid as any name other than that of a state."""
     return bool(_NAME.match(text)) and len(text) <= 80
 
 
 def is_valid_state_name(text: str) -> bool:
-    """A state's name may also begin with a digit: `1e3`, `on`, `2_steps`."""
+    """Return whether a text is a valid state name, which may also start with a digit or underscore."""
     return bool(_STATE_NAME.match(text)) and len(text) <= 80
 
 
 def name_from_text(text: str) -> str:
-    """The name that a text comes nearest to: `My robot` as `MyRobot`; empty if there is none."""
+    """Convert a text to a name, such as `My robot` to `MyRobot`. Return an empty string if this fails."""
     plain = unicodedata.normalize("NFKD", text).encode("ascii", "ignore").decode()
     words = re.findall(r"[A-Za-z0-9_]+", plain)
     name = "".join(word[:1].upper() + word[1:] for word in words).lstrip("0123456789_")
@@ -29,11 +29,11 @@ def name_from_text(text: str) -> str:
 
 
 def snake_case(name: str) -> str:
-    """`LookForBall` as `look_for_ball`."""
+    """Convert a name such as `LookForBall` to `look_for_ball`."""
     return _WORD_BOUNDARY.sub("_", name).lower()
 
 
 def python_attribute_name(name: str) -> str:
-    """A name of XABSL as an attribute of Python: `ball.seen` as `ball_seen`, `class` as `class_`."""
+    """Convert an XABSL name to a Python attribute: `ball.seen` to `ball_seen`, `class` to `class_`."""
     plain = name.replace(".", "_")
     return f"{plain}_" if keyword.iskeyword(plain) else plain

@@ -1,4 +1,4 @@
-"""A project: the designs of a folder and all that is declared for them in project.yaml."""
+"""A project: the designs of a folder and the declarations of project.yaml."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -10,15 +10,15 @@ LANGUAGES = ("python", "xabsl")
 CODE_LANGUAGES = ("python", "cpp", "xabsl")
 """The languages that code in a design may be written in."""
 WORLD, INTERNAL = "world", "internal"
-"""Implementations that vicode writes: one hands everything on to the world, one keeps variables for all."""
+"""Generated implementations: WORLD delegates to the world, INTERNAL stores shared variables."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Enumeration:
-    """A named type; its literals are written `Side.left`. `elements` are pairs of name and doc.
+    """An enumeration type with literals such as `Side.left`. `elements` are pairs of name and doc.
 
-    `internal` says that XABSL's engine numbers them, and not the robot's program. `xabsl_elements` are pairs of an
-    element and its name in XABSL, where that is another.
+    If `internal`, the XABSL engine numbers the elements instead of the robot program. `xabsl_elements` are pairs of an
+    element and its name in XABSL, where they differ.
     """
 
     name: str
@@ -30,16 +30,15 @@ class Enumeration:
 
     @property
     def element_names(self) -> tuple[str, ...]:
-        """Names of the elements in order."""
         return tuple(name for name, _doc in self.elements)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Interface:
-    """What others see of a component: hand-written ones are declared so, a design has one by itself.
+    """The interface of a component, declared in project.yaml or derived from a design.
 
-    `implementation` is "module:Class", or WORLD or INTERNAL for one that vicode writes; empty for one that comes from
-    a design. Others may read `outputs` and `variables`, and set the latter.
+    `implementation` is "module:Class" or, for generated classes, WORLD or INTERNAL; empty for a design. Other
+    components can read `outputs` and `variables`, and set `variables`.
     """
 
     component: str
@@ -54,30 +53,27 @@ class Interface:
 
     @property
     def is_generated(self) -> bool:
-        """Whether its class is written by vicode, for the world or to keep variables."""
         return self.implementation in (WORLD, INTERNAL)
 
     @property
     def readable(self) -> tuple[Declaration, ...]:
-        """What others may read."""
+        """Outputs and variables."""
         return self.outputs + self.variables
 
     def output(self, name: str) -> Declaration | None:
-        """The output or variable of this name, which may be read."""
+        """Return a readable output or variable."""
         return next((output for output in self.readable if output.name == name), None)
 
     def variable(self, name: str) -> Declaration | None:
-        """The variable of this name, which may be set."""
         return next((variable for variable in self.variables if variable.name == name), None)
 
     def parameter(self, name: str) -> Declaration | None:
-        """The parameter of this name."""
         return next((parameter for parameter in self.parameters if parameter.name == name), None)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Agent:
-    """A name for running the project from one root component."""
+    """A named entry point with a root component."""
 
     name: str
     root: str
@@ -88,10 +84,10 @@ class Agent:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Project:
-    """All that one folder of designs declares.
+    """The designs and declarations of a folder.
 
-    `world` is "module:Class", `generated` the output folder, relative to the project's folder. `unreadable` are components
-    whose designs are there and cannot be read, each with its file.
+    `world` is "module:Class", `generated` the output folder, relative to the project folder. `unreadable` are pairs of
+    component and file for designs that cannot be read.
     """
 
     name: str
@@ -108,29 +104,25 @@ class Project:
     _interfaces: dict[str, "Interface"] = field(default_factory=dict, init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
-        """Index the interfaces once; the first of two with one name wins, and a check reports the second."""
+        """Index the interfaces. The first of several with the same name is used; P201 reports the others."""
         for interface in (*self.components, *(derive_interface(design) for design in self.designs)):
             self._interfaces.setdefault(interface.component, interface)
 
     def design(self, component: str) -> Design | None:
-        """The design of a component, None when it is hand-written or unknown."""
+        """Return the design of a component, None if it is hand-written or unknown."""
         return next((design for design in self.designs if design.component == component), None)
 
     def interface(self, component: str) -> Interface | None:
-        """What a component shows to others, None when nothing declares it."""
         return self._interfaces.get(component)
 
     def interfaces(self) -> Mapping[str, Interface]:
-        """Every known component by name."""
         return self._interfaces
 
     def enumeration(self, name: str) -> Enumeration | None:
-        """The enumeration of this name."""
         return next((enumeration for enumeration in self.enumerations if enumeration.name == name), None)
 
 
 def derive_interface(design: Design) -> Interface:
-    """What a design shows to the components that use it."""
     return Interface(
         component=design.component,
         doc=design.doc,

@@ -1,4 +1,4 @@
-"""The texts of a design, all in one walk, and the one edit that puts another text in the place of any of them."""
+"""Enumeration and replacement of the texts of a design."""
 
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace
@@ -24,7 +24,7 @@ Rewrite = Callable[[str], str]
 
 
 class TextKind(StrEnum):
-    """What a text of a design is."""
+    """The kind of a text."""
 
     CODE = "code"
     EXPRESSION = "expression"
@@ -33,7 +33,7 @@ class TextKind(StrEnum):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LocatedText:
-    """A text at its place; `language` of code, "" of anything else."""
+    """A text with its path; `language` is set for code only."""
 
     path: DesignPath
     kind: TextKind
@@ -42,7 +42,7 @@ class LocatedText:
 
 
 def iter_texts(design: Design) -> Iterator[LocatedText]:
-    """Every text that a person may want to search: docs, expressions, code in all its languages."""
+    """Yield the searchable texts: docs, expressions, and code in all languages."""
     for path, doc in _iter_docs(design):
         if doc:
             yield LocatedText(path=path, kind=TextKind.DOC, text=doc)
@@ -54,7 +54,7 @@ def iter_texts(design: Design) -> Iterator[LocatedText]:
 
 
 def rewrite_text(design: Design, path: DesignPath, rewrite: Rewrite) -> Design:
-    """The design with another text where a path of `iter_texts` leads; a path to nothing changes nothing."""
+    """Rewrite the text at a path from `iter_texts`. An unknown path changes nothing."""
     changed: Design = _rewrite(design, path, rewrite)
     return changed
 
@@ -70,7 +70,7 @@ def _iter_docs(design: Design) -> Iterator[tuple[DesignPath, str]]:
         yield (*located.path, "doc"), located.decision.doc
 
 
-# Where the words of a path are not the names of the attributes.
+# Path keys that differ from attribute names.
 _ATTRIBUTE_BY_KEY: Mapping[type, Mapping[str, str]] = {
     DecisionGroup: {"else": "otherwise"},
     Call: {"with": "arguments"},
@@ -81,7 +81,7 @@ _GUARD_KEYS = ("when", "after", "code")
 
 
 def _rewrite(value: Any, path: DesignPath, rewrite: Rewrite) -> Any:
-    """The value with the text below it rewritten, itself if the path leads nowhere."""
+    """Rewrite the text at a path below a value. Return the value unchanged if the path does not exist."""
     if not path:
         return rewrite(value) if isinstance(value, str) else value
     key, rest = path[0], path[1:]
@@ -99,13 +99,13 @@ def _rewrite(value: Any, path: DesignPath, rewrite: Rewrite) -> Any:
 
 
 def _rewrite_item(item: Any, at: int, path: DesignPath, rewrite: Rewrite) -> Any:
-    """An item of a list is found by its number or by its name."""
+    """Rewrite a list item if the first key is its index or name."""
     key, rest = path[0], path[1:]
     match item:
         case State(name=name) | Declaration(name=name) if isinstance(key, str):
             return _rewrite(item, rest, rewrite) if name == key else item
         case Call(alias=alias, arguments=arguments) if isinstance(key, str):
-            # Below `modulates` a parameter follows the alias at once.
+            # In `modulates`, parameters follow the alias directly.
             return replace(item, arguments=_rewrite(arguments, rest, rewrite)) if alias == key else item
         case (str(name), str(text)):
             return (name, rewrite(text)) if name == key and not rest else item

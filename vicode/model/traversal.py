@@ -1,4 +1,4 @@
-"""Questions to a design: its decisions, expressions and code, each with the path that leads there."""
+"""Traversal of the decisions, actions, expressions and code of a design, with their paths."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -24,9 +24,9 @@ from vicode.model.design import (
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LocatedDecision:
-    """A decision at its place: `source` is a state's name or COMMON.
+    """A decision with its path; `source` is a state name or COMMON.
 
-    `groups` are the groups around it, outermost first, each with whether the decision is on its `then` side.
+    `groups` are the enclosing groups, outermost first, each with whether the decision is in its `then` branch.
     """
 
     source: str
@@ -37,9 +37,9 @@ class LocatedDecision:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LocatedExpression:
-    """A piece of text at its place.
+    """An expression with its path.
 
-    `expected` is the type its place asks for, "" for any; `state` the state it belongs to, "" for none.
+    `expected` is the expected type, "" for any; `state` the state it belongs to, "" for none.
     """
 
     path: DesignPath
@@ -50,7 +50,7 @@ class LocatedExpression:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LocatedAction:
-    """An action at its place; `phase` is enter, actions, modulates or leave; `state` a name or COMMON."""
+    """An action with its path; `phase` is enter, actions, modulates or leave; `state` a name or COMMON."""
 
     state: str
     phase: str
@@ -60,7 +60,7 @@ class LocatedAction:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LocatedCode:
-    """Hand-written code at its place; `role` is module, members, action or predicate; `id` if it was given one."""
+    """Hand-written code with its path; `role` is module, members, action or predicate."""
 
     path: DesignPath
     role: str
@@ -70,19 +70,17 @@ class LocatedCode:
 
 
 def iter_decisions(design: Design) -> Iterator[LocatedDecision]:
-    """Every decision, groups before what they hold: the common ones first, then state by state."""
+    """Yield all decisions, common ones first. Groups precede their content."""
     yield from _iter_items(design.common.transitions, COMMON, ("common", "transitions"), ())
     for state in design.states:
         yield from iter_state_decisions(state)
 
 
 def iter_state_decisions(state: State) -> Iterator[LocatedDecision]:
-    """The decisions of one state."""
     yield from _iter_items(state.transitions, state.name, ("states", state.name, "transitions"), ())
 
 
 def iter_transitions(design: Design) -> Iterator[LocatedDecision]:
-    """Only the transitions among the decisions."""
     return (located for located in iter_decisions(design) if isinstance(located.decision, Transition))
 
 
@@ -98,18 +96,19 @@ def _iter_items(
 
 
 def find_decision(design: Design, path: DesignPath) -> LocatedDecision | None:
-    """The decision a path leads to."""
     match path:
         case ("states", str(name), "transitions", *_):
-            near = (located for state in design.states if state.name == name for located in iter_state_decisions(state))
+            candidates = (
+                located for state in design.states if state.name == name for located in iter_state_decisions(state)
+            )
         case _:
             common = design.common.transitions
-            near = (located for located in _iter_items(common, COMMON, ("common", "transitions"), ()))
-    return next((located for located in near if located.path == path), None)
+            candidates = (located for located in _iter_items(common, COMMON, ("common", "transitions"), ()))
+    return next((located for located in candidates if located.path == path), None)
 
 
 def iter_actions(design: Design) -> Iterator[LocatedAction]:
-    """Every action: the common ones, then state by state enter, actions, modulates, leave."""
+    """Yield all actions: common ones, then enter, actions, leave and modulates of each state."""
     for index, action in enumerate(design.common.actions):
         yield LocatedAction(state=COMMON, phase="actions", path=("common", "actions", index), action=action)
     for state in design.states:
@@ -123,9 +122,9 @@ def iter_actions(design: Design) -> Iterator[LocatedAction]:
 
 
 def iter_expressions(design: Design) -> Iterator[LocatedExpression]:
-    """Every expression: initial values, guards, values of `set`, parameters of calls.
+    """Yield all expressions: initial values, guards, assigned values, arguments of calls.
 
-    The types of set and with values depend on the declarations: `expected` is "" there.
+    The types of assigned values and arguments depend on declarations, so `expected` is "".
     """
     for section, declaration in design.declarations():
         yield from _iter_initial_values(section, declaration)
@@ -161,7 +160,6 @@ def _iter_action_expressions(placed: LocatedAction) -> Iterator[LocatedExpressio
 
 
 def iter_code(design: Design) -> Iterator[LocatedCode]:
-    """Every piece of hand-written code."""
     if design.module.texts:
         yield LocatedCode(path=("module",), role="module", code=design.module)
     if design.members.texts:
@@ -180,7 +178,7 @@ def iter_code(design: Design) -> Iterator[LocatedCode]:
 
 
 def has_code(state: State) -> bool:
-    """Whether a state holds hand-written code, in its actions or its guards."""
+    """Return whether the actions or guards of a state contain hand-written code."""
     actions = (*state.enter, *state.actions, *state.leave)
     return any(isinstance(action, RunCode) for action in actions) or any(
         located.decision.guard.code is not None for located in iter_state_decisions(state)
@@ -188,9 +186,9 @@ def has_code(state: State) -> bool:
 
 
 def is_exhaustive(decision: Decision) -> bool:
-    """Whether nothing after it can be reached.
+    """Return whether later decisions are never tested.
 
-    So it is for a transition or stay without guard, and for a group that ends on every way.
+    This holds for a transition or stay without a guard, and for a group whose branches are all exhaustive.
     """
     if isinstance(decision, Transition | Stay):
         return decision.guard.is_empty

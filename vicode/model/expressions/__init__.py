@@ -1,4 +1,4 @@
-"""Expressions of guards, parameters and assignments: Python's syntax, a closed grammar, one small typed tree."""
+"""Expressions in guards, arguments and assignments: a subset of Python syntax with a typed tree."""
 
 from vicode.model.expressions.functions import FUNCTIONS, BuiltinFunction
 from vicode.model.expressions.parse import ExpressionDiagnostic, ParsedExpression, parse_expression

@@ -1,4 +1,4 @@
-"""Gives every node of a parsed expression its meaning and its type."""
+"""Name resolution and type checking of expressions."""
 
 import ast
 import math
@@ -39,59 +39,57 @@ _EXACT_INT = 2**53
 
 @dataclass
 class ExpressionBinder:
-    """Binds one expression to a scope, collecting mistakes as (code, message, mend, span)."""
+    """Binds an expression to a scope. Collects diagnostics as (code, message, fix, span)."""
 
     scope: Scope
     text: str
     diagnostics: list[tuple[str, str, str, Span]] = field(default_factory=list)
 
     def bind_expected(self, syntax: ast.expr, expected: str | None) -> Expr | None:
-        """Bind, and ask for a type where the place has one."""
         node = self.bind(syntax)
         if node is not None and expected is not None:
             self.require_type(node, expected)
         return node
 
     def bind(self, syntax: ast.expr) -> Expr | None:
-        """The typed node of a piece of syntax, None after a mistake that leaves nothing to go on with."""
+        """Return the typed node for syntax, None after an error."""
         bind = _BINDERS.get(type(syntax))
         if bind is None:
-            self.report("E302", "this is Python, but not part of expressions", "use a 'code' predicate for it", syntax)
+            self.report(
+                "E302", "this Python syntax is not supported in expressions", "use a 'code' predicate instead", syntax
+            )
             return None
         return bind(self, syntax)
 
     def require_type(self, node: Expr, expected: str) -> None:
-        """Report a node whose type does not serve as `expected`."""
+        """Report a node whose type is not assignable to `expected`."""
         if is_assignable(node.type, expected):
             return
-        mend = ""
+        fix = ""
         if expected == BOOL and node.type in (INT, FLOAT):
-            mend = "compare it, for example != 0"
+            fix = "add a comparison, such as != 0"
         elif expected == INT and node.type == FLOAT:
-            mend = "write int(…), floor(…) or round(…)"
-        self.report_span("E304", f"expected {expected}, but this is {node.type}", mend, node.span)
+            fix = "convert it with int(…), floor(…) or round(…)"
+        self.report_span("E304", f"expected {expected}, found {node.type}", fix, node.span)
 
     def require_number(self, node: Expr) -> None:
-        """Report a node that is no number."""
         if node.type not in (INT, FLOAT, UNKNOWN):
-            self.report_span("E304", f"expected a number, but this is {node.type}", "", node.span)
+            self.report_span("E304", f"expected a number, found {node.type}", "", node.span)
 
     def get_span(self, syntax: ast.expr | ast.keyword) -> Span:
-        """Characters of the text that a piece of syntax covers."""
+        """Return the span of syntax in the text."""
         lead = len(self.text) - len(self.text.lstrip())
         first, last = syntax.col_offset, syntax.end_col_offset or syntax.col_offset + 1
         if self.text.isascii():
             return (lead + first, lead + last)
-        # Python counts bytes of UTF-8; blanks were made one byte each when the text was copied.
+        # Python counts UTF-8 bytes; the parser replaced whitespace by spaces of one byte.
         data = "".join(" " if char.isspace() else char for char in self.text).strip().encode()
         return (lead + len(data[:first].decode(errors="ignore")), lead + len(data[:last].decode(errors="ignore")))
 
     def report(self, code: str, message: str, fix: str, syntax: ast.expr | ast.keyword) -> None:
-        """Note a mistake at a piece of syntax."""
         self.report_span(code, message, fix, self.get_span(syntax))
 
     def report_span(self, code: str, message: str, fix: str, span: Span) -> None:
-        """Note a mistake at characters of the text."""
         self.diagnostics.append((code, message, fix, span))
 
     def _bind_constant(self, syntax: ast.Constant) -> Expr | None:
@@ -103,10 +101,12 @@ class ExpressionBinder:
         if isinstance(value, float) and math.isfinite(value):
             return Number(value=value, type=FLOAT, span=span)
         if isinstance(value, int | float) and not isinstance(value, bool):
-            self.report("E302", "the number is larger than any that all languages hold", "write a smaller one", syntax)
+            self.report("E302", "this number is too large for some target languages", "use a smaller number", syntax)
             return None
-        mend = "use an enumeration" if isinstance(value, str) else "write a number"
-        self.report("E302", "only numbers, True, False and enumeration elements can be written", mend, syntax)
+        fix = "use an enumeration" if isinstance(value, str) else "use a number"
+        self.report(
+            "E302", "unsupported literal: only numbers, True, False and enumeration elements are allowed", fix, syntax
+        )
         return None
 
     def _bind_name(self, syntax: ast.Name) -> Expr | None:
@@ -121,20 +121,20 @@ class ExpressionBinder:
         if name in _STATUSES:
             return StatusFlag(name=name, span=span)
         if name in self.scope.uses:
-            self.report("E303", f"'{name}' is a component", f"read one of its outputs: {name}.…", syntax)
+            self.report("E303", f"'{name}' is a component", f"use one of its outputs: {name}.…", syntax)
             return None
         if name in self.scope.enumerations:
-            self.report("E303", f"'{name}' is an enumeration", f"write one of its elements: {name}.…", syntax)
+            self.report("E303", f"'{name}' is an enumeration", f"use one of its elements: {name}.…", syntax)
             return None
         known = {*self.scope.symbols, *_TIMES, *_STATUSES, *self.scope.uses}
         self.report(
-            "E303", f"'{name}' is not declared", did_you_mean(name, known, "declare it, or correct the name"), syntax
+            "E303", f"'{name}' is not declared", did_you_mean(name, known, "declare it or correct the name"), syntax
         )
         return None
 
     def _bind_attribute(self, syntax: ast.Attribute) -> Expr | None:
         if not isinstance(syntax.value, ast.Name):
-            self.report("E302", "only component.output and Enumeration.element have a dot", "", syntax)
+            self.report("E302", "'.' is allowed only in component.output and Enumeration.element", "", syntax)
             return None
         owner, name = syntax.value.id, syntax.attr
         if owner in self.scope.uses:
@@ -142,29 +142,30 @@ class ExpressionBinder:
         if owner in self.scope.enumerations:
             return self._bind_element(owner, name, syntax)
         known = {*self.scope.uses, *self.scope.enumerations}
-        mend = did_you_mean(owner, known, f"add it to 'uses', as {owner}: ComponentName")
-        self.report("E303", f"'{owner}' is neither a used component nor an enumeration", mend, syntax.value)
+        fix = did_you_mean(owner, known, f"add {owner}: ComponentName to 'uses'")
+        self.report("E303", f"'{owner}' is neither a used component nor an enumeration", fix, syntax.value)
         return None
 
     def _bind_element(self, enumeration: str, name: str, syntax: ast.Attribute) -> Expr | None:
         elements = self.scope.enumerations[enumeration]
         if name in elements:
             return EnumElement(element=name, type=enumeration, span=self.get_span(syntax))
-        mend = did_you_mean(name, elements, f"it has {', '.join(elements) or 'none'}")
-        self.report("E306", f"'{enumeration}' has no element '{name}'", mend, syntax)
+        fix = did_you_mean(
+            name, elements, f"use one of {', '.join(elements)}" if elements else "add elements to the enumeration"
+        )
+        self.report("E306", f"'{enumeration}' has no element '{name}'", fix, syntax)
         return None
 
     def bind_output(self, alias: str, name: str, syntax: ast.Attribute) -> Expr | None:
-        """An output read without arguments."""
         interface = self.scope.uses[alias]
         if interface is None:
             return OutputRef(alias=alias, output=name, type=UNKNOWN, span=self.get_span(syntax))
         output = interface.output(name)
         if output is None:
-            mend = did_you_mean(
-                name, (each.name for each in interface.readable), f"declare it in {interface.component}"
+            fix = did_you_mean(
+                name, (output.name for output in interface.readable), f"declare it in {interface.component}"
             )
-            self.report("E303", f"'{interface.component}' has no output '{name}'", mend, syntax)
+            self.report("E303", f"'{interface.component}' has no output '{name}'", fix, syntax)
             return None
         if output.arguments is not None:
             self.report("E305", f"'{alias}.{name}' is a function", f"call it: {alias}.{name}(…)", syntax)
@@ -181,7 +182,7 @@ class ExpressionBinder:
         if isinstance(syntax.op, ast.USub):
             self.require_number(operand)
             return Minus(operand=operand, type=operand.type, span=self.get_span(syntax))
-        self.report("E302", "only 'not' and '-' stand before a value", "leave it out", syntax)
+        self.report("E302", "unsupported unary operator: only 'not' and '-' are allowed", "remove the operator", syntax)
         return operand
 
     def _bind_binary(self, syntax: ast.BinOp) -> Expr | None:
@@ -189,7 +190,10 @@ class ExpressionBinder:
         left, right = self.bind(syntax.left), self.bind(syntax.right)
         if operator is None:
             self.report(
-                "E302", "only + - * / // % calculate here", "use a listed function or a 'code' predicate", syntax
+                "E302",
+                "unsupported operator: only + - * / // % are allowed",
+                "use a built-in function or a 'code' predicate",
+                syntax,
             )
             return None
         if left is None or right is None:
@@ -213,7 +217,7 @@ class ExpressionBinder:
         values = [self.bind(value) for value in (syntax.left, *syntax.comparators)]
         operators = [_COMPARISON_OPERATORS.get(type(operator)) for operator in syntax.ops]
         if None in operators:
-            self.report("E302", "only < <= > >= == != compare here", "", syntax)
+            self.report("E302", "unsupported comparison: only < <= > >= == != are allowed", "", syntax)
             return None
         bound = tuple(value for value in values if value is not None)
         if len(bound) < len(values):
@@ -229,7 +233,7 @@ class ExpressionBinder:
             self.report_span("E304", message, "", (left.span[0], right.span[1]))
         elif operator not in ("==", "!=") and left.type not in (INT, FLOAT, UNKNOWN):
             span = (left.span[0], right.span[1])
-            self.report_span("E304", f"{left.type} has no order", "compare with == or !=", span)
+            self.report_span("E304", f"{left.type} values are not ordered", "compare with == or !=", span)
 
     def _bind_ternary(self, syntax: ast.IfExp) -> Expr | None:
         test = self.bind_expected(syntax.test, BOOL)
@@ -238,7 +242,12 @@ class ExpressionBinder:
             return None
         type_ = common_type(then.type, otherwise.type)
         if type_ is None:
-            self.report("E304", f"one side is {then.type}, the other {otherwise.type}", "give both one type", syntax)
+            self.report(
+                "E304",
+                f"the branches have different types: {then.type} and {otherwise.type}",
+                "use the same type",
+                syntax,
+            )
         return Ternary(test=test, then=then, otherwise=otherwise, type=type_ or UNKNOWN, span=self.get_span(syntax))
 
 
@@ -256,12 +265,12 @@ _BINDERS: dict[type[ast.expr], Callable[..., Expr | None]] = {
 
 
 def is_assignable(type_: str, expected: str) -> bool:
-    """Whether a value of a type may stand where another is expected: an int serves as float."""
+    """Return whether a value can be used where `expected` is required. An int is assignable to float."""
     return type_ == expected or UNKNOWN in (type_, expected) or (type_ == INT and expected == FLOAT)
 
 
 def common_type(left: str, right: str) -> str | None:
-    """The type that holds both, None when there is none."""
+    """Return the common type of two types, None if there is none."""
     if right in (left, UNKNOWN):
         return left
     if left == UNKNOWN:

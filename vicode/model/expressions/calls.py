@@ -1,4 +1,4 @@
-"""Binds calls in expressions: done(x), listed functions, outputs that take arguments."""
+"""Binding of calls: done(x), built-in functions, outputs with arguments."""
 
 import ast
 from typing import TYPE_CHECKING
@@ -13,27 +13,26 @@ if TYPE_CHECKING:
 
 
 class CallBinder:
-    """The part of a `Binder` that knows calls."""
+    """Binds calls for an `ExpressionBinder`."""
 
     def __init__(self, binder: "ExpressionBinder") -> None:
-        """Work for a binder: its scope is read, its mistakes are added to."""
         self.binder = binder
 
     def bind(self, syntax: ast.Call) -> Expr | None:
-        """The node of a call, None after a mistake."""
+        """Return the node of a call, None after an error."""
         match syntax.func:
             case ast.Name(id="done"):
                 return self._bind_done(syntax)
             case ast.Name(id=name) if name in FUNCTIONS:
                 return self._bind_function_call(FUNCTIONS[name], syntax)
             case ast.Name(id=name):
-                mend = did_you_mean(name, [*FUNCTIONS, "done"], "use a listed function or a 'code' predicate")
-                self.binder.report("E303", f"there is no function '{name}'", mend, syntax.func)
+                fix = did_you_mean(name, [*FUNCTIONS, "done"], "use a built-in function or a 'code' predicate")
+                self.binder.report("E303", f"unknown function '{name}'", fix, syntax.func)
             case ast.Attribute(value=ast.Name(id=alias), attr=name) if alias in self.binder.scope.uses:
                 return self._bind_output_call(alias, name, syntax)
             case ast.Attribute(value=ast.Name(id=alias)):
-                mend = did_you_mean(alias, self.binder.scope.uses, "declare it in 'uses'")
-                self.binder.report("E303", f"'{alias}' is not a used component", mend, syntax.func)
+                fix = did_you_mean(alias, self.binder.scope.uses, "declare it in 'uses'")
+                self.binder.report("E303", f"'{alias}' is not a used component", fix, syntax.func)
             case _:
                 self.binder.report("E302", "only functions and outputs can be called", "", syntax)
         return None
@@ -43,10 +42,12 @@ class CallBinder:
             case [ast.Name(id=alias)] if alias in self.binder.scope.uses and not syntax.keywords:
                 return Done(alias=alias, span=self.binder.get_span(syntax))
             case [ast.Name(id=alias) as name]:
-                mend = did_you_mean(alias, self.binder.scope.uses, "declare it in 'uses'")
-                self.binder.report("E303", f"'{alias}' is not a used component", mend, name)
+                fix = did_you_mean(alias, self.binder.scope.uses, "declare it in 'uses'")
+                self.binder.report("E303", f"'{alias}' is not a used component", fix, name)
             case _:
-                self.binder.report("E305", "done takes the name of one used component", "write done(alias)", syntax)
+                self.binder.report(
+                    "E305", "done takes one argument, the alias of a used component", "use done(alias)", syntax
+                )
         return None
 
     def _bind_function_call(self, function: BuiltinFunction, syntax: ast.Call) -> Expr | None:
@@ -55,7 +56,7 @@ class CallBinder:
         count = len(function.parameter_types)
         if syntax.keywords or len(arguments) < count or (len(arguments) > count and not function.is_variadic):
             wanted = f"{count} or more" if function.is_variadic else str(count)
-            message = f"{function.name} takes {wanted} argument{'s' * (count != 1)}, in order"
+            message = f"{function.name} takes {wanted} argument{'s' * (count != 1)}"
             self.binder.report("E305", message, f"{function.name}: {function.doc}", syntax)
             return None
         if len(bound) < len(arguments):
@@ -74,13 +75,13 @@ class CallBinder:
             return OutputRef(alias=alias, output=name, arguments=(), type=UNKNOWN, span=span)
         output = interface.output(name)
         if output is None:
-            mend = did_you_mean(
-                name, (each.name for each in interface.readable), f"declare it in {interface.component}"
+            fix = did_you_mean(
+                name, (output.name for output in interface.readable), f"declare it in {interface.component}"
             )
-            self.binder.report("E303", f"'{interface.component}' has no output '{name}'", mend, syntax.func)
+            self.binder.report("E303", f"'{interface.component}' has no output '{name}'", fix, syntax.func)
             return None
         if output.arguments is None:
-            self.binder.report("E305", f"'{alias}.{name}' takes no arguments", f"write {alias}.{name}", syntax)
+            self.binder.report("E305", f"'{alias}.{name}' takes no arguments", f"use {alias}.{name}", syntax)
             return None
         pairs = self._bind_arguments(output, output.arguments, syntax)
         if pairs is None:
@@ -91,17 +92,20 @@ class CallBinder:
     def _bind_arguments(
         self, output: Declaration, declared: tuple[Declaration, ...], syntax: ast.Call
     ) -> tuple[tuple[str, Expr], ...] | None:
-        """Arguments by name in the order written; positional ones take the declared names in order."""
+        """Bind the arguments to the declared names, in source order."""
         by_name = {argument.name: argument for argument in declared}
         names = [argument.name for argument in declared]
         if len(syntax.args) > len(names):
-            self.binder.report("E305", f"'{output.name}' takes {len(names)} arguments", "leave the others out", syntax)
+            self.binder.report("E305", f"'{output.name}' takes {len(names)} arguments", "remove the others", syntax)
             return None
-        given = [*zip(names, syntax.args, strict=False), *((each.arg or "", each.value) for each in syntax.keywords)]
+        given = [
+            *zip(names, syntax.args, strict=False),
+            *((keyword.arg or "", keyword.value) for keyword in syntax.keywords),
+        ]
         pairs: list[tuple[str, Expr]] = []
         for name, value in given:
             if name not in by_name or name in dict(pairs):
-                problem = "is given twice" if name in by_name else f"is not an argument of '{output.name}'"
+                problem = "is passed twice" if name in by_name else f"is not an argument of '{output.name}'"
                 self.binder.report("E305", f"'{name}' {problem}", did_you_mean(name, names), value)
                 return None
             node = self.binder.bind_expected(value, self.binder.scope.type_of(by_name[name]))
@@ -117,8 +121,8 @@ class CallBinder:
         pairs: list[tuple[str, Expr]],
         syntax: ast.Call,
     ) -> tuple[tuple[str, Expr], ...] | None:
-        missing = [each.name for each in declared if not each.initial and each.name not in dict(pairs)]
+        missing = [argument.name for argument in declared if not argument.initial and argument.name not in dict(pairs)]
         if missing:
-            self.binder.report("E305", f"'{output.name}' needs {', '.join(missing)}", f"add {missing[0]}=…", syntax)
+            self.binder.report("E305", f"'{output.name}' requires {', '.join(missing)}", f"add {missing[0]}=…", syntax)
             return None
         return tuple(pairs)

@@ -1,6 +1,6 @@
-"""From an expression's text to its typed tree, with every mistake at its characters.
+"""Parsing of expressions to typed trees, with diagnostics.
 
-Python's own parser reads the syntax; only a closed part of it is then let through. Nothing is evaluated.
+The syntax is parsed with the Python parser and then restricted to a subset. Nothing is evaluated.
 """
 
 import ast
@@ -19,7 +19,7 @@ MAX_DEPTH = 60
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ExpressionDiagnostic:
-    """What is wrong with an expression, at `span` of its text."""
+    """An error in an expression; `span` refers to its text."""
 
     rule: Rule
     message: str
@@ -29,7 +29,7 @@ class ExpressionDiagnostic:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ParsedExpression:
-    """The tree, None if there is none, and all mistakes; without mistakes there is a tree and its types are right."""
+    """The tree and all diagnostics. Without diagnostics the tree is present and well typed."""
 
     tree: Expr | None
     diagnostics: tuple[ExpressionDiagnostic, ...] = ()
@@ -39,34 +39,36 @@ def parse_expression(text: str, scope: Scope, expected: str | None = None) -> Pa
     """Parse a text against a scope.
 
     Args:
-        text: An expression in Python's syntax; it may span lines.
-        scope: The names it may use.
-        expected: The type its place asks for (an int also serves as float), None for any.
+        text: An expression in Python syntax; it may contain line breaks.
+        scope: The available names.
+        expected: The expected type, None for any.
     """
-    syntax, mistake = _parse_syntax(text)
+    syntax, diagnostic = _parse_syntax(text)
     if syntax is None:
-        return ParsedExpression(tree=None, diagnostics=(mistake,) if mistake else ())
+        return ParsedExpression(tree=None, diagnostics=(diagnostic,) if diagnostic else ())
     binder = ExpressionBinder(scope=scope, text=text)
     tree = binder.bind_expected(syntax, expected)
-    mistakes = tuple(
-        ExpressionDiagnostic(rule=get_rule(code), message=message, fix=mend, span=span)
-        for code, message, mend, span in binder.diagnostics
+    diagnostics = tuple(
+        ExpressionDiagnostic(rule=get_rule(code), message=message, fix=fix, span=span)
+        for code, message, fix, span in binder.diagnostics
     )
-    return ParsedExpression(tree=tree, diagnostics=mistakes)
+    return ParsedExpression(tree=tree, diagnostics=diagnostics)
 
 
 @lru_cache(maxsize=4096)
 def _parse_syntax(text: str) -> tuple[ast.expr | None, ExpressionDiagnostic | None]:
     if len(text) > MAX_LENGTH:
-        return None, _not_an_expression(f"longer than {MAX_LENGTH} characters", (0, len(text)))
+        return None, _not_an_expression(f"the expression is longer than {MAX_LENGTH} characters", (0, len(text)))
     if not text.strip():
-        return None, _not_an_expression("empty", (0, max(1, len(text))))
+        return None, _not_an_expression("the expression is empty", (0, max(1, len(text))))
     comment = text.find("#")
     if comment >= 0:
-        return None, _not_an_expression("'#' has no meaning here", (comment, len(text)), "put the remark into 'doc'")
+        return None, _not_an_expression(
+            "comments are not allowed in expressions", (comment, len(text)), "move the comment to 'doc'"
+        )
     if "\0" in text:
-        return None, _not_an_expression("a null character", (0, len(text)))
-    # A line break is a blank here; the copy keeps every offset. Leading blanks would be an indentation.
+        return None, _not_an_expression("the expression contains a null character", (0, len(text)))
+    # Replace line breaks by spaces, which keeps all offsets, and remove leading spaces, which would be an indentation.
     copy = text if text.isprintable() else "".join(" " if char.isspace() else char for char in text)
     lead = len(copy) - len(copy.lstrip())
     try:
@@ -75,10 +77,10 @@ def _parse_syntax(text: str) -> tuple[ast.expr | None, ExpressionDiagnostic | No
         start = lead + max(0, min((error.offset or 1) - 1, len(text) - lead - 1))
         return None, _not_an_expression(_format_syntax_error(error.msg), (start, min(start + 1, len(text))))
     except (ValueError, RecursionError, MemoryError):
-        return None, _not_an_expression("too deeply nested", (0, len(text)))
-    # Each level takes at least one character.
+        return None, _not_an_expression("the expression is nested too deeply", (0, len(text)))
+    # Each level has at least one character.
     if len(text) + 2 > MAX_DEPTH and _is_too_deep(parsed):
-        return None, _not_an_expression("too deeply nested", (0, len(text)))
+        return None, _not_an_expression("the expression is nested too deeply", (0, len(text)))
     return parsed, None
 
 
@@ -88,9 +90,9 @@ def _format_syntax_error(message: str) -> str:
 
 
 def _not_an_expression(
-    message: str, span: Span, mend: str = "write one expression, such as ball_seen and x < 40"
+    message: str, span: Span, fix: str = "use a single expression, such as ball_seen and x < 40"
 ) -> ExpressionDiagnostic:
-    return ExpressionDiagnostic(rule=get_rule("E301"), message=message, fix=mend, span=span)
+    return ExpressionDiagnostic(rule=get_rule("E301"), message=message, fix=fix, span=span)
 
 
 def _is_too_deep(root: ast.expr) -> bool:

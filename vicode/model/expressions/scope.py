@@ -1,4 +1,4 @@
-"""The names an expression may use in a design, with their types."""
+"""The names available in expressions of a design, with their types."""
 
 import re
 from collections.abc import Mapping
@@ -11,7 +11,7 @@ from vicode.model.project import Interface, Project
 
 
 class ScopeSymbolKind(StrEnum):
-    """What a bare name stands for."""
+    """The kind of an unqualified name."""
 
     PARAMETER = "parameter"
     OUTPUT = "output"
@@ -21,7 +21,7 @@ class ScopeSymbolKind(StrEnum):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ScopeSymbol:
-    """A bare name: its kind, resolved type and declaration."""
+    """An unqualified name with its kind, type and declaration."""
 
     kind: ScopeSymbolKind
     type: str
@@ -30,18 +30,17 @@ class ScopeSymbol:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Scope:
-    """Names that may be read: own and constant `symbols`, used components by alias (None: not declared anywhere)."""
+    """The readable names: symbols, used components by alias (None: unknown component), and enumerations."""
 
     symbols: Mapping[str, ScopeSymbol] = field(default_factory=dict)
     uses: Mapping[str, Interface | None] = field(default_factory=dict)
     enumerations: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
 
     def type_of(self, declaration: Declaration) -> str:
-        """The type of any declaration, seen with this scope's enumerations."""
         return infer_declaration_type(declaration, self.enumerations)
 
     def find_assignable(self, name: str) -> Declaration | None:
-        """What an assignment to a name sets: an own variable or output, or `alias.variable` of a used component."""
+        """Return the variable or output that an assignment sets, which may be `alias.variable`."""
         alias, dot, variable = name.partition(".")
         if dot:
             interface = self.uses.get(alias)
@@ -52,7 +51,7 @@ class Scope:
 
 
 def build_scope(project: Project, design: Design | None) -> Scope:
-    """What expressions of a design may read; without a design only constants and enumerations."""
+    """Build the scope of a design. Without a design it contains only constants and enumerations."""
     enumerations = {enumeration.name: enumeration.element_names for enumeration in project.enumerations}
     symbols: dict[str, ScopeSymbol] = {}
 
@@ -80,9 +79,9 @@ _ELEMENT = re.compile(r"\s*([A-Za-z]\w*)\s*\.\s*[A-Za-z_]\w*\s*\Z", re.ASCII)
 
 
 def infer_declaration_type(declaration: Declaration, enumerations: Mapping[str, tuple[str, ...]]) -> str:
-    """Its type, read from `initial` where it is not written, without either float.
+    """Return the declared type, or infer it from `initial`; the default is float.
 
-    UNKNOWN for a type that nobody declares.
+    Return UNKNOWN for an undeclared type.
     """
     if declaration.type:
         known = declaration.type in (BOOL, INT, FLOAT) or declaration.type in enumerations

@@ -1,6 +1,6 @@
-"""The typed tree of an expression; every language is spelt from it and analysis reads it.
+"""The typed tree of an expression.
 
-`type` is "bool", "int", "float", an enumeration's name, or UNKNOWN after a mistake; `span` are characters of the text.
+`type` is "bool", "int", "float", the name of an enumeration, or UNKNOWN after an error. `span` refers to the text.
 """
 
 from collections.abc import Iterator
@@ -13,7 +13,7 @@ BOOL, INT, FLOAT, UNKNOWN = "bool", "int", "float", "?"
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Number:
-    """A literal number, never negative."""
+    """A non-negative number literal."""
 
     value: int | float
     type: str
@@ -31,7 +31,7 @@ class Boolean:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class EnumElement:
-    """A literal of an enumeration: `Side.left`; its type is the enumeration's name."""
+    """An enumeration literal such as `Side.left`; its type is the name of the enumeration."""
 
     element: str
     type: str
@@ -40,7 +40,7 @@ class EnumElement:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Variable:
-    """An own variable, output or parameter, or a constant of the project; `kind` says which."""
+    """A variable, output or parameter of the component, or a constant; `kind` is a `ScopeSymbolKind`."""
 
     name: str
     kind: str
@@ -50,7 +50,7 @@ class Variable:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ElapsedTime:
-    """`state_time` or `component_time` (`of` is "state" or "component"), in seconds."""
+    """`state_time` or `component_time` (`kind` is "state" or "component"), in seconds."""
 
     kind: str
     span: Span
@@ -59,7 +59,7 @@ class ElapsedTime:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class StatusFlag:
-    """`action_done` (a component that the active state calls is done) or `conflict` (too many robots are in it)."""
+    """`action_done` (a component called by the active state is done) or `conflict` (its capacity is exceeded)."""
 
     name: str
     span: Span
@@ -68,7 +68,7 @@ class StatusFlag:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Done:
-    """done(alias): the used component was in a final state after its latest work."""
+    """done(alias): whether the used component was in a final state after its last step."""
 
     alias: str
     span: Span
@@ -77,7 +77,7 @@ class Done:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class OutputRef:
-    """An output of a used component; `arguments` are pairs of name and node, None when it takes none."""
+    """An output of a used component; `arguments` are pairs of name and node, None if it takes none."""
 
     alias: str
     output: str
@@ -117,7 +117,7 @@ class Binary:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Comparison:
-    """A chain `a < b <= c`: n operators between n + 1 operands, each operand evaluated once at most, left to right."""
+    """A chain such as `a < b <= c`: n operators and n + 1 operands, each evaluated at most once, left to right."""
 
     operators: tuple[str, ...]
     operands: "tuple[Expr, ...]"
@@ -127,7 +127,7 @@ class Comparison:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Logic:
-    """`and` or `or` of two or more, evaluated left to right until it is decided."""
+    """`and` or `or` with two or more operands, with short-circuit evaluation."""
 
     operator: str
     operands: "tuple[Expr, ...]"
@@ -137,7 +137,7 @@ class Logic:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Ternary:
-    """`then if test else otherwise`; only the chosen side is evaluated."""
+    """`then if test else otherwise`; only the selected branch is evaluated."""
 
     test: "Expr"
     then: "Expr"
@@ -148,7 +148,7 @@ class Ternary:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class FunctionCall:
-    """A listed function applied to arguments."""
+    """A call of a built-in function."""
 
     function: str
     arguments: "tuple[Expr, ...]"
@@ -176,7 +176,7 @@ Expr = (
 
 
 def children(node: Expr) -> tuple[Expr, ...]:
-    """Direct operands in the order they are evaluated."""
+    """Return the direct operands in evaluation order."""
     match node:
         case Not(operand=operand) | Minus(operand=operand):
             return (operand,)
@@ -195,7 +195,7 @@ def children(node: Expr) -> tuple[Expr, ...]:
 
 
 def walk(node: Expr) -> Iterator[Expr]:
-    """The node and all below it, parents first."""
+    """Yield a node and its descendants in pre-order."""
     yield node
     for child in children(node):
         yield from walk(child)

@@ -1,4 +1,4 @@
-"""Three-way merges of designs: what two sides made of one base comes together, what both touched is told."""
+"""Three-way merges of designs and texts."""
 
 from vicode.model.merge.design_merge import Conflict, MergeResult, merge_designs
 from vicode.model.merge.matching import find_renamed_states, find_renamed_uses, match_items

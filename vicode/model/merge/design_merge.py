@@ -1,4 +1,4 @@
-"""Merges designs field by field and thing by thing; renames first, so that they meet the other side's edits."""
+"""Three-way merge of designs. Renames are applied first, so that both sides use the same names."""
 
 from collections import Counter
 from collections.abc import Callable, Collection
@@ -14,7 +14,7 @@ from vicode.model.merge.text_merge import merge_lines
 from vicode.model.traversal import iter_actions, iter_transitions
 
 _ORDERED = {"transitions", "then", "otherwise", "enter", "actions", "leave"}
-# The words of the file, where they are not those of the model; none for what the file has no word for.
+# File keys that differ from field names. Empty: the field has no key in the file.
 _FILE_KEYS: dict[str, DesignPath] = {
     "guard": (),
     "texts": (),
@@ -26,7 +26,7 @@ _FILE_KEYS: dict[str, DesignPath] = {
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Conflict:
-    """Both sides changed one thing, differently; None stands for a thing that is not there."""
+    """Different changes of one item by both sides. None stands for a missing item."""
 
     path: DesignPath
     base: object
@@ -36,20 +36,20 @@ class Conflict:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class MergeResult:
-    """The design with the changes of both sides; at each conflict it holds ours, unless theirs was chosen."""
+    """The merged design. Conflicts are resolved with our side unless theirs was chosen."""
 
     design: Design
     conflicts: tuple[Conflict, ...] = ()
 
 
 def merge_designs(base: Design, ours: Design, theirs: Design, *, theirs_at: Collection[DesignPath] = ()) -> MergeResult:
-    """Bring together what two sides made of `base`.
+    """Merge the changes that two sides made to `base`.
 
     Args:
-        base: What both began with.
-        ours: One side; its order and its choice go first.
+        base: The common ancestor.
+        ours: One side; its order and its changes take precedence.
         theirs: The other side.
-        theirs_at: The paths of conflicts (as an earlier merge of the same three named them) in which theirs is taken.
+        theirs_at: The paths of conflicts, from a previous merge of the same designs, to resolve with their side.
     """
     if theirs in (ours, base):
         return MergeResult(design=ours)
@@ -61,14 +61,14 @@ def merge_designs(base: Design, ours: Design, theirs: Design, *, theirs_at: Coll
     while True:
         merger = _Merger(frozenset(theirs_at), contested)
         design = merger.merge_record((), base, ours, theirs)
-        torn = _torn_references(design, base, (ours, theirs)) - contested
-        if not torn:
+        broken = _broken_references(design, base, (ours, theirs)) - contested
+        if not broken:
             return MergeResult(design=design, conflicts=(*renaming.conflicts, *merger.conflicts))
-        contested |= torn
+        contested |= broken
 
 
 def _unify_names(merger: "_Merger", base: Design, ours: Design, theirs: Design) -> tuple[Design, Design, Design]:
-    """Base and both sides with all renames done everywhere."""
+    """Apply the renames of both sides to all three designs."""
     kinds: tuple[tuple[str, Callable[..., dict[str, str]], Callable[..., Design]], ...] = (
         ("states", find_renamed_states, rename_state),
         ("uses", find_renamed_uses, rename_use),
@@ -82,10 +82,10 @@ def _unify_names(merger: "_Merger", base: Design, ours: Design, theirs: Design) 
     return base, ours, theirs
 
 
-def _torn_references(design: Design, base: Design, sides: tuple[Design, Design]) -> set[DesignPath]:
-    """States and uses that one side removed although the other side refers to them.
+def _broken_references(design: Design, base: Design, sides: tuple[Design, Design]) -> set[DesignPath]:
+    """Return states and uses that one side removed although the other side refers to them.
 
-    A reference that dangles within one side's own design is a finding there, not a conflict between the two.
+    A dangling reference within the design of one side is a finding, not a conflict.
     """
     counts = _count_references(design)
     side_counts = [(side, _count_references(side)) for side in sides]
@@ -99,9 +99,9 @@ def _torn_references(design: Design, base: Design, sides: tuple[Design, Design])
 
 
 def _count_references(design: Design) -> Counter[DesignPath]:
-    """How often each state is a target and each use is called or required, by its path."""
-    targets = (at.decision.to for at in iter_transitions(design) if isinstance(at.decision, Transition))
-    called = (each.action.alias for each in iter_actions(design) if isinstance(each.action, Call))
+    """Count the references to each state and use, by path."""
+    targets = (located.decision.to for located in iter_transitions(design) if isinstance(located.decision, Transition))
+    called = (located.action.alias for located in iter_actions(design) if isinstance(located.action, Call))
     required = (alias for state in design.states for alias in state.requires)
     return Counter((*(("states", name) for name in targets), *(("uses", alias) for alias in (*called, *required))))
 
@@ -112,20 +112,19 @@ def _defines(design: Design, path: DesignPath) -> bool:
 
 
 class _Merger:
-    """Walks three values at once and collects what both sides touched."""
+    """Merges values recursively and collects conflicts."""
 
     def __init__(self, theirs_at: frozenset[DesignPath], contested: frozenset[DesignPath] = frozenset()) -> None:
-        """Take theirs at some paths; removing what is `contested` is a conflict, though the other side kept it."""
+        """Removing a `contested` item is a conflict even if the other side did not change it."""
         self.theirs_at, self.contested = theirs_at, contested
         self.conflicts: list[Conflict] = []
 
     def add_conflict(self, path: DesignPath, base: Any, ours: Any, theirs: Any) -> Any:
-        """Note a conflict; returns the side that is taken."""
+        """Record a conflict and return the chosen side."""
         self.conflicts.append(Conflict(path=path, base=base, ours=ours, theirs=theirs))
         return theirs if path in self.theirs_at else ours
 
     def merge_value(self, path: DesignPath, base: Any, ours: Any, theirs: Any) -> Any:
-        """One value of the three."""
         if theirs in (ours, base):
             return ours
         if ours == base:
@@ -141,23 +140,22 @@ class _Merger:
         return self.add_conflict(path, base, ours, theirs)
 
     def merge_record(self, path: DesignPath, base: Any, ours: Any, theirs: Any) -> Any:
-        """One record of the three, field by field."""
+        """Merge a dataclass field by field."""
         changes: dict[str, Any] = {}
-        for each in fields(base):
-            values = [getattr(side, each.name) for side in (base, ours, theirs)]
-            here = (*path, *_path_step(base, each.name, path))
+        for field in fields(base):
+            values = [getattr(side, field.name) for side in (base, ours, theirs)]
+            here = (*path, *_path_step(base, field.name, path))
             if all(_is_list(value) for value in values):
-                merged: Any = self.merge_items(here, *values, is_keyed=each.name not in _ORDERED)
+                merged: Any = self.merge_items(here, *values, is_keyed=field.name not in _ORDERED)
             else:
                 merged = self.merge_value(here, *values)
             if merged is not values[1]:
-                changes[each.name] = merged
+                changes[field.name] = merged
         return replace(ours, **changes) if changes else ours
 
     def merge_items(
         self, path: DesignPath, base: tuple[Any, ...], ours: tuple[Any, ...], theirs: tuple[Any, ...], *, is_keyed: bool
     ) -> tuple[Any, ...]:
-        """One list of the three."""
         if not self._is_contested(path, base):
             if theirs in (ours, base):
                 return ours
@@ -172,10 +170,13 @@ class _Merger:
         return _resolve_duplicates(self, path, lists, merged) if is_keyed else tuple(merged)
 
     def _is_contested(self, path: DesignPath, base: tuple[Any, ...]) -> bool:
-        return any(each[:-1] == path and each[-1] in {item_key(thing) for thing in base} for each in self.contested)
+        return any(
+            contested[:-1] == path and contested[-1] in {item_key(item) for item in base}
+            for contested in self.contested
+        )
 
     def _merge_item(self, path: DesignPath, base: Any, ours: Any, theirs: Any) -> Any:
-        """One thing of a list, None where it is not (any more)."""
+        """Merge a list item; None stands for a missing item."""
         is_removed = base is not None and (ours is None or theirs is None)
         if is_removed and path in self.contested and not (ours is None and theirs is None):
             return self.add_conflict(path, base, ours, theirs)
@@ -183,25 +184,25 @@ class _Merger:
 
 
 def _resolve_duplicates(merger: _Merger, path: DesignPath, lists: ListVersions, merged: list[Any]) -> tuple[Any, ...]:
-    """A name that both sides gave to different things stays with ours; the other is told."""
+    """Report a conflict if both sides added different items with the same name."""
     kept: dict[Any, Any] = {}
-    doubles = {item_key(thing) for side in (lists.ours, lists.theirs) for thing in _duplicates(side)}
+    duplicate_keys = {item_key(item) for side in (lists.ours, lists.theirs) for item in _duplicates(side)}
     result: list[Any] = []
-    for thing in merged:
-        name = item_key(thing)
-        if name in kept and name not in doubles:
-            merger.add_conflict((*path, str(name)), None, kept[name], thing)
+    for item in merged:
+        name = item_key(item)
+        if name in kept and name not in duplicate_keys:
+            merger.add_conflict((*path, str(name)), None, kept[name], item)
             if (*path, str(name)) in merger.theirs_at:
-                result[result.index(kept[name])] = thing
+                result[result.index(kept[name])] = item
             continue
-        kept[name] = thing
-        result.append(thing)
+        kept[name] = item
+        result.append(item)
     return tuple(result)
 
 
-def _duplicates(things: tuple[Any, ...]) -> list[Any]:
-    names = [item_key(thing) for thing in things]
-    return [thing for thing, name in zip(things, names, strict=True) if names.count(name) > 1]
+def _duplicates(items: tuple[Any, ...]) -> list[Any]:
+    names = [item_key(item) for item in items]
+    return [item for item, name in zip(items, names, strict=True) if names.count(name) > 1]
 
 
 def _path_step(record: Any, field: str, path: DesignPath) -> DesignPath:
@@ -213,10 +214,10 @@ def _path_step(record: Any, field: str, path: DesignPath) -> DesignPath:
 
 
 def _is_list(value: Any) -> bool:
-    """Whether a value holds things; a point or a range is one value made of numbers."""
+    """Return whether a value is a list of items. A point or range is a single value."""
     return isinstance(value, tuple) and not any(isinstance(part, int | float) for part in value)
 
 
-def _is_pair(thing: Any) -> bool:
-    """A name with its text: an assignment, an argument, a code in its language."""
-    return isinstance(thing, tuple) and len(thing) == 2 and all(isinstance(part, str) for part in thing)
+def _is_pair(item: Any) -> bool:
+    """Return whether a value is a pair of name and text: an assignment, an argument, or code in a language."""
+    return isinstance(item, tuple) and len(item) == 2 and all(isinstance(part, str) for part in item)

@@ -1,4 +1,4 @@
-"""Lines up three versions of a list: every thing that survives, in an order that keeps what each side moved."""
+"""Three-way merge of lists that preserves the moves of each side."""
 
 from collections.abc import Callable, Hashable, Sequence
 from dataclasses import dataclass
@@ -8,14 +8,14 @@ from vicode.model.merge.matching import item_key, match_items
 
 PathStep = str | int
 MergeItem = Callable[[PathStep, Any, Any, Any], Any]
-"""What a thing becomes, by its step in the path and its three versions (None: not there); None: it goes."""
+"""Merges an item, given its path step and three versions. None stands for a missing item."""
 ChoosesTheirs = Callable[[], bool]
 _Node = tuple[str, int]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ListVersions:
-    """One list in three versions; the things in it are keyed by name, or stand in an order with a meaning."""
+    """Three versions of a list. Items are identified by name if `is_keyed`, otherwise their order is significant."""
 
     base: tuple[Any, ...]
     ours: tuple[Any, ...]
@@ -24,7 +24,7 @@ class ListVersions:
 
 
 def merge_lists(lists: ListVersions, merge: MergeItem, chooses_theirs: ChoosesTheirs) -> list[Any]:
-    """The merged list; `chooses_theirs` is asked which order to take where both sides moved things."""
+    """Merge the lists. `chooses_theirs` selects the order if both sides moved items."""
     in_ours = match_items(lists.base, lists.ours, is_keyed=lists.is_keyed)
     in_theirs = match_items(lists.base, lists.theirs, is_keyed=lists.is_keyed)
     ours = _nodes("ours", lists.ours, in_ours)
@@ -49,24 +49,24 @@ def merge_lists(lists: ListVersions, merge: MergeItem, chooses_theirs: ChoosesTh
     merged: list[Any] = []
     for node in _merge_order(ours, theirs, chooses_theirs):
         sides = versions(node)
-        there = next(each for each in sides if each is not None)
-        thing = merge(str(item_key(there)) if lists.is_keyed else node[1], *sides)
-        if thing is not None:
-            merged.append(thing)
+        present = next(side for side in sides if side is not None)
+        item = merge(str(item_key(present)) if lists.is_keyed else node[1], *sides)
+        if item is not None:
+            merged.append(item)
     return merged
 
 
-def _nodes(side: str, things: Sequence[Any], matches: dict[int, int]) -> list[_Node]:
-    """Every thing by where it comes from: the base, or this side."""
+def _nodes(side: str, items: Sequence[Any], matches: dict[int, int]) -> list[_Node]:
+    """Identify each item by its origin: the base or this side."""
     origins = {to: at for at, to in matches.items()}
-    return [("base", origins[at]) if at in origins else (side, at) for at in range(len(things))]
+    return [("base", origins[at]) if at in origins else (side, at) for at in range(len(items))]
 
 
 def _added_by_both(lists: ListVersions, ours: list[_Node], theirs: list[_Node]) -> dict[_Node, _Node]:
-    """What both sides added: of the same name, or the same to the letter; from their node to ours."""
+    """Map the items that both sides added, with the same name or equal, from their node to ours."""
 
-    def identity(thing: Any) -> Hashable:
-        return item_key(thing) if lists.is_keyed else thing
+    def identity(item: Any) -> Hashable:
+        return item_key(item) if lists.is_keyed else item
 
     free: dict[Hashable, list[_Node]] = {}
     for node in ours:
@@ -81,19 +81,19 @@ def _added_by_both(lists: ListVersions, ours: list[_Node], theirs: list[_Node]) 
 
 
 def _merge_order(ours: list[_Node], theirs: list[_Node], chooses_theirs: ChoosesTheirs) -> list[_Node]:
-    """All nodes of both sides, and those of the base that both removed left out."""
+    """Order the nodes of both sides, without base items that both removed."""
     shared = set(ours) & set(theirs)
     mine, yours = ([node for node in side if node in shared] for side in (ours, theirs))
     was = sorted(node for node in shared if node[0] == "base")
     has_moved = [node for node in mine if node[0] == "base"] != was
     have_they_moved = [node for node in yours if node[0] == "base"] != was
-    is_torn = has_moved and have_they_moved and mine != yours
-    takes_theirs = chooses_theirs() if is_torn else not has_moved
+    is_conflict = has_moved and have_they_moved and mine != yours
+    takes_theirs = chooses_theirs() if is_conflict else not has_moved
     return _interleave(theirs, ours, after_added=False) if takes_theirs else _interleave(ours, theirs, after_added=True)
 
 
 def _interleave(first: list[_Node], second: list[_Node], *, after_added: bool) -> list[_Node]:
-    """The nodes of `second` that `first` lacks, each put behind the one it follows (and what was added there)."""
+    """Insert the nodes of `second` that `first` lacks after their predecessors (and items added there)."""
     order, known = list(first), set(first)
     before: _Node | None = None
     for node in second:

@@ -1,4 +1,4 @@
-"""Which things of two lists are the same: by name, by id, by what they hold, at last by where they stand."""
+"""Matching of list items between versions: by name, id, content, and finally position."""
 
 from collections import Counter
 from collections.abc import Callable, Hashable, Sequence
@@ -10,11 +10,11 @@ from vicode.model.decisions import retarget
 from vicode.model.design import Call, Declaration, Design, State, Transition, Use
 
 Matches = dict[int, int]
-"""From an index of the older list to one of the newer."""
+"""Maps indices of the old list to indices of the new list."""
 
 
 def match_items(old: Sequence[Any], new: Sequence[Any], *, is_keyed: bool) -> Matches:
-    """What of `old` is still in `new`, and where; keyed things are named, others stand in an order with a meaning."""
+    """Match items of `old` with items of `new`, by name if `is_keyed`."""
     if is_keyed:
         matches = _match_by(item_key, old, new)
         return _match_neighbours(old, new, matches, _is_renamed)
@@ -23,9 +23,9 @@ def match_items(old: Sequence[Any], new: Sequence[Any], *, is_keyed: bool) -> Ma
     return _match_neighbours(old, new, matches, _is_similar)
 
 
-def item_key(thing: Any) -> Hashable:
-    """The name under which a thing stands in its list."""
-    match thing:
+def item_key(item: Any) -> Hashable:
+    """Return the name that identifies an item in a keyed list."""
+    match item:
         case State(name=name) | Declaration(name=name):
             return name
         case Use(alias=alias) | Call(alias=alias):
@@ -33,31 +33,31 @@ def item_key(thing: Any) -> Hashable:
         case (name, _text):
             return str(name)
         case _:
-            return str(thing)
+            return str(item)
 
 
 def find_renamed_states(old: Design, new: Design) -> dict[str, str]:
-    """The states that have another name in `new`, by their old one."""
-    lost = [state for state in old.states if new.state(state.name) is None]
-    found = [state for state in new.states if old.state(state.name) is None]
+    """Map the old names of renamed states to the new ones."""
+    removed = [state for state in old.states if new.state(state.name) is None]
+    added = [state for state in new.states if old.state(state.name) is None]
     renamed: dict[str, str] = {}
-    for state in lost:
-        same = next((each for each in found if _is_same_state(state, each)), None)
+    for state in removed:
+        same = next((candidate for candidate in added if _is_same_state(state, candidate)), None)
         if same is not None:
             renamed[state.name] = same.name
-            found.remove(same)
+            added.remove(same)
     return renamed
 
 
 def find_renamed_uses(old: Design, new: Design) -> dict[str, str]:
-    """The used components that have another alias in `new`, by their old one; a component used once is the same."""
-    lost = [use for use in old.uses if new.use(use.alias) is None]
-    found = [use for use in new.uses if old.use(use.alias) is None]
+    """Map the old aliases of renamed uses to the new ones. Only components that are used once are matched."""
+    removed = [use for use in old.uses if new.use(use.alias) is None]
+    added = [use for use in new.uses if old.use(use.alias) is None]
     is_single = {
-        name for name, count in Counter(use.component for use in (*lost, *found)).items() if count == 2 and name
+        name for name, count in Counter(use.component for use in (*removed, *added)).items() if count == 2 and name
     }
-    after = {use.component: use.alias for use in found if use.component in is_single}
-    return {use.alias: after[use.component] for use in lost if use.component in after}
+    after = {use.component: use.alias for use in added if use.component in is_single}
+    return {use.alias: after[use.component] for use in removed if use.component in after}
 
 
 def _is_same_state(old: State, new: State) -> bool:
@@ -65,65 +65,65 @@ def _is_same_state(old: State, new: State) -> bool:
         return True
     if replace(new, name=old.name, id=old.id, transitions=retarget(new.transitions, new.name, old.name)) == old:
         return True
-    said = [each.name for each in fields(State) if each.name not in ("name", "id", "final", "transitions")]
-    shared: int = sum(bool(getattr(old, name)) and getattr(old, name) == getattr(new, name) for name in said)
+    compared = [field.name for field in fields(State) if field.name not in ("name", "id", "final", "transitions")]
+    shared: int = sum(bool(getattr(old, name)) and getattr(old, name) == getattr(new, name) for name in compared)
     arrows = retarget(new.transitions, new.name, old.name)
     shared += bool(arrows) and arrows == old.transitions
     return shared >= 2
 
 
 def _match_by(key: Callable[[Any], Hashable], old: Sequence[Any], new: Sequence[Any]) -> Matches:
-    """Match equal keys, the second of a key with the second; things without a key stay."""
-    places = {each: at for at, each in enumerate(_numbered(key, new)) if each is not None}
+    """Match the n-th items with equal keys. Items with an empty key are not matched."""
+    new_indices = {entry: at for at, entry in enumerate(_numbered(key, new)) if entry is not None}
     numbered = enumerate(_numbered(key, old))
-    return {at: places[each] for at, each in numbered if each is not None and each in places}
+    return {at: new_indices[entry] for at, entry in numbered if entry is not None and entry in new_indices}
 
 
-def _numbered(key: Callable[[Any], Hashable], things: Sequence[Any]) -> list[tuple[Hashable, int] | None]:
+def _numbered(key: Callable[[Any], Hashable], items: Sequence[Any]) -> list[tuple[Hashable, int] | None]:
     counts: Counter[Hashable] = Counter()
     numbered: list[tuple[Hashable, int] | None] = []
-    for thing in things:
-        name = key(thing)
+    for item in items:
+        name = key(item)
         numbered.append((name, counts[name]) if name != "" else None)
         counts[name] += 1
     return numbered
 
 
-def _item_id(thing: Any) -> Hashable:
-    return (type(thing), thing.id) if getattr(thing, "id", "") else ""
+def _item_id(item: Any) -> Hashable:
+    return (type(item), item.id) if getattr(item, "id", "") else ""
 
 
 def _match_equal(old: Sequence[Any], new: Sequence[Any], matches: Matches) -> Matches:
-    """Add what is the same to the letter: first what keeps its order, then what was moved."""
+    """Add equal items: first those in the same order, then moved ones."""
     matched, taken = dict(matches), set(matches.values())
     for block in SequenceMatcher(None, old, new, autojunk=False).get_matching_blocks():
         for step in range(block.size):
             if block.a + step not in matched and block.b + step not in taken:
                 matched[block.a + step] = block.b + step
                 taken.add(block.b + step)
-    for at, thing in enumerate(old):
-        where = next((to for to, each in enumerate(new) if to not in taken and each == thing), None)
-        if at not in matched and where is not None:
-            matched[at] = where
-            taken.add(where)
+    for at, item in enumerate(old):
+        target = next((to for to, candidate in enumerate(new) if to not in taken and candidate == item), None)
+        if at not in matched and target is not None:
+            matched[at] = target
+            taken.add(target)
     return matched
 
 
 def _match_neighbours(
     old: Sequence[Any], new: Sequence[Any], matches: Matches, is_same: Callable[[Any, Any], bool]
 ) -> Matches:
-    """Add what stands after, or before, a thing that is matched, if it may be the same."""
+    """Add similar items next to matched ones."""
     matched, taken = dict(matches), set(matches.values())
 
-    def take(at: int, to: int) -> None:
+    def match(at: int, to: int) -> None:
         if at not in matched and to not in taken and 0 <= to < len(new) and is_same(old[at], new[to]):
             matched[at] = to
             taken.add(to)
 
     for at in range(len(old)):
-        take(at, matched.get(at - 1, -2) + 1 if at else 0)
+        match(at, matched.get(at - 1, -2) + 1 if at else 0)
     for at in reversed(range(len(old))):
-        take(at, matched.get(at + 1, -1) - 1 if at < len(old) - 1 else len(new) - 1)
+        match(at, matched.get(at + 1, -1) - 1 if at < len(old) - 1 else len(new) - 1)
     return matched
 
 

@@ -1,4 +1,4 @@
-"""Three-way merges of texts: by lines when two versions of a file meet, by characters when two people type."""
+"""Three-way merges of texts: by lines for versions of a file, by characters for concurrent typing."""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -7,24 +7,24 @@ from difflib import SequenceMatcher
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class _Chunk:
-    """A run of the three texts that stands between two places where all of them agree."""
+    """Corresponding parts of the three texts."""
 
     base: Sequence[str]
     ours: Sequence[str]
     theirs: Sequence[str]
 
     def resolve(self) -> Sequence[str] | None:
-        """What it becomes; None when both sides changed it, and differently."""
+        """Return the merged part, None if both sides changed it differently."""
         if self.ours in (self.theirs, self.base):
             return self.theirs
         return self.ours if self.theirs == self.base else None
 
 
 def merge_lines(base: str, ours: str, theirs: str) -> str | None:
-    """Both changes, or None when they touch: the same line was changed, or two lines beside each other."""
+    """Merge by lines. Return None if both sides changed the same or adjacent lines."""
     merged: list[str] = []
-    for piece in _diff3_chunks(base.split("\n"), ours.split("\n"), theirs.split("\n")):
-        lines = piece.resolve()
+    for chunk in _diff3_chunks(base.split("\n"), ours.split("\n"), theirs.split("\n")):
+        lines = chunk.resolve()
         if lines is None:
             return None
         merged += lines
@@ -32,22 +32,22 @@ def merge_lines(base: str, ours: str, theirs: str) -> str | None:
 
 
 def merge_characters(base: str, ours: str, theirs: str) -> str:
-    """Both changes, to the character; where two people typed at one place, ours comes first and nothing is lost."""
+    """Merge by characters. Where both sides changed the same text, both versions are kept, ours first."""
     merged: list[str] = []
-    for piece in _diff3_chunks(*(text.splitlines(keepends=True) for text in (base, ours, theirs))):
-        settled = piece.resolve()
-        merged += _merge_chunk_characters(piece) if settled is None else settled
+    for chunk in _diff3_chunks(*(text.splitlines(keepends=True) for text in (base, ours, theirs))):
+        resolved = chunk.resolve()
+        merged += _merge_chunk_characters(chunk) if resolved is None else resolved
     return "".join(merged)
 
 
 def _merge_chunk_characters(lines: _Chunk) -> Iterator[str]:
-    for piece in _diff3_chunks(*("".join(side) for side in (lines.base, lines.ours, lines.theirs))):
-        settled = piece.resolve()
-        yield from (*piece.ours, *piece.theirs) if settled is None else settled
+    for chunk in _diff3_chunks(*("".join(side) for side in (lines.base, lines.ours, lines.theirs))):
+        resolved = chunk.resolve()
+        yield from (*chunk.ours, *chunk.theirs) if resolved is None else resolved
 
 
 def _diff3_chunks(base: Sequence[str], ours: Sequence[str], theirs: Sequence[str]) -> Iterator[_Chunk]:
-    """The texts cut at every run that all three share, as in diff3 (Khanna, Kunal, Pierce: A Formal Investigation)."""
+    """Split the texts at common runs, as in Khanna, Kunal, Pierce: A Formal Investigation of Diff3."""
     at = (0, 0, 0)
     for begin, length in _common_runs(base, ours, theirs):
         yield _Chunk(
@@ -63,7 +63,7 @@ def _diff3_chunks(base: Sequence[str], ours: Sequence[str], theirs: Sequence[str
 def _common_runs(
     base: Sequence[str], ours: Sequence[str], theirs: Sequence[str]
 ) -> Iterator[tuple[tuple[int, int, int], int]]:
-    """Where each run begins in the three texts, and how long it is; the last one is empty and at their ends."""
+    """Yield the start of each common run in the three texts and its length. The last run is empty, at the ends."""
     in_ours = SequenceMatcher(None, base, ours, autojunk=False).get_matching_blocks()
     in_theirs = SequenceMatcher(None, base, theirs, autojunk=False).get_matching_blocks()
     mine = yours = 0

@@ -1,4 +1,4 @@
-"""Another name for one thing, wherever a project says it; docs, remarks and texts in quotes keep theirs."""
+"""Renaming of symbols in a project. Docs, comments and string literals are not changed."""
 
 from vicode.model.rename.designs import map_code
 from vicode.model.rename.projects import is_declared, rename_alias, rename_symbol, sibling_names

@@ -1,7 +1,7 @@
-"""Renames in hand-written C++ where it is certain what is meant: by its tokens, never in strings and comments.
+"""Renaming in hand-written C++, based on tokens outside strings and comments.
 
-What a component has is said there as `this->NAME`, what another one has as `this->ALIAS.NAME`, an element as
-`Enumeration::element`. A name by itself may be anything, and is left to a person.
+Only unambiguous references are renamed: `this->NAME` for members of the component, `this->ALIAS.NAME` for members of
+a used component, and `Enumeration::element`. Unqualified names are ambiguous.
 """
 
 import re
@@ -34,7 +34,6 @@ class _Token:
 
 
 def rename_in_cpp(text: str, role: str, rename: ReferenceRename) -> str:
-    """The code with the new name."""
     if rename.old not in text:
         return text
     pieces, end = [], 0
@@ -45,18 +44,17 @@ def rename_in_cpp(text: str, role: str, rename: ReferenceRename) -> str:
 
 
 def has_reference_in_cpp(text: str, role: str, rename: ReferenceRename) -> bool:
-    """Whether code says a name already."""
     return rename_in_cpp(text, role, rename) != text
 
 
 def declares_in_cpp(text: str, name: str) -> bool:
-    """Whether code gives a type or a namespace this name."""
+    """Return whether code declares a type or namespace with this name."""
     tokens = list(_tokens(text)) if name in text else []
     return any(token.text == name and _is_declared(tokens, at) for at, token in enumerate(tokens))
 
 
 def count_identifier_in_cpp(text: str, name: str) -> int:
-    """How often a name stands in code, whatever it means there."""
+    """Count the occurrences of an identifier, regardless of its meaning."""
     return sum(token.is_word and token.text == name for token in _tokens(text)) if name in text else 0
 
 
@@ -66,29 +64,29 @@ def _tokens(text: str) -> Iterator[_Token]:
             yield _Token(match.start(), match.group(), bool(match["word"]))
 
 
-def _find_references(tokens: list[_Token], role: str, said: ReferenceRename) -> Iterator[_Token]:
-    owner = said.owner or said.old
-    is_shared = said.kind in (ReferenceKind.ENUMERATION, ReferenceKind.ELEMENT)
+def _find_references(tokens: list[_Token], role: str, rename: ReferenceRename) -> Iterator[_Token]:
+    owner = rename.owner or rename.old
+    is_shared = rename.kind in (ReferenceKind.ENUMERATION, ReferenceKind.ELEMENT)
     has_types = any(token.text in _TYPE_KEYWORDS for token in tokens)
     if is_shared and any(token.text == owner and _is_declared(tokens, at) for at, token in enumerate(tokens)):
         return
-    # Where a type is written, `this` may be another thing.
+    # In code that declares a type, `this` may refer to another object.
     if not is_shared and (role == "module" or has_types):
         return
     for at, token in enumerate(tokens):
-        if token.is_word and token.text == said.old and _is_reference(tokens, at, said):
+        if token.is_word and token.text == rename.old and _is_reference(tokens, at, rename):
             yield token
 
 
-def _is_reference(tokens: list[_Token], at: int, said: ReferenceRename) -> bool:
+def _is_reference(tokens: list[_Token], at: int, rename: ReferenceRename) -> bool:
     before = [_text_at(tokens, at - step) for step in (1, 2, 3, 4)]
-    match said.kind:
+    match rename.kind:
         case ReferenceKind.OWN | ReferenceKind.ALIAS:
             return before[:2] == ["->", "this"]
         case ReferenceKind.MEMBER:
-            return before[0] in (".", "->") and before[1:] == [said.owner, "->", "this"]
+            return before[0] in (".", "->") and before[1:] == [rename.owner, "->", "this"]
         case ReferenceKind.ELEMENT:
-            return before[:2] == ["::", said.owner] and before[2] not in ("::", ".", "->")
+            return before[:2] == ["::", rename.owner] and before[2] not in ("::", ".", "->")
         case ReferenceKind.ENUMERATION:
             return _text_at(tokens, at + 1) == "::" and before[0] not in ("::", ".", "->")
         case _:
@@ -96,7 +94,7 @@ def _is_reference(tokens: list[_Token], at: int, said: ReferenceRename) -> bool:
 
 
 def _is_declared(tokens: list[_Token], at: int) -> bool:
-    """Whether the words before a name declare it."""
+    """Return whether a declaring keyword precedes a name."""
     while at > 0 and tokens[at - 1].text not in _DECLARATION_STARTS:
         at -= 1
         if tokens[at].text in _DECLARING_KEYWORDS:

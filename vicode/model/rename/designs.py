@@ -1,4 +1,4 @@
-"""Renames in everything a design says: expressions, links, calls, types and code."""
+"""Renaming of references in a design: expressions, links, calls, types and code."""
 
 from collections.abc import Callable
 from dataclasses import replace
@@ -25,7 +25,7 @@ _Pairs = tuple[tuple[str, str], ...]
 
 
 def rename_in_design(design: Design, rename: ReferenceRename) -> Design:
-    """The design with the new name wherever it is said; where it is declared it stays."""
+    """Rename the references in a design, but not the declaration."""
     hidden = _shadowing_languages(design, rename)
 
     def in_code(code: Code, role: str) -> Code:
@@ -44,71 +44,71 @@ def rename_in_design(design: Design, rename: ReferenceRename) -> Design:
 
 
 def map_code(design: Design, change: Callable[[Code, str], Code]) -> Design:
-    """The design with other hand-written code; `change` is given each piece and its role."""
+    """Apply `change` to each block of hand-written code and its role."""
     return _rewrite(design, _ReferenceRewriter(_NO_RENAME, change))
 
 
 _NO_RENAME = ReferenceRename(kind=ReferenceKind.PARAMETER, old="", new="")
-"""What no text says."""
+"""Matches no reference."""
 
 
-def _rename_in_code(text: str, language: str, role: str, said: ReferenceRename) -> str:
+def _rename_in_code(text: str, language: str, role: str, rename: ReferenceRename) -> str:
     match language:
         case "python":
-            return rename_in_python(text, role, said)
+            return rename_in_python(text, role, rename)
         case "cpp":
-            return rename_in_cpp(text, role, said)
+            return rename_in_cpp(text, role, rename)
         case _:
             return text
 
 
-def _rewrite(design: Design, speaker: "_ReferenceRewriter") -> Design:
-    """The design as a speaker says it, but for what it declares."""
+def _rewrite(design: Design, rewriter: "_ReferenceRewriter") -> Design:
+    """Apply a rewriter to everything but the declarations."""
     common = replace(
         design.common,
-        actions=speaker.actions(design.common.actions),
-        transitions=speaker.decisions(design.common.transitions),
+        actions=rewriter.actions(design.common.actions),
+        transitions=rewriter.decisions(design.common.transitions),
     )
     return replace(
         design,
-        module=speaker.code(design.module, "module"),
-        members=speaker.code(design.members, "members"),
+        module=rewriter.code(design.module, "module"),
+        members=rewriter.code(design.members, "members"),
         common=common,
-        states=tuple(speaker.state(state) for state in design.states),
+        states=tuple(rewriter.state(state) for state in design.states),
     )
 
 
 def rename_in_declarations(declarations: tuple[Declaration, ...], rename: ReferenceRename) -> tuple[Declaration, ...]:
-    """Declarations with the new name in their values, their types and their arguments."""
-    return tuple(_rename_in_declaration(each, rename) for each in declarations)
+    """Rename references in values, types and arguments of declarations."""
+    return tuple(_rename_in_declaration(declaration, rename) for declaration in declarations)
 
 
-def _rename_in_declaration(declaration: Declaration, said: ReferenceRename) -> Declaration:
-    is_type = said.kind == ReferenceKind.ENUMERATION and declaration.type == said.old
-    given = declaration.arguments
+def _rename_in_declaration(declaration: Declaration, rename: ReferenceRename) -> Declaration:
+    is_type = rename.kind == ReferenceKind.ENUMERATION and declaration.type == rename.old
+    arguments = declaration.arguments
     return replace(
         declaration,
-        type=said.new if is_type else declaration.type,
-        initial=rename_in_expression(declaration.initial, said),
-        arguments=None if given is None else rename_in_declarations(given, said),
+        type=rename.new if is_type else declaration.type,
+        initial=rename_in_expression(declaration.initial, rename),
+        arguments=None if arguments is None else rename_in_declarations(arguments, rename),
     )
 
 
-def _shadowing_languages(design: Design, said: ReferenceRename) -> frozenset[str]:
-    """Those in which the module's own code gives a name of the project another meaning in all code of the design."""
-    if said.kind not in (ReferenceKind.CONSTANT, ReferenceKind.ENUMERATION, ReferenceKind.ELEMENT):
+def _shadowing_languages(design: Design, rename: ReferenceRename) -> frozenset[str]:
+    """Return the languages in which module code of the design redefines the name."""
+    if rename.kind not in (ReferenceKind.CONSTANT, ReferenceKind.ENUMERATION, ReferenceKind.ELEMENT):
         return frozenset()
-    name = said.owner or said.old
+    name = rename.owner or rename.old
     own, cpp = (design.module.in_language(language) or "" for language in ("python", "cpp"))
-    found = (("python", declares_in_python(own, "module", name)), ("cpp", declares_in_cpp(cpp, name)))
-    return frozenset(language for language, is_hidden in found if is_hidden)
+    is_redefined = (("python", declares_in_python(own, "module", name)), ("cpp", declares_in_cpp(cpp, name)))
+    return frozenset(language for language, is_hidden in is_redefined if is_hidden)
 
 
 class _ReferenceRewriter:
-    """Says the new name in each part of a design."""
+    """Renames references in each part of a design."""
 
-    def __init__(self, said: ReferenceRename, code: Callable[[Code, str], Code]) -> None:
-        self.rename, self.code = said, code
+    def __init__(self, rename: ReferenceRename, code: Callable[[Code, str], Code]) -> None:
+        self.rename, self.code = rename, code
 
     def alias(self, alias: str) -> str:
         return self.rename.new if self.rename.kind == ReferenceKind.ALIAS and alias == self.rename.old else alias
@@ -120,9 +120,9 @@ class _ReferenceRewriter:
         return tuple((self.expression(name), self.expression(text)) for name, text in pairs)
 
     def call(self, call: Call) -> Call:
-        is_asked = self.rename.kind == ReferenceKind.PARAMETER and call.alias == self.rename.owner
+        is_renamed = self.rename.kind == ReferenceKind.PARAMETER and call.alias == self.rename.owner
         pairs = (
-            (self.rename.new if is_asked and name == self.rename.old else name, self.expression(text))
+            (self.rename.new if is_renamed and name == self.rename.old else name, self.expression(text))
             for name, text in call.arguments
         )
         return replace(call, alias=self.alias(call.alias), arguments=tuple(pairs))

@@ -1,4 +1,4 @@
-"""Renames in expressions, by their words; what cannot be read as an expression is renamed as far as it goes."""
+"""Renaming in expressions, based on tokens, which also works for invalid expressions."""
 
 import re
 from collections.abc import Iterator
@@ -11,7 +11,7 @@ _TOKEN = re.compile(r"(?P<word>[^\W\d]\w*)|\d[\w.]*|[=!<>]=|\S")
 
 @dataclass(frozen=True, slots=True)
 class _Identifier:
-    """A name: `before` is the one before its dot, `after` the sign that follows, `inside` the call it stands in."""
+    """An identifier: `before` is the name before its dot, `after` the next token, `inside` the enclosing call."""
 
     start: int
     text: str
@@ -22,7 +22,6 @@ class _Identifier:
 
 
 def rename_in_expression(text: str, rename: ReferenceRename) -> str:
-    """The expression with the new name."""
     if rename.old not in text:
         return text
     pieces, end = [], 0
@@ -33,8 +32,8 @@ def rename_in_expression(text: str, rename: ReferenceRename) -> str:
     return "".join([*pieces, text[end:]])
 
 
-def _is_reference(word: _Identifier, said: ReferenceRename) -> bool:
-    match said.kind:
+def _is_reference(word: _Identifier, rename: ReferenceRename) -> bool:
+    match rename.kind:
         case ReferenceKind.OWN | ReferenceKind.CONSTANT:
             return not word.is_behind_dot and word.after not in (".", "(", "=")
         case ReferenceKind.ALIAS:
@@ -42,9 +41,9 @@ def _is_reference(word: _Identifier, said: ReferenceRename) -> bool:
         case ReferenceKind.ENUMERATION:
             return not word.is_behind_dot and word.after == "."
         case ReferenceKind.MEMBER | ReferenceKind.ELEMENT:
-            return word.is_behind_dot and word.before == said.owner
+            return word.is_behind_dot and word.before == rename.owner
         case ReferenceKind.ARGUMENT:
-            return word.after == "=" and word.inside == said.owner
+            return word.after == "=" and word.inside == rename.owner
         case ReferenceKind.PARAMETER:
             return False
 
@@ -66,7 +65,7 @@ def _iter_identifiers(text: str) -> Iterator[_Identifier]:
 
 
 def _callee(tokens: list[re.Match[str]], at: int) -> str:
-    """What is called by a bracket: `function` or `alias.function`, nothing for a bracket alone."""
+    """Return the function called at an opening parenthesis, such as `alias.function`; empty if there is none."""
     if at == 0 or not tokens[at - 1]["word"]:
         return ""
     name = _text_at(tokens, at - 1)

@@ -1,4 +1,4 @@
-"""Renames one declared thing in a whole project: where it is declared, and in every design that says it."""
+"""Renaming of a symbol in a project: its declaration and all references."""
 
 from collections.abc import Iterator
 from dataclasses import replace
@@ -13,7 +13,7 @@ _Holder = TypeVar("_Holder", Design, Interface)
 
 
 def rename_symbol(project: Project, symbol: SymbolRef, new: str) -> Project:
-    """The project with a new name for one thing, and for that thing only; an unknown one changes nothing."""
+    """The project with a new name for one symbol, and for that symbol only; an unknown one changes nothing."""
     if not is_declared(project, symbol) or symbol.name == new:
         return project
     designs = tuple(_rename_in_one_design(design, project, symbol, new) for design in project.designs)
@@ -28,12 +28,12 @@ def rename_symbol(project: Project, symbol: SymbolRef, new: str) -> Project:
 
 
 def is_declared(project: Project, symbol: SymbolRef) -> bool:
-    """Whether the project declares such a thing."""
+    """Return whether the project declares a symbol."""
     return symbol.name in sibling_names(project, symbol)
 
 
 def sibling_names(project: Project, symbol: SymbolRef) -> tuple[str, ...]:
-    """The names that stand beside a thing, its own among them."""
+    """Return the names in the section of a symbol, including its own."""
     match symbol:
         case SymbolRef(component="", section="elements"):
             found = project.enumeration(symbol.owner)
@@ -55,69 +55,69 @@ def sibling_names(project: Project, symbol: SymbolRef) -> tuple[str, ...]:
 
 
 def rename_alias(design: Design, old: str, new: str) -> Design:
-    """The design with `new` where links, calls, expressions and Python code said the alias `old`."""
+    """Rename an alias in links, calls, expressions and Python code."""
     return rename_in_design(design, ReferenceRename(kind=ReferenceKind.ALIAS, old=old, new=new))
 
 
-def _declarations_in(project: Project, thing: SymbolRef, section: str) -> tuple[Declaration, ...]:
-    whose = project.design(thing.component) or project.interface(thing.component)
+def _declarations_in(project: Project, symbol: SymbolRef, section: str) -> tuple[Declaration, ...]:
+    whose = project.design(symbol.component) or project.interface(symbol.component)
     found: tuple[Declaration, ...] = getattr(whose, section, ()) if whose else ()
     return found
 
 
-def _rename_in_one_design(design: Design, project: Project, thing: SymbolRef, new: str) -> Design:
-    """A design that says the new name, and declares it if it is its own."""
-    if design.component == thing.component:
-        design = _rename_declaration(design, thing, new)
-    for said in _references_to(design, project, thing, new):
-        design = rename_in_design(design, said)
-    if thing.section == "components":
-        uses = (replace(use, component=new) if use.component == thing.name else use for use in design.uses)
+def _rename_in_one_design(design: Design, project: Project, symbol: SymbolRef, new: str) -> Design:
+    """Rename a symbol in one design, including its declaration."""
+    if design.component == symbol.component:
+        design = _rename_declaration(design, symbol, new)
+    for rename in _references_to(design, project, symbol, new):
+        design = rename_in_design(design, rename)
+    if symbol.section == "components":
+        uses = (replace(use, component=new) if use.component == symbol.name else use for use in design.uses)
         design = replace(design, uses=tuple(uses))
     return design
 
 
-def _references_to(design: Design, project: Project, thing: SymbolRef, new: str) -> Iterator[ReferenceRename]:
-    """How a design says a thing: its own as it is, what another declares behind each alias of that one."""
-    names = {"old": thing.name, "new": new}
-    match thing.section:
-        case "uses" if design.component == thing.component:
+def _references_to(design: Design, project: Project, symbol: SymbolRef, new: str) -> Iterator[ReferenceRename]:
+    """Yield the renames that cover all references to a symbol in a design."""
+    names = {"old": symbol.name, "new": new}
+    match symbol.section:
+        case "uses" if design.component == symbol.component:
             yield ReferenceRename(kind=ReferenceKind.ALIAS, **names)
         case "constants":
             yield ReferenceRename(kind=ReferenceKind.CONSTANT, **names)
         case "enumerations":
             yield ReferenceRename(kind=ReferenceKind.ENUMERATION, **names)
         case "elements":
-            yield ReferenceRename(kind=ReferenceKind.ELEMENT, owner=thing.owner, **names)
-        case "parameters" | "outputs" | "variables" if design.component == thing.component:
+            yield ReferenceRename(kind=ReferenceKind.ELEMENT, owner=symbol.owner, **names)
+        case "parameters" | "outputs" | "variables" if design.component == symbol.component:
             yield ReferenceRename(kind=ReferenceKind.OWN, **names)
         case "parameters" | "outputs" | "variables" | "arguments":
-            is_shown = thing.section != "variables" or project.design(thing.component) is None
+            is_shown = symbol.section != "variables" or project.design(symbol.component) is None
             for use in design.uses:
-                if use.component == thing.component and is_shown:
+                if use.component == symbol.component and is_shown:
                     yield from _references_through_alias(
-                        use.alias, _declarations_in(project, thing, "outputs"), thing, new
+                        use.alias, _declarations_in(project, symbol, "outputs"), symbol, new
                     )
 
 
 def _references_through_alias(
-    alias: str, outputs: tuple[Declaration, ...], thing: SymbolRef, new: str
+    alias: str, outputs: tuple[Declaration, ...], symbol: SymbolRef, new: str
 ) -> Iterator[ReferenceRename]:
-    """How what a used component shows is said: a parameter where it is called, and read only if no output is."""
-    names = {"old": thing.name, "new": new}
-    if thing.section == "arguments":
-        yield ReferenceRename(kind=ReferenceKind.ARGUMENT, owner=f"{alias}.{thing.owner}", **names)
+    """Yield the renames of references through an alias. An output hides a parameter with the same name."""
+    names = {"old": symbol.name, "new": new}
+    if symbol.section == "arguments":
+        yield ReferenceRename(kind=ReferenceKind.ARGUMENT, owner=f"{alias}.{symbol.owner}", **names)
         return
-    if thing.section == "parameters":
+    if symbol.section == "parameters":
         yield ReferenceRename(kind=ReferenceKind.PARAMETER, owner=alias, **names)
-    if thing.section != "parameters" or thing.name not in {each.name for each in outputs}:
+    if symbol.section != "parameters" or symbol.name not in {each.name for each in outputs}:
         yield ReferenceRename(kind=ReferenceKind.MEMBER, owner=alias, **names)
 
 
-def _rename_declaration(holder: _Holder, thing: SymbolRef, new: str) -> _Holder:
-    """A design, or what a hand-written component shows, with the new name where it declares the thing."""
-    old = thing.name
-    match thing.section:
+def _rename_declaration(holder: _Holder, symbol: SymbolRef, new: str) -> _Holder:
+    """Rename a symbol where a design or interface declares it."""
+    old = symbol.name
+    match symbol.section:
         case "uses":
             if isinstance(holder, Interface):
                 return holder
@@ -125,7 +125,7 @@ def _rename_declaration(holder: _Holder, thing: SymbolRef, new: str) -> _Holder:
                 holder, uses=tuple(replace(use, alias=new) if use.alias == old else use for use in holder.uses)
             )
         case "arguments":
-            return replace(holder, outputs=tuple(_rename_argument(each, thing, new) for each in holder.outputs))
+            return replace(holder, outputs=tuple(_rename_argument(each, symbol, new) for each in holder.outputs))
         case "parameters":
             return replace(holder, parameters=_rename_in_list(holder.parameters, old, new))
         case "outputs":
@@ -134,47 +134,47 @@ def _rename_declaration(holder: _Holder, thing: SymbolRef, new: str) -> _Holder:
             return replace(holder, variables=_rename_in_list(holder.variables, old, new))
 
 
-def _rename_argument(output: Declaration, thing: SymbolRef, new: str) -> Declaration:
-    if output.name != thing.owner or output.arguments is None:
+def _rename_argument(output: Declaration, symbol: SymbolRef, new: str) -> Declaration:
+    if output.name != symbol.owner or output.arguments is None:
         return output
-    return replace(output, arguments=_rename_in_list(output.arguments, thing.name, new))
+    return replace(output, arguments=_rename_in_list(output.arguments, symbol.name, new))
 
 
 def _rename_in_list(declarations: tuple[Declaration, ...], old: str, new: str) -> tuple[Declaration, ...]:
     return tuple(replace(each, name=new) if each.name == old else each for each in declarations)
 
 
-def _rename_in_project_file(project: Project, thing: SymbolRef, new: str) -> Project:
-    """What the project itself declares, with the new name of a thing of its own."""
-    match thing.section:
+def _rename_in_project_file(project: Project, symbol: SymbolRef, new: str) -> Project:
+    """Rename a symbol of the project file."""
+    match symbol.section:
         case "constants":
-            project = replace(project, constants=_rename_in_list(project.constants, thing.name, new))
+            project = replace(project, constants=_rename_in_list(project.constants, symbol.name, new))
             return _rename_in_project_declarations(
-                project, ReferenceRename(kind=ReferenceKind.CONSTANT, old=thing.name, new=new)
+                project, ReferenceRename(kind=ReferenceKind.CONSTANT, old=symbol.name, new=new)
             )
         case "enumerations":
-            each = (replace(each, name=new) if each.name == thing.name else each for each in project.enumerations)
+            each = (replace(each, name=new) if each.name == symbol.name else each for each in project.enumerations)
             project = replace(project, enumerations=tuple(each))
             return _rename_in_project_declarations(
-                project, ReferenceRename(kind=ReferenceKind.ENUMERATION, old=thing.name, new=new)
+                project, ReferenceRename(kind=ReferenceKind.ENUMERATION, old=symbol.name, new=new)
             )
         case "elements":
             changed = (
-                _rename_element(each, thing.name, new) if each.name == thing.owner else each
+                _rename_element(each, symbol.name, new) if each.name == symbol.owner else each
                 for each in project.enumerations
             )
             project = replace(project, enumerations=tuple(changed))
             return _rename_in_project_declarations(
-                project, ReferenceRename(kind=ReferenceKind.ELEMENT, old=thing.name, new=new, owner=thing.owner)
+                project, ReferenceRename(kind=ReferenceKind.ELEMENT, old=symbol.name, new=new, owner=symbol.owner)
             )
         case "components":
             parts = (
-                replace(each, component=new) if each.component == thing.name else each for each in project.components
+                replace(each, component=new) if each.component == symbol.name else each for each in project.components
             )
-            agents = (replace(each, root=new) if each.root == thing.name else each for each in project.agents)
+            agents = (replace(each, root=new) if each.root == symbol.name else each for each in project.agents)
             return replace(project, components=tuple(parts), agents=tuple(agents))
         case _:
-            named = (replace(each, name=new) if each.name == thing.name else each for each in project.agents)
+            named = (replace(each, name=new) if each.name == symbol.name else each for each in project.agents)
             return replace(project, agents=tuple(named))
 
 
@@ -185,16 +185,16 @@ def _rename_element(enumeration: Enumeration, old: str, new: str) -> Enumeration
     return replace(enumeration, elements=named(enumeration.elements), xabsl_elements=named(enumeration.xabsl_elements))
 
 
-def _rename_in_project_declarations(project: Project, said: ReferenceRename) -> Project:
-    """Constants, and what hand-written components show, with the new name in values and types."""
+def _rename_in_project_declarations(project: Project, rename: ReferenceRename) -> Project:
+    """Rename references in constants and interfaces of the project file."""
     components = (
         replace(
             each,
-            parameters=rename_in_declarations(each.parameters, said),
-            outputs=rename_in_declarations(each.outputs, said),
-            variables=rename_in_declarations(each.variables, said),
+            parameters=rename_in_declarations(each.parameters, rename),
+            outputs=rename_in_declarations(each.outputs, rename),
+            variables=rename_in_declarations(each.variables, rename),
         )
         for each in project.components
     )
-    constants = rename_in_declarations(project.constants, said)
+    constants = rename_in_declarations(project.constants, rename)
     return replace(project, constants=constants, components=tuple(components))

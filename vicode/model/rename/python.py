@@ -1,7 +1,7 @@
-"""Renames in hand-written Python where it is certain what is meant: by the tree, never by the text.
+"""Renaming in hand-written Python, based on the syntax tree.
 
-`self` is known in actions, predicates and methods, as long as nothing else takes its name. A name of the project is
-known where the piece, or the module, gives it no other meaning.
+Only unambiguous references are renamed: attributes of `self` in actions, predicates and methods that do not rebind it,
+and project names that neither the code nor the module redefines.
 """
 
 import ast
@@ -13,11 +13,11 @@ from vicode.model.rename.references import ReferenceKind, ReferenceRename
 from vicode.model.snippets import PythonSnippet
 
 _Position = tuple[int, int]
-"""A line from 1, and a column in bytes."""
+"""Line (starting at 1) and column in bytes."""
 
 
 def rename_in_python(text: str, role: str, rename: ReferenceRename) -> str:
-    """The code with the new name; what does not parse stays as it is."""
+    """Rename references. Code that cannot be parsed is returned unchanged."""
     if rename.old not in text:
         return text
     piece = PythonSnippet.from_text(text, role)
@@ -27,19 +27,18 @@ def rename_in_python(text: str, role: str, rename: ReferenceRename) -> str:
     starts = {piece.offset_at(*place) for place in _find_references(tree, role, rename)}
     for start in sorted(starts, reverse=True):
         end = start + len(rename.old)
-        # What Python places wrongly, such as some names in texts with braces, is left alone.
+        # Python reports wrong positions for some names in f-strings; leave those unchanged.
         if text[start:end] == rename.old:
             text = text[:start] + rename.new + text[end:]
     return text
 
 
 def has_reference_in_python(text: str, role: str, rename: ReferenceRename) -> bool:
-    """Whether code says a name already."""
     return rename_in_python(text, role, rename) != text
 
 
 def declares_in_python(text: str, role: str, name: str) -> bool:
-    """Whether code gives a name a meaning of its own."""
+    """Return whether code binds a name."""
     tree = _parse_snippet(PythonSnippet.from_text(text, role)) if name in text else None
     return tree is not None and name in set(_bound_names(tree))
 
@@ -51,66 +50,66 @@ def _parse_snippet(piece: PythonSnippet) -> ast.Module | None:
         return None
 
 
-def _find_references(tree: ast.Module, role: str, said: ReferenceRename) -> Iterator[_Position]:
-    if said.kind in (ReferenceKind.CONSTANT, ReferenceKind.ENUMERATION, ReferenceKind.ELEMENT):
-        name = said.owner or said.old
+def _find_references(tree: ast.Module, role: str, rename: ReferenceRename) -> Iterator[_Position]:
+    if rename.kind in (ReferenceKind.CONSTANT, ReferenceKind.ENUMERATION, ReferenceKind.ELEMENT):
+        name = rename.owner or rename.old
         if name not in set(_bound_names(tree)):
-            yield from (place for node in ast.walk(tree) for place in _find_project_references(node, name, said))
+            yield from (place for node in ast.walk(tree) for place in _find_project_references(node, name, rename))
         return
     for body, me in _bodies(tree, role):
-        yield from (place for node in _iter_nodes(body, me) for place in _find_component_references(node, me, said))
+        yield from (place for node in _iter_nodes(body, me) for place in _find_component_references(node, me, rename))
 
 
-def _find_project_references(node: ast.AST, name: str, said: ReferenceRename) -> Iterator[_Position]:
+def _find_project_references(node: ast.AST, name: str, rename: ReferenceRename) -> Iterator[_Position]:
     match node:
-        case ast.Attribute(value=ast.Name(id=owner), attr=said.old) if (
-            said.kind == ReferenceKind.ELEMENT and owner == name
+        case ast.Attribute(value=ast.Name(id=owner), attr=rename.old) if (
+            rename.kind == ReferenceKind.ELEMENT and owner == name
         ):
             yield _last_name_position(node)
-        case ast.Name(id=id_) if said.kind != ReferenceKind.ELEMENT and id_ == name:
+        case ast.Name(id=id_) if rename.kind != ReferenceKind.ELEMENT and id_ == name:
             yield (node.lineno, node.col_offset)
 
 
-def _find_component_references(node: ast.AST, me: str, said: ReferenceRename) -> Iterator[_Position]:
-    """Where a node says the name of an attribute of `me`, or a parameter of a call."""
-    if isinstance(node, ast.Attribute) and node.attr == said.old:
+def _find_component_references(node: ast.AST, me: str, rename: ReferenceRename) -> Iterator[_Position]:
+    """Yield the positions of attribute names and keyword arguments that refer to the symbol."""
+    if isinstance(node, ast.Attribute) and node.attr == rename.old:
         owner = _self_attribute(node.value, me)
         is_mine = isinstance(node.value, ast.Name) and node.value.id == me
-        if (said.kind in (ReferenceKind.OWN, ReferenceKind.ALIAS) and is_mine) or (
-            said.kind == ReferenceKind.MEMBER and owner == said.owner
+        if (rename.kind in (ReferenceKind.OWN, ReferenceKind.ALIAS) and is_mine) or (
+            rename.kind == ReferenceKind.MEMBER and owner == rename.owner
         ):
             yield _last_name_position(node)
-    elif isinstance(node, ast.Call) and _passes_argument(node, me, said):
-        yield from ((each.lineno, each.col_offset) for each in node.keywords if each.arg == said.old)
+    elif isinstance(node, ast.Call) and _passes_argument(node, me, rename):
+        yield from ((each.lineno, each.col_offset) for each in node.keywords if each.arg == rename.old)
 
 
-def _passes_argument(call: ast.Call, me: str, said: ReferenceRename) -> bool:
-    """Whether a call gives what is renamed by its name: `self.head.modulate(pan=…)`, `self._call(self.head, pan=…)`."""
+def _passes_argument(call: ast.Call, me: str, rename: ReferenceRename) -> bool:
+    """Return whether a call passes the renamed parameter, such as `self.head.modulate(pan=…)`."""
     if not isinstance(call.func, ast.Attribute):
         return False
     function, whose = call.func.attr, call.func.value
     is_mine = isinstance(whose, ast.Name) and whose.id == me
-    match said.kind:
+    match rename.kind:
         case ReferenceKind.OWN:
             return is_mine and function == "modulate"
         case ReferenceKind.PARAMETER:
             steps = is_mine and function == "_call" and bool(call.args)
             used = call.args[0] if steps else whose if function == "modulate" else None
-            return used is not None and _self_attribute(used, me) == said.owner
+            return used is not None and _self_attribute(used, me) == rename.owner
         case ReferenceKind.ARGUMENT:
-            return f"{_self_attribute(whose, me)}.{function}" == said.owner
+            return f"{_self_attribute(whose, me)}.{function}" == rename.owner
         case _:
             return False
 
 
 def _self_attribute(node: ast.expr, me: str) -> str | None:
-    """NAME of `self.NAME`."""
+    """Return NAME for `self.NAME`."""
     is_mine = isinstance(node, ast.Attribute) and isinstance(node.value, ast.Name) and node.value.id == me
     return node.attr if isinstance(node, ast.Attribute) and is_mine else None
 
 
 def _last_name_position(node: ast.Attribute) -> _Position:
-    """Where the name behind the last dot begins."""
+    """Return the position of the name after the last dot."""
     assert node.end_lineno is not None
     assert node.end_col_offset is not None
     return (node.end_lineno, node.end_col_offset - len(node.attr.encode()))
@@ -125,7 +124,7 @@ class _Body:
 
 
 def _bodies(tree: ast.Module, role: str) -> Iterator[tuple[_Body, str]]:
-    """The bodies in which a name stands for the component, with that name."""
+    """Yield the function bodies in which a name refers to the component, with this name."""
     outer = tree.body[0]
     if role in ("action", "predicate") and isinstance(outer, ast.FunctionDef):
         yield from _with_self_name(outer, "self")
@@ -153,14 +152,14 @@ def _stored_name(node: ast.AST) -> str:
 
 
 def _iter_nodes(body: _Body, me: str) -> Iterator[ast.AST]:
-    """All nodes of a body but those of inner functions that call something else `me`."""
-    waiting: list[ast.AST] = [*body.nodes]
-    while waiting:
-        node = waiting.pop()
+    """Yield all nodes of a body, except in inner functions that rebind `me`."""
+    pending: list[ast.AST] = [*body.nodes]
+    while pending:
+        node = pending.pop()
         if isinstance(node, ast.Lambda | _Function) and me in _argument_names(node.args):
             continue
         yield node
-        waiting += ast.iter_child_nodes(node)
+        pending += ast.iter_child_nodes(node)
 
 
 def _argument_names(arguments: ast.arguments) -> set[str]:
@@ -169,7 +168,7 @@ def _argument_names(arguments: ast.arguments) -> set[str]:
 
 
 def _bound_names(tree: ast.AST) -> Iterator[str]:
-    """Every name that code gives a meaning of its own, wherever in it."""
+    """Yield all names that code binds."""
     for node in ast.walk(tree):
         match node:
             case ast.Name(id=name) if _stored_name(node):

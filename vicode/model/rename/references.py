@@ -1,4 +1,4 @@
-"""Which thing is renamed, and how one design says it."""
+"""The symbols that can be renamed and their kinds of references."""
 
 from dataclasses import dataclass
 from enum import StrEnum
@@ -6,11 +6,11 @@ from enum import StrEnum
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SymbolRef:
-    """A thing that is declared under a name.
+    """A declared symbol.
 
-    `component` declares it, "" the project. `section` is the key it stands below: `uses`, `parameters`, `outputs`,
-    `variables`; of the project `constants`, `enumerations`, `components`, `agents`. `owner` is the enumeration of an
-    element (section `elements`), or the output of an argument (section `arguments`).
+    `component` is the declaring component, "" for the project. `section` is the key that contains it: `uses`,
+    `parameters`, `outputs`, `variables`, or in the project `constants`, `enumerations`, `components`, `agents`.
+    `owner` is the enumeration of an element (section `elements`), or the output of an argument (section `arguments`).
     """
 
     section: str
@@ -20,29 +20,29 @@ class SymbolRef:
 
 
 class ReferenceKind(StrEnum):
-    """How a name is said in a design."""
+    """The syntactic form of a reference in a design."""
 
     OWN = "own"
-    """By itself; in code as `self.NAME`."""
+    """NAME; in code `self.NAME`."""
     CONSTANT = "constant"
-    """By itself, in code, too."""
+    """NAME, also in code."""
     ALIAS = "alias"
-    """Before a dot, in `done(NAME)`, links and calls; in code as `self.NAME`."""
+    """NAME before a dot, in `done(NAME)`, links and calls; in code `self.NAME`."""
     MEMBER = "member"
-    """Behind the dot of an alias."""
+    """NAME after an alias and a dot."""
     PARAMETER = "parameter"
-    """What is given to an alias where it is called."""
+    """A parameter in a call of an alias."""
     ARGUMENT = "argument"
-    """Before the sign = in a call of `alias.function`."""
+    """A keyword argument in a call of `alias.function`."""
     ENUMERATION = "enumeration"
-    """Before a dot, and as a type."""
+    """NAME before a dot, and as a type."""
     ELEMENT = "element"
-    """Behind the dot of an enumeration."""
+    """NAME after an enumeration and a dot."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ReferenceRename:
-    """A name as one design says it, and the new one; `owner` is what stands before its dot."""
+    """The rename of one kind of reference; `owner` is the name before the dot."""
 
     kind: ReferenceKind
     old: str

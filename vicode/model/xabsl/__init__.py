@@ -1,1 +1,1 @@
-"""How designs are said in XABSL: by which names, and what of them it cannot say."""
+"""XABSL as a target language: names in XABSL, and unsupported features of designs."""

@@ -1,4 +1,4 @@
-"""What of an expression XABSL cannot say, or would give another result for."""
+"""Checks whether XABSL supports an expression with the same result."""
 
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
@@ -24,16 +24,16 @@ from vicode.model.expressions import (
 SUPPORTED_FUNCTIONS = frozenset(
     ("abs", "min", "max", "clamp", "sign", "float", "is_nan", "degrees", "radians"),
 )
-"""The functions that can be written with what XABSL has."""
+"""The functions that can be expanded in XABSL."""
 
 UNSUPPORTED, DIFFERENT_RESULT = "L701", "L702"
 MAX_SIZE = 1000
-"""Written out, an expression may have so many parts."""
+"""Maximum number of nodes of an expanded expression."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class UnsupportedExpression:
-    """A part of an expression, the rule it breaks, and what to do."""
+    """A part of an expression that XABSL does not support, with code, message and fix."""
 
     node: Expr
     code: str
@@ -43,37 +43,36 @@ class UnsupportedExpression:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ExpressibilityChecker:
-    """Judges the expressions of one design. `is_done_expressible` tells whether `done(alias)` can be asked where this stands."""
+    """Checks expressions. `is_done_expressible` returns whether the context supports `done(alias)`."""
 
     has_xabsl_arithmetic: bool
     constants: Mapping[str, ConstantValue]
     is_done_expressible: Callable[[str], bool]
 
     def check(self, tree: Expr) -> Iterator[UnsupportedExpression]:
-        """All that is not sayable in a tree."""
         for node in walk(tree):
             yield from self._check_node(node)
         if expanded_size(tree, has_xabsl_arithmetic=self.has_xabsl_arithmetic) > MAX_SIZE:
-            message = "written out for XABSL this is too long: min, max and others are said with ? : there"
-            yield UnsupportedExpression(
-                node=tree, code=UNSUPPORTED, message=message, fix="take it apart, with a variable"
-            )
+            message = "this expression is too long in XABSL, where functions such as min and max are expanded with ? :"
+            yield UnsupportedExpression(node=tree, code=UNSUPPORTED, message=message, fix="split it with a variable")
 
     def _check_node(self, node: Expr) -> Iterator[UnsupportedExpression]:
         match node:
             case FunctionCall(function=function) if function not in SUPPORTED_FUNCTIONS:
-                mend = "let a hand-written component calculate it"
-                yield UnsupportedExpression(node=node, code=UNSUPPORTED, message=f"XABSL has no {function}", fix=mend)
+                fix = "compute it in a hand-written component"
+                yield UnsupportedExpression(
+                    node=node, code=UNSUPPORTED, message=f"XABSL does not support '{function}'", fix=fix
+                )
             case Binary(operator="//"):
-                mend = "let a hand-written component calculate it"
-                yield UnsupportedExpression(node=node, code=UNSUPPORTED, message="XABSL has no //", fix=mend)
+                fix = "compute it in a hand-written component"
+                yield UnsupportedExpression(node=node, code=UNSUPPORTED, message="XABSL does not support '//'", fix=fix)
             case Binary(operator="%") if not self.has_xabsl_arithmetic:
-                message = "in XABSL % takes whole parts and the sign of the dividend"
+                message = "XABSL evaluates % with integers and the sign of the dividend"
                 yield UnsupportedExpression(node=node, code=DIFFERENT_RESULT, message=message, fix=_ARITHMETIC_FIX)
             case Binary(operator="/", right=right) if not self.has_xabsl_arithmetic and not is_never_zero(
                 right, self.constants
             ):
-                message = "in XABSL a division by 0 divides by 0.0000001, and this may be one"
+                message = "the divisor may be 0, and XABSL replaces a divisor of 0 by 0.0000001"
                 yield UnsupportedExpression(
                     node=node, code=DIFFERENT_RESULT, message=message, fix=f"divide by a constant, or {_ARITHMETIC_FIX}"
                 )
@@ -82,22 +81,22 @@ class ExpressibilityChecker:
             ):
                 inner = (each for _name, value in arguments for each in walk(value))
                 if any(isinstance(each, OutputRef) and (each.alias, each.output) == (alias, output) for each in inner):
-                    message = f"in XABSL the calls of '{output}' share its arguments: the inner one changes the outer's"
-                    mend = "keep the inner value in a variable"
-                    yield UnsupportedExpression(node=node, code=DIFFERENT_RESULT, message=message, fix=mend)
+                    message = f"nested calls of '{output}' share their arguments in XABSL"
+                    fix = "store the inner value in a variable"
+                    yield UnsupportedExpression(node=node, code=DIFFERENT_RESULT, message=message, fix=fix)
             case Done(alias=alias) if not self.is_done_expressible(alias):
-                message = f"XABSL asks only whether something that the state calls is done, not whether '{alias}' is"
-                mend = "ask in decisions of states that call just this, or write action_done"
-                yield UnsupportedExpression(node=node, code=UNSUPPORTED, message=message, fix=mend)
+                message = f"XABSL supports 'done({alias})' only in states that call no other component"
+                fix = "use it in states that call only this component, or use action_done"
+                yield UnsupportedExpression(node=node, code=UNSUPPORTED, message=message, fix=fix)
             case _:
                 pass
 
 
-_ARITHMETIC_FIX = "say arithmetic: xabsl to have XABSL's results in every language"
+_ARITHMETIC_FIX = "say arithmetic: xabsl to use the arithmetic of XABSL in every language"
 
 
 def is_never_zero(node: Expr, constants: Mapping[str, ConstantValue]) -> bool:
-    """Whether a divisor is known not to be 0."""
+    """Return whether a divisor is known not to be 0."""
     match node:
         case Number(value=value):
             return value != 0
@@ -112,7 +111,7 @@ def is_never_zero(node: Expr, constants: Mapping[str, ConstantValue]) -> bool:
 
 
 def expanded_size(node: Expr, *, has_xabsl_arithmetic: bool) -> int:
-    """About how many parts an expression has in XABSL, where some must be said twice; never much more than MOST."""
+    """Estimate the number of nodes in XABSL, where some operands are repeated; at most 2 * MAX_SIZE."""
     sizes = [expanded_size(child, has_xabsl_arithmetic=has_xabsl_arithmetic) for child in children(node)]
     match node:
         case Comparison(operands=operands):
@@ -132,7 +131,7 @@ def expanded_size(node: Expr, *, has_xabsl_arithmetic: bool) -> int:
 
 
 def expanded_depth(node: Expr) -> int:
-    """How deep an expression is nested in XABSL at most: chains are, as deep as they are long."""
+    """Return an upper bound of the nesting depth in XABSL, where chains are nested."""
     below = max((expanded_depth(child) for child in children(node)), default=0)
     chain = len(children(node)) if isinstance(node, Logic | Comparison | FunctionCall) else 1
     return below + 2 + 2 * chain if children(node) else 1

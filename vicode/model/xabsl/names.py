@@ -1,4 +1,4 @@
-"""The names that things of designs have in XABSL."""
+"""The XABSL names of items in designs."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -9,12 +9,12 @@ from vicode.model.names import snake_case
 from vicode.model.project import INTERNAL, Agent, Enumeration, Interface, Project
 
 INPUT, OUTPUT, INTERNAL_SYMBOL, CONST = "input", "output", "internal", "const"
-"""What a symbol is: given by the robot's program, told to it, kept by the engine, or a constant."""
+"""Roles of symbols: read from the robot program, written to it, stored in the engine, or constant."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SymbolName:
-    """A name that expressions of XABSL may say. `component` is empty for what project.yaml declares."""
+    """The name of an XABSL symbol. `component` is empty for declarations of project.yaml."""
 
     name: str
     role: str
@@ -24,47 +24,44 @@ class SymbolName:
 
 
 def unqualified_name(thing: Declaration | State | Enumeration | Agent) -> str:
-    """The name it was given for XABSL, else its own."""
+    """Return the explicit XABSL name, else the name."""
     return thing.xabsl_name or thing.name
 
 
 def component_name(component: Design | Interface) -> str:
-    """The name of an option, a basic behavior, or a namespace of symbols."""
+    """Return the name of an option, basic behavior or namespace."""
     return component.xabsl_name or component.component
 
 
 def element_name(enumeration: Enumeration, element: str) -> str:
-    """The name of an element, without that of its enumeration."""
+    """Return the name of an element without its enumeration."""
     return dict(enumeration.xabsl_elements).get(element) or element
 
 
 def symbol_name(component: str, declaration: Declaration) -> str:
-    """The name of what a component offers: after the component's, since all symbols share one space of names."""
+    """Return the name of a symbol, prefixed with the component because all symbols share one namespace."""
     return declaration.xabsl_name or f"{snake_case(component)}.{declaration.name}"
 
 
 def symbol_declarations(design: Design) -> tuple[Declaration, ...]:
-    """What of a design becomes symbols."""
+    """Return the declarations of a design that become symbols."""
     return tuple(each for each in (*design.outputs, *design.variables) if each.arguments is None)
 
 
 def variable_role(interface: Interface) -> str:
-    """What a variable of a hand-written component is."""
     return INTERNAL_SYMBOL if interface.implementation == INTERNAL else OUTPUT
 
 
 def output_role(interface: Interface) -> str:
-    """What an output of a hand-written component is."""
     return INTERNAL_SYMBOL if interface.implementation == INTERNAL else INPUT
 
 
 def is_basic_behavior(interface: Interface) -> bool:
-    """Whether a hand-written component is something to call: it takes parameters, or tells nothing."""
+    """Return whether a hand-written component can be called: it has parameters, or nothing readable."""
     return interface.implementation != INTERNAL and (bool(interface.parameters) or not interface.readable)
 
 
 def list_symbols(project: Project) -> Iterator[SymbolName]:
-    """All symbols of a project's program."""
     for constant in project.constants:
         path: DesignPath = ("constants", constant.name)
         yield SymbolName(name=unqualified_name(constant), role=CONST, declaration=constant, component="", path=path)
@@ -85,7 +82,7 @@ def list_symbols(project: Project) -> Iterator[SymbolName]:
 
 
 def effective_agents(project: Project) -> tuple[Agent, ...]:
-    """The agents of a program: those of the project, or where there are none, one a design that no other uses."""
+    """Return the agents of the project. Without agents, return one for each design that no other design uses."""
     if project.agents:
         return project.agents
     used = {use.component for design in project.designs for use in design.uses}
