@@ -120,7 +120,7 @@ def format_diff(lost: RecoverableDesign) -> str:
 
 
 def _notify_once(document: DocumentSession, text: str) -> None:
-    sheet = document.shared
-    if sheet.notice.text != text:
-        sheet.notice = ChangeNotice(text, DISK_USER, sheet.rev)
-        sheet.notify_listeners(DocumentSession(sheet, DISK_USER))
+    shared = document.shared
+    if shared.notice.text != text:
+        shared.notice = ChangeNotice(text, DISK_USER, shared.rev)
+        shared.notify_listeners(DocumentSession(shared, DISK_USER))

@@ -43,21 +43,21 @@ def _marks_of_pairs(
     text: str, path: DesignPath, findings: Iterable[Finding], places: dict[str, tuple[tuple[int, int], int]]
 ) -> Iterator[CodeMark]:
     for finding in findings:
-        thing = finding.subject
-        if thing is None or thing.path[:-1] != path or thing.path[-1] not in places:
+        subject = finding.subject
+        if subject is None or subject.path[:-1] != path or subject.path[-1] not in places:
             continue
-        name_span, value_at = places[str(thing.path[-1])]
-        if thing.span is None:
+        name_span, value_at = places[str(subject.path[-1])]
+        if subject.span is None:
             yield _mark(text, name_span, finding)
         else:
-            yield _mark(text, (value_at + thing.span[0], value_at + thing.span[1]), finding)
+            yield _mark(text, (value_at + subject.span[0], value_at + subject.span[1]), finding)
 
 
 def _span_in(text: str, path: DesignPath, finding: Finding) -> tuple[int, int] | None:
-    thing = finding.subject
-    if thing is None or thing.path[: len(path)] != path:
+    subject = finding.subject
+    if subject is None or subject.path[: len(path)] != path:
         return None
-    return thing.span or (0, len(text))
+    return subject.span or (0, len(text))
 
 
 def message_with_fix(finding: Finding) -> str:

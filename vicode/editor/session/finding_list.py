@@ -15,12 +15,12 @@ def sort_findings(findings: Collection[Finding]) -> tuple[Finding, ...]:
     for at, finding in enumerate(findings):
         firsts.setdefault(_key(finding), at)
     ranks = list(Severity)
-    return tuple(sorted(findings, key=lambda each: (ranks.index(each.severity), firsts[_key(each)])))
+    return tuple(sorted(findings, key=lambda finding: (ranks.index(finding.severity), firsts[_key(finding)])))
 
 
 def group_by_severity(findings: Collection[Finding]) -> tuple[FindingsOfSeverity, ...]:
     """The sorted findings by severity."""
-    groups = groupby(sort_findings(findings), key=lambda each: each.severity)
+    groups = groupby(sort_findings(findings), key=lambda finding: finding.severity)
     return tuple((severity, tuple(found)) for severity, found in groups)
 
 

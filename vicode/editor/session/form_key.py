@@ -38,7 +38,7 @@ def has_same_structure(before: Design, now: Design, path: DesignPath) -> bool:
     """Whether nothing was added, removed or moved at a path; one declaration may have been renamed."""
     match path:
         case (("parameters" | "outputs" | "variables") as section, *_):
-            old, new = ([each.name for each in getattr(design, section)] for design in (before, now))
+            old, new = ([declaration.name for declaration in getattr(design, section)] for design in (before, now))
             return len(old) == len(new) and sum(was != name for was, name in zip(old, new, strict=True)) <= 1
         case _:
             return _order_around(before, path) == _order_around(now, path)
@@ -54,7 +54,7 @@ def _order_around(design: Design, path: DesignPath) -> object:
             return _actions(design.common.actions)
         case ("states" | "common", *_):
             located = ((at.path, type(at.decision), getattr(at.decision, "to", "")) for at in iter_decisions(design))
-            return tuple(each for each in located if each[0][:2] == path[:2])
+            return tuple(decision for decision in located if decision[0][:2] == path[:2])
         case _:
             return None
 

@@ -90,7 +90,7 @@ class ProjectOverview:
                     if any(use.component == interface.component for use in design.uses)
                 ),
             )
-            for interface in sorted(project.components, key=lambda each: each.component.casefold())
+            for interface in sorted(project.components, key=lambda interface: interface.component.casefold())
         )
 
     def _findings(self, design: Design, dependencies: object) -> tuple[Finding, ...]:

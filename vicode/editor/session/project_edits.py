@@ -164,14 +164,15 @@ def _first_error(read: ProjectReadResult | None) -> str:
 
 
 def _shared_names(project: Project) -> set[str]:
-    enumerations, constants = ({item.name for item in things} for things in (project.enumerations, project.constants))
+    enumerations, constants = ({item.name for item in items} for items in (project.enumerations, project.constants))
     return enumerations | constants | set(project.interfaces())
 
 
 def _newly_broken(before: Project, after: Project) -> tuple[str, ...]:
     """The components, or project.yaml, with more errors than before."""
     old, new = (
-        Counter(each.subject.component for each in find_errors(every) if each.subject) for every in (before, after)
+        Counter(error.subject.component for error in find_errors(project) if error.subject)
+        for project in (before, after)
     )
     names = ("", *(design.component for design in after.designs))
     return tuple(name or "project.yaml" for name in names if new[name] > old[name])

@@ -218,7 +218,7 @@ def find_errors(project: Project, components: Collection[str] | None = None) -> 
     """The errors of a project and all its designs, or those of `components`."""
     found = [finding for finding in check_project(project, components) if finding.severity is Severity.ERROR]
     # Errors of the name itself come first: they are the most specific.
-    return sorted(found, key=lambda each: each.rule.code not in ("D404", "D405", "D406", "D407"))
+    return sorted(found, key=lambda finding: finding.rule.code not in ("D404", "D405", "D406", "D407"))
 
 
 def _validate_project_file(project: Project, file: Path | None) -> str:

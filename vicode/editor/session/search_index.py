@@ -119,8 +119,8 @@ def rank_items(
         limit: The maximum number of matches.
     """
     words = query.lower()[:_MAX_QUERY_LENGTH].split()[:_MAX_WORDS]
-    asked = [(word, subsequence_pattern(word)) for word in words]
-    scored = ((score, item) for item in items if (score := _quick_score(asked, item, here)) is not None)
+    patterns = [(word, subsequence_pattern(word)) for word in words]
+    scored = ((score, item) for item in items if (score := _quick_score(patterns, item, here)) is not None)
     # Aligning thousands of items would be noticeable, so only the best by the quick score are aligned.
     best = heapq.nlargest(2 * limit, scored, key=lambda pair: pair[0])
     refined = [(_refined_score(words, score, item), item) for score, item in best]
@@ -129,11 +129,11 @@ def rank_items(
 
 
 def _quick_score(
-    asked: Sequence[tuple[str, Pattern[str]]], item: SearchItem, here: SearchTarget | None
+    patterns: Sequence[tuple[str, Pattern[str]]], item: SearchItem, here: SearchTarget | None
 ) -> float | None:
     """A quick score, None if the item does not match; runs for every item at every keystroke."""
     score = _WEIGHTS.get(item.kind, 0.0) - len(item.title) * _LENGTH_PENALTY
-    for word, letters in asked:
+    for word, letters in patterns:
         at = item.title_lower.find(word)
         if at == 0:
             score += _WHOLE if len(word) == len(item.title_lower) else _AT_START
@@ -182,7 +182,7 @@ def _hand_written_items(workspace: Workspace) -> Iterator[SearchItem]:
     """The components without a design; their target is a design that uses them."""
     for component in workspace.project.components:
         used = ((design, use) for design in workspace.project.designs for use in design.uses)
-        design, use = next(((each, use) for each, use in used if use.component == component.component), (None, None))
+        design, use = next((pair for pair in used if pair[1].component == component.component), (None, None))
         if design is not None and use is not None:
             target = SearchTarget(
                 project=workspace.key, component=design.component, selected=ItemRef(kind="components", id=use.alias)

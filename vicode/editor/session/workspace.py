@@ -334,7 +334,7 @@ class Workspace:
                 session.adopt_disk_version(disk, messages.MERGE, merged.design)
 
     def _check(self, design: Design) -> tuple[Finding, ...]:
-        designs = (design if each.component == design.component else each for each in self.project.designs)
+        designs = (design if other.component == design.component else other for other in self.project.designs)
         self.project = replace(self.project, designs=tuple(designs))
         return check_design(self.project, design)
 
