@@ -17,7 +17,6 @@ from vicode.model.traversal import is_exhaustive
 from vicode.model.xabsl.expressible import ExpressibilityChecker, expanded_depth
 from vicode.model.xabsl.names import component_name, symbol_name, unqualified_name
 from vicode.model.xabsl.unsupported import find_unsupported_in_design, find_unsupported_in_root, is_done_expressible
-from vicode.xabsl.embedded_code import parse_embedded_actions, parse_embedded_expression
 
 LANGUAGE = "xabsl"
 MAX_DEPTH = 100
@@ -115,6 +114,9 @@ def find_unreadable_code(context: RuleContext) -> Iterator[Finding]:
     """L704: invalid XABSL code."""
     if not _is_xabsl_project(context):
         return
+    # The XABSL parser is slow to import, and most projects have no XABSL code.
+    from vicode.xabsl.embedded_code import parse_embedded_actions, parse_embedded_expression  # noqa: PLC0415
+
     for placed in context.code_blocks:
         text = placed.code.in_language(LANGUAGE)
         if text is None or placed.role not in ("action", "predicate"):
