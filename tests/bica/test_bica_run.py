@@ -1,4 +1,4 @@
-"""The runtime's command in processes of its own, from a copied folder on a bare Python."""
+"""The command of the runtime in separate processes, run from a copied package without other libraries."""
 
 from __future__ import annotations
 

@@ -120,6 +120,15 @@ def test_a_synchronized_state_is_entered_when_all_robots_are_ready(joint: Root) 
     assert joint.main.state == "Block"
 
 
+def test_a_synchronized_state_is_entered_after_half_of_the_answer_time(joint: Root) -> None:
+    joint.team.ticks = 4
+    states = []
+    for _iteration in range(5):
+        step(joint, message(JointDefender, entering=True))
+        states.append(joint.main.state)
+    assert states == ["Wait", "Wait", "Wait", "Block", "Block"]
+
+
 def test_messages_about_unknown_states_are_ignored(sole: Root) -> None:
     step(sole, message(JointDefender, executed=True, entering=True))
     assert sole.main.state == "Block"

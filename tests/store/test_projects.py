@@ -1,4 +1,4 @@
-"""Folders of designs: which files belong together, and what is said about those that do not fit."""
+"""Projects: the files that belong to a project, and the findings on files that do not."""
 
 import os
 from pathlib import Path

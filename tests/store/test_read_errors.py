@@ -1,4 +1,4 @@
-"""Every mistake is found at the line that holds it: the files in cases/ tell the codes they expect with `# E:`."""
+"""Each error is reported at its line: comments `# E:` in the files of cases/ give the expected codes."""
 
 import re
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""Laws of saving: nothing is lost, nothing else is touched."""
+"""Laws of saving: the saved text has the value of the design, and unchanged parts keep each byte."""
 
 from hypothesis import given
 
