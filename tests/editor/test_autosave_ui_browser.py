@@ -29,11 +29,11 @@ def test_unsaved_work_survives_a_killed_server(
     console_errors.clear()
     with started_editor(project, tmp_path / "storage") as url:
         open_player(page, url)
-        expect(page.get_by_text("Recover the unsaved changes of Player")).to_be_visible()
+        expect(page.get_by_text("Recover the unsaved changes to Player")).to_be_visible()
         page.get_by_text("Show differences").click()
         expect(page.locator(".diff-line.added").get_by_text("worth keeping")).to_be_visible()
         page.get_by_role("button", name="Recover").click()
-        expect(page.get_by_text("Recovered the changes of Player")).to_be_visible()
+        expect(page.get_by_text("Recovered the changes to Player")).to_be_visible()
         expect(page.get_by_role("dialog")).to_have_count(0)
         select_state(page, "Kick")
         expect(page.get_by_role("textbox", name="Description")).to_have_value("worth keeping")

@@ -51,7 +51,7 @@ def test_ways_of_searching_and_mistakes(editor: str, page: Page) -> None:
     page.get_by_role("button", name="Search in code").click()
     expect(hits(page)).to_have_count(0)
     page.get_by_role("button", name="Search in code").click()
-    page.get_by_role("button", name="Pattern").click()
+    page.get_by_role("button", name="Use regular expression").click()
     box.fill("(")
     expect(page.get_by_text(re.compile("invalid pattern"))).to_be_visible()
     box.fill(r"self\.(kick|side)s?\b")

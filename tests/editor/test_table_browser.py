@@ -92,7 +92,7 @@ def test_rows_are_moved_and_removed_by_mouse_and_keys(editor: str, page: Page) -
     open_table(page, editor)
     cell(page, "transitions/FollowBall/0", "name").click()
     expect(page.get_by_label("Inspector").get_by_text("Transition from")).to_be_visible()
-    page.get_by_role("button", name="Later").first.click()
+    page.get_by_role("button", name="Move down").first.click()
     expect(cell(page, "transitions/FollowBall/0", "name")).to_have_text("1 →SearchNet")
     cell(page, "transitions/FollowBall/1", "name").click()
     press(page, "Alt+ArrowUp")
