@@ -108,7 +108,7 @@ def test_what_does_not_touch_is_merged_and_said(editor: str, page: Page, project
 def test_a_project_saves_by_itself_when_asked_to(editor: str, page: Page, project: Path) -> None:
     open_player(page, editor)
     page.keyboard.press("Control+k")
-    page.keyboard.type("save by itself")
+    page.keyboard.type("toggle autosave")
     page.keyboard.press("Enter")
     expect(page.get_by_text("Saved · Autosave on")).to_be_visible()
     select_state(page, "Kick")

@@ -157,7 +157,9 @@ def test_a_name_being_typed_on_the_drawing_outlives_what_others_call_it(editor: 
     page.keyboard.type("Strike")
     other.get_by_label("State", exact=True).fill("Shoot")
     other.get_by_label("State", exact=True).press("Enter")
-    expect(page.get_by_text("Kick was renamed to Shoot by another user; your text will rename it again")).to_be_visible()
+    expect(
+        page.get_by_text("Kick was renamed to Shoot by another user; your text will rename it again")
+    ).to_be_visible()
     expect(box).to_be_focused()
     expect(box).to_have_value("Strike")
     page.keyboard.type("Hard")

@@ -1,4 +1,4 @@
-// A form that the server builds anew, at whatever moment: what was typed or pressed in the one before is not lost.
+// Preserves input and clicks while the server rebuilds a form; see form_input_preservation.py.
 {
   let focused = null;
   const accessibleName = (element) => element.getAttribute("aria-label") ?? element.textContent;
@@ -18,8 +18,8 @@
   };
   document.addEventListener("focusout", ({ target }) => {
     const was = focused;
-    // A browser tells of a field that is taken away as of one that is left. When it was, the new form has come by
-    // the second microtask, and with it the one who typed; a field that is left is told before the next event.
+    // A removed field also fires focusout. In that case, the new form is mounted and the input transferred by the
+    // second microtask; otherwise the text is sent before the next event.
     if (was?.isTyped && target === was.field)
       queueMicrotask(() => queueMicrotask(() => was.isTransferred || sendDelayedInput(was)));
     setTimeout(() => {
@@ -27,20 +27,20 @@
     });
   });
   document.addEventListener("change", ({ target, isTrusted }) => {
-    // A key that saves, or leads elsewhere, asks for what is typed without leaving the field.
+    // Shortcuts that save or navigate dispatch a change event while the field keeps the focus.
     if (!isTrusted && focused?.isTyped && target === focused.field) sendDelayedInput(focused);
   });
   document.addEventListener("input", ({ target }) => {
     if (target !== focused?.field || focused.isTyped) return;
     focused.isTyped = true;
     focused.number = elementId(target);
-    // It outlives the element, which may be gone when it is asked.
+    // The editor outlives its element, which may be removed when the text is needed.
     if (!isText(target)) focused.editor = getElement(focused.number)?.editor;
   });
   const transferInput = (panel, was) => {
     const { field, at, isTyped } = was;
     const next = findSimilar(panel, field)[at];
-    // A code editor comes a moment later.
+    // Code editors are mounted later.
     if (!next) return false;
     next.focus({ preventScroll: true });
     if (!isText(field) || !isText(next)) return true;
@@ -61,14 +61,14 @@
     if (!panel || ![document.body, panel].includes(document.activeElement)) return;
     const isSame = panel.dataset.form === was.form;
     if ((isSame && transferInput(panel, was)) || !acceptsText(was.field)) return;
-    // What is typed on is nobody's command, though the thing may be gone.
+    // Further keys must not run commands, even if the item no longer exists.
     panel.tabIndex = -1;
     panel.focus({ preventScroll: true });
     if (isSame) focused = was;
   }).observe(document.body, { childList: true, subtree: true });
 
-  // A press on a button of a form that the server has built anew since reaches nobody. It is told beside the click, and
-  // before it: whoever hears it knows whether the button was still there.
+  // The server ignores clicks on buttons of a replaced form. Each click is announced first, so that the server can detect
+  // that the button no longer exists.
   const BUTTON = "button, [role=button], [role=checkbox], [role=switch]";
   const WAIT_MS = 1000;
   const MAX_REMEMBERED = 20;
@@ -99,7 +99,7 @@
     true,
   );
   document.addEventListener("pointerup", ({ target, clientX, clientY }) => {
-    // Replaced under the hand, which lets go above the new one, or where the old one was: for browsers that is no click.
+    // The button was replaced between pointerdown and pointerup, which browsers do not report as a click.
     const was = pressed;
     if (!was?.where || was.button.isConnected) return;
     pressed = null;
@@ -111,7 +111,7 @@
     "click",
     ({ detail, isTrusted, target }) => {
       if (!isTrusted) return;
-      // A key clicks as well.
+      // Keyboard clicks have no pointerdown.
       if (detail === 0) pressed = findPress(target);
       if (pressed?.button.contains(target)) reportPress(pressed);
     },
@@ -123,6 +123,6 @@
     if (next) repeat({ button: next, at: was.at });
     else if (performance.now() - sinceMs < WAIT_MS) requestAnimationFrame(() => retryPress(was, sinceMs));
   };
-  // The answer, when it was not there any more.
+  // Called by the server if the button no longer existed.
   window.repeatPress = (number) => presses.has(number) && retryPress(presses.get(number), performance.now());
 }

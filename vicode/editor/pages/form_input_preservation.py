@@ -1,15 +1,15 @@
-"""Nothing typed or pressed in a form is lost when the form is built anew, by whomever and at whatever moment.
+"""Preserves input and clicks in a form while the server rebuilds the form.
 
-A form is built anew when another thing is selected, or this one is renamed, or its parts come and go. Until the browser
-has heard of it, people type into fields, and press buttons, that the server no longer has: what these say by
-themselves reaches nobody.
+A form is rebuilt when another item is selected, or when the item is renamed or its parts change. Until the browser has
+received the new form, the user types into fields and clicks buttons that the server has already deleted; their events
+are ignored.
 
-- Who is still in such a field when the new form comes goes on in the new one, with what was typed since. The inspector
-  is told of it, as others may have changed the same text meanwhile (`Inspector.carry_on`).
-- Who has left it by then tells what was typed, with the number of the field. The inspector knows the fields of forms
-  before, and brings it to the field that took the place (`Inspector.hear_late`).
-- A press is told with the number of the button, just before the click itself. Where there is no such button any more,
-  the browser presses the one of the same name in the new form.
+- A focused field transfers its text, cursor and focus to the corresponding field of the new form
+  (`Inspector.transfer_input`), as other users may have changed the same text.
+- A field that lost the focus before the new form arrived sends its text with its element id. The inspector applies it
+  to the corresponding field (`Inspector.apply_delayed_input`).
+- A click is announced with the id of the button before the click itself. If the server no longer has the button, the
+  browser clicks the button with the same name in the new form.
 """
 
 from pathlib import Path
@@ -20,12 +20,12 @@ _SCRIPT = Path(__file__).with_name("form_input_preservation.js")
 
 
 def preserve_form_input() -> None:
-    """Add to the page what watches over its forms."""
+    """Add the script to the page."""
     client = ui.context.client
 
-    def hear_press(number: object) -> None:
+    def on_press(number: object) -> None:
         if isinstance(number, int) and number not in client.elements:
             ui.run_javascript(f"repeatPress({number})")
 
-    ui.on("button-pressed", lambda event: hear_press(event.args))
+    ui.on("button-pressed", lambda event: on_press(event.args))
     ui.add_body_html(f"<script>\n{_SCRIPT.read_text(encoding='utf-8')}</script>")

@@ -18,65 +18,64 @@ ChangeListener = Callable[[], None]
 
 @dataclass(eq=False, kw_only=True)
 class WindowContext:
-    """What the panels of one window share: the open design, and what this window has selected."""
+    """The state shared by the panels of one window; the page sets the callbacks."""
 
     workspace: Workspace
     document: DocumentSession
     client: Client
-    """The page of this window. What a handler does after an edit is done here: its own button may be gone by then."""
+    """The client of this window. Handlers use it after an edit, as their own button may be deleted by then."""
     reveal: Callable[[ItemRef], None] = field(default=lambda _thing: None)
-    """Bring a thing into the middle of the canvas."""
+    """Scroll the canvas to an item."""
     run_canvas_command: Callable[[str], None] = field(default=lambda _command: None)
-    """Do what a command of the canvas does, by its name."""
+    """Run a command of the canvas by its name."""
     open_component: Callable[[str], None] = field(default=lambda _component: None)
     """Open the design of another component."""
     offer_undo: Callable[[str, Callable[[], object]], None] = field(default=lambda _words, _act: None)
-    """Say what was done to files, with a button that takes it back."""
+    """Show a message about a change of files, with an undo button."""
     is_shown: Callable[[ItemRef], bool] = field(default=lambda _thing: True)
-    """Whether a thing is in the drawing."""
+    """Whether an item is on the canvas."""
     selected: tuple[ItemRef, ...] = ()
     open_sections: set[str] = field(default_factory=set)
-    """The folds of forms that this window has opened."""
+    """Keys of the open sections of forms."""
     code_editors: CodeEditorFactory = field(default_factory=CodeEditorFactory)
     linter: CodeLinter = field(init=False)
     _listeners: list[ChangeListener] = field(default_factory=list)
 
     def __post_init__(self) -> None:
-        """Be ready to ask for remarks on code."""
         self.linter = CodeLinter(self.workspace, self.document)
 
     @property
     def window(self) -> str:
-        """The id of this window among those on the design."""
+        """The id of this window in the presence room."""
         return self.client.id
 
     @property
     def design(self) -> Design:
-        """The design as it is now."""
+        """The current design."""
         return self.document.design
 
     @property
     def presence(self) -> PresenceRoom:
-        """Who else has the design open."""
+        """The presence room of the design."""
         return self.document.shared.presence
 
     @property
     def single_selection(self) -> ItemRef | None:
-        """The one selected thing, None for none or several."""
+        """The selected item if exactly one is selected."""
         return self.selected[0] if len(self.selected) == 1 else None
 
     def edit(self, label: str, change: Callable[[Design], Design], *, coalesce_key: str = "") -> None:
-        """Change the design (all windows follow)."""
+        """Apply an edit to the design, for all windows."""
         self.document.edit(label, change, coalesce_key=coalesce_key)
 
     def select(self, *things: ItemRef) -> None:
-        """Select exactly these."""
+        """Replace the selection."""
         if self.selected != things:
             self.selected = things
             self.notify_listeners()
 
     def subscribe(self, listener: ChangeListener) -> Callable[[], None]:
-        """Call `listener` after every change of the design or the selection; what is returned ends it."""
+        """Call `listener` after each change of design or selection; return a function that unsubscribes it."""
         self._listeners.append(listener)
 
         def stop() -> None:
@@ -86,13 +85,13 @@ class WindowContext:
         return stop
 
     def notify_listeners(self) -> None:
-        """Bring every panel up to date."""
+        """Call all listeners."""
         with self.client:
             for listener in tuple(self._listeners):
                 listener()
 
     def run_in_background(self, work: Coroutine[Any, Any, object], name: str) -> None:
-        """Do what takes longer beside the event loop's other work; if it fails, the person is told."""
+        """Run a coroutine as a task of this window; the page reports its exceptions."""
         background_tasks.create(work, name=name, context=self.client)
 
     def show_toast(self, text: str, kind: str) -> None:
