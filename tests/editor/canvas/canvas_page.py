@@ -12,6 +12,7 @@ from typing import Any
 from nicegui import app, ui
 
 from vicode.editor.canvas import Canvas
+from vicode.editor.canvas.protocol import Gesture, gesture_payload
 
 
 def main(port: int, scene_file: Path, theme: str) -> None:
@@ -37,13 +38,17 @@ def main(port: int, scene_file: Path, theme: str) -> None:
         ui.dark_mode({"dark": True, "light": False}.get(theme))
         ui.context.client.content.style("padding: 0")
 
-        def on_gesture(gesture: Any) -> None:
+        def on_gesture(event: Gesture) -> None:
+            gesture = gesture_payload(event)
             gestures.append(gesture)
             changes = changes_after(gesture, canvas._scene or {})
             if changes:
                 canvas.apply({"rev": gesture["rev"] + 1, **changes})
 
-        canvas = Canvas(on_gesture=on_gesture)
+        def on_malformed(reason: str) -> None:
+            gestures.append({"kind": "malformed", "reason": reason})
+
+        canvas = Canvas(on_gesture, on_malformed=on_malformed)
         canvas.style("width: 100vw; height: 100vh")
         canvases.append(canvas)
         canvas.load(json.loads(scene_file.read_text(encoding="utf-8")))

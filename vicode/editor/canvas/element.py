@@ -3,15 +3,15 @@
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from inspect import isawaitable
-from typing import Any, cast
+from typing import Any
 
 from nicegui import json, ui
 from nicegui.events import GenericEventArguments
 
 from vicode.editor.canvas.commands import commands_json
+from vicode.editor.canvas.decoding import MalformedEventError
 from vicode.editor.canvas.protocol import (
     ElementKind,
-    Gesture,
     NodePosition,
     OnGesture,
     OnPointer,
@@ -19,6 +19,8 @@ from vicode.editor.canvas.protocol import (
     Scene,
     SceneChanges,
     SceneItem,
+    SelectGesture,
+    decode_gesture,
 )
 from vicode.editor.js_modules import CANVAS_JS
 
@@ -31,10 +33,17 @@ class Canvas(ui.element, component=CANVAS_JS / "vicode_canvas.js"):
     Args:
         on_gesture: called with every gesture (see `vicode.editor.canvas.protocol`); may be a coroutine function.
         on_pointer: called with the pointer position (None: outside the canvas) while other users are shown.
+        on_malformed: called with the reason when the browser sent a malformed gesture, which is ignored.
     """
 
-    def __init__(self, on_gesture: OnGesture, on_pointer: OnPointer = lambda _position: None) -> None:
+    def __init__(
+        self,
+        on_gesture: OnGesture,
+        on_pointer: OnPointer = lambda _position: None,
+        on_malformed: Callable[[str], None] = lambda _reason: None,
+    ) -> None:
         super().__init__()
+        self._on_malformed = on_malformed
         # Passed as a property and not by a call after mounting, so that the first key press finds the commands.
         self._props["commands"] = commands_json()
         self._on_gesture, self._on_pointer = on_gesture, on_pointer
@@ -227,9 +236,13 @@ class Canvas(ui.element, component=CANVAS_JS / "vicode_canvas.js"):
             self._send_presence()
 
     async def _handle_gesture(self, event: GenericEventArguments) -> None:
-        gesture = cast("Gesture", event.args)
-        if gesture["kind"] == "select":
-            self._selected, self._acked_seq = gesture["items"], gesture.get("client_seq", 0)
+        try:
+            gesture = decode_gesture(event.args)
+        except MalformedEventError as error:
+            self._on_malformed(str(error))
+            return
+        if isinstance(gesture, SelectGesture):
+            self._selected, self._acked_seq = list(gesture.items), gesture.client_seq
         answer = self._on_gesture(gesture)
         if isawaitable(answer):
             await answer

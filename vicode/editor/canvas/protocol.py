@@ -1,7 +1,10 @@
 """Data exchanged with the canvas in the browser: scenes and scene changes to it, gestures from it."""
 
 from collections.abc import Awaitable, Callable, Mapping
-from typing import Any, Literal, NotRequired, TypedDict
+from dataclasses import MISSING, dataclass, fields
+from typing import Any, ClassVar, Literal, TypedDict, get_args
+
+from vicode.editor.canvas.decoding import MalformedEventError, decode
 
 # {"rev", "component", "states", "transitions", "components", "links", "common", …}, built by `vicode.editor.view`.
 Scene = Mapping[str, Any]
@@ -35,38 +38,42 @@ class NodePosition(TypedDict):
     y: float
 
 
-class SelectGesture(TypedDict):
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SelectGesture:
     """The user changed the selection; `items` may be empty."""
 
-    kind: Literal["select"]
+    kind: ClassVar = "select"
     rev: int
-    items: list[SceneItem]
+    items: tuple[SceneItem, ...]
     client_seq: int
     """Number of selections reported so far, including this one."""
 
 
-class MoveGesture(TypedDict):
+@dataclass(frozen=True, slots=True, kw_only=True)
+class MoveGesture:
     """The user moved nodes. The canvas already shows the new positions and accepts an echo or a correction."""
 
-    kind: Literal["move"]
+    kind: ClassVar = "move"
     rev: int
-    items: list[NodePosition]
+    items: tuple[NodePosition, ...]
     how: str
     """Command that moved them: "drag", "nudge", "align-left", …"""
 
 
-class DeleteGesture(TypedDict):
+@dataclass(frozen=True, slots=True, kw_only=True)
+class DeleteGesture:
     """Delete elements."""
 
-    kind: Literal["delete"]
+    kind: ClassVar = "delete"
     rev: int
-    items: list[SceneItem]
+    items: tuple[SceneItem, ...]
 
 
-class ConnectGesture(TypedDict):
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ConnectGesture:
     """Add a transition. Without a target, create a state at (x, y) first. The source may be `@common`."""
 
-    kind: Literal["connect"]
+    kind: ClassVar = "connect"
     rev: int
     source: str
     target: str | None
@@ -74,161 +81,197 @@ class ConnectGesture(TypedDict):
     y: float | None
 
 
-class ReconnectGesture(TypedDict):
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ReconnectGesture:
     """Move one end of a transition to another state; the source may also become `@common`."""
 
-    kind: Literal["reconnect"]
+    kind: ClassVar = "reconnect"
     rev: int
     id: str
     end: Literal["source", "target"]
     state: str
 
 
-class LinkGesture(TypedDict):
+@dataclass(frozen=True, slots=True, kw_only=True)
+class LinkGesture:
     """Let a state require or modulate a component.
 
     A link drawn from the component is `requires`. A link drawn from the state is `modulates`, or `requires` if the
     component has `"parameters": 0` in the scene; without that key its parameters are unknown.
     """
 
-    kind: Literal["link"]
+    kind: ClassVar = "link"
     rev: int
     kind_of_link: Literal["requires", "modulates"]
     state: str
     component: str
 
 
-class CreateGesture(TypedDict):
+@dataclass(frozen=True, slots=True, kw_only=True)
+class CreateGesture:
     """Create a state with its center at (x, y)."""
 
-    kind: Literal["create"]
+    kind: ClassVar = "create"
     rev: int
     x: float
     y: float
 
 
-class RenameGesture(TypedDict):
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RenameGesture:
     """Rename a state or a component's alias. The name is not empty, but may be taken or invalid."""
 
-    kind: Literal["rename"]
+    kind: ClassVar = "rename"
     rev: int
     of: Literal["states", "components"]
     id: str
     name: str
 
 
-class OpenGesture(TypedDict):
+@dataclass(frozen=True, slots=True, kw_only=True)
+class OpenGesture:
     """Open an element that is not renamed in place (double-click or Enter): its guard, design or code."""
 
-    kind: Literal["open"]
+    kind: ClassVar = "open"
     rev: int
     of: ElementKind
     id: str
 
 
-class DisableGesture(TypedDict):
+@dataclass(frozen=True, slots=True, kw_only=True)
+class DisableGesture:
     """Disable states and transitions; enable them if all of them are disabled."""
 
-    kind: Literal["disable"]
+    kind: ClassVar = "disable"
     rev: int
-    items: list[SceneItem]
+    items: tuple[SceneItem, ...]
 
 
-class CopyGesture(TypedDict):
+@dataclass(frozen=True, slots=True, kw_only=True)
+class CopyGesture:
     """Request the elements as text for the clipboard; `write_clipboard` answers."""
 
-    kind: Literal["copy"]
+    kind: ClassVar = "copy"
     rev: int
-    items: list[SceneItem]
+    items: tuple[SceneItem, ...]
 
 
-class PasteGesture(TypedDict):
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PasteGesture:
     """Insert a text from the clipboard into the design, centered at (x, y)."""
 
-    kind: Literal["paste"]
+    kind: ClassVar = "paste"
     rev: int
     text: str
     x: float
     y: float
 
 
-class DuplicateGesture(TypedDict):
+@dataclass(frozen=True, slots=True, kw_only=True)
+class DuplicateGesture:
     """Duplicate elements at a small offset."""
 
-    kind: Literal["duplicate"]
+    kind: ClassVar = "duplicate"
     rev: int
-    items: list[SceneItem]
+    items: tuple[SceneItem, ...]
 
 
-class ReorderGesture(TypedDict):
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ReorderGesture:
     """Change the priority of a transition: by -1 or 1 (`by`), or to the priority of the transition `onto`."""
 
-    kind: Literal["reorder"]
+    kind: ClassVar = "reorder"
     rev: int
     id: str
-    by: NotRequired[int]
-    onto: NotRequired[str]
+    by: int | None = None
+    onto: str | None = None
 
 
-class LabelGesture(TypedDict):
+@dataclass(frozen=True, slots=True, kw_only=True)
+class LabelGesture:
     """Position a label: fraction along the curve (0 to 1) and offset from it in pixels; None: automatic."""
 
-    kind: Literal["label"]
+    kind: ClassVar = "label"
     rev: int
     id: str
     at: tuple[float, float] | None
+    by: Literal["nudge"] | None = None
 
 
-class StateFlagGesture(TypedDict):
+@dataclass(frozen=True, slots=True, kw_only=True)
+class StateFlagGesture:
     """Make a state the initial state, or toggle whether it is final."""
 
-    kind: Literal["mark"]
+    kind: ClassVar = "mark"
     rev: int
     mark: Literal["initial", "final"]
     id: str
 
 
-class UseGesture(TypedDict):
+@dataclass(frozen=True, slots=True, kw_only=True)
+class UseGesture:
     """Add a component at (x, y): the one at the address of a dropped link, or one that the user chooses."""
 
-    kind: Literal["use"]
+    kind: ClassVar = "use"
     rev: int
     address: str | None
     x: float
     y: float
 
 
-class CommandGesture(TypedDict):
+@dataclass(frozen=True, slots=True, kw_only=True)
+class CommandGesture:
     """Run a command of the page."""
 
-    kind: Literal["command"]
+    kind: ClassVar = "command"
     rev: int
     name: str
 
 
-class TooltipGesture(TypedDict):
+@dataclass(frozen=True, slots=True, kw_only=True)
+class TooltipGesture:
     """A tooltip opened for an element; `show_tooltip` may add sections to it."""
 
-    kind: Literal["tooltip"]
+    kind: ClassVar = "tooltip"
     rev: int
     of: ElementKind
     id: str
 
 
-class PreviewGesture(TypedDict):
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PreviewGesture:
     """The user accepted (Enter) or rejected (Escape) a layout preview."""
 
-    kind: Literal["preview"]
+    kind: ClassVar = "preview"
     rev: int
     accepted: bool
 
 
-class HistoryGesture(TypedDict):
-    """Ctrl+Z, Ctrl+Shift+Z or Ctrl+Y was pressed on the canvas."""
+@dataclass(frozen=True, slots=True, kw_only=True)
+class StateRenamedGesture:
+    """Another user renamed a state while its rename field is open; `name` is the old name, `id` the new one."""
 
-    kind: Literal["undo", "redo"]
+    kind: ClassVar = "state-renamed"
     rev: int
-    note: NotRequired[str]
+    of: Literal["states"]
+    id: str
+    name: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class UndoGesture:
+    """Ctrl+Z was pressed on the canvas."""
+
+    kind: ClassVar = "undo"
+    rev: int
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RedoGesture:
+    """Ctrl+Shift+Z or Ctrl+Y was pressed on the canvas."""
+
+    kind: ClassVar = "redo"
+    rev: int
 
 
 Gesture = (
@@ -252,7 +295,37 @@ Gesture = (
     | CommandGesture
     | TooltipGesture
     | PreviewGesture
-    | HistoryGesture
+    | StateRenamedGesture
+    | UndoGesture
+    | RedoGesture
 )
+GESTURES: Mapping[str, type[Gesture]] = {gesture.kind: gesture for gesture in get_args(Gesture)}
+"""The gestures that the canvas may report, by kind."""
+
 OnGesture = Callable[[Gesture], Awaitable[None] | None]
 OnPointer = Callable[[tuple[float, float] | None], None]
+
+
+def decode_gesture(payload: object) -> Gesture:
+    """Decode a gesture from the browser.
+
+    Raises:
+        MalformedEventError: The kind is unknown, or the fields do not match its declaration.
+    """
+    if not isinstance(payload, dict):
+        raise MalformedEventError("a gesture must be an object")
+    kind = payload.get("kind")
+    gesture = GESTURES.get(kind) if isinstance(kind, str) else None
+    if gesture is None:
+        raise MalformedEventError(f"unknown kind of gesture: {kind!r:.40}")
+    return decode({name: value for name, value in payload.items() if name != "kind"}, gesture, gesture.kind)
+
+
+def gesture_payload(gesture: Gesture) -> dict[str, Any]:
+    """Return a gesture as a mapping for `vicode.editor.session`, without the optional fields that have no value."""
+    payload: dict[str, Any] = {"kind": gesture.kind}
+    for field in fields(gesture):
+        value = getattr(gesture, field.name)
+        if value is not None or field.default is MISSING:
+            payload[field.name] = list(value) if isinstance(value, tuple) else value
+    return payload

@@ -8,7 +8,19 @@ from nicegui import ui
 
 from vicode.editor.canvas import Canvas
 from vicode.editor.canvas.commands import CANVAS_COMMANDS, CommandGroup
-from vicode.editor.canvas.protocol import Gesture, SceneItem
+from vicode.editor.canvas.protocol import (
+    CommandGesture,
+    CopyGesture,
+    Gesture,
+    OpenGesture,
+    PreviewGesture,
+    SceneItem,
+    SelectGesture,
+    StateRenamedGesture,
+    TooltipGesture,
+    UseGesture,
+    gesture_payload,
+)
 from vicode.editor.pages import texts
 from vicode.editor.panels.command import Command, MenuGroup
 from vicode.editor.panels.use_dialog import ask_for_component
@@ -44,7 +56,7 @@ class CanvasController:
         context.run_canvas_command = self.run_command
         self.page_commands: Mapping[str, Callable[[], object]] = {}
         context.reveal, context.is_shown = self.center_on, self._exists
-        self.canvas = Canvas(self._on_gesture, self._share_pointer)
+        self.canvas = Canvas(self._on_gesture, self._share_pointer, self._on_malformed)
         self.canvas.classes("canvas")
         self.design = context.design
         self.scene: Scene = self._draw()
@@ -109,29 +121,30 @@ class CanvasController:
         )
 
     def _on_gesture(self, gesture: Gesture) -> None:
-        payload = cast("Mapping[str, Any]", gesture)
-        match payload["kind"]:
-            case "select":
+        match gesture:
+            case SelectGesture():
                 # The click may have committed a name that was being typed: the item may have a new name.
-                items = (self._rebase(payload) or {}).get("items", ())
-                self.context.select(*(ItemRef(kind=str(item["of"]), id=str(item["id"])) for item in items))
-            case "open":
-                self._open(str(payload["of"]), str(payload["id"]))
-            case "command":
-                self.page_commands.get(str(payload["name"]), lambda: None)()
-            case "copy":
-                self._copy(payload)
-            case "use":
-                self._use(payload)
-            case "renamed-meanwhile":
-                text = texts.renamed_while_typing(payload["name"], payload["id"])
-                self.context.show_toast(text, "info")
-            case "tooltip":
-                self._show_tooltip(str(payload["of"]), str(payload["id"]))
-            case "preview":
-                self.on_preview(accepted=payload["accepted"] is True)
+                items = (self._rebase(gesture) or {}).get("items", ())
+                self.context.select(*(ItemRef(kind=item["of"], id=item["id"]) for item in items))
+            case OpenGesture():
+                self._open(gesture.of, gesture.id)
+            case CommandGesture():
+                self.page_commands.get(gesture.name, lambda: None)()
+            case CopyGesture():
+                self.canvas.write_clipboard(clipboard.copy_as_text(self.context.design, gesture.items))
+            case UseGesture():
+                self._use(gesture)
+            case StateRenamedGesture():
+                self.context.show_toast(texts.renamed_while_typing(gesture.name, gesture.id), "info")
+            case TooltipGesture():
+                self._show_tooltip(gesture.of, gesture.id)
+            case PreviewGesture():
+                self.on_preview(accepted=gesture.accepted)
             case _:
-                self._edit(payload)
+                self._edit(gesture)
+
+    def _on_malformed(self, reason: str) -> None:
+        self.context.show_toast(texts.invalid_gesture(reason), "warning")
 
     def _show_tooltip(self, of: str, identity: str) -> None:
         languages = self.context.workspace.project.languages
@@ -142,7 +155,7 @@ class CanvasController:
             return
         self.canvas.show_tooltip(of, identity, sections)
 
-    def _edit(self, gesture: Mapping[str, Any]) -> None:
+    def _edit(self, gesture: Gesture) -> None:
         payload = self._rebase(gesture)
         if payload is None:
             self.context.show_toast(texts.ITEM_MISSING, "warning")
@@ -164,28 +177,20 @@ class CanvasController:
         if outcome.state_to_rename:
             self.canvas.rename_in_place(outcome.state_to_rename)
 
-    def _copy(self, payload: Mapping[str, Any]) -> None:
-        try:
-            text = clipboard.copy_as_text(self.context.design, payload["items"])
-        except (KeyError, TypeError, AttributeError):
-            # Only an outdated page or a foreign script sends other data.
-            text = None
-        self.canvas.write_clipboard(text)
-
-    def _use(self, payload: Mapping[str, Any]) -> None:
+    def _use(self, gesture: UseGesture) -> None:
         project = self.context.workspace.project
         try:
-            at = parse_point(payload)
-        except (KeyError, TypeError, ValueError):
+            at = parse_point({"x": gesture.x, "y": gesture.y})
+        except ValueError:
             return
         usable = [each for name, each in sorted(project.interfaces().items()) if name != self.context.design.component]
-        if payload.get("address") is None:
+        if gesture.address is None:
             ask_for_component(usable, lambda component: self._add_use(component, at))
             return
         dropped = (
             each.component
             for each in usable
-            if design_url(self.context.workspace.key, each.component) == payload["address"]
+            if design_url(self.context.workspace.key, each.component) == gesture.address
         )
         component = next(dropped, None)
         if component is None:
@@ -204,11 +209,11 @@ class CanvasController:
         self.context.select(ItemRef(kind="components", id=alias))
         self.canvas.focus()
 
-    def _rebase(self, payload: Mapping[str, Any]) -> Mapping[str, Any] | None:
+    def _rebase(self, gesture: Gesture) -> Mapping[str, Any] | None:
         """Rebase a gesture on the current design; None if its item no longer exists."""
-        document, rev = self.context.document, payload.get("rev")
-        shown = document.shared.design_at(rev if isinstance(rev, int) else document.rev)
-        return rebase_gesture(payload, shown, document.design)
+        document = self.context.document
+        shown = document.shared.design_at(gesture.rev)
+        return rebase_gesture(gesture_payload(gesture), shown, document.design)
 
     def _share_pointer(self, at: Point | None) -> None:
         self.context.presence.update(self.context.window, pointer=at)

@@ -30,7 +30,7 @@ export class InlineRename {
     if (!this.key || this.key !== keyOf("states", old)) return;
     this.key = keyOf("states", name);
     this.isRenamePending = true;
-    this.canvas.report("renamed-meanwhile", { of: "states", id: name, name: old });
+    this.canvas.report("state-renamed", { of: "states", id: name, name: old });
   }
 
   /** Keeps the field over its node; closes it if the node was removed. */

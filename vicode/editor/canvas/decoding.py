@@ -1,0 +1,88 @@
+"""Decodes JSON values from the browser into the types of their declaration."""
+
+import math
+from dataclasses import MISSING, fields, is_dataclass
+from functools import cache
+from types import UnionType
+from typing import Any, Literal, TypeVar, get_args, get_origin, get_type_hints, is_typeddict
+
+_T = TypeVar("_T")
+_type_hints = cache(get_type_hints)
+
+
+class MalformedEventError(ValueError):
+    """An event from the browser does not match its declaration."""
+
+
+def decode(value: object, expected: type[_T], name: str) -> _T:
+    """Decode a value; `expected` is a dataclass, a TypedDict, a tuple, a union, a literal or a JSON type.
+
+    Args:
+        value: the JSON value.
+        expected: its declared type.
+        name: the name of the value for error messages.
+
+    Raises:
+        MalformedEventError: The value has another type; a field is missing or unknown.
+    """
+    decoded: _T = _decode(value, expected, name)
+    return decoded
+
+
+def _decode(value: Any, expected: Any, name: str) -> Any:
+    origin = get_origin(expected)
+    if is_dataclass(expected):
+        required = {field.name for field in fields(expected) if field.default is MISSING}
+        hints = {field.name: _type_hints(expected)[field.name] for field in fields(expected)}
+        return expected(**_decode_fields(value, hints, required, name))  # type: ignore[operator]
+    if is_typeddict(expected):
+        hints = _type_hints(expected)
+        return _decode_fields(value, hints, set(hints), name)
+    if origin is tuple:
+        return _decode_tuple(value, get_args(expected), name)
+    if origin is UnionType:
+        return _decode_union(value, get_args(expected), name)
+    if _is_instance(value, expected, origin):
+        return value
+    raise MalformedEventError(f"{name}: expected {_type_name(expected)}, got {value!r:.40}")
+
+
+def _decode_fields(value: Any, hints: dict[str, Any], required: set[str], name: str) -> dict[str, Any]:
+    if not isinstance(value, dict):
+        raise MalformedEventError(f"{name}: not an object")
+    if unknown := value.keys() - hints.keys():
+        raise MalformedEventError(f"{name}: unknown fields {sorted(map(str, unknown))}")
+    if missing := required - value.keys():
+        raise MalformedEventError(f"{name}: missing fields {sorted(missing)}")
+    return {key: _decode(item, hints[key], f"{name}.{key}") for key, item in value.items()}
+
+
+def _decode_tuple(value: Any, types: tuple[Any, ...], name: str) -> tuple[Any, ...]:
+    if not isinstance(value, list):
+        raise MalformedEventError(f"{name}: not a list")
+    if types[-1] is Ellipsis:
+        types = types[:1] * len(value)
+    if len(types) != len(value):
+        raise MalformedEventError(f"{name}: {len(types)} values expected")
+    return tuple(_decode(item, expected, name) for item, expected in zip(value, types, strict=True))
+
+
+def _decode_union(value: Any, types: tuple[Any, ...], name: str) -> Any:
+    if value is None and type(None) in types:
+        return None
+    (expected,) = (expected for expected in types if expected is not type(None))
+    return _decode(value, expected, name)
+
+
+def _is_instance(value: Any, expected: Any, origin: Any) -> bool:
+    if origin is Literal:
+        return isinstance(value, str) and value in get_args(expected)
+    if expected is float:
+        return isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value)
+    return type(value) is expected
+
+
+def _type_name(expected: Any) -> str:
+    if get_origin(expected) is Literal:
+        return f"one of {', '.join(get_args(expected))}"
+    return {float: "a finite number"}.get(expected, expected.__name__)
