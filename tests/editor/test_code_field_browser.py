@@ -1,4 +1,4 @@
-"""Writing guards and code on a real page: completion, mistakes at their characters, ways in and out by keyboard."""
+"""Editing guards and code: completion, marks under errors, and keyboard access."""
 
 import re
 from pathlib import Path
@@ -16,20 +16,20 @@ def guard(page: Page) -> Locator:
 
 
 def options(page: Page) -> Locator:
-    """What completion offers."""
+    """The options of the completion list."""
     return page.locator(".cm-tooltip-autocomplete li")
 
 
 def accept(page: Page, label: str) -> None:
-    """Take the first option, which must be this one."""
+    """Accept the first option, which must have this label."""
     expect(options(page).first).to_contain_text(label)
-    # A list that has just opened ignores Enter for 75 ms, lest it swallows a line break that was meant.
+    # A list that has just opened ignores Enter for 75 ms, so that it does not swallow a line break.
     page.wait_for_timeout(150)
     page.keyboard.press("Enter")
 
 
 def retype(page: Page, field: Locator, text: str) -> None:
-    """Type over what stands in a code editor, key by key."""
+    """Replace the text of a code editor, key by key."""
     field.click()
     page.keyboard.press("Control+a")
     page.keyboard.type(text)
@@ -40,14 +40,14 @@ def test_a_guard_is_completed_marked_and_left_by_keyboard(editor: str, page: Pag
     select_transition(page, LOOK)
     expect(guard(page)).to_have_text("perception.ball_seen")
 
-    # The names that exist here, with type, unit and doc.
+    # Available names with type, unit and description.
     retype(page, guard(page), "perception.ball_a")
     expect(options(page).first).to_contain_text("float s output")
     expect(page.locator(".cm-completionInfo")).to_be_visible()
     accept(page, "ball_age")
     expect(guard(page)).to_have_text("perception.ball_age")
 
-    # It is no condition yet: said in words below, and under the characters.
+    # Not a condition yet: there is a message below and a mark under the characters.
     inspector = page.get_by_label("Inspector")
     expect(page.locator(".squiggle.error")).to_have_text("perception.ball_age")
     expect(inspector.get_by_role("button", name="expected bool, found float")).to_be_visible()
@@ -57,7 +57,7 @@ def test_a_guard_is_completed_marked_and_left_by_keyboard(editor: str, page: Pag
     expect(page.locator(".squiggle")).to_have_count(0)
     expect(findings(page).get_by_text("No problems found")).to_be_visible()
 
-    # Several lines; Tab leaves like any field.
+    # Several lines; Tab leaves the field.
     page.keyboard.press("Enter")
     page.keyboard.type("and sta")
     page.keyboard.press("Control+Space")
@@ -69,7 +69,7 @@ def test_a_guard_is_completed_marked_and_left_by_keyboard(editor: str, page: Pag
     expect(guard(page).locator(".cm-line")).to_have_count(2)
 
 
-def test_a_message_leads_to_its_characters_without_a_mouse(editor: str, page: Page) -> None:
+def test_a_message_moves_the_cursor_to_its_characters_by_keyboard(editor: str, page: Page) -> None:
     open_player(page, editor)
     select_transition(page, LOOK)
     retype(page, guard(page), "perception.ball_seen and nobody")
@@ -89,12 +89,12 @@ def test_fast_typing_is_neither_lost_nor_reordered(editor: str, page: Page, proj
     assert text in re.sub(r"\s+", " ", save(page, project / "forward" / "player.yaml"))
 
 
-def test_the_linter_speaks_of_code_and_what_is_declared_is_known(editor: str, page: Page) -> None:
+def test_the_linter_marks_code_and_knows_declared_names(editor: str, page: Page) -> None:
     open_player(page, editor)
     select_state(page, "LookForBall")
     page.get_by_label("Inspector").get_by_role("button", name="Add to actions: Code").first.click()
     code = page.get_by_label("Python", exact=True).first
-    # What was just added is typed at once; its letters are no keys of the drawing.
+    # Typed immediately after adding the action; the letters are not shortcuts of the canvas.
     expect(code).to_be_focused()
     retype(page, code, "log.info(Side.left, wrong)")
     expect(page.locator(".squiggle.warning")).to_have_text("wrong")
@@ -104,13 +104,13 @@ def test_the_linter_speaks_of_code_and_what_is_declared_is_known(editor: str, pa
     page.keyboard.type(".ball_s")
     accept(page, "ball_seen")
     expect(code).to_have_text("self.perception.ball_seen")
-    # Tab indents here. Escape leads to the drawing, unless it closes a completion; then Tab leaves.
+    # Tab indents. Escape moves the focus to the canvas, or closes the completion list; then Tab leaves.
     page.keyboard.press("Escape")
     page.keyboard.press("Tab")
     expect(page.locator(".cm-content:focus")).to_have_count(0)
 
 
-def test_code_is_written_in_a_wide_editor(editor: str, page: Page) -> None:
+def test_code_is_edited_in_a_wide_editor(editor: str, page: Page) -> None:
     open_player(page, editor)
     select_transition(page, LOOK)
     page.get_by_role("button", name="Enlarge: When").click()
@@ -124,7 +124,7 @@ def test_code_is_written_in_a_wide_editor(editor: str, page: Page) -> None:
     expect(guard(page)).to_have_text("perception.ball_seen and True")
 
 
-def test_panels_are_made_larger_and_stay_so(editor: str, page: Page) -> None:
+def test_panels_are_resized_and_keep_their_size(editor: str, page: Page) -> None:
     open_player(page, editor)
     side, grip = page.locator(".side"), page.get_by_role("separator", name="Width of the side panel")
     box = grip.bounding_box()
@@ -147,7 +147,7 @@ def test_panels_are_made_larger_and_stay_so(editor: str, page: Page) -> None:
     expect(side).to_have_css("width", "368px")
 
 
-def test_names_from_strangers_stay_texts_in_completion_and_marks(editor: str, page: Page, project: Path) -> None:
+def test_html_in_names_is_shown_as_text_in_completion_and_marks(editor: str, page: Page, project: Path) -> None:
     file = project / "forward" / "project.yaml"
     evil = "<img src=x onerror=\"document.title='owned'\">"
     file.write_text(file.read_text().replace("components:", f"components:\n  Zebra: {{doc: '{evil.replace(chr(39), chr(39) * 2)}', implementation: 'a:B', outputs: {{stripes: {{type: bool, doc: '<b>{evil.replace(chr(39), chr(39) * 2)}'}}}}}}", 1))  # fmt: skip  # noqa: E501

@@ -1,4 +1,4 @@
-"""The table as a person uses it: by keys alone, by mouse, and in step with the drawing and with another window."""
+"""Using the table by keyboard and by mouse, synchronized with the diagram and with another window."""
 
 from pathlib import Path
 
@@ -29,12 +29,12 @@ def press(page: Page, *keys: str) -> None:
         page.keyboard.press(key)
 
 
-def test_a_machine_by_keys_alone(editor: str, page: Page, project: Path) -> None:
+def test_a_machine_is_built_by_keyboard(editor: str, page: Page, project: Path) -> None:
     (project / "forward" / "wave.yaml").write_text("vicode: 1\ncomponent: Wave\nstates: {Up: {}}\n")
     open_table(page, editor, "design/forward/Wave")
     expect(page.locator(".vicode-table :focus")).to_have_text("Up")
 
-    # A state below, named at once; back to the first, which gets a transition to it with a timer.
+    # Add a state below and name it; then add a transition with a timer from the first state to it.
     press(page, "Control+Shift+Enter")
     expect(page.locator(".field-in-cell")).to_be_focused()
     page.keyboard.type("Down")
@@ -50,10 +50,10 @@ def test_a_machine_by_keys_alone(editor: str, page: Page, project: Path) -> None
     press(page, "Enter")
     expect(cell(page, "transitions/Up/0", "after")).to_have_text("0.5")
 
-    # The second is final; a wrong guard is told, and stands on the row.
+    # Make the second state final; an invalid guard shows a sign in its row.
     press(page, "ArrowDown", "Home", "ArrowRight", "ArrowRight", "Space")
     expect(page.get_by_role("checkbox", name="Down: Final")).to_be_checked()
-    # Letters are nothing to a flag: neither its switch nor the key of a command.
+    # Letters on a flag neither toggle it nor trigger a shortcut.
     page.keyboard.type("sad")
     press(page, "ArrowUp", "ArrowRight")
     expect(page.get_by_role("checkbox", name="Down: Final")).to_be_checked()
@@ -72,7 +72,7 @@ def test_a_machine_by_keys_alone(editor: str, page: Page, project: Path) -> None
     expect(page.locator('g[data-kind="state"][data-id="Down"]')).to_be_visible()
 
 
-def test_refused_values_stay_to_be_mended(editor: str, page: Page) -> None:
+def test_refused_values_stay_in_the_cell_editor(editor: str, page: Page) -> None:
     open_table(page, editor)
     press(page, "ArrowDown", "ArrowDown", "F2")
     expect(page.locator(".field-in-cell")).to_have_value("LookForBall")
@@ -117,7 +117,7 @@ def test_a_choice_is_made_by_mouse(editor: str, page: Page) -> None:
     expect(cell(page, "states/Kick", "doc")).to_have_text("one of six")
 
 
-def test_table_drawing_and_another_window_keep_in_step(editor: str, page: Page, second_window: Page) -> None:
+def test_table_diagram_and_another_window_are_synchronized(editor: str, page: Page, second_window: Page) -> None:
     open_table(page, editor)
     second_window.goto(editor + PLAYER)
     expect(second_window.locator('g[data-kind="state"][data-id="Kick"]')).to_be_visible()
@@ -136,7 +136,7 @@ def test_table_drawing_and_another_window_keep_in_step(editor: str, page: Page, 
     expect(page.locator('.row[data-id="states/GetUp"]')).to_have_attribute("aria-selected", "true")
 
 
-def test_a_thousand_states_are_gone_through_by_keys(editor: str, page: Page, project: Path) -> None:
+def test_a_thousand_states_are_navigated_by_keyboard(editor: str, page: Page, project: Path) -> None:
     states = "".join(
         f"  S{n}:\n    at: [{200 * (n % 40)}, {120 * (n // 40)}]\n"
         f"    transitions: [{{to: S{(n + 1) % 1000}, after: {n}}}]\n"

@@ -151,7 +151,7 @@ def canvas_address(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
 
 @pytest.fixture(scope="module")
 def canvas_page(chromium: Browser, canvas_address: str) -> Iterator[Page]:
-    """One page for the whole module: opening it anew for each test would take most of the time."""
+    """One page for all tests of a module: opening one for each test would take most of the time."""
     page = chromium.new_page(viewport={"width": 1366, "height": 768})
     page.goto(canvas_address)
     page.wait_for_selector(".vicode-canvas[data-ready]")

@@ -153,7 +153,7 @@ class EditorDriver:
         expect(self.element("state", name)).to_be_visible()
 
     def expect_undone(self, steps: int = 1) -> None:
-        """Undo edits, and check that exactly this many steps lead back to the saved design."""
+        """Undo edits, and check that exactly this many steps restore the saved design."""
         expect(self.page.get_by_text("Unsaved changes")).to_be_visible()
         self.press("Escape", "Escape")
         for step in range(steps):

@@ -7,7 +7,6 @@ from types import UnionType
 from typing import Any, Literal, TypeVar, get_args, get_origin, get_type_hints, is_typeddict
 
 _T = TypeVar("_T")
-_type_hints = cache(get_type_hints)
 
 
 class MalformedEventError(ValueError):
@@ -32,9 +31,7 @@ def decode(value: object, expected: type[_T], name: str) -> _T:
 def _decode(value: Any, expected: Any, name: str) -> Any:
     origin = get_origin(expected)
     if is_dataclass(expected):
-        required = {field.name for field in fields(expected) if field.default is MISSING}
-        hints = {field.name: _type_hints(expected)[field.name] for field in fields(expected)}
-        return expected(**_decode_fields(value, hints, required, name))  # type: ignore[operator]
+        return _decode_dataclass(value, expected, name)
     if is_typeddict(expected):
         hints = _type_hints(expected)
         return _decode_fields(value, hints, set(hints), name)
@@ -45,6 +42,12 @@ def _decode(value: Any, expected: Any, name: str) -> Any:
     if _is_instance(value, expected, origin):
         return value
     raise MalformedEventError(f"{name}: expected {_type_name(expected)}, got {value!r:.40}")
+
+
+def _decode_dataclass(value: Any, expected: Any, name: str) -> Any:
+    required = {field.name for field in fields(expected) if field.default is MISSING}
+    hints = {field.name: _type_hints(expected)[field.name] for field in fields(expected)}
+    return expected(**_decode_fields(value, hints, required, name))
 
 
 def _decode_fields(value: Any, hints: dict[str, Any], required: set[str], name: str) -> dict[str, Any]:
@@ -82,7 +85,12 @@ def _is_instance(value: Any, expected: Any, origin: Any) -> bool:
     return type(value) is expected
 
 
+@cache
+def _type_hints(expected: Any) -> dict[str, Any]:
+    return get_type_hints(expected)
+
+
 def _type_name(expected: Any) -> str:
     if get_origin(expected) is Literal:
         return f"one of {', '.join(get_args(expected))}"
-    return {float: "a finite number"}.get(expected, expected.__name__)
+    return "a finite number" if expected is float else str(expected.__name__)

@@ -98,7 +98,7 @@ export class LevelOfDetail {
     this.plane.style.transform = `translate(${x}px, ${y}px) scale(${k})`;
   }
 
-  /** Shows the snapshot during a zoom: browsers lay out every SVG text again at each zoom step. */
+  /** Shows the snapshot during a zoom: browsers repeat the layout of every SVG text at each zoom step. */
   #freeze() {
     const { gestures, root, viewport } = this.canvas;
     const isBusy = this.far || gestures.isDragging() || this.plane.contains(root.activeElement);

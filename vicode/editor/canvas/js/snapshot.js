@@ -1,4 +1,4 @@
-// Bitmap of the mounted elements for zooming: a browser lays out every SVG text again at each zoom step.
+// Bitmap of the mounted elements for zooming: browsers repeat the layout of every SVG text at each zoom step.
 import { html } from "./svg.js";
 
 // Fewer elements than this are zoomed as SVG and stay sharp.
