@@ -36,6 +36,8 @@ def test_a_gesture_is_decoded_and_encoded() -> None:
     reset = {"kind": "label", "rev": 1, "id": "A/0", "at": None}
     assert decode_gesture(reset) == LabelGesture(rev=1, id="A/0", at=None)
     assert gesture_payload(decode_gesture(reset)) == reset
+    nudge = {"kind": "label", "rev": 1, "id": "A/0", "at": [0.5, -12], "by": "nudge"}
+    assert gesture_payload(decode_gesture(nudge)) == nudge
 
 
 @pytest.mark.parametrize(

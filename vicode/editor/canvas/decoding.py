@@ -4,7 +4,7 @@ import math
 from dataclasses import MISSING, fields, is_dataclass
 from functools import cache
 from types import UnionType
-from typing import Any, Literal, TypeVar, get_args, get_origin, get_type_hints, is_typeddict
+from typing import Any, Literal, TypeVar, Union, get_args, get_origin, get_type_hints, is_typeddict
 
 _T = TypeVar("_T")
 
@@ -37,7 +37,7 @@ def _decode(value: Any, expected: Any, name: str) -> Any:
         return _decode_fields(value, hints, set(hints), name)
     if origin is tuple:
         return _decode_tuple(value, get_args(expected), name)
-    if origin is UnionType:
+    if origin in (Union, UnionType):
         return _decode_union(value, get_args(expected), name)
     if _is_instance(value, expected, origin):
         return value
