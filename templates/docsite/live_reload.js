@@ -1,4 +1,4 @@
-/* vicode docs: reloads a page when it has changed, and shows what stands in the way. Only served while a site is watched. */
+/* vicode docs: reloads a page when it changes and shows build errors. Only served by `vicode docs --watch`. */
 (() => {
   "use strict";
 
@@ -20,7 +20,7 @@
     box.className = "build-errors";
     box.setAttribute("role", "alert");
     const title = document.createElement("h2");
-    title.textContent = "The latest change cannot be shown";
+    title.textContent = "Build failed";
     const text = document.createElement("pre");
     text.tabIndex = 0;
     text.textContent = errors;
@@ -34,14 +34,14 @@
     else showErrors(news.errors);
   }
 
-  // Who looks for something goes on first.
+  // Wait until the user leaves the search field.
   function reload() {
     const field = document.activeElement;
     if (field?.matches("#search") && field.value) field.addEventListener("blur", () => location.reload(), { once: true });
     else location.reload();
   }
 
-  // A browser has few connections to one server: pages that nobody sees leave them to the others.
+  // Browsers limit the connections per server, so hidden pages disconnect.
   function updateConnection() {
     if (document.hidden) {
       source?.close();

@@ -41,7 +41,7 @@ def test_nothing_that_is_there_is_lost(tmp_path: Path, capsys: pytest.CaptureFix
     (out / "robot.py").write_text("# filled in\n")
     before = {path: path.read_bytes() for path in out.rglob("*.yaml")}
     assert main(["import", str(PROGRAM / "agents.xabsl"), "--out", str(out)]) == 1
-    assert "is there already" in capsys.readouterr().err
+    assert "would be overwritten; use --force" in capsys.readouterr().err
     assert {path: path.read_bytes() for path in out.rglob("*.yaml")} == before
     assert main(["import", str(PROGRAM / "agents.xabsl"), "--out", str(out), "--name", "Best", "--force"]) == 0
     assert open_project(out).project.name == "Best"

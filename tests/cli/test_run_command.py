@@ -79,7 +79,7 @@ def test_failing_code_is_told_and_counted(lamps: Path) -> None:
 
 def test_what_cannot_start_is_told(lamps: Path, capfd: pytest.CaptureFixture[str]) -> None:
     assert vicode("run", "lamps") == 2
-    assert "name the design to run" in capfd.readouterr().err
+    assert "specify the design to run" in capfd.readouterr().err
     with (lamps / "project.yaml").open("a", encoding="utf-8") as file:
         file.write("world: nowhere:World\n")
     assert vicode("run", "lamps/lamp.yaml", "--ticks", "1") == 2

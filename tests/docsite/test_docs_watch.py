@@ -109,7 +109,7 @@ def test_what_cannot_be_written_is_said_and_it_goes_on(watching: WatchProcess) -
     shutil.rmtree(page)
     (watching.out / "index.html").write_text("mine", "utf-8")
     watching.edit("Lit", "Bright")
-    watching.wait_for("index.html is no page of ours; choose another --out")
+    watching.wait_for("index.html was not written by vicode docs; choose another --out")
     (watching.out / "index.html").unlink()
     watching.edit("Bright", "Shining")
     watching.wait_for("no findings")

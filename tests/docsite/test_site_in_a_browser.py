@@ -128,12 +128,12 @@ def test_a_wide_tree_is_moved_as_a_drawing(page: Page, deep_site: Path) -> None:
     page.goto((deep_site / "component-Deep.html").as_uri())
     tree = page.locator("#state-Row .tree")
     drawing = tree.locator("svg[role=group]")
-    expect(tree.get_by_role("group", name="Decision tree of Row; the lines below say the same")).to_be_visible()
+    expect(tree.get_by_role("group", name="Decision tree of Row. The pseudocode below is equivalent.")).to_be_visible()
     # It begins in its own size: letters of 12 pixels are 12 pixels high.
     scale = drawing.evaluate("(svg) => svg.getScreenCTM().a")
     assert scale == pytest.approx(1, abs=0.05)
     begun = drawing.get_attribute("viewBox")
-    tree.get_by_role("button", name="Show all of it (0)").click()
+    tree.get_by_role("button", name="Zoom to fit (0)").click()
     whole = drawing.get_attribute("viewBox")
     assert whole != begun
     expect(drawing.locator("a.target")).to_be_in_viewport()
@@ -161,7 +161,7 @@ def test_a_box_of_a_large_map_is_found_with_its_neighbors(page: Page, behavior_s
     page.goto((behavior_site / "index.html").as_uri())
     drawing = page.locator(".diagram svg[role=group]")
     whole = drawing.get_attribute("viewBox")
-    field = page.get_by_label("Find in the drawing")
+    field = page.get_by_label("Find in diagram")
     field.press_sequentially("opt1")
     expect(drawing).to_have_class("has-highlight")
     assert drawing.get_attribute("viewBox") != whole
@@ -184,8 +184,8 @@ def test_a_box_of_a_large_map_is_found_with_its_neighbors(page: Page, behavior_s
 
 def test_a_small_drawing_needs_no_finding(page: Page, site: Path) -> None:
     page.goto((site / "component-Turn.html").as_uri())
-    expect(page.get_by_role("button", name="Show all of it (0)").first).to_be_visible()
-    expect(page.get_by_label("Find in the drawing")).to_have_count(0)
+    expect(page.get_by_role("button", name="Zoom to fit (0)").first).to_be_visible()
+    expect(page.get_by_label("Find in diagram")).to_have_count(0)
 
 
 def test_a_drawing_is_dragged_without_selecting_its_texts(page: Page, behavior_site: Path) -> None:

@@ -84,7 +84,7 @@ def test_who_was_led_here_by_another_name_is_told_nothing(server: SiteServer, ho
 def test_nothing_but_the_site_is_shown(server: SiteServer, path: str, tmp_path: Path) -> None:
     status, text, _headers = ask(server, path)
     assert status == 404
-    assert "<h1>Not there</h1>" in text or path.startswith("/-/")
+    assert "<h1>Page not found</h1>" in text or path.startswith("/-/")
     assert tmp_path.name not in text
     assert "private" not in text
 

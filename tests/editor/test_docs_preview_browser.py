@@ -46,9 +46,9 @@ def test_another_program_may_write_the_file(editor: str, page: Page, project: Pa
 
 def test_where_no_page_is_a_way_leads_home(editor: str, page: Page, project: Path, console_errors: list[str]) -> None:
     page.goto(f"{editor}docs/forward/component-Nobody.html")
-    expect(page.get_by_role("heading", name="Not there")).to_be_visible()
-    expect(page.get_by_text("The documentation of Forward has no such page now.")).to_be_visible()
-    page.get_by_role("link", name="To the first page").click()
+    expect(page.get_by_role("heading", name="Page not found")).to_be_visible()
+    expect(page.get_by_text("The documentation of Forward has no such page.")).to_be_visible()
+    page.get_by_role("link", name="Go to the home page").click()
     expect(page.get_by_role("heading", name="Forward", exact=True)).to_be_visible()
     # The browser tells of every page that is not there.
     assert all("404" in error for error in console_errors)

@@ -1,4 +1,4 @@
-"""The command line: one module a command, imported light; what is heavy is imported when a command runs."""
+"""The command line: one module per command; heavy imports are deferred until a command runs."""
 
 from vicode.cli.entry_point import main
 

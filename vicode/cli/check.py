@@ -1,4 +1,4 @@
-"""Tell what is wrong with designs."""
+"""Check designs and report problems."""
 
 import argparse
 
@@ -8,14 +8,13 @@ from vicode.findings import Severity, render_json
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Declare the arguments of `vicode check`."""
-    parser.add_argument("paths", metavar="PATH", nargs="+", help="a design, a project's folder, a folder of projects")
-    parser.add_argument("--json", action="store_true", help="print the findings as JSON")
-    parser.add_argument("--strict", action="store_true", help="let warnings count as much as errors")
+    parser.add_argument("paths", metavar="PATH", nargs="+", help="design file, project folder, or folder of projects")
+    parser.add_argument("--json", action="store_true", help="print findings as JSON")
+    parser.add_argument("--strict", action="store_true", help="exit with code 1 on warnings, too")
 
 
 def run(args: argparse.Namespace) -> int:
-    """Print findings; 1 when there are errors, or with --strict warnings."""
+    """Print findings; return 1 for errors and, with --strict, for warnings."""
     projects = load_projects(args.paths)
     findings = tuple(finding for project in projects for finding in project.findings)
     if args.json:

@@ -1,4 +1,4 @@
-"""Write the documentation of projects as a site of plain files."""
+"""Build a documentation site as static files."""
 
 import argparse
 import gc
@@ -11,39 +11,49 @@ from vicode.cli.console import print_findings
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Declare the arguments of `vicode docs`."""
     parser.add_argument(
         "path",
         metavar="PATH",
         nargs="+",
         type=Path,
-        help="a design, a project's folder, a folder of projects, an agents.xabsl",
-    )
-    parser.add_argument("--out", metavar="DIR", type=Path, default=Path("site"), help="where to write (site)")
-    parser.add_argument(
-        "--format", choices=("html", "markdown"), default="html", help="markdown: pages for mkdocs and Sphinx (html)"
+        help="design file, project folder, folder of projects, or XABSL file with the agents",
     )
     parser.add_argument(
-        "--title", metavar="TEXT", default="", help="what the site is called, or the home of several (their own names)"
+        "--out", metavar="DIR", type=Path, default=Path("site"), help="output folder (default: %(default)s)"
     )
-    parser.add_argument("--strict", action="store_true", help="fail on findings; the site is written all the same")
-    parser.add_argument("--fresh", action="store_true", help="make every page anew, whatever is known of the last time")
     parser.add_argument(
-        "--watch", action="store_true", help="go on: build again after every change, and show the site in the browser"
+        "--format",
+        choices=("html", "markdown"),
+        default="html",
+        help="output format; markdown is for MkDocs and Sphinx (default: %(default)s)",
     )
-    parser.add_argument("--port", type=int, default=0, help="with --watch: the port on this machine (a free one)")
-    parser.add_argument("--no-open", action="store_true", help="with --watch: print the address, open no browser")
+    parser.add_argument(
+        "--title",
+        metavar="TEXT",
+        default="",
+        help="title of the site, or of the home page of several sites (default: the project's title)",
+    )
+    parser.add_argument("--strict", action="store_true", help="exit with code 1 on findings; the site is still written")
+    parser.add_argument("--fresh", action="store_true", help="rebuild all pages, ignoring the cache")
+    parser.add_argument(
+        "--watch", action="store_true", help="serve the site on this machine and rebuild it after every change"
+    )
+    parser.add_argument("--port", type=int, default=0, help="with --watch: port to listen on (default: a free port)")
+    parser.add_argument("--no-open", action="store_true", help="with --watch: do not open a browser")
 
 
 def run(args: argparse.Namespace) -> int:
-    """Write the sites; 1 when a design or behavior cannot be read, or with --strict has findings."""
+    """Write the sites; return 1 if a design or behavior cannot be read and, with --strict, for findings."""
     from vicode.cli.docs_build import DocsBuilder, describe_build
     from vicode.cli.docs_inputs import load_site_inputs
     from vicode.cli.progress import progress_bar
 
     is_markdown = args.format == "markdown"
     if args.watch and is_markdown:
-        print("vicode: --watch shows pages in HTML; mkdocs and Sphinx watch Markdown themselves", file=sys.stderr)
+        print(
+            "vicode: --watch cannot be combined with --format markdown; use the live reload of MkDocs or Sphinx",
+            file=sys.stderr,
+        )
         return 2
     if args.watch:
         from vicode.cli.docs_watch import watch_docs
@@ -57,7 +67,7 @@ def run(args: argparse.Namespace) -> int:
             print_findings(reading.read_errors, to_stderr=True)
         built = sites.build(readings, step)
     if built.foreign:
-        print(f"vicode: {built.foreign} is no page of ours; choose another --out", file=sys.stderr)
+        print(f"vicode: {built.foreign} was not written by vicode docs; choose another --out", file=sys.stderr)
         return 2
     if built.files:
         print(describe_build(built, readings, args.out))
@@ -67,7 +77,7 @@ def run(args: argparse.Namespace) -> int:
 
 @contextmanager
 def _gc_disabled() -> Iterator[None]:
-    """Let nothing look for circles meanwhile: that takes a tenth of the time, and finds none."""
+    """Disable garbage collection: it takes a tenth of the time and there are no reference cycles to collect."""
     was_on = gc.isenabled()
     gc.disable()
     try:

@@ -83,7 +83,7 @@ class SiteWatcher:
                 raise
             return self._report_problem(describe_os_error(error))
         if built.foreign:
-            self._report_problem(f"{built.foreign} is no page of ours; choose another --out")
+            self._report_problem(f"{built.foreign} was not written by vicode docs; choose another --out")
             return False
         if built.files:
             self._report_build(built, readings, time.perf_counter() - begun)

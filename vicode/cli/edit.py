@@ -1,4 +1,4 @@
-"""Open the editor in the browser."""
+"""Open the editor in a browser."""
 
 import argparse
 import os
@@ -9,12 +9,15 @@ _ALLOCATOR = "PYTHONMALLOC"
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Declare the arguments of `vicode edit`."""
-    parser.add_argument("path", metavar="PATH", nargs="?", default=".", help="a design or a folder (this one)")
-    parser.add_argument("--host", default="127.0.0.1", help="who may connect: an address of this machine (only itself)")
-    parser.add_argument("--port", type=_port, help="port to listen on (a free one)")
-    parser.add_argument("--no-tour", action="store_true", help="do not begin the tour in a browser that is new here")
-    parser.add_argument("--no-open", action="store_true", help="print the address, open no browser")
+    parser.add_argument(
+        "path", metavar="PATH", nargs="?", default=".", help="design file or folder (default: the current folder)"
+    )
+    parser.add_argument(
+        "--host", default="127.0.0.1", help="address to listen on (default: %(default)s, this machine only)"
+    )
+    parser.add_argument("--port", type=_port, help="port to listen on (default: a free port)")
+    parser.add_argument("--no-tour", action="store_true", help="do not start the tour for new users")
+    parser.add_argument("--no-open", action="store_true", help="do not open a browser")
 
 
 def _port(text: str) -> int:
@@ -25,7 +28,7 @@ def _port(text: str) -> int:
 
 
 def run(args: argparse.Namespace) -> int:
-    """Serve the editor until it is ended."""
+    """Serve the editor until it is stopped."""
     from vicode.cli.project_loader import require_design_file
     from vicode.editor.serve import choose_address, serve
 
@@ -40,9 +43,9 @@ def run(args: argparse.Namespace) -> int:
 
 
 def _reexec_with_system_malloc() -> None:
-    """Be the same command, which gives memory back when people leave; done already, or chosen otherwise: go on.
+    """Restart this command with the allocator of the system unless an allocator is already selected.
 
-    Python's own allocator keeps most of what many windows took. It can be chosen only before Python starts.
+    Python's allocator keeps most of the memory of closed windows. It can be selected only before Python starts.
     """
     if sys.platform == "linux" and _ALLOCATOR not in os.environ:
-        os.execve(sys.executable, [sys.executable, *sys.orig_argv[1:]], {**os.environ, _ALLOCATOR: "malloc"})  # noqa: S606 - itself, no shell
+        os.execve(sys.executable, [sys.executable, *sys.orig_argv[1:]], {**os.environ, _ALLOCATOR: "malloc"})  # noqa: S606 - the same command, no shell

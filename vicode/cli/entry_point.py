@@ -1,4 +1,4 @@
-"""Where the command line begins: finds the command, runs it, turns what happened into an exit code."""
+"""Entry point of the command line: parses arguments, runs the command, returns the exit code."""
 
 import argparse
 import gc
@@ -26,20 +26,20 @@ EXIT_OK, EXIT_FINDINGS, EXIT_FAILED, EXIT_INTERRUPTED = 0, 1, 2, 130
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Run one command; returns 0 when all is sound, 1 with findings or stale files, 2 when it could not run."""
+    """Run one command and return its exit code."""
     parsed = _make_parser().parse_args(arguments)
     if arguments is None and parsed.run in _BATCH_RUNS:
         # The process ends after one pass over the designs; collections would only scan the live trees repeatedly.
         gc.disable()
     try:
         code: int = parsed.run(parsed)
-        # A language server has closed it by then.
+        # The language server closes stdout itself.
         if not sys.stdout.closed:
             sys.stdout.flush()
     except KeyboardInterrupt:
         return EXIT_INTERRUPTED
     except BrokenPipeError:
-        # Whoever read our output has gone; the interpreter's last flush must not complain either.
+        # The reader closed the pipe; keep the final flush of the interpreter from failing, too.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return EXIT_FAILED
     except OSError as error:
@@ -51,8 +51,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
 def _make_parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         prog="vicode",
-        description="Design robot state machines in the browser, check them, and generate the code that runs them.",
-        epilog="Exit codes: 0 all is sound, 1 findings or stale files, 2 it could not run.",
+        description="Edit, check, and run state machines for robots, and generate code from them.",
+        epilog="Exit codes: 0 success, 1 findings or outdated files, 2 the command could not run.",
     )
     parser.add_argument("--version", action="version", version=f"vicode {__version__}")
     commands = parser.add_subparsers(title="commands", metavar="COMMAND", required=True)

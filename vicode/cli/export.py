@@ -1,4 +1,4 @@
-"""Take the drawing of a design out: a picture, or text for Mermaid, PlantUML and Graphviz."""
+"""Export the diagram of a design as an image or as Mermaid, PlantUML, or Graphviz text."""
 
 import argparse
 import sys
@@ -14,22 +14,23 @@ _FORMATS = ("svg", "pdf", "png", "mermaid", "plantuml", "dot")
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Declare the arguments of `vicode export`."""
-    parser.add_argument("file", metavar="FILE", help="a design")
-    parser.add_argument("--format", choices=_FORMATS, help="as the name of the output ends; else svg")
-    parser.add_argument("-o", "--out", metavar="OUT", help="the file to write; - prints it (beside the design)")
-    parser.add_argument("--states", metavar="A,B", help="draw only these states and what they use")
-    parser.add_argument("--no-links", action="store_true", help="leave used components out")
-    parser.add_argument("--dark", action="store_true", help="light on dark")
-    parser.add_argument("--scale", type=float, default=2.0, help="pixels of a PNG to a pixel of the drawing (2)")
+    parser.add_argument("file", metavar="FILE", help="design file")
+    parser.add_argument("--format", choices=_FORMATS, help="output format (default: by the suffix of OUT, else svg)")
+    parser.add_argument("-o", "--out", metavar="OUT", help="output file, or - for stdout (default: next to the design)")
+    parser.add_argument("--states", metavar="A,B", help="export only these states and the components they use")
+    parser.add_argument("--no-links", action="store_true", help="omit used components")
+    parser.add_argument("--dark", action="store_true", help="use dark colors")
+    parser.add_argument(
+        "--scale", type=float, default=2.0, help="resolution of a PNG relative to the diagram (default: %(default)g)"
+    )
 
 
 def run(args: argparse.Namespace) -> int:
-    """Write the file; 1 when the design cannot be read or has no such state."""
+    """Write the file; return 1 if the design cannot be read or a state does not exist."""
     design = _read(Path(args.file))
     if design is None:
         return 1
-    # Drawing loads Graphviz's and PDF's writers, which --help has no need of.
+    # Deferred: these imports load the writers of Graphviz and PDF.
     from vicode.diagram.export import export_design
     from vicode.diagram.export_formats import ExportFormat, ExportOptions
     from vicode.output import write_atomically

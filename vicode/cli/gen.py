@@ -1,4 +1,4 @@
-"""Write the code of designs."""
+"""Generate code from designs."""
 
 import argparse
 import errno
@@ -19,31 +19,32 @@ if TYPE_CHECKING:
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Declare the arguments of `vicode gen`."""
-    parser.add_argument("paths", metavar="PATH", nargs="+", help="a design, a project's folder, a folder of projects")
-    parser.add_argument("--check", action="store_true", help="write nothing; name missing, changed and stale files")
-    parser.add_argument("--diff", action="store_true", help="write nothing; show what would change")
-    parser.add_argument("--out", metavar="DIR", help="write here (where project.yaml says, else generated/ beside it)")
-    parser.add_argument("--language", metavar="L", action="append", help="only this language; may be repeated")
+    parser.add_argument("paths", metavar="PATH", nargs="+", help="design file, project folder, or folder of projects")
+    parser.add_argument("--check", action="store_true", help="write nothing; report missing, changed, and stale files")
+    parser.add_argument("--diff", action="store_true", help="write nothing; print a diff")
     parser.add_argument(
-        "--standalone", action="store_true", help="copy the runtime beside the code: it needs no vicode"
+        "--out", metavar="DIR", help="output folder (default: as set in project.yaml, else generated/ next to it)"
     )
-    parser.add_argument("--force", action="store_true", help="write over edited files too, keeping them as NAME.edited")
+    parser.add_argument("--language", metavar="L", action="append", help="generate only this language; can be repeated")
+    parser.add_argument(
+        "--standalone", action="store_true", help="include a copy of the runtime, so that the code runs without vicode"
+    )
+    parser.add_argument("--force", action="store_true", help="overwrite edited files, keeping a copy as NAME.edited")
 
 
 def run(args: argparse.Namespace) -> int:
-    """Generate every project; 1 when something was refused, or with --check and --diff is not up to date."""
+    """Generate every project; return 1 if files were refused or, with --check or --diff, outdated."""
     from vicode.generators import GENERATORS
 
     unknown = sorted(set(args.language or ()) - set(GENERATORS))
     if unknown:
-        print(f"vicode: cannot generate {unknown[0]}; there is {', '.join(GENERATORS)}", file=sys.stderr)
+        print(f"vicode: unknown language {unknown[0]}; choose from {', '.join(GENERATORS)}", file=sys.stderr)
         return 2
     return max(_generate_or_report(opened, args) for opened in load_projects(args.paths))
 
 
 def _generate_or_report(opened: LoadedProject, args: argparse.Namespace) -> int:
-    """Generate one project; what the outside world has against it does not keep the others from being done."""
+    """Generate one project; an OSError is reported so that the other projects are still generated."""
     try:
         return _generate(opened, args)
     except BrokenPipeError:
@@ -71,24 +72,24 @@ def _generate(opened: LoadedProject, args: argparse.Namespace) -> int:
 
 def _folder(opened: LoadedProject, out: str | None) -> Path:
     folder = Path(out) if out else opened.open_project.folder / opened.open_project.project.generated
-    # `designs/forward/../../generated` reads worse than where that is.
+    # Shorten paths such as `designs/forward/../../generated`.
     return Path(os.path.relpath(folder)) if not folder.is_absolute() else folder
 
 
 def _differences(opened: LoadedProject, folder: Path, args: argparse.Namespace) -> tuple[FileDiff, ...]:
-    """All that is not as it should be in the folder."""
+    """The differences between the generated files and the folder."""
     from vicode.generators import list_outputs
 
     files = _files(opened, args)
     keep = list_outputs(opened.open_project.project, languages=args.language, standalone=args.standalone)
     compared = compare_files(files, folder, kept_paths=keep, is_generated=has_header)
-    # While a design cannot be read nobody knows what it is called, so nothing is stale for sure.
+    # The component name of an unreadable design is unknown, so no file is certainly stale.
     spared = {FileStatus.UNCHANGED, FileStatus.STALE} if opened.open_project.broken_files else {FileStatus.UNCHANGED}
     return tuple(difference for difference in compared if difference.status not in spared)
 
 
 def _files(opened: LoadedProject, args: argparse.Namespace) -> "list[OutputFile]":
-    """What is to be: of each language all designs that nothing stands in the way of."""
+    """The files of all designs without errors, for each language."""
     from vicode.generators import GENERATORS, generate
 
     project = opened.open_project.project
@@ -109,13 +110,13 @@ def _files(opened: LoadedProject, args: argparse.Namespace) -> "list[OutputFile]
 
 
 def _write(differences: tuple[FileDiff, ...], folder: Path, *, is_forced: bool) -> int:
-    """Write what loses nobody's work, or with force all; returns how many files were refused."""
+    """Write all files except those edited by hand, or all if forced; return the number of refused files."""
     from vicode.sync import find_hand_edits_by_file
 
     edits = find_hand_edits_by_file(differences, display_folder=folder.as_posix())
     if is_forced:
         for path in edits:
-            print(f"kept {back_up_edited(folder / path).as_posix()}")
+            print(f"backed up {back_up_edited(folder / path).as_posix()}")
         edits = {}
     print_findings((finding for findings in edits.values() for finding in findings), to_stderr=True)
     allowed = [difference for difference in differences if difference.path not in edits]
@@ -128,14 +129,14 @@ def _write(differences: tuple[FileDiff, ...], folder: Path, *, is_forced: bool) 
 
 
 def _require_no_file_in_path(path: Path) -> None:
-    """Say which file stands where a folder is needed: the system names another path, or a reason hard to read."""
+    """Raise an error that names the file in place of a folder; the error of the system names another path."""
     for parent in path.parents:
         if parent.exists() and not parent.is_dir():
-            raise NotADirectoryError(errno.ENOTDIR, "this file is in the way of a folder", parent.as_posix())
+            raise NotADirectoryError(errno.ENOTDIR, "a folder is needed here, but this is a file", parent.as_posix())
 
 
 def _outdated_findings(differences: tuple[FileDiff, ...], folder: Path) -> Iterator[Finding]:
-    """What is out of date; of edited files the edit, since generating would refuse them."""
+    """Findings for outdated files; edited files yield their edits, because generating refuses them."""
     from vicode.sync import find_hand_edits_by_file
 
     edits = find_hand_edits_by_file(differences, display_folder=folder.as_posix())
@@ -146,8 +147,8 @@ def _outdated_findings(differences: tuple[FileDiff, ...], folder: Path) -> Itera
 def _outdated_finding(difference: FileDiff, folder: Path) -> Finding:
     problem = {
         FileStatus.NEW: "missing: no such file",
-        FileStatus.CHANGED: "changed: not what the design gives",
-        FileStatus.STALE: "stale: no design gives this file any more",
+        FileStatus.CHANGED: "changed: differs from the generated code",
+        FileStatus.STALE: "stale: no design generates this file",
     }[difference.status]
     place = SourceLocation(file=(folder / difference.path).as_posix(), line=1, column=1)
     return Finding(rule=get_rule("G502"), message=problem, fix="run 'vicode gen'", location=place)

@@ -1,4 +1,4 @@
-"""Turn an XABSL behavior into a project of designs."""
+"""Import an XABSL behavior as a project of designs."""
 
 import argparse
 import sys
@@ -15,17 +15,16 @@ if TYPE_CHECKING:
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Declare the arguments of `vicode import`."""
-    parser.add_argument("agents", metavar="AGENTS.xabsl", type=Path, help="the file with the agents")
+    parser.add_argument("agents", metavar="AGENTS.xabsl", type=Path, help="XABSL file with the agents")
     parser.add_argument(
-        "--out", metavar="DIR", type=Path, required=True, help="the project's folder, such as designs/NAME"
+        "--out", metavar="DIR", type=Path, required=True, help="project folder to create, such as designs/NAME"
     )
-    parser.add_argument("--name", help="the project's name (that of its folder)")
-    parser.add_argument("--force", action="store_true", help="write over designs that are there")
+    parser.add_argument("--name", help="project name (default: the name of the folder)")
+    parser.add_argument("--force", action="store_true", help="overwrite existing designs")
 
 
 def run(args: argparse.Namespace) -> int:
-    """Write the designs; 1 when the behavior has errors, or files are there that would be lost."""
+    """Write the designs; return 1 if the behavior has errors or files would be overwritten."""
     from vicode.findings import Severity
     from vicode.importers import import_behavior, render_robot_class
     from vicode.store.documents import default_project_name
@@ -42,11 +41,11 @@ def run(args: argparse.Namespace) -> int:
     there = [path for path in texts if (args.out / path).exists()]
     if there and not args.force:
         more = f" and {len(there) - 1} more" if len(there) > 1 else ""
-        print(f"vicode: {args.out / there[0]}{more} is there already; --force writes over it", file=sys.stderr)
+        print(f"vicode: {args.out / there[0]}{more} would be overwritten; use --force", file=sys.stderr)
         return 1
     _write(args.out, texts)
     robot = args.out / "robot.py"
-    # It is filled in by hand, so nothing writes over it.
+    # Edited by hand: never overwritten.
     if not robot.exists():
         _write(args.out, {robot.name: render_robot_class(imported.project)})
     print(_summary(imported, args.out))
@@ -54,7 +53,7 @@ def run(args: argparse.Namespace) -> int:
 
 
 def _with_layout(project: "Project") -> "Project":
-    """The project with a place for everything that is drawn."""
+    """The project with positions for all nodes."""
     from vicode.diagram.layout import LayoutService
     from vicode.model.edits import move_nodes
 
@@ -78,7 +77,7 @@ def _round(at: "tuple[float, float]") -> "tuple[float, float]":
 
 
 def _texts(imported: "ImportResult") -> "dict[str, str]":
-    """All files by path."""
+    """The text of each file by path."""
     from vicode.store import add_comments, save_design, save_project_file
 
     project = imported.project
@@ -102,7 +101,7 @@ def _summary(imported: "ImportResult", folder: Path) -> str:
     parts = [
         _count(len(project.designs), "design"),
         _count(sum(len(design.states) for design in project.designs), "state"),
-        _count(len(project.components), "component") + " of the robot's program",
+        _count(len(project.components), "hand-written component"),
         _count(len(project.agents), "agent"),
         _count(remarks, "comment"),
     ]

@@ -1,4 +1,4 @@
-"""Run a component in the world of its project, and watch it."""
+"""Run a component and show its state changes."""
 
 import argparse
 import subprocess
@@ -18,31 +18,35 @@ _DEFAULT_SECONDS = 60.0
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Declare the arguments of `vicode run`."""
     add = parser.add_argument
-    add("path", metavar="DESIGN", help="the design of the root component, or a project's folder with one agent")
+    add("path", metavar="DESIGN", help="design of the root component, or folder of a project with one agent")
     add(
         "--seconds",
         type=options.seconds,
         metavar="S",
-        help="stop after S seconds of the clock (60; in real time no end)",
+        help="stop after S seconds (default: 60; with --real-time: no limit)",
     )
     add("--ticks", type=options.count, metavar="N", help="stop after N iterations")
-    add("--seed", type=int, default=0, metavar="N", help="seed of the world (0)")
-    add("--trace", metavar="FILE", help="write one JSON line an iteration, and a summary")
-    add("--values", action="store_true", help="with outputs and variables in the trace, to simulate with it")
-    add("--real-time", action="store_true", help="let real time pass; else it is simulated, as fast as it goes")
-    add("--tick-ms", type=options.tick_ms, metavar="MS", help="time between two iterations (20)")
+    add("--seed", type=int, default=0, metavar="N", help="random seed of the world (default: %(default)s)")
+    add("--trace", metavar="FILE", help="write a trace: one line of JSON per iteration, and a summary")
+    add("--values", action="store_true", help="include outputs and variables in the trace, for replay in the editor")
+    add("--real-time", action="store_true", help="run in real time instead of as fast as possible")
+    add("--tick-ms", type=options.tick_ms, metavar="MS", help="time between iterations (default: 20)")
     add("--until-done", action="store_true", help="stop when the root component is done")
-    add("--on-error", choices=("continue", "stop"), default="continue", help="what an exception in a component does")
-    add("--plain", action="store_true", help="one line a change of state; so too when no terminal is there")
+    add(
+        "--on-error",
+        choices=("continue", "stop"),
+        default="continue",
+        help="what to do after an exception in a component (default: %(default)s)",
+    )
+    add("--plain", action="store_true", help="print one line per state change; the default if stdout is no terminal")
 
 
 def run(args: argparse.Namespace) -> int:
-    """Generate into a private folder, start a fresh process there and show what it does."""
+    """Generate into a temporary folder, run the code in a new process, and show its progress."""
     projects = load_projects([args.path])
     if len(projects) > 1:
-        print(f"vicode: {args.path}: there are {len(projects)} projects, name a design", file=sys.stderr)
+        print(f"vicode: {args.path} contains {len(projects)} projects; specify a design", file=sys.stderr)
         return 2
     opened = projects[0]
     errors = opened.errors_for("python")
@@ -51,7 +55,7 @@ def run(args: argparse.Namespace) -> int:
         return 1
     component = _root_component(opened)
     if component is None:
-        print(f"vicode: {args.path}: name the design to run", file=sys.stderr)
+        print(f"vicode: {args.path} has several components; specify the design to run", file=sys.stderr)
         return 2
     with tempfile.TemporaryDirectory(prefix="vicode-run-") as folder:
         class_path = _generate(opened, component, Path(folder))

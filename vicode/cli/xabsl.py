@@ -39,8 +39,8 @@ def run(args: argparse.Namespace) -> int:
 
 
 def _add_check(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("agents", metavar="AGENTS.xabsl", type=Path, help="the file with the agents")
-    parser.add_argument("--json", action="store_true", help="print the findings as JSON")
+    parser.add_argument("agents", metavar="AGENTS.xabsl", type=Path, help="XABSL file with the agents")
+    parser.add_argument("--json", action="store_true", help="print findings as JSON")
     parser.add_argument(
         "--strict", action="store_true", help="reject constructs that the original compiler or its engines cannot read"
     )
@@ -107,7 +107,7 @@ def _add_run(parser: argparse.ArgumentParser) -> None:
         default=0,
         help="run N robots; prefix columns with the number of the robot, such as 0:",
     )
-    parser.add_argument("--ticks", metavar="T", type=int, default=0, help="cycles until the others have answered")
+    parser.add_argument("--ticks", metavar="T", type=int, default=0, help="with --team: cycles to wait for answers")
     parser.add_argument(
         "--bench", metavar="N", type=int, default=0, help="run all inputs N times and print the cycles per second"
     )

@@ -1,4 +1,4 @@
-"""The documentation site of a project: a page a component, with drawings, cross links and a search; plain files."""
+"""The documentation site of a project: static pages with diagrams, cross-references and search."""
 
 from vicode.docsite.not_found import not_found_page
 from vicode.docsite.site_builder import SiteBuilder, build_site

@@ -1,4 +1,4 @@
-"""What was made before, found again by all that it was made from: an edit makes anew only what it concerns."""
+"""A cache of build results, keyed by their inputs, so that an edit rebuilds only what depends on it."""
 
 from collections.abc import Callable, Hashable
 from hashlib import sha256
@@ -8,7 +8,7 @@ CachedValue = TypeVar("CachedValue")
 
 
 class _HashedKey:
-    """A value whose hash is found once: that of a design takes long."""
+    """A value with a cached hash: hashing a design is slow."""
 
     __slots__ = ("_hash", "_value")
 
@@ -23,24 +23,24 @@ class _HashedKey:
 
 
 class BuildCache:
-    """Keeps what the latest building asked for; what it did not ask for is forgotten at its end."""
+    """Keeps the results used in the latest build."""
 
     def __init__(self) -> None:
         self._previous: dict[_HashedKey, object] = {}
         self._current: dict[_HashedKey, object] = {}
 
     def get_or_create(self, kind: str, key: Hashable, make: Callable[[], CachedValue]) -> CachedValue:
-        """What was made of a key before, or is made now. The key says everything that the making looks at."""
+        """Return the cached value of a key, or create it. The key must contain all inputs of `make`."""
         whole = _HashedKey((kind, key))
         if whole not in self._current:
             self._current[whole] = self._previous[whole] if whole in self._previous else make()
         return cast("CachedValue", self._current[whole])
 
     def evict_unused(self) -> None:
-        """End a building."""
+        """Drop the values that the current build did not use. Call it after each build."""
         self._previous, self._current = self._current, {}
 
 
 def compute_digest(*values: object) -> str:
-    """A name for frozen values: equal values have one name, different values another, in every process."""
+    """Return a digest of frozen values that is the same in every process."""
     return sha256("\n".join(map(repr, values)).encode("utf-8", "surrogatepass")).hexdigest()[:32]

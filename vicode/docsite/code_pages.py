@@ -1,4 +1,4 @@
-"""The texts of a component, as pages of code whose lines and things link each other."""
+"""Code pages: the source and the generated code of components, with links to their descriptions."""
 
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
@@ -20,7 +20,10 @@ _LINKED_SECTIONS = ("states", "common", "parameters", "outputs", "variables")
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CodeFile:
-    """A text of a component: `variant` is "source" or a language; `line_numbers` are where the things in it begin."""
+    """Source or generated code of a component.
+
+    `variant` is "source" or a language; `line_numbers` are the first lines of the nodes of the design.
+    """
 
     component: str
     variant: str
@@ -31,14 +34,14 @@ class CodeFile:
 
     @property
     def title(self) -> str:
-        """What links call it."""
+        """The text of links to this file."""
         return "Source" if self.variant == "source" else LANGUAGE_TITLES.get(self.variant, self.variant)
 
 
 class CodeFiles:
-    """All texts by component: what somebody wrote, and what is generated where nothing stands in the way.
+    """The source and, where there are no errors, the generated code of each component.
 
-    Those of a component are made when they are asked for, which takes longer than all the rest of its page.
+    Code is generated on first access: this takes longer than the rest of a page.
     """
 
     def __init__(self, subject: SiteInput, unsaid: GenerationErrors, memory: BuildCache) -> None:
@@ -56,7 +59,7 @@ class CodeFiles:
         )
 
     def files_of(self, name: str) -> tuple[CodeFile, ...]:
-        """The texts of a component, "" for those of the project."""
+        """The files of a component, or of the project for ""."""
         if name not in self._loaded:
             self._loaded[name] = (*self._source(name), *self._generated(self._site_input.project.design(name)))
         return self._loaded[name]
@@ -74,7 +77,7 @@ class CodeFiles:
             )
 
     def _generated(self, design: Design | None) -> Iterator[CodeFile]:
-        """The text in each language in which nothing is wrong with it."""
+        """The code in each language for which the design has no errors."""
         for language in GENERATORS:
             if design is None or design.component in self._components_with_errors[language]:
                 continue
@@ -86,7 +89,7 @@ class CodeFiles:
 
 
 def code_links_by_path(texts: tuple[CodeFile, ...], addresses: SiteUrls) -> dict[DesignPath, tuple[TextSpan, ...]]:
-    """Where each thing of a component stands in its texts."""
+    """Links into the files of a component, by the path of the node."""
     places: dict[DesignPath, tuple[TextSpan, ...]] = {}
     for text in texts:
         page = addresses.code(text.component, text.variant)
@@ -97,12 +100,12 @@ def code_links_by_path(texts: tuple[CodeFile, ...], addresses: SiteUrls) -> dict
 
 
 def code_page_title(text: CodeFile) -> str:
-    """What the page of a text is called."""
+    """The title of the page of a file."""
     return f"{text.component or 'Project'}: {text.title}"
 
 
 def code_view(text: CodeFile, links: tuple[TextSpan, ...], addresses: SiteUrls, component: TextSpan) -> CodeView:
-    """The page of a text; `links` lead to all texts of its component."""
+    """The page of a file; `links` lead to all files of its component."""
     begins: dict[int, DesignPath] = {}
     for path, line in text.line_numbers.items():
         begins.setdefault(line, path)
@@ -123,7 +126,7 @@ def code_view(text: CodeFile, links: tuple[TextSpan, ...], addresses: SiteUrls, 
 
 
 def code_page_links(texts: tuple[CodeFile, ...], addresses: SiteUrls) -> tuple[TextSpan, ...]:
-    """The pages of a component's texts."""
+    """Links to the code pages of a component."""
     return tuple(
         TextSpan(text=each.title, href=addresses.code(each.component, each.variant), title=each.path) for each in texts
     )
@@ -147,11 +150,11 @@ def _line_numbers(origins: Iterable[Origin]) -> dict[DesignPath, int]:
 def _path_label(path: DesignPath) -> str:
     match path:
         case ("states", str(name), "transitions", *_):
-            return f"a decision of {name}"
+            return f"transition of {name}"
         case ("states", str(name), *_):
             return f"state {name}"
         case ("common", *_):
-            return "common to every state"
+            return "common to all states"
         case (_section, str(name), *_):
             return name
         case _:

@@ -1,4 +1,4 @@
-"""The page of a component: what it is, how it decides, what each state does, who uses it."""
+"""The page of a state machine: diagram, transitions, states, users and declarations."""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -25,12 +25,12 @@ from vicode.docsite.views import (
 from vicode.model.design import COMMON, Action, Assign, Call, Design, RunCode, State
 from vicode.model.traversal import iter_transitions
 
-_PHASES = (("enter", "When it is entered"), ("actions", "At each iteration"), ("leave", "When it is left"))
+_PHASES = (("enter", "On entry"), ("actions", "In each iteration"), ("leave", "On exit"))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ComponentInputs:
-    """What the parts of a page are made with."""
+    """The inputs of the page of a component."""
 
     site_input: SiteInput
     urls: SiteUrls
@@ -40,7 +40,7 @@ class ComponentInputs:
 
 
 def component_view(design: Design, inputs: ComponentInputs) -> ComponentPageView:
-    """The whole page."""
+    """The view of the page of a component."""
     project, addresses = inputs.site_input.project, inputs.urls
     linker = NameLinker(project, addresses, design)
     common = design.common
@@ -77,11 +77,11 @@ def _facts(design: Design) -> Iterator[RichText]:
     count = len(design.states)
     yield plain_text(f"{count} state{'s' * (count != 1)}")
     if design.frequency_hz is not None:
-        yield plain_text(f"works {design.frequency_hz:g} times a second")
+        yield plain_text(f"runs at {design.frequency_hz:g} Hz")
     else:
-        yield plain_text("works at every step it is given")
+        yield plain_text("runs on every step")
     if design.resume:
-        yield plain_text("goes on where it was when it works again")
+        yield plain_text("resumes where it left off")
     if design.xabsl_name:
         yield (TextSpan(text="in XABSL "), TextSpan(text=design.xabsl_name, css_class="code"))
 
@@ -127,7 +127,9 @@ def _common(design: Design, linker: NameLinker, made: ComponentInputs) -> StateV
         badges=("common",),
         doc_html=render_doc(design.common.doc, parent_level=3),
         requires=(),
-        phases=(ActionPhaseView(title="At each iteration, first", actions=actions),) if actions else (),
+        phases=(ActionPhaseView(title="In each iteration, before the state's actions", actions=actions),)
+        if actions
+        else (),
         pseudocode=pseudocode_lines(design.common.transitions, linker, ("common", "transitions"), made.code_links),
         predecessors=(),
         code_links=made.code_links.get(("common",), ()),
@@ -153,7 +155,7 @@ def _actions(actions: Sequence[Action], linker: NameLinker) -> Iterator[ActionVi
 
 
 def call_text(call: Call, linker: NameLinker) -> RichText:
-    """A component with its parameters."""
+    """A call with its arguments."""
     parts: list[TextSpan] = [linker.alias(call.alias), TextSpan(text="(")]
     for index, (name, text) in enumerate(call.arguments):
         parts += [TextSpan(text=", ")] if index else []

@@ -1,4 +1,4 @@
-"""Decisions to read: the table of transitions, and the pseudo code of a state."""
+"""Decisions as text: the table of transitions and the pseudocode of a state."""
 
 from collections import Counter
 from collections.abc import Iterator, Mapping
@@ -15,13 +15,13 @@ from vicode.model.disabled import disabled_states, is_enabled
 from vicode.model.traversal import LocatedDecision, is_exhaustive, iter_decisions
 
 CodeLinks = Mapping[DesignPath, tuple[TextSpan, ...]]
-"""Where a thing stands in the texts of its component."""
+"""Links into the code pages of a component, by the path of the node."""
 
 _AND = TextSpan(text=" and ", css_class="k")
 
 
 def code_blocks(code: Code) -> tuple[CodeBlock, ...]:
-    """Code in all its languages."""
+    """One block of code per language."""
     return tuple(
         CodeBlock(language=LANGUAGE_TITLES.get(language, language), html=highlight_block(text, language))
         for language, text in code.texts
@@ -29,7 +29,7 @@ def code_blocks(code: Code) -> tuple[CodeBlock, ...]:
 
 
 def guard_text(guard: Guard, linker: NameLinker) -> RichText:
-    """A guard in words, "" for one that always holds."""
+    """A guard as text; empty if it always holds."""
     parts: list[TextSpan] = []
     if guard.when:
         parts += linker.expression(guard.when)
@@ -38,12 +38,12 @@ def guard_text(guard: Guard, linker: NameLinker) -> RichText:
         parts += [TextSpan(text="after ", css_class="k"), *linker.duration(guard.after)]
     if guard.code is not None:
         parts += [_AND] if parts else []
-        parts.append(TextSpan(text="code holds", css_class="code-guard", title="A condition written as code"))
+        parts.append(TextSpan(text="custom code", css_class="code-guard", title="Condition in code"))
     return tuple(parts)
 
 
 def transition_rows(design: Design, linker: NameLinker, addresses: SiteUrls) -> Iterator[TransitionRow]:
-    """Every transition and every stay, in the order in which they are tested."""
+    """All transitions and stay decisions, in the order in which they are tested."""
     orders: Counter[str] = Counter()
     off = disabled_states(design)
     for located in iter_decisions(design):
@@ -69,7 +69,7 @@ def transition_rows(design: Design, linker: NameLinker, addresses: SiteUrls) -> 
 def pseudocode_lines(
     items: tuple[Decision, ...], linker: NameLinker, path: DesignPath, places: CodeLinks
 ) -> tuple[PseudocodeLine, ...]:
-    """The decisions as code to read; `path` leads to them. Nothing where nothing is decided."""
+    """The decisions at `path` as pseudocode; empty if there are none."""
     lines = tuple(
         replace(line, anchor=path_anchor(of), code_links=places.get(of, ())) if of else line
         for of, line in _pseudocode(items, linker, path, 0)
@@ -77,7 +77,7 @@ def pseudocode_lines(
     if not items or any(is_exhaustive(item) for item in items):
         return lines
     is_common = path[0] == "common"
-    last = "what the state itself decides" if is_common else "stay"
+    last = "transitions of the state" if is_common else "stay"
     before = "else " if _ends_evaluation(items[-1]) else ""
     return (*lines, PseudocodeLine(depth=0, parts=(TextSpan(text=before + last, css_class="k"),)))
 
@@ -102,7 +102,7 @@ def _target(decision: Decision, linker: NameLinker) -> TextSpan:
 def _pseudocode(
     items: tuple[Decision, ...], linker: NameLinker, path: DesignPath, depth: int
 ) -> Iterator[tuple[DesignPath, PseudocodeLine]]:
-    """Lines, each with the path of the decision that begins there, () for none."""
+    """Lines with the path of the decision that starts there, or ()."""
     for index, item in enumerate(items):
         here = (*path, index)
         guard = guard_text(item.guard, linker)
@@ -127,7 +127,7 @@ def _pseudocode(
 
 
 def _ends_evaluation(item: Decision) -> bool:
-    """Whether nothing after a decision is tested when its guard holds."""
+    """Whether no later decision is tested if the guard of this one holds."""
     if item.disabled:
         return False
     if isinstance(item, DecisionGroup):

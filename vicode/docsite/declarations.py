@@ -11,14 +11,14 @@ from vicode.model.project import Interface
 
 _TITLES = {
     "parameters": ("Parameters", "Default"),
-    "outputs": ("Outputs", "At first"),
-    "variables": ("Variables", "At first"),
+    "outputs": ("Outputs", "Initial value"),
+    "variables": ("Variables", "Initial value"),
 }
 _COLUMNS = ("type", "initial", "unit", "range", "doc_html", "arguments", "read_in", "set_in")
 
 
 def declaration_tables(owner: Design | Interface, linker: NameLinker, prefix: str = "") -> Iterator[DeclarationTable]:
-    """The tables of a component; `prefix` stands before the anchors."""
+    """The tables of a component; `prefix` is the prefix of the anchors."""
     for section, (title, initial) in _TITLES.items():
         declarations = getattr(owner, section)
         if declarations:
@@ -27,17 +27,17 @@ def declaration_tables(owner: Design | Interface, linker: NameLinker, prefix: st
 
 
 def make_declaration_table(title: str, initial: str, rows: tuple[DeclarationRow, ...]) -> DeclarationTable:
-    """A table without empty columns."""
+    """A table that omits empty columns."""
     return DeclarationTable(title=title, initial_heading=initial, rows=rows, columns=used_columns(rows))
 
 
 def used_columns(rows: Iterable[DeclarationRow]) -> frozenset[str]:
-    """The columns that at least one row has something for."""
+    """The columns that are not empty in all rows."""
     return frozenset(name for row in rows for name in _COLUMNS if getattr(row, name))
 
 
 def declaration_rows(declarations: Iterable[Declaration], linker: NameLinker, prefix: str) -> Iterator[DeclarationRow]:
-    """A row for each."""
+    """One row per declaration."""
     for each in declarations:
         yield DeclarationRow(
             anchor=prefix + slug(each.name),

@@ -1,4 +1,4 @@
-"""Drawings for pages: laid out where a design gives no place, every box and arrow a link, colours left to the page."""
+"""Diagrams of pages: nodes and edges are links, colors are CSS variables."""
 
 from collections.abc import Sequence
 from dataclasses import replace
@@ -24,7 +24,7 @@ _LAYOUT_TIMEOUT_S = 5.0
 
 
 def add_missing_layouts(project: Project, service: LayoutService, memory: BuildCache) -> Project:
-    """The project with a place for everything in the designs that give none; a place that is given stays."""
+    """The project with computed layouts for the designs that have no positions."""
     if all(_has_layout(design) for design in project.designs):
         return project
     designs = (
@@ -34,7 +34,7 @@ def add_missing_layouts(project: Project, service: LayoutService, memory: BuildC
 
 
 def draw_design(design: Design, addresses: SiteUrls) -> str:
-    """The state machine; states and arrows lead to where they are described, used components to their pages."""
+    """The state machine; nodes and edges link to their descriptions, used components to their pages."""
     figure = build_diagram(design)
     components = {use.alias: use.component for use in design.uses}
     things = {
@@ -55,7 +55,7 @@ def draw_design(design: Design, addresses: SiteUrls) -> str:
         state = arrow.target if arrow.edge_type == "requires" else arrow.source
         return replace(arrow, href=addresses.design_path(design.component, ("states", state.partition(":")[2])))
 
-    # A component that no arrow leads to would only say that it is there, as the table of uses does.
+    # Components without edges are only in the table of uses.
     ends = {end for arrow in figure.edges for end in (arrow.source, arrow.target)}
     nodes = tuple(linked_node(node) for node in figure.nodes if node.node_type != "component" or node.key in ends)
     arrows = tuple(map(linked_arrow, figure.edges))
@@ -65,18 +65,18 @@ def draw_design(design: Design, addresses: SiteUrls) -> str:
 def draw_decision_tree(
     items: Sequence[Decision], path: DesignPath, design: Design, addresses: SiteUrls
 ) -> tuple[str, bool]:
-    """The decision tree of a state, or the common one, and whether a part of it is folded; "" for no decisions."""
+    """The decision tree of a state or of the common transitions, "" without decisions, and whether parts are folded."""
     is_common = path[0] == "common"
     links = TreeLinks(
         condition_href=lambda path: addresses.design_path(design.component, path),
         target_href=lambda name: (
             addresses.design_path(design.component, ("states", name)) if design.state(name) else ""
         ),
-        fallthrough_label="what the state itself decides" if is_common else "stay",
+        fallthrough_label="transitions of the state" if is_common else "stay",
         decision_key=path_anchor,
         time_unit=design.time_unit,
     )
-    title = "Decision tree of every state" if is_common else f"Decision tree of {path[1]}"
+    title = "Decision tree of the common transitions" if is_common else f"Decision tree of {path[1]}"
     drawing = render_decision_tree(items, path, title=title, links=links, palette=css_variable_palette())
     if drawing is None:
         return "", False
@@ -84,14 +84,14 @@ def draw_decision_tree(
 
 
 def draw_dependencies(project: Project, addresses: SiteUrls, title: str) -> str:
-    """Who uses whom in a project or a part of one; an arrow leads to its user."""
+    """The dependency diagram of a project or a part of it; edges link to the user."""
     figure = dependency_diagram(project, sparse=True)
     nodes = tuple(replace(node, href=addresses.component(node.key)) for node in figure.nodes)
     return _render_svg(Diagram(nodes=nodes, edges=_linked_dependencies(figure, addresses)), title) if nodes else ""
 
 
 def draw_neighbourhood(design: Design, project: Project, addresses: SiteUrls) -> str:
-    """A design with who uses it and what it uses; "" for one that is alone. An arrow leads to its user."""
+    """A component with its users and used components, "" if there are none; edges link to the user."""
     name = design.component
     figure = neighborhood_diagram(project, name, addresses.has_design)
     if len(figure.nodes) == 1:

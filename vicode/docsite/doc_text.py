@@ -1,4 +1,4 @@
-"""Docs as HTML: Markdown of strangers, so without HTML, pictures and addresses other than those of the web."""
+"""Renders descriptions as HTML. They are untrusted Markdown: HTML, images and unusual URL schemes are disabled."""
 
 import re
 from functools import lru_cache
@@ -6,12 +6,12 @@ from functools import lru_cache
 from markdown_it import MarkdownIt
 
 _ALLOWED = re.compile(r"(?i)(https?://|mailto:)")
-# Words without any of these are said plainly already.
+# Text without these characters contains no markup.
 _MARKUP = re.compile(r"[*_`\[\\&<]")
 
 
 def render_doc(text: str, parent_level: int = 1) -> str:
-    """A doc of paragraphs, lists and the like; its highest headings stand one level below that of what it is about."""
+    """Render a block of Markdown; its top headings are one level below `parent_level`."""
     tokens = _markdown().parse(text)
     headings = [token for token in tokens if token.type in ("heading_open", "heading_close")]
     highest = min((int(token.tag[1]) for token in headings), default=1)
@@ -22,12 +22,12 @@ def render_doc(text: str, parent_level: int = 1) -> str:
 
 
 def render_inline_doc(text: str) -> str:
-    """A doc within a line or a cell."""
+    """Render Markdown for a line or a table cell."""
     return str(_markdown().renderInline(text))
 
 
 def summarize(text: str) -> str:
-    """The first sentence, as plain words."""
+    """Return the first sentence as plain text."""
     paragraph = " ".join(text.strip().split("\n\n")[0].split())
     if _MARKUP.search(paragraph):
         (line,) = _markdown().parseInline(paragraph)

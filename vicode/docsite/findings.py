@@ -1,4 +1,4 @@
-"""Findings as rows, each with the thing it is about."""
+"""Findings as rows with links to their subjects."""
 
 from collections.abc import Iterable
 
@@ -9,7 +9,7 @@ from vicode.findings import DesignPath, Severity
 
 
 def finding_rows(subject: SiteInput, addresses: SiteUrls, component: str | None = None) -> tuple[FindingRow, ...]:
-    """The findings of a component, or all of them, the worst first."""
+    """The findings of a component, or of all, ordered by severity."""
     wanted = [each for each in subject.findings if component is None or each.component == component]
     ranks = list(Severity)
     wanted.sort(key=lambda each: ranks.index(each.finding.severity))
@@ -17,7 +17,7 @@ def finding_rows(subject: SiteInput, addresses: SiteUrls, component: str | None 
 
 
 def finding_groups(rows: Iterable[FindingRow]) -> tuple[FindingGroup, ...]:
-    """The same by rule, in the order of the first of each."""
+    """Group findings by rule, in order of first occurrence."""
     groups: dict[tuple[str, str], list[FindingRow]] = {}
     for row in rows:
         groups.setdefault((row.severity, row.code), []).append(row)
@@ -28,7 +28,7 @@ def finding_groups(rows: Iterable[FindingRow]) -> tuple[FindingGroup, ...]:
 
 
 def finding_row(component_finding: ComponentFinding, subject: SiteInput, addresses: SiteUrls) -> FindingRow:
-    """One finding; where it has no line, the one of the thing it is about."""
+    """The row of a finding; without a line of its own, it gets the line of its subject."""
     finding = component_finding.finding
     name = component_finding.component or subject.name
     path = finding.subject.path if finding.subject else ()
@@ -53,7 +53,7 @@ def finding_row(component_finding: ComponentFinding, subject: SiteInput, address
 
 
 def _nearest_line(source: SourceText, path: DesignPath) -> int:
-    """The line of the nearest thing around a path that has one, 0 for none."""
+    """The line of the innermost node at or above a path that has one, else 0."""
     return next(
         (source.line_numbers[path[:end]] for end in range(len(path), 0, -1) if path[:end] in source.line_numbers), 0
     )

@@ -1,4 +1,4 @@
-"""The pages of what the designs know and share: hand-written components, symbols, types, constants."""
+"""The pages of hand-written components, symbols, types and constants."""
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
@@ -31,7 +31,7 @@ BASIC_BEHAVIOR = "basic behavior"
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class InterfaceInputs:
-    """What these pages are made with."""
+    """The inputs of these pages."""
 
     site_input: SiteInput
     urls: SiteUrls
@@ -39,17 +39,17 @@ class InterfaceInputs:
 
     @property
     def project(self) -> Project:
-        """The project."""
+        """Shortcut for `site_input.project`."""
         return self.site_input.project
 
 
 def make_interface_inputs(subject: SiteInput, addresses: SiteUrls) -> InterfaceInputs:
-    """With all references, which are looked for once."""
+    """Collect all references once for all pages."""
     return InterfaceInputs(site_input=subject, urls=addresses, references=find_symbol_references(subject.project))
 
 
 def interface_views(known: InterfaceInputs) -> Iterator[InterfaceView]:
-    """A page a component that has no design, by name."""
+    """One page per component without a design, by name."""
     project, addresses = known.project, known.urls
     linker = NameLinker(project, addresses)
     for each in _sorted_interfaces(project):
@@ -68,7 +68,7 @@ def interface_views(known: InterfaceInputs) -> Iterator[InterfaceView]:
 
 
 def interface_rows(known: InterfaceInputs) -> tuple[tuple[InterfaceRow, ...], tuple[InterfaceRow, ...]]:
-    """The basic behaviors, and all others."""
+    """The rows of basic behaviors, and those of other components."""
     behaviors: list[InterfaceRow] = []
     others: list[InterfaceRow] = []
     for each in _sorted_interfaces(known.project):
@@ -77,7 +77,7 @@ def interface_rows(known: InterfaceInputs) -> tuple[tuple[InterfaceRow, ...], tu
 
 
 def symbol_groups(known: InterfaceInputs) -> Iterator[SymbolGroup]:
-    """What is read and set across components: first what comes from and goes to the robot, then what designs offer."""
+    """The symbols that components share: first those of hand-written components, then those of designs."""
     project, addresses = known.project, known.urls
     owners: list[Interface | Design] = [each for each in _sorted_interfaces(project) if each.readable]
     owners += [design for design in sorted_designs(project) if symbol_declarations(design)]
@@ -96,13 +96,13 @@ def symbol_groups(known: InterfaceInputs) -> Iterator[SymbolGroup]:
 
 
 def symbol_count(project: Project) -> int:
-    """How many symbols there are."""
+    """The number of symbols in a project."""
     declared = sum(len(each.readable) for each in project.components)
     return declared + sum(len(symbol_declarations(design)) for design in project.designs)
 
 
 def enumeration_views(known: InterfaceInputs) -> Iterator[EnumerationView]:
-    """The types, each with what is of it."""
+    """The enumerations with the declarations of their type."""
     for each in known.project.enumerations:
         anchor = f"enum-{slug(each.name)}"
         yield EnumerationView(
@@ -117,7 +117,7 @@ def enumeration_views(known: InterfaceInputs) -> Iterator[EnumerationView]:
 
 
 def constant_table(known: InterfaceInputs) -> DeclarationTable:
-    """The constants."""
+    """The table of constants."""
     linker = NameLinker(known.project, known.urls)
     rows = (
         replace(row, read_in=user_links(known.references.users(READ, "", row.name), known))
@@ -127,7 +127,7 @@ def constant_table(known: InterfaceInputs) -> DeclarationTable:
 
 
 def user_links(users: Mapping[str, tuple[str, ...]], known: InterfaceInputs) -> RichText:
-    """The designs that say something, each with its states as a tip; one state alone is led to at once."""
+    """Links to designs with their states as tooltip; if there is only one state, the link leads to it."""
     parts = []
     for name in sorted(users, key=natural_sort_key):
         states = [state for state in users[name] if state]
@@ -181,7 +181,7 @@ def _add_references_to_row(
 
 
 def _symbol_kinds(owner: Interface | Design) -> tuple[tuple[str, str], ...]:
-    """What the outputs and the variables of a component are for the robot."""
+    """The kinds of symbols (input, output, internal) that the sections of a component declare."""
     is_kept = isinstance(owner, Design) or owner.implementation == INTERNAL
     return ((("internal" if is_kept else "input"), "outputs"), (("internal" if is_kept else "output"), "variables"))
 
@@ -193,7 +193,7 @@ def _symbol_rows(owner: Interface | Design, section: str, kind: str, linker: Nam
 
 
 def _declarations_of_type(enumeration: str, known: InterfaceInputs) -> Iterator[TextSpan]:
-    """All that is of a type."""
+    """The declarations of a type."""
     owners: list[Interface | Design] = [*_sorted_interfaces(known.project), *sorted_designs(known.project)]
     for owner in owners:
         for section in ("parameters", "outputs", "variables"):
@@ -207,17 +207,17 @@ def _facts_of_type(enumeration: Enumeration) -> Iterator[RichText]:
     count = len(enumeration.elements)
     yield plain_text(f"{count} element{'s' * (count != 1)}")
     if enumeration.internal:
-        yield plain_text("kept by vicode")
+        yield plain_text("stored by vicode")
     if enumeration.xabsl_name:
         yield (TextSpan(text="in XABSL "), TextSpan(text=enumeration.xabsl_name, css_class="code"))
 
 
 def _facts(interface: Interface) -> Iterator[RichText]:
     if interface.is_generated:
-        yield plain_text("handed on to the world" if interface.implementation == "world" else "kept by vicode")
+        yield plain_text("provided by the world" if interface.implementation == "world" else "stored by vicode")
     elif interface.implementation:
         yield (TextSpan(text="implemented by "), TextSpan(text=interface.implementation, css_class="code"))
     if interface.frequency_hz is not None:
-        yield plain_text(f"works {interface.frequency_hz:g} times a second")
+        yield plain_text(f"runs at {interface.frequency_hz:g} Hz")
     if interface.xabsl_name:
         yield (TextSpan(text="in XABSL "), TextSpan(text=interface.xabsl_name, css_class="code"))

@@ -1,4 +1,4 @@
-"""What each language makes of a component: the page of its text, or why there is none."""
+"""Per language: a link to the generated code of a component, or why it cannot be generated."""
 
 from collections import defaultdict
 from collections.abc import Iterator, Mapping
@@ -14,15 +14,15 @@ from vicode.findings import Finding, Severity
 from vicode.generators import GENERATORS
 
 GenerationErrors = Mapping[str, Mapping[str, tuple[Finding, ...]]]
-"""By language and component, "" for the project: the errors because of which nothing is generated."""
+"""The errors that prevent generation, by language and component ("" for the project)."""
 
 
 def find_generation_errors(subject: SiteInput) -> GenerationErrors:
-    """What stands in the way of each language that vicode writes, whether the project asked for it or not."""
+    """Find the errors that prevent generation, for all languages, enabled or not."""
     chosen = set(subject.project.languages)
     found = [each.finding for each in subject.findings]
     if not chosen.issuperset(GENERATORS):
-        # What only another language minds is not among the findings of the project.
+        # The findings of the project omit rules for languages that are not enabled.
         everywhere = replace(subject.project, languages=tuple(GENERATORS))
         found += [each for each in check_project(everywhere) if each.languages and not chosen & set(each.languages)]
     unsaid: dict[str, dict[str, list[Finding]]] = {language: defaultdict(list) for language in GENERATORS}
@@ -38,7 +38,7 @@ def find_generation_errors(subject: SiteInput) -> GenerationErrors:
 
 
 def find_components_with_errors(subject: SiteInput, language: str, unsaid: GenerationErrors) -> frozenset[str]:
-    """The components that have no text in a language; mistakes of the project make all of them so."""
+    """The components without code in a language; errors in project.yaml affect all components."""
     guilty = subject.components_with_errors.get(language, frozenset()) | frozenset(unsaid[language])
     return frozenset(design.component for design in subject.project.designs) if "" in guilty else guilty
 
@@ -46,7 +46,7 @@ def find_components_with_errors(subject: SiteInput, language: str, unsaid: Gener
 def language_views(
     subject: SiteInput, component: str, written: Mapping[str, str], unsaid: GenerationErrors, addresses: SiteUrls
 ) -> Iterator[LanguageView]:
-    """A row a language; `written` are the paths of the texts that there are, by language."""
+    """One row per language; `written` contains the paths of generated files by language."""
     for language in GENERATORS:
         reasons = (*unsaid[language].get(component, ()), *unsaid[language].get("", ()))
         rows = (

@@ -1,4 +1,4 @@
-"""The same pages as Markdown, with pictures beside them: for mkdocs, for Sphinx (MyST), and to be read as it is."""
+"""The pages as Markdown with SVG images, for MkDocs, Sphinx (MyST), and direct reading."""
 
 import json
 import re
@@ -21,14 +21,14 @@ _SECTIONS = {
     "component": "State machines",
     "interfaces": "Interfaces",
     "interface": "Interfaces",
-    "code": "Texts",
+    "code": "Code",
 }
-"""Templates whose pages stand below a heading of their own in the order of pages."""
+"""The section of the navigation, by template."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PageContent:
-    """A page before it has a form: its template, and what that sees once it is asked for."""
+    """A page before rendering: its template and a function that returns the template variables."""
 
     head: Head
     template: str
@@ -37,7 +37,7 @@ class PageContent:
 
 
 def markdown_files(contents: Iterable[PageContent]) -> tuple[OutputFile, ...]:
-    """All pages with their pictures, and the order of pages for mkdocs and for Sphinx."""
+    """All pages with their images, and the page order for MkDocs and Sphinx."""
     pages, files = list(contents), []
     for page in pages:
         marker = MarkdownFormatter(stem=page.head.file.removesuffix(".html"))
@@ -50,13 +50,13 @@ def markdown_files(contents: Iterable[PageContent]) -> tuple[OutputFile, ...]:
 
 
 def render_markdown_page(template: str, **views: object) -> str:
-    """A page without pictures."""
+    """Render a page without images."""
     return _page(template, MarkdownFormatter(stem="index"), views)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class MarkdownFormatter:
-    """What the templates of one page turn words into Markdown with; it keeps the page's pictures."""
+    """Formats values as Markdown in the templates of one page, and collects the images of the page."""
 
     stem: str
     images: dict[str, str] = field(default_factory=dict)
@@ -68,27 +68,27 @@ class MarkdownFormatter:
     doc = staticmethod(markdown_text.markdown_from_html)
 
     def span(self, part: TextSpan) -> str:
-        """A piece of a line."""
+        """Format a span."""
         return markdown_text.rich_text((part,))
 
     def link(self, name: str, href: str) -> str:
-        """A name that leads somewhere."""
+        """Format a link."""
         return link(escape_text(name), href)
 
     def cell(self, html: str) -> str:
-        """A doc in a cell."""
+        """Format a description for a table cell."""
         return " ".join(markdown_text.markdown_from_html(html).split())
 
     def code_block(self, block: CodeBlock) -> str:
-        """Code of a design."""
+        """Format a code block of a design."""
         return fence(strip_tags(block.html), _LANGUAGES.get(block.language, ""))
 
     def listing(self, view: CodeView) -> str:
-        """A whole text."""
+        """Format a file."""
         return fence("\n".join(map(strip_tags, view.lines_html)))
 
     def image(self, name: str, about: str, svg: str) -> str:
-        """A drawing in a file of its own, which a click shows in its full size; nothing for none."""
+        """Embed a diagram as a separate file that links to itself; "" without a diagram."""
         if not svg:
             return ""
         file = f"{self.stem}-{name}.svg" if name else f"{self.stem}.svg"
@@ -97,7 +97,7 @@ class MarkdownFormatter:
 
 
 def standalone_svg(svg: str) -> str:
-    """A drawing of a page as a picture: with colours of its own, and without links, which pictures cannot follow."""
+    """Convert an embedded diagram to an image: fixed colors, no links."""
     coloured = _COLOUR.sub(lambda found: f'{found[1]}="{getattr(LIGHT, found[2].replace("-", "_"))}"', svg)
     return "<!-- vicode docs -->\n" + _LINK.sub(r"<g \1>", coloured).replace("</a>", "</g>")
 
@@ -108,7 +108,7 @@ def _page(template: str, marker: MarkdownFormatter, views: Mapping[str, object])
 
 
 def _single_spaced(text: str) -> Iterator[str]:
-    """Lines without more than one empty one in a row, but in code."""
+    """Collapse empty lines outside code blocks."""
     mark, was_empty = "", True
     for line in text.splitlines():
         opened = re.match("`{3,}", line)
@@ -127,8 +127,8 @@ def _single_spaced(text: str) -> Iterator[str]:
 
 
 def _nav(pages: Iterable[PageContent]) -> Iterator[str]:
-    """The order of pages as mkdocs reads it, which knows a subset of YAML that JSON's strings belong to."""
-    yield "# vicode docs: the order of the pages; in mkdocs.yml: INHERIT: <this file>"
+    """The page order for MkDocs; JSON strings are valid YAML."""
+    yield "# vicode docs: page order; in mkdocs.yml: INHERIT: <this file>"
     yield "nav:"
     section = ""
     for page in _in_order(pages):
@@ -142,13 +142,13 @@ def _nav(pages: Iterable[PageContent]) -> Iterator[str]:
 
 
 def _contents(pages: Iterable[PageContent]) -> Iterator[str]:
-    """The order of pages as Sphinx reads it."""
+    """The page order for Sphinx."""
     yield from (".. vicode docs", "", "Contents", "========", "", ".. toctree::", "   :maxdepth: 1", "")
     yield from (f"   {_stem(page)}" for page in _in_order(pages))
 
 
 def _in_order(pages: Iterable[PageContent]) -> list[PageContent]:
-    """Home first, texts last, what stands below a heading together."""
+    """Home first, code last, pages of one section together."""
     order = ["home", "agents", "agent", "component", "symbols", "types", "interfaces", "interface", "all", "code"]
     return sorted(pages, key=lambda page: order.index(page.template))
 

@@ -1,7 +1,4 @@
-"""Words of strangers as Markdown: nothing in them is taken for a sign, whichever program reads it.
-
-What is HTML of ours already (docs, coloured code) is turned back into Markdown by the few tags that it can hold.
-"""
+"""Escapes untrusted text for Markdown dialects, and converts the HTML of this package back to Markdown."""
 
 import re
 from collections.abc import Iterator
@@ -11,9 +8,9 @@ from html.parser import HTMLParser
 
 from vicode.docsite.views import RichText, TextSpan
 
-# What CommonMark and Python-Markdown both let a backslash take the meaning from.
+# Escapable with a backslash in CommonMark and in Python-Markdown.
 _ESCAPED = re.compile(r"([\\`*_{}\[\]#])")
-# What only entities make harmless everywhere: tags, tables, strikes, formulas, roles and comments of other dialects.
+# Only entities are safe in all dialects: tags, tables, strikethrough, formulas, roles and comments.
 _ENTITIES = {
     "&": "&amp;",
     "<": "&lt;",
@@ -25,21 +22,21 @@ _ENTITIES = {
     "@": "&#64;",
 }
 _ENTITY = re.compile("[" + re.escape("".join(_ENTITIES)) + "]")
-# At the beginning of a line: lists, rules, definitions, comments.
+# At the start of a line: lists, rules, definitions, comments.
 _LEADING = re.compile(r"^(\s*)(?:([-+=:%!])|(\d+)([.)]))")
 _CODE_UNSAFE = re.compile(r"[`|\n]")
 _ADDRESS_UNSAFE = re.compile(r"[\s()<>\\\"'{}|`]")
 
 
 def escape_text(text: str) -> str:
-    """Words in one line."""
+    """Escape text as one line."""
     line = " ".join(text.split())
     line = _ENTITY.sub(lambda found: _ENTITIES[found[0]], _ESCAPED.sub(r"\\\1", line))
     return _LEADING.sub(_leading, line)
 
 
 def inline_code(text: str) -> str:
-    """Code in one line."""
+    """Format code as one line."""
     line = " ".join(text.split())
     if not line:
         return ""
@@ -49,7 +46,7 @@ def inline_code(text: str) -> str:
 
 
 def fence(text: str, language: str = "") -> str:
-    """Code in lines of its own, in a fence that nothing in it can close."""
+    """Format a code block with a fence longer than any in the text."""
     longest = max((len(found) for found in re.findall("`+", text)), default=0)
     mark = "`" * max(3, longest + 1)
     return f"{mark}{language}\n{text.strip(chr(10))}\n{mark}"

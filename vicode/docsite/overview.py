@@ -66,7 +66,7 @@ def agent_view(project: Project, agent: Agent, addresses: SiteUrls) -> AgentView
             for design in sorted_designs(part)
         ),
         hand_written=join_spans(linker.component(name) for name in sorted(used - names, key=natural_sort_key)),
-        svg=draw_dependencies(part, addresses, f"What {agent.name} may activate"),
+        svg=draw_dependencies(part, addresses, f"Components that {agent.name} can activate"),
         is_partial=has_omitted_uses(part) and symbol_count(project) > 0,
     )
 

@@ -140,7 +140,7 @@ class _SitePlanner:
         project, addresses = self.site_input.project, self.urls
         bones = strip_to_usage(project)
         maps, home = compute_digest(bones), home_view(self.site_input, addresses)
-        title = f"Who uses whom in {self.site_input.name}"
+        title = f"Dependencies in {self.site_input.name}"
 
         def drawn_home() -> TemplateContext:
             return {"view": replace(home, svg=draw_dependencies(bones, addresses, title))}
@@ -152,7 +152,7 @@ class _SitePlanner:
             head = _head(addresses.agent(agent.name), agent.title or agent.name, TextSpan(text="Agents", href=AGENTS))
             yield self._page(head, "agent", (maps, agent.name), partial(_agent, bones, agent, addresses))
         entries = search_entries(project, addresses, self.site_input.name)
-        yield self._page_from_context(_head(NAME_INDEX, "Everything"), "all", entries=entries)
+        yield self._page_from_context(_head(NAME_INDEX, "Index"), "all", entries=entries)
         yield PlannedFile(path=_SEARCH, key=compute_digest(entries), render=partial(search_script, entries))
 
     def _interface_pages(self, only: str = "") -> Iterator[PlannedFile]:
@@ -261,7 +261,7 @@ def _menu(project: Project, addresses: SiteUrls, *, has_file: bool) -> Iterator[
         yield TextSpan(text="Symbols", href=SYMBOLS)
     if project.enumerations or project.constants:
         yield TextSpan(text="Types and constants", href=TYPES)
-    yield TextSpan(text="Everything", href=NAME_INDEX)
+    yield TextSpan(text="Index", href=NAME_INDEX)
     if has_file:
         yield TextSpan(text="Project file", href=addresses.code("", "source"))
 

@@ -1,4 +1,4 @@
-"""Who uses whom, as tables."""
+"""Tables of users and used components."""
 
 from collections.abc import Iterator
 

@@ -1,4 +1,4 @@
-// Decision trees: a box and the line of pseudo code that says the same are shown together.
+// Decision trees: highlights a node and its line of pseudocode together.
 const MAX_TREE_HEIGHT = 640;
 
 for (const section of document.querySelectorAll(".state")) {

@@ -1,4 +1,4 @@
-// Drawings that can be moved, and looked through.
+// Diagrams with pan, zoom and search.
 const ZOOM_STEP = 1.25;
 const PAN_STEP = 60;
 const MAX_NODES_WITHOUT_SEARCH = 12;
@@ -46,12 +46,12 @@ class DiagramViewer {
     };
     add("+", "Zoom in (+)", () => this.zoom(1 / ZOOM_STEP));
     add("−", "Zoom out (-)", () => this.zoom(ZOOM_STEP));
-    add("Fit", "Show all of it (0)", () => this.fit(), "Fit: show all of it (0)");
+    add("Fit", "Zoom to fit (0)", () => this.fit(), "Fit: zoom to fit (0)");
     if (document.fullscreenEnabled) add(fullscreenIcon(), "Full screen (F)", () => this.toggleFullScreen());
     this.frame.prepend(tools);
   }
 
-  // A field that shows a box large, with all that are joined to it.
+  // The search field zooms to a node and its neighbors.
   makeSearchField() {
     const field = document.createElement("input");
     const names = document.createElement("datalist");
@@ -60,7 +60,7 @@ class DiagramViewer {
     names.append(...[...keys.keys()].sort((a, b) => a.localeCompare(b)).map((name) => new Option(name, name)));
     field.setAttribute("list", names.id);
     field.type = "search";
-    field.placeholder = "Find in the drawing";
+    field.placeholder = "Find in diagram";
     field.setAttribute("aria-label", field.placeholder);
     field.autocomplete = "off";
     field.spellcheck = false;
@@ -79,7 +79,7 @@ class DiagramViewer {
     return [field, names];
   }
 
-  // Its neighbors are in the view as far as its name can be read then.
+  // Shows as many neighbors as fit while the name stays readable.
   focusNode(key) {
     this.focusedKey = key;
     this.highlight(key);
@@ -102,7 +102,7 @@ class DiagramViewer {
 
   addListeners() {
     this.viewport.addEventListener("keydown", (event) => this.onKey(event));
-    // The page scrolls by the wheel; with Ctrl, as a pinch says too, the drawing zooms.
+    // The wheel scrolls the page. With Ctrl, which a pinch gesture also sends, it zooms the diagram.
     this.viewport.addEventListener("wheel", (event) => {
       if (!event.ctrlKey && !event.metaKey) return;
       event.preventDefault();
@@ -134,7 +134,7 @@ class DiagramViewer {
     return { x: (event.clientX - rect.left) / rect.width, y: (event.clientY - rect.top) / rect.height };
   }
 
-  // In its own size from its upper left corner on.
+  // Shows the top left corner at natural size.
   showAtNaturalSize(height) {
     const width = this.viewport.clientWidth - 16;
     this.svg.setAttribute("width", width);
@@ -187,7 +187,7 @@ class DiagramViewer {
   }
 
   onPointerDown(event) {
-    // A finger scrolls the page while all of the drawing is shown, and moves the drawing when it is not.
+    // A finger pans the diagram if it is zoomed in, otherwise it scrolls the page.
     if (event.button !== 0 || (event.pointerType === "touch" && !this.frame.classList.contains("is-zoomed"))) return;
     let last = event;
     let moved = 0;
@@ -202,7 +202,7 @@ class DiagramViewer {
     const onUp = () => {
       window.removeEventListener("pointermove", onMove);
       this.frame.classList.remove("is-panning");
-      // The click that ends a drag follows no link.
+      // Suppress the click at the end of a drag.
       if (moved > 4) {
         const stop = (click) => { click.preventDefault(); click.stopPropagation(); };
         this.svg.addEventListener("click", stop, { capture: true, once: true });

@@ -1,4 +1,4 @@
-// The search over everything that the site tells of.
+// The search over all pages of the site.
 const MAX_RESULTS = 30;
 
 const box = document.querySelector(".search");
@@ -17,7 +17,7 @@ function loadIndex() {
   return indexPromise;
 }
 
-// Entries as [name, kind, where, address, doc, pieces of code]; what they share is written once.
+// Returns entries as [name, kind, parent, URL, doc, code snippets]; the packed index stores shared strings once.
 function unpackIndex({ kinds, places, pages, pieces, entries }) {
   return entries.map(([name, kind, where, page, anchor = 0, doc = "", words = []]) => {
     const place = anchor === 0 ? `${kinds[kind]}-${name}` : anchor;
@@ -26,7 +26,7 @@ function unpackIndex({ kinds, places, pages, pieces, entries }) {
   });
 }
 
-// The better the earlier: the name, its beginning, its inside, then docs, then code. Every word must be somewhere.
+// Lower is better: name, prefix, substring, kind or parent, doc, code; 6 if a word does not match.
 function rank(entry, words) {
   let worst = 0;
   const [name, kind, where, , doc, code] = entry.map((text) => text.toString().toLowerCase());
@@ -54,13 +54,13 @@ function find(entries, text) {
     .map((each) => each.entry);
 }
 
-// The doc, or the guard or line of code, that says most of the words, around the first of them; and whether it is code.
+// Returns the doc or code snippet that matches most words, cut around the first match, and whether it is code.
 function excerpt(entry, text) {
   const [name, kind, where, , doc, code] = entry;
   const words = text.toLowerCase().split(/\s+/).filter((word) => word && !name.toLowerCase().includes(word));
   const said = (body) => words.filter((word) => body.toLowerCase().includes(word));
   const best = [doc, ...code].reduce((one, other) => (said(other).length > said(one).length ? other : one));
-  // Of what is part of another thing the line above says of which.
+  // The line above already names the parent of other kinds.
   if (!said(best).length) return [truncate(doc, 0) || (isTopLevel(kind) ? where : ""), false];
   const at = Math.min(...said(best).map((word) => best.toLowerCase().indexOf(word)));
   const start = at > 60 || best.length > 140 ? Math.max(0, at - 40) : 0;
@@ -69,13 +69,13 @@ function excerpt(entry, text) {
 
 const isTopLevel = (kind) => ["component", "interface"].includes(kind);
 
-// From a place on, to the last whole word that there is room for.
+// Cuts the text after the last word that fits.
 function truncate(text, start) {
   const end = start + 140;
   return text.length <= end ? text.slice(start) : `${text.slice(start, end).replace(/\s+\S*$/, "")} …`;
 }
 
-// A text with the words that were looked for marked in it.
+// Wraps the search words in <mark> elements.
 function highlightMatches(body, text) {
   const words = text.split(/\s+/).filter(Boolean).map((word) => word.replace(/[.*+?^${}()|[\]\\]/g, "\\$&"));
   return body.split(new RegExp(`(${words.join("|")})`, "i")).map((part, at) => {
@@ -135,7 +135,7 @@ async function search() {
   if (text.trim() && !found.length) {
     const item = document.createElement("li");
     item.className = "no-results";
-    item.textContent = "Nothing is called so, or says so.";
+    item.textContent = "No results.";
     list.append(item);
   }
   list.hidden = !text.trim();
@@ -154,7 +154,7 @@ function onSearchKey(event) {
 
 if (box) {
   box.hidden = false;
-  // Where there is little room there is no key either.
+  // Small screens have no room for the key hint, and usually no keyboard.
   if (matchMedia("(max-width: 800px)").matches) field.placeholder = "Search";
   field.addEventListener("focus", loadIndex);
   field.addEventListener("input", search);
