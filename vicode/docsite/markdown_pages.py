@@ -128,7 +128,7 @@ def _single_spaced(text: str) -> Iterator[str]:
 
 def _nav(pages: Iterable[PageContent]) -> Iterator[str]:
     """The page order for MkDocs; JSON strings are valid YAML."""
-    yield "# vicode docs: page order; in mkdocs.yml: INHERIT: <this file>"
+    yield "# vicode docs: the order of the pages; in mkdocs.yml: INHERIT: <this file>"
     yield "nav:"
     section = ""
     for page in _in_order(pages):

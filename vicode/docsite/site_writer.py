@@ -20,7 +20,7 @@ GENERATED_HEADERS = (
     b"# vicode docs: the order of the pages;",
     b".. vicode docs\n",
 )
-"""How files of a site begin. Pages of others may well speak of `vicode docs`."""
+"""The first bytes of generated files. Changing one makes existing sites unrecognizable."""
 
 CACHE_VARIABLE = "VICODE_CACHE"
 _PAGES = (".css", ".html", ".js", ".md", ".rst", ".svg", ".yml")
