@@ -95,5 +95,5 @@ def test_what_is_no_design_is_told(
 ) -> None:
     (tmp_path / name).write_text("# Notes\n")
     assert vicode(command, str(tmp_path / name)) == 2
-    assert f"{name} is no design; name a design (.yaml), or a folder with designs" in (said := capsys.readouterr().err)
+    assert f"{name} is not a design; specify a design (.yaml) or a folder with designs" in (said := capsys.readouterr().err)
     assert told in said

@@ -15,7 +15,7 @@ from vicode.cli.trace_output import PlainTracePrinter, follow_process
 __all__ = ["lamps"]
 
 DEAF = "import signal, time; signal.signal(signal.SIGINT, signal.SIG_IGN); print('up', flush=True); time.sleep(60)"
-AGAIN = "stopping after this iteration; press Ctrl-C again to end at once\n"
+AGAIN = "stopping after this iteration; press Ctrl-C again to kill the program\n"
 
 
 class InterruptingPrinter(PlainTracePrinter):
@@ -40,7 +40,7 @@ def test_a_program_that_does_not_answer_is_ended(
 ) -> None:
     monkeypatch.setattr(trace_output, "_INTERRUPT_TIMEOUT_S", 0.1)
     assert follow_unresponsive_program(1) == 130
-    assert capsys.readouterr().err == AGAIN + "it did not stop, and was ended\n"
+    assert capsys.readouterr().err == AGAIN + "the program did not stop and was killed\n"
 
 
 def test_the_second_interrupt_ends_it_at_once(

@@ -40,7 +40,7 @@ def test_a_file_without_agents_is_rejected_with_a_suggestion(
     assert (tmp_path / "site" / "component-drive_circle.html").is_file()
     shutil.copytree(CIRCLE, tmp_path / "other")
     assert main(["docs", ".", "--out", "site"]) == 2
-    assert "holds several behaviors; name one of circle/agents.xabsl, other/agents.xabsl" in capsys.readouterr().err
+    assert "contains several behaviors; specify one of circle/agents.xabsl, other/agents.xabsl" in capsys.readouterr().err
 
 
 def test_without_output_the_code_is_printed(capsys: pytest.CaptureFixture[str]) -> None:

@@ -35,7 +35,7 @@ class WatchProcess:
             text=True,
         )
         # Once it has looked for what changed meanwhile it follows every change.
-        self.wait_for("goes on; Ctrl-C ends it")
+        self.wait_for("press Ctrl-C to stop")
         self.wait_for("0 changed")
 
     def wait_for(self, text: str) -> None:

@@ -194,7 +194,7 @@ def test_a_file_that_is_something_else_is_told_so(
     (tmp_path / name).write_text("# Notes\n", "utf-8")
     assert main(["docs", str(tmp_path / name), "--out", str(tmp_path / "site")]) == 2
     told = capsys.readouterr().err
-    assert f"{name} is neither a design nor an XABSL behavior; name a design (.yaml)" in told
+    assert f"{name} is neither a design nor an XABSL behavior; specify a design (.yaml)" in told
     assert "Y1" not in told
     assert not (tmp_path / "site").exists()
 

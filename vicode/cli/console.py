@@ -1,4 +1,4 @@
-"""Prints findings with the lines they are about, in colour where somebody looks."""
+"""Prints findings with their source lines, in color on a terminal."""
 
 import sys
 from collections import Counter
@@ -13,7 +13,7 @@ _COLOURS = {Severity.ERROR: "bold red", Severity.WARNING: "yellow", Severity.NOT
 
 
 def format_findings(findings: Iterable[Finding]) -> str:
-    """Findings in the order given, each with the line it is about."""
+    """Format findings in the given order, with their source lines."""
     lines_of = lru_cache(maxsize=64)(_read_lines)
 
     def source_line(file: str, line: int) -> str | None:
@@ -24,7 +24,7 @@ def format_findings(findings: Iterable[Finding]) -> str:
 
 
 def print_findings(findings: Iterable[Finding], *, to_stderr: bool = False) -> None:
-    """Print findings in the order given, worst marked by colour on a terminal."""
+    """Print findings in the given order; on a terminal, color marks the severity."""
     text = format_findings(findings)
     stream = sys.stderr if to_stderr else sys.stdout
     if not text:
@@ -43,7 +43,7 @@ def print_findings(findings: Iterable[Finding], *, to_stderr: bool = False) -> N
 
 
 def count_findings(findings: Iterable[Finding]) -> str:
-    """How many of each severity, in words."""
+    """Count the findings of each severity, as text."""
     counts = Counter(finding.severity for finding in findings)
     words = [
         f"{counts[severity]} {severity}{'s' * (counts[severity] != 1)}" for severity in Severity if counts[severity]
@@ -52,14 +52,14 @@ def count_findings(findings: Iterable[Finding]) -> str:
 
 
 def describe_os_error(error: OSError) -> str:
-    """What the outside world has against it, in a line."""
+    """Describe an error in one line."""
     if error.filename is None:
         return str(error)
     return f"{error.filename}: {error.strerror or error}"
 
 
 def _read_lines(file: str) -> tuple[str, ...]:
-    """The lines of a file, as far as one would read it: a pipe would keep us waiting, a device may never end."""
+    """The lines of a regular file, up to a size limit; reading a pipe or device could block."""
     path = Path(file)
     try:
         if not path.is_file():
@@ -68,5 +68,5 @@ def _read_lines(file: str) -> tuple[str, ...]:
             text = stream.read(_MAX_BYTES).decode(errors="replace")
     except OSError:
         return ()
-    # Lines end where the reader of designs ends them, not at every separator Unicode knows.
+    # The same line ends as the YAML reader; `splitlines` has more.
     return tuple(text.replace("\r\n", "\n").replace("\r", "\n").split("\n"))

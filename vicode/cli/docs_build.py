@@ -1,4 +1,4 @@
-"""Builds the sites of a command, once or again and again: one alone, several beside each other with a home."""
+"""Builds the sites of `vicode docs`: a single one, or several with a common home page."""
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
@@ -13,14 +13,14 @@ if TYPE_CHECKING:
     from vicode.docsite import PlannedFile, SiteBuilder
 
 ProgressCallback = Callable[[str, int, int], None]
-"""Told which site is being built, how many of its files are done, and of how many."""
+"""Called with the name of the site, the number of finished files, and the total."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class DocsBuildResult:
-    """What became of a command's folder: all its files and those that were touched, relative to it.
+    """The result of a build: all files and the changed ones, relative to the output folder.
 
-    `foreign` is a file of somebody else that stands in the way, "" for none.
+    `foreign` is an existing file that vicode did not write, "" if there is none; nothing is written then.
     """
 
     files: tuple[str, ...] = ()
@@ -30,9 +30,9 @@ class DocsBuildResult:
 
 @dataclass(slots=True)
 class DocsBuilder:
-    """The sites in a folder; `ignores_cache` makes all pages anew the first time. Close it in the end.
+    """Builds the sites of an output folder. Call `close` when done.
 
-    `title` is what the whole is called: the one site, or the home of several.
+    With `ignores_cache`, the first build renders all pages. `title` is that of the site or of the common home page.
     """
 
     out: Path
@@ -44,7 +44,7 @@ class DocsBuilder:
     def build(
         self, readings: Sequence[LoadedSiteInput], step: ProgressCallback = lambda _name, _done, _all: None
     ) -> DocsBuildResult:
-        """Build the sites of all that could be read; pages of what is gone are taken away."""
+        """Build the sites of all readable inputs and delete stale pages."""
         from vicode.docsite import SiteBuilder, plan_site_index
 
         named = {name: each for name, each in _assign_folders(readings).items() if each.site_input is not None}
@@ -72,7 +72,7 @@ class DocsBuilder:
         return built
 
     def close(self) -> None:
-        """End the processes behind it."""
+        """Stop the layout processes."""
         for builder in self._builders.values():
             builder.close()
 
@@ -99,7 +99,7 @@ class DocsBuilder:
 
 
 def _assign_folders(readings: Sequence[LoadedSiteInput]) -> Mapping[str, LoadedSiteInput]:
-    """Each with its folder below that of the command; one alone has none. Case does not tell two apart."""
+    """Assign a unique folder, ignoring case, to each input; a single input is built in the output folder itself."""
     if len(readings) == 1:
         return {"": readings[0]}
     named: dict[str, LoadedSiteInput] = {}
@@ -119,7 +119,7 @@ def _merge_results(one: DocsBuildResult, other: DocsBuildResult) -> DocsBuildRes
 
 
 def describe_build(built: DocsBuildResult, readings: Sequence[LoadedSiteInput], out: Path) -> str:
-    """What was written, in a line."""
+    """Summarize a build in one line."""
     findings = [each.finding for reading in readings if reading.site_input for each in reading.site_input.findings]
     counts = f"{len(built.files)} files, {len(built.changed)} changed, {count_findings(findings)}"
     home = "index.md" if "index.md" in built.files else "index.html"

@@ -1,4 +1,4 @@
-"""What sites are about, read from disk: projects of designs, and behaviors in XABSL."""
+"""Loads the inputs of sites: projects of designs and XABSL behaviors."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -20,10 +20,10 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LoadedSiteInput:
-    """One project or behavior as it stands on disk.
+    """A project or behavior on disk.
 
-    `read_errors` is what stands in the way of reading it; `is_incomplete` says that something is missing because of it, and
-    without a subject all is. `folders` are those that hold its files.
+    `site_input` is None if nothing can be read. If `is_incomplete`, files are missing because of `read_errors`.
+    `folders` contain its files.
     """
 
     name: str
@@ -34,7 +34,7 @@ class LoadedSiteInput:
 
 
 def load_site_inputs(paths: Sequence[Path]) -> tuple[LoadedSiteInput, ...]:
-    """Read all that paths name, each once.
+    """Load the inputs at all paths, each once.
 
     Raises:
         OSError: A path does not exist or cannot be read.
@@ -46,7 +46,7 @@ def load_site_inputs(paths: Sequence[Path]) -> tuple[LoadedSiteInput, ...]:
         elif path.is_file() and path.suffix not in DESIGN_SUFFIXES:
             raise OSError(
                 f"{path} is neither a design nor an XABSL behavior; "
-                "name a design (.yaml), a folder with designs, or the .xabsl file with the agents"
+                "specify a design (.yaml), a folder with designs, or the .xabsl file with the agents"
             )
         else:
             readings += [_load_project_input(opened) for opened in load_projects([str(path)])]
@@ -54,7 +54,7 @@ def load_site_inputs(paths: Sequence[Path]) -> tuple[LoadedSiteInput, ...]:
 
 
 def _find_behavior(folder: Path) -> Path | None:
-    """The file with the agents, of a folder without designs that holds one behavior."""
+    """The file with the agents if the folder contains one behavior and no designs."""
     from vicode.store import find_projects
     from vicode.xabsl.source_loader import find_agent_files
 
@@ -63,13 +63,13 @@ def _find_behavior(folder: Path) -> Path | None:
     found = tuple(find_agent_files(folder))
     if len(found) > 1:
         more = f" and {len(found) - 2} more" if len(found) > 2 else ""
-        raise OSError(f"{folder} holds several behaviors; name one of {found[0]}, {found[1]}{more}")
+        raise OSError(f"{folder} contains several behaviors; specify one of {found[0]}, {found[1]}{more}")
     return found[0] if found else None
 
 
 def _load_project_input(opened: LoadedProject) -> LoadedSiteInput:
     folder = opened.open_project.folder.resolve()
-    # Where nothing can be read, nothing is told of it: pages of a better time are worth more.
+    # If nothing can be read, keep the existing pages.
     is_readable = bool(opened.selected_designs) or not opened.open_project.broken_files
     return LoadedSiteInput(
         name=folder.name,
@@ -91,7 +91,7 @@ def _project_site_input(opened: LoadedProject) -> "SiteInput":
 
 
 def _load_behavior_input(agents: Path) -> LoadedSiteInput:
-    """A behavior as a project, with its files of XABSL as sources."""
+    """Load a behavior as a project with XABSL sources."""
     from vicode.cli.xabsl_behavior import load_behavior, with_display_paths
     from vicode.xabsl.compiler import compile_source
 
@@ -108,7 +108,7 @@ def _load_behavior_input(agents: Path) -> LoadedSiteInput:
     )
 
 
-# While a behavior is watched, an edit leaves all other files as they were.
+# With --watch, most files are unchanged after an edit.
 @lru_cache(maxsize=2000)
 def _parse_cached(text: str, name: str) -> "ParsedFile":
     from vicode.xabsl.parser import parse
@@ -133,7 +133,7 @@ def _behavior_site_input(agents: Path, source: "ProgramSource", compiled: "Compi
         language: frozenset(each.component for each in errors if each.finding.applies_to(language))
         for language in project.languages
     }
-    # The only thing in XABSL that has a title.
+    # In XABSL, only agents have titles.
     title = project.agents[0].title if len(project.agents) == 1 else ""
     return SiteInput(
         project=project,
@@ -145,7 +145,7 @@ def _behavior_site_input(agents: Path, source: "ProgramSource", compiled: "Compi
 
 
 def _sources(source: "ProgramSource", imported: "ImportResult") -> "dict[str, SourceText]":
-    """The files of a behavior by component, each with the lines of its option's states, decisions and parameters."""
+    """The XABSL files by component, with the lines of the states, decisions and parameters of its option."""
     from vicode.docsite import SourceText, iter_documented_paths
     from vicode.xabsl.source_loader import read_text
 

@@ -1,4 +1,4 @@
-"""`vicode docs --watch`: builds the site again after every change, and serves it to the browsers of this machine."""
+"""`vicode docs --watch`: rebuilds the site after every change and serves it on this machine."""
 
 import gc
 import os
@@ -19,21 +19,21 @@ from vicode.cli.project_loader import DESIGN_SUFFIXES, XABSL_SUFFIXES
 from vicode.docsite.site_server import ReloadBroadcaster, SiteServer
 
 _SUFFIXES = (*XABSL_SUFFIXES, *DESIGN_SUFFIXES)
-# Editors write a file in several steps, and several files at once.
+# Editors write files in several steps.
 _DEBOUNCE_STEP_MS, _MAX_DEBOUNCE_MS, _POLL_MS = 40, 400, 500
 
 
 def watch_docs(paths: Sequence[Path], builder: DocsBuilder, *, port: int = 0, open_browser: bool = True) -> int:
-    """Build and serve until it is ended; 2 where files of others stand in the way."""
+    """Build and serve until interrupted; return 2 if files of other tools are in the output folder."""
     news = ReloadBroadcaster()
     with builder:
         watcher = SiteWatcher(paths, builder, news)
         if not watcher.update(is_first=True):
             return 2
-        # What is kept from now on need not be looked through for circles again and again.
+        # Exclude long-lived objects from garbage collection.
         gc.freeze()
         with SiteServer(builder.out, news, port) as server:
-            print(f"{server.url} shows it, and goes on; Ctrl-C ends it.", flush=True)
+            print(f"Serving {server.url}; press Ctrl-C to stop.", flush=True)
             if open_browser:
                 webbrowser.open(server.url)
             with suppress(KeyboardInterrupt):
@@ -42,24 +42,24 @@ def watch_docs(paths: Sequence[Path], builder: DocsBuilder, *, port: int = 0, op
 
 
 class SiteWatcher:
-    """Reads and builds again, and tells what came of it: the last site that could be built stays."""
+    """Rebuilds after changes and publishes the result; on errors, the last good site is kept."""
 
     def __init__(self, paths: Sequence[Path], sites: DocsBuilder, news: ReloadBroadcaster) -> None:
         self._paths, self._builder, self._broadcaster = paths, sites, news
         self.folders: tuple[Path, ...] = tuple(path if path.is_dir() else path.resolve().parent for path in paths)
 
     def run(self) -> None:
-        """Update after every change, until Ctrl-C."""
+        """Rebuild after every change until interrupted."""
         while True:
             folders = self.folders
             for _change in iter_changes(folders):
                 self.update()
-                # A behavior may include files of another folder now.
+                # The change may have added an include from another folder.
                 if folders != self.folders:
                     break
 
     def update(self, *, is_first: bool = False) -> bool:
-        """After a change; whether the folder is ours."""
+        """Rebuild; return False if the output folder contains files of other tools."""
         begun = time.perf_counter()
         try:
             readings = load_site_inputs(self._paths)
@@ -91,7 +91,7 @@ class SiteWatcher:
         return True
 
     def _report_problem(self, problem: str) -> bool:
-        """What is wrong with the files themselves; the next change may have mended it."""
+        """Report an OS error; the next change may fix it."""
         print(f"vicode: {problem}", file=sys.stderr, flush=True)
         self._broadcaster.publish((), f"error: {problem}\n")
         return True
@@ -101,11 +101,11 @@ class SiteWatcher:
 
     def _report_errors(self, errors: str) -> None:
         self._broadcaster.publish((), errors)
-        print("The site stays as it was before this change.", file=sys.stderr, flush=True)
+        print("The site was not updated.", file=sys.stderr, flush=True)
 
 
 def iter_changes(folders: Sequence[Path]) -> Iterator[None]:
-    """Comes back each time that a design or a behavior in these folders has changed; ends when a folder is another."""
+    """Yield after each change of a design or behavior in these folders; stop when a folder is replaced."""
     with ExitStack() as stack, suppress(FileNotFoundError):
         held = {folder: number for folder in folders if (number := _open_folder(folder, stack)) is not None}
         wanted = watch(
@@ -116,13 +116,13 @@ def iter_changes(folders: Sequence[Path]) -> Iterator[None]:
             rust_timeout=_POLL_MS,
             yield_on_timeout=True,
         )
-        # What changed before the watching began is found by looking once.
+        # Yield once at the start for changes before the watch began.
         is_first = True
         for changes in wanted:
             if changes or is_first:
                 yield
             is_first = is_first and bool(changes)
-            # One that was taken away tells nothing any more, nor does the one that is put in its place.
+            # A deleted folder reports no events, nor does its replacement.
             if held != {folder: number for folder in folders if (number := _folder_id(folder)) is not None}:
                 return
 
@@ -133,7 +133,7 @@ def _is_watched(_change: Change, path: str) -> bool:
 
 
 def _open_folder(folder: Path, stack: ExitStack) -> tuple[int, int] | None:
-    """The number of a folder, if it is there; as long as it is held open, the one in its place gets another."""
+    """Open a folder and return its identity; while it is open, no other folder gets the same inode."""
     with suppress(OSError):
         descriptor = os.open(folder, os.O_RDONLY)
         stack.callback(os.close, descriptor)

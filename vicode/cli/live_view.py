@@ -1,4 +1,4 @@
-"""A run live in the terminal: changes of state scroll by above the activation tree and the world."""
+"""Live view of a run in the terminal: state changes scroll above the activation tree and the world."""
 
 from rich.console import Console, Group, RenderableType
 from rich.live import Live
@@ -11,32 +11,32 @@ _LINKS = {"root": "", "requires": "requires ", "modulates": "modulates "}
 
 
 class LiveTracePrinter:
-    """Draws the latest iteration some times a second."""
+    """Draws the latest iteration 15 times per second."""
 
     def __init__(self, console: Console | None = None) -> None:
-        """Begin to draw on a console, the terminal if left out."""
+        """Start drawing on a console; by default, on the terminal."""
         self._console = console or Console(highlight=False)
         self._latest: TraceRecord | None = None
         self._live = Live(get_renderable=self._draw, console=self._console, refresh_per_second=15)
         self._live.start()
 
     def show_iteration(self, record: TraceRecord, changes: list[str], /) -> None:
-        """Scroll the changes, remember the rest for the next drawing."""
+        """Print the changes and keep the iteration for the next refresh."""
         self._latest = record
         for change in changes:
             time, component, rest = change[:12], *change[12:].split(":", 1)
             self._console.print(Text.assemble((time, "dim"), (component, "bold"), ":", rest))
 
     def show_text(self, text: str) -> None:
-        """Scroll it with them."""
+        """Print output of the program."""
         self._console.print(Text(text, style="red" if text.startswith("error") else ""))
 
     def show_notice(self, text: str) -> None:
-        """Scroll it too."""
+        """Print a message of the runner."""
         self._console.print(Text(text, style="bold"))
 
     def close(self) -> None:
-        """Leave the last drawing standing."""
+        """Stop drawing; the last view stays visible."""
         self._live.stop()
 
     def _draw(self) -> RenderableType:
@@ -44,7 +44,7 @@ class LiveTracePrinter:
 
 
 def render_iteration(record: TraceRecord) -> RenderableType:
-    """The activation tree of an iteration and the world."""
+    """Render the activation tree of an iteration and the world."""
     title = Text(f"{record['time_ns'] / 1e9:8.2f} s  iteration {record['iteration']}", style="bold")
     parts: list[RenderableType] = [title]
     nodes: dict[str, Tree] = {}
@@ -53,7 +53,7 @@ def render_iteration(record: TraceRecord) -> RenderableType:
         node = Tree(_label(step)) if parent is None else parent.add(_label(step))
         if parent is None:
             parts.append(node)
-        # Somebody stepped twice gets a branch each time, and what it steps then hangs on the latest.
+        # A component stepped twice gets two branches; its children are added to the latest.
         nodes[step["component"]] = node
     world = describe_world(record.get("world"))
     return Group(*parts, *([Text(world, style="cyan", no_wrap=True, overflow="ellipsis")] if world else []))

@@ -1,4 +1,4 @@
-"""Shows on a terminal how far a building is."""
+"""A progress bar for builds."""
 
 import sys
 from collections.abc import Iterator
@@ -9,7 +9,7 @@ from vicode.cli.docs_build import ProgressCallback
 
 @contextmanager
 def progress_bar() -> Iterator[ProgressCallback]:
-    """What shows how far a building is; where nobody looks it shows nothing."""
+    """Yield a progress callback; without a terminal, it does nothing."""
     if not sys.stderr.isatty():
         yield lambda _name, _done, _all: None
         return

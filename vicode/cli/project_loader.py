@@ -1,4 +1,4 @@
-"""Opens what paths on the command line name: designs, project folders, folders of projects."""
+"""Loads the projects at paths of the command line: designs, project folders, folders of projects."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -16,9 +16,9 @@ XABSL_SUFFIXES = (".xabsl", ".yabsl")
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LoadedProject:
-    """A project and the components that are meant (all of it: None), with what is wrong with them.
+    """A project with its selected components (None for all) and their findings.
 
-    `requested` are the components whose files were given; the others that are meant are used by them.
+    `requested` are the components whose files were given; the other selected components are used by them.
     """
 
     open_project: "OpenProject"
@@ -28,18 +28,18 @@ class LoadedProject:
 
     @property
     def selected_designs(self) -> tuple[str, ...]:
-        """Names of the components that are meant and have a design, in order."""
+        """The selected components that have a design, in order."""
         designs = (design.component for design in self.open_project.project.designs)
         return tuple(name for name in designs if self.selected_components is None or name in self.selected_components)
 
     def components_with_errors(self, language: str) -> frozenset[str]:
-        """Components that nothing can be generated for in a language; mistakes in project.yaml make all of them so."""
+        """The components for which no code can be generated; errors in project.yaml affect all components."""
         from vicode.store import find_faulty_components
 
         return find_faulty_components(self.errors_for(language), self.open_project)
 
     def errors_for(self, language: str) -> tuple[Finding, ...]:
-        """What stands in the way of generating in a language."""
+        """The errors that prevent generating code in a language."""
         return tuple(each for each in self.findings if each.severity is Severity.ERROR and each.applies_to(language))
 
     @property
@@ -54,12 +54,12 @@ class LoadedProject:
 
 
 def load_projects(paths: Sequence[str]) -> tuple[LoadedProject, ...]:
-    """Open every path, each project once.
+    """Load every project once.
 
     Raises:
         OSError: A path does not exist or cannot be read, or there is no design at all.
     """
-    # Reading designs is not needed for --help, and takes longer than that.
+    # Deferred: --help does not need the store, which is slow to import.
     from vicode.store import find_projects
 
     wanted: dict[Path, set[Path] | None] = {}
@@ -81,18 +81,18 @@ def load_projects(paths: Sequence[str]) -> tuple[LoadedProject, ...]:
 
 
 def _import_hint(paths: Sequence[str]) -> str:
-    """What to do where there are behaviors instead."""
+    """A hint for paths that contain XABSL behaviors instead of designs."""
     from vicode.xabsl.source_loader import find_agent_files
 
     found = next((file for path in paths for file in find_agent_files(Path(path))), None)
-    return f"; 'vicode import {found}' makes designs of a behavior in XABSL" if found else ""
+    return f"; 'vicode import {found}' converts an XABSL behavior to designs" if found else ""
 
 
 def require_design_file(path: Path) -> None:
-    """Raise OSError for a file that is no design."""
+    """Raise OSError if a file is not a design."""
     if path.is_file() and path.suffix not in DESIGN_SUFFIXES:
-        way = "; 'vicode import' makes designs of a behavior in XABSL" if path.suffix in XABSL_SUFFIXES else ""
-        raise OSError(f"{path} is no design; name a design (.yaml), or a folder with designs{way}")
+        way = "; 'vicode import' converts an XABSL behavior to designs" if path.suffix in XABSL_SUFFIXES else ""
+        raise OSError(f"{path} is not a design; specify a design (.yaml) or a folder with designs{way}")
 
 
 def _load_project(folder: Path, files: set[Path] | None) -> LoadedProject:

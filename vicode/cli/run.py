@@ -63,7 +63,7 @@ def run(args: argparse.Namespace) -> int:
 
 
 def _root_component(opened: LoadedProject) -> str | None:
-    """The component to run: the one named, else the root of the only agent, else the only design."""
+    """The component to run: the requested one, else the root of the only agent, else the only design."""
     if opened.selected_components is not None:
         return next(iter(opened.requested), None)
     roots = [agent.root for agent in opened.open_project.project.agents] or list(opened.selected_designs)
@@ -71,7 +71,7 @@ def _root_component(opened: LoadedProject) -> str | None:
 
 
 def _generate(opened: LoadedProject, component: str, folder: Path) -> str:
-    """Write the component with all it uses; returns where its class is found."""
+    """Generate the component and all it uses; return the path of its class."""
     from vicode.generators import generate, python_class_path
     from vicode.output import apply_diffs, compare_files
 
@@ -82,7 +82,7 @@ def _generate(opened: LoadedProject, component: str, folder: Path) -> str:
 
 
 def _command(opened: LoadedProject, class_path: str, folder: str, args: argparse.Namespace) -> list[str]:
-    # -P: what lies in the folder we happen to be in must not hide a module.
+    # -P: files in the current folder must not shadow modules.
     command = [sys.executable, "-P", "-m", "vicode.bica", class_path, "--stream", "--path", str(Path(folder, "python"))]
     command += ["--path", str(opened.open_project.folder.resolve()), "--seed", str(args.seed)]
     if opened.open_project.project.world:
@@ -100,12 +100,12 @@ def _command(opened: LoadedProject, class_path: str, folder: str, args: argparse
 
 
 def _warn_of_missing_world(opened: LoadedProject) -> None:
-    """Say who will ask a world that is not there."""
+    """Warn if components need a world but the project has none."""
     asking = [each.component for each in opened.open_project.project.components if each.implementation == "world"]
     if asking:
         more = f" and {len(asking) - 1} more" if len(asking) > 1 else ""
-        mend = "write world: module:Class, a class with what they declare"
-        print(f"vicode: project.yaml names no world, which {asking[0]}{more} will ask; {mend}", file=sys.stderr)
+        fix = "set world: module:Class to a class that provides them"
+        print(f"vicode: project.yaml has no world, but {asking[0]}{more} require it; {fix}", file=sys.stderr)
 
 
 def _run_process(command: list[str], *, is_plain: bool) -> int:
@@ -113,7 +113,7 @@ def _run_process(command: list[str], *, is_plain: bool) -> int:
     from vicode.simulation.environment import fresh_environment
 
     is_live = sys.stdout.isatty() and not is_plain
-    # In a session of its own the child does not get the terminal's Ctrl-C, but ours, once.
+    # In a separate session, the child does not receive Ctrl-C from the terminal; it is forwarded once.
     child = subprocess.Popen(
         command,
         stdout=subprocess.PIPE,

@@ -1,4 +1,4 @@
-"""Reads the stream of a running component: changes of state as lines, a summary at the end."""
+"""Prints the trace stream of a running component: one line per state change and a final summary."""
 
 import contextlib
 import json
@@ -18,27 +18,27 @@ _FAILED = 2
 _INTERRUPTED = 130
 
 TraceRecord = Mapping[str, Any]
-"""One line of the stream, read from JSON."""
+"""One parsed line of the stream."""
 
 
 class TracePrinter(Protocol):
-    """Shows a run to somebody."""
+    """Displays a run."""
 
     def show_iteration(self, record: TraceRecord, changes: list[str], /) -> None:
-        """An iteration has passed; `changes` tells the changes of state in it."""
+        """Show an iteration; `changes` describes its state changes."""
 
     def show_text(self, text: str) -> None:
-        """The component, or its runtime, said something."""
+        """Show output of the component or its runtime."""
 
     def show_notice(self, text: str) -> None:
-        """We have something to say ourselves; another thread may call this."""
+        """Show a message of the runner; called from any thread."""
 
     def close(self) -> None:
-        """Nothing more comes but the summary."""
+        """Stop displaying; only the summary follows."""
 
 
 class PlainTracePrinter:
-    """One line a change of state."""
+    """Prints one line per state change."""
 
     def show_iteration(self, _record: TraceRecord, changes: list[str], /) -> None:
         """Print the changes."""
@@ -46,21 +46,21 @@ class PlainTracePrinter:
             print(change, flush=True)
 
     def show_text(self, text: str) -> None:
-        """Print it between them."""
+        """Print it to stdout."""
         print(text, flush=True)
 
     def show_notice(self, text: str) -> None:
-        """Keep it out of what may be read by a program."""
+        """Print it to stderr: a program may read stdout."""
         print(text, file=sys.stderr, flush=True)
 
     def close(self) -> None:
-        """Nothing to clear away."""
+        """Do nothing."""
 
 
 def follow_process(child: "subprocess.Popen[str]", printer: TracePrinter) -> int:
-    """Show a process until it ends, pass an interrupt on to it, print the summary; returns the exit code.
+    """Display a process until it ends, forward interrupts, print the summary; return the exit code.
 
-    The process must lead a session of its own.
+    The process must be a session leader.
     """
     assert child.stdout is not None
     changes, ending = StateChangeTracker(), _RunOutcome()
@@ -82,14 +82,13 @@ def follow_process(child: "subprocess.Popen[str]", printer: TracePrinter) -> int
 
 
 class StateChangeTracker:
-    """Remembers the state of every component, and tells what is new."""
+    """Describes state changes between iterations."""
 
     def __init__(self) -> None:
-        """Nothing is known of any component."""
         self._states: dict[str, str] = {}
 
     def describe_changes(self, record: TraceRecord) -> list[str]:
-        """The changes of state in an iteration, a line each."""
+        """Describe the state changes of an iteration, one per line."""
         return [line for step in record["tree"] for line in self._describe_step(step, record["time_ns"] / 1e9)]
 
     def _describe_step(self, step: TraceRecord, time_s: float) -> list[str]:
@@ -104,14 +103,14 @@ class StateChangeTracker:
 
 
 def describe_world(world: object) -> str:
-    """What a world says of itself, in one line."""
+    """Format the record of a world as one line."""
     if not isinstance(world, Mapping):
         return "" if world is None else str(world)
     return "  ".join(f"{name} {_format_value(value)}" for name, value in world.items())
 
 
 def describe_summary(summary: TraceRecord) -> str:
-    """The end of a run: how it ended, what the world says, cycle times, errors."""
+    """Format the summary of a run: cause of the end, world, cycle times, errors."""
     passed = f"{summary['time_ns'] / 1e9:.2f} s in {summary['iterations']} iterations"
     lines = ["", f"{passed}, stopped: {summary['stopped']}, last state: {summary['state'] or '-'}"]
     if summary.get("world") is not None:
@@ -129,14 +128,14 @@ def describe_summary(summary: TraceRecord) -> str:
 
 @dataclass(slots=True)
 class _RunOutcome:
-    """What a program said last: a summary, or that it failed. One that ends itself says neither."""
+    """The last record of a program: a summary or a failure; neither if it exited by itself."""
 
     summary: TraceRecord | None = None
     has_failed: bool = False
 
 
 def _exit_code(code: int, ending: _RunOutcome) -> int:
-    """Turn the exit code of a program into ours; an end that nobody asked for is told."""
+    """Convert the exit code of the program; report an unexpected exit."""
     if ending.has_failed:
         return _FAILED
     if ending.summary is None:
@@ -147,7 +146,7 @@ def _exit_code(code: int, ending: _RunOutcome) -> int:
 
 
 def _show_line(line: str, changes: StateChangeTracker, watcher: TracePrinter, ending: _RunOutcome) -> None:
-    """Show a line of the stream, or note that it tells the end."""
+    """Show a line of the stream, or record the end of the run."""
     try:
         record = json.loads(line)
     except ValueError:
@@ -159,12 +158,12 @@ def _show_line(line: str, changes: StateChangeTracker, watcher: TracePrinter, en
     elif isinstance(record, dict) and "tree" in record:
         watcher.show_iteration(record, changes.describe_changes(record))
     else:
-        # Hand-written code may print what it likes.
+        # Output of hand-written code.
         watcher.show_text(line.rstrip("\n"))
 
 
 class _InterruptForwarder:
-    """Passes Ctrl-C on to a program, which then ends its iteration and tells its summary, or is ended."""
+    """Forwards Ctrl-C to a program, which finishes its iteration and prints a summary, or kills it."""
 
     def __init__(self, child: "subprocess.Popen[str]", watcher: TracePrinter) -> None:
         self.was_received = False
@@ -175,7 +174,7 @@ class _InterruptForwarder:
 
     @contextlib.contextmanager
     def forwarding(self) -> Iterator[None]:
-        """While inside, Ctrl-C does not end us."""
+        """Handle Ctrl-C inside the context."""
         if threading.current_thread() is not threading.main_thread():
             yield
             return
@@ -194,26 +193,26 @@ class _InterruptForwarder:
             return
         self.was_received = True
         self._child.send_signal(signal.SIGINT)
-        # What a signal came in the middle of may hold the lock of the very stream that we would write to.
+        # The interrupted code may hold the lock of the output stream, so write from another thread.
         self._waiter = threading.Thread(target=self._wait_for_answer, daemon=True)
         self._waiter.start()
 
     def _wait_for_answer(self) -> None:
-        self._printer.show_notice("stopping after this iteration; press Ctrl-C again to end at once")
+        self._printer.show_notice("stopping after this iteration; press Ctrl-C again to kill the program")
         if not self._has_ended.wait(_INTERRUPT_TIMEOUT_S) and self._child.returncode is None:
-            self._printer.show_notice("it did not stop, and was ended")
+            self._printer.show_notice("the program did not stop and was killed")
             _kill(self._child)
 
 
 def _kill(child: "subprocess.Popen[str]") -> None:
-    """End a program and all that it started: who still held its output would keep us waiting."""
+    """Kill a program and its children, which could keep its output open."""
     if child.returncode is None:
         with contextlib.suppress(ProcessLookupError):
             os.killpg(child.pid, signal.SIGKILL)
 
 
 def _terminate(child: "subprocess.Popen[str]") -> None:
-    """Leave no process behind, whatever happened."""
+    """Terminate the process if it still runs."""
     if child.poll() is None:
         child.terminate()
         try:

@@ -58,7 +58,7 @@ def link(text: str, href: str) -> str:
 
 
 def markdown_href(href: str) -> str:
-    """An address: pages of ours by their Markdown files, without lines of code, which have no place there."""
+    """Convert a URL of the site to its Markdown file; Markdown has no anchors for lines of code."""
     safe = _ADDRESS_UNSAFE.sub(lambda found: "".join(f"%{byte:02X}" for byte in found[0].encode()), href)
     if re.match(r"[a-z]+:", safe):
         return safe
@@ -66,12 +66,12 @@ def markdown_href(href: str) -> str:
 
 
 def rich_text(parts: RichText) -> str:
-    """Words with links."""
+    """Format text with links."""
     return "".join(_part(part) for part in parts)
 
 
 def inline_expression(parts: RichText) -> str:
-    """Code with links: what has none stands together."""
+    """Format code with links; spans without links are joined."""
     groups: list[list[TextSpan]] = []
     for part in parts:
         if groups and not part.href and not groups[-1][-1].href:
@@ -82,7 +82,7 @@ def inline_expression(parts: RichText) -> str:
 
 
 def markdown_from_html(html: str) -> str:
-    """Paragraphs, lists and the like as Markdown."""
+    """Convert block HTML to Markdown."""
     reader = _MarkdownConverter()
     reader.feed(html)
     reader.close()
@@ -90,7 +90,7 @@ def markdown_from_html(html: str) -> str:
 
 
 def strip_tags(html: str) -> str:
-    """The text of coloured code."""
+    """The text of highlighted code."""
     return unescape(re.sub(r"<[^>]*>", "", html))
 
 
@@ -118,7 +118,7 @@ def _code_group(group: list[TextSpan]) -> str:
 
 @dataclass
 class _Block:
-    """A block that is being read: its tag, and what stands in it."""
+    """An open block: its tag and content."""
 
     tag: str
     lines: list[str] = field(default_factory=list)
@@ -126,7 +126,7 @@ class _Block:
 
 
 class _MarkdownConverter(HTMLParser):
-    """Reads HTML that was rendered from Markdown, with nothing else in it than that can give."""
+    """Parses HTML that was rendered from Markdown."""
 
     def __init__(self) -> None:
         super().__init__(convert_charrefs=True)
@@ -137,7 +137,7 @@ class _MarkdownConverter(HTMLParser):
         self.rows: list[list[str]] = []
 
     def markdown(self) -> str:
-        """What was read."""
+        """The converted text."""
         self._end_line()
         return "\n\n".join(self.blocks[0].lines)
 
@@ -222,7 +222,7 @@ class _MarkdownConverter(HTMLParser):
 
 
 def _indented(text: str) -> str:
-    """What follows a list's sign; four blanks are what all readers agree on."""
+    """A list item; all dialects agree on an indent of four spaces."""
     return re.sub(r"\n(?=.)", "\n    ", text)
 
 

@@ -20,7 +20,7 @@ from vicode.model.traversal import iter_transitions
 
 
 def home_view(subject: SiteInput, addresses: SiteUrls, svg: str = "") -> HomeView:
-    """The first page, with the map of who uses whom."""
+    """The home page with the dependency diagram."""
     project = subject.project
     linker = NameLinker(project, addresses)
     return HomeView(
@@ -35,7 +35,7 @@ def home_view(subject: SiteInput, addresses: SiteUrls, svg: str = "") -> HomeVie
 
 
 def agent_rows(project: Project, addresses: SiteUrls) -> Iterator[AgentRow]:
-    """The agents as a list."""
+    """The rows of the list of agents."""
     linker = NameLinker(project, addresses)
     for agent in project.agents:
         yield AgentRow(
@@ -48,9 +48,9 @@ def agent_rows(project: Project, addresses: SiteUrls) -> Iterator[AgentRow]:
 
 
 def agent_view(project: Project, agent: Agent, addresses: SiteUrls) -> AgentView:
-    """An agent with what it may activate."""
+    """The page of an agent with the components that it can activate."""
     linker = NameLinker(project, addresses)
-    # A drawing of its own: among the places of the whole it would be lost.
+    # A separate diagram: in the positions of the whole project, its components would be scattered.
     part = replace(project, agents=(agent,), designs=_reachable_designs(project, agent))
     names = {design.component for design in part.designs}
     used = {use.component for design in part.designs for use in design.uses} | {agent.root}

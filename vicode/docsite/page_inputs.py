@@ -1,4 +1,4 @@
-"""The part of a project that a page is made from: the page sees nothing else, so that nothing else can change it."""
+"""The parts of a project that a page depends on; a page sees nothing else, so other edits cannot change it."""
 
 from collections.abc import Iterable
 from dataclasses import replace
@@ -9,7 +9,7 @@ from vicode.model.project import Project
 
 
 def restrict_to_component(subject: SiteInput, design: Design) -> SiteInput:
-    """What the page of a design shows: the design, those that use it, and the interfaces of what it uses."""
+    """The inputs of the page of a design: the design, its users, and the interfaces of the components it uses."""
     project, name = subject.project, design.component
     designs = tuple(
         each for each in project.designs if each is design or any(use.component == name for use in each.uses)
@@ -24,12 +24,12 @@ def restrict_to_component(subject: SiteInput, design: Design) -> SiteInput:
 
 
 def strip_to_usage(project: Project) -> Project:
-    """What maps of a project show: who uses whom and how, without what anything decides or says."""
+    """The inputs of dependency diagrams: states with the components they require and call."""
     return replace(project, designs=tuple(map(_usage_only, project.designs)))
 
 
 def strip_to_interfaces(project: Project) -> Project:
-    """What the texts of other components see of each design: names and declarations."""
+    """The names and declarations of each design, on which the generated code of other components depends."""
     return replace(project, designs=tuple(_interface_only(design) for design in project.designs))
 
 

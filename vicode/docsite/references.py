@@ -1,4 +1,4 @@
-"""Who reads and who sets what: every name that a design says of another component, or of the project."""
+"""References: the names of other components and of the project that designs read and set."""
 
 import re
 from collections.abc import Iterator, Mapping
@@ -15,22 +15,22 @@ _NAME = re.compile(r"(?<![\w.])(?:(?:self\.|self->|this->)_?)?([A-Za-z_]\w*)(?:(
 _SYMBOL = re.compile(r"@?[A-Za-z_][\w.]*(\s*=(?!=))?")
 
 ReferenceKey = tuple[str, str, str]
-"""How (read or set), the component ("" for the project), and the name; a parameter ends with `()`."""
+"""Access (read or set), component ("" for the project), and name; parameters end with `()`."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SymbolReferences:
-    """By what is meant: the designs that say it, each with the states where they do; "" is outside of all states."""
+    """The designs that refer to a symbol, each with the states of the references; "" is outside all states."""
 
     users_by_key: Mapping[ReferenceKey, Mapping[str, tuple[str, ...]]]
 
     def users(self, how: str, component: str, name: str) -> Mapping[str, tuple[str, ...]]:
-        """The designs with their states."""
+        """The designs that refer to a name, with their states."""
         return self.users_by_key.get((how, component, name), {})
 
 
 def find_symbol_references(project: Project) -> SymbolReferences:
-    """All references of all designs."""
+    """Collect the references of all designs."""
     found: dict[ReferenceKey, dict[str, dict[str, None]]] = {}
     symbols = dict(_symbols(project))
     for design in project.designs:
@@ -69,7 +69,7 @@ def _design_references(
 
 
 def _writes(design: Design, aliases: Mapping[str, str]) -> Iterator[tuple[ReferenceKey, str]]:
-    """What actions set: variables by their names, parameters by calls."""
+    """The names that actions set: variables and, for calls, parameters."""
     for placed in iter_actions(design):
         match placed.action:
             case Assign(values=values):

@@ -1,4 +1,4 @@
-"""All files of a site: a pure function of its subject, the same bytes every time."""
+"""Builds all files of a site: a pure function of its input."""
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, replace
@@ -43,37 +43,37 @@ from vicode.output import OutputFile
 from vicode.templating import read_asset, render
 
 TemplateContext = dict[str, object]
-"""What a template sees, by name."""
+"""The variables of a template."""
 
 _SEARCH = "search.js"
 _SCRIPT = """\
-/* vicode docs: search, and drawings that can be moved. Without it every page can be read all the same. */
+/* vicode docs: search and interactive diagrams. The pages work without it. */
 (() => {{
 "use strict";
 
 {}}})();
 """
-# In this order: what is joined shares its names.
+# Concatenated in this order into one scope.
 _SCRIPT_FILES = ("search_box", "diagram_viewer", "decision_trees", "menu")
 
 
 def build_site(subject: SiteInput) -> tuple[OutputFile, ...]:
-    """The files of a site, all in one folder."""
+    """Build the files of a site."""
     with SiteBuilder() as builder:
         return tuple(OutputFile(path=each.path, text=each.render()) for each in builder.plan(subject))
 
 
 class SiteBuilder:
-    """Builds one site again and again: what an edit does not concern is not made anew. Close it in the end."""
+    """Builds a site incrementally. Call `close` when done."""
 
     def __init__(self) -> None:
         self._cache = BuildCache()
         self._service = LayoutService()
 
     def plan(self, subject: SiteInput, *, is_markdown: bool = False) -> tuple[PlannedFile, ...]:
-        """The files of a site with what each is made from; they are made when they are asked for.
+        """Plan the files of a site; `PlannedFile.render` renders one.
 
-        In Markdown all are made at once, since only the pages know how many pictures there are.
+        For Markdown, all pages are rendered at once: the set of images is known only afterwards.
         """
         planner = self._planner(subject)
         files = tuple(planner.plan_files())
@@ -83,8 +83,8 @@ class SiteBuilder:
         return tuple(sorted(files, key=lambda file: file.path))
 
     def make_file_lookup(self, subject: SiteInput) -> Callable[[str], PlannedFile | None]:
-        """What finds single files of a site by their paths, each made from as little as it needs; None for no file."""
-        # What was asked of the one before is remembered until the next.
+        """Return a function that plans a single file by its path, or returns None."""
+        # Cached values of the previous build are kept until the next one.
         self._cache.evict_unused()
         planner = self._planner(subject)
         return cache(lambda path: next((each for each in planner.plan_files(path) if each.path == path), None))
@@ -94,7 +94,7 @@ class SiteBuilder:
         return _make_planner(whole, self._cache)
 
     def close(self) -> None:
-        """End the process that lays designs out."""
+        """Stop the layout process."""
         self._service.close()
 
     def __enter__(self) -> "SiteBuilder":
@@ -106,7 +106,7 @@ class SiteBuilder:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class _SitePlanner:
-    """What all pages are made with. A page is made from what its key names, and from what `shared_digest` is the digest of."""
+    """The inputs of all pages. The key of a page covers its own inputs, `shared_digest` the shared ones."""
 
     site_input: SiteInput
     urls: SiteUrls
@@ -119,7 +119,7 @@ class _SitePlanner:
     _menus: list[str] = field(default_factory=list)
 
     def plan_files(self, only: str = "") -> Iterator[PlannedFile]:
-        """All files, or some of those among which the one with a path is."""
+        """Plan all files, or a subset that contains the path `only`."""
         if only not in {each.path for each in self._assets()}:
             yield from self._overview_pages(only)
             yield from self._interface_pages(only)
@@ -133,7 +133,7 @@ class _SitePlanner:
         yield _plain_file("site.js", _SCRIPT.format(parts))
 
     def _overview_pages(self, only: str = "") -> Iterator[PlannedFile]:
-        """The pages about the whole, and what the search looks through."""
+        """The pages about the whole project, and the search index."""
         agents = {self.urls.agent(agent.name) for agent in self.site_input.project.agents}
         if only and only not in {HOME, AGENTS, NAME_INDEX, _SEARCH, *agents}:
             return
@@ -156,7 +156,7 @@ class _SitePlanner:
         yield PlannedFile(path=_SEARCH, key=compute_digest(entries), render=partial(search_script, entries))
 
     def _interface_pages(self, only: str = "") -> Iterator[PlannedFile]:
-        """The pages about what designs know and share; none about what there is nothing of."""
+        """The pages of interfaces, symbols and types; empty ones are omitted."""
         pages = {self.urls.component(each.component) for each in self.site_input.project.components}
         if only and only not in {INTERFACES, SYMBOLS, TYPES, *pages}:
             return
@@ -179,7 +179,7 @@ class _SitePlanner:
             )
 
     def _component_pages(self, only: str = "") -> Iterator[PlannedFile]:
-        """A page a design."""
+        """One page per design."""
         for design in self.site_input.project.designs:
             name = design.component
             if only not in ("", self.urls.component(name)):
@@ -198,7 +198,7 @@ class _SitePlanner:
             yield self._page(head, "component", key, partial(_component, design, made))
 
     def _code_pages(self, only: str = "") -> Iterator[PlannedFile]:
-        """A page a text."""
+        """One page per source or generated file."""
         for name in self.code_files.component_names:
             if only and only not in {self.urls.code(name, form) for form in ("source", *GENERATORS)}:
                 continue
@@ -212,7 +212,7 @@ class _SitePlanner:
                 yield self._page(head, "code", (text, links, component), views)
 
     def _page_from_context(self, head: PageHead, template: str, **views: object) -> PlannedFile:
-        """A page whose views are quickly made: they are its key."""
+        """A page keyed by its views, which are cheap to create."""
         return self._page(head, template, views, lambda: views)
 
     def _page(self, head: PageHead, template: str, key: object, views: Callable[[], TemplateContext]) -> PlannedFile:
@@ -226,10 +226,10 @@ class _SitePlanner:
         return PlannedFile(path=head.file, key=compute_digest(template, head, self.shared_digest, key), render=make)
 
     def _menu_html(self, here: str) -> str:
-        """The menu with one of its entries marked: it is made once, and marked for each page."""
+        """The menu, rendered once, with the entry of the current page marked."""
         if not self._menus:
             self._menus.append(render("docsite/menu.html.jinja", menu=self.menu, machines=self.state_machines))
-        # Addresses hold letters, digits and the like alone: nothing in them is escaped.
+        # URLs contain no characters that need escaping.
         return self._menus[0].replace(f'<a href="{here}"', f'<a href="{here}" aria-current="page"', 1)
 
 

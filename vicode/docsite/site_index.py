@@ -1,4 +1,4 @@
-"""The common home of several sites that lie beside each other."""
+"""The common home page of several sites."""
 
 from collections.abc import Mapping
 from functools import partial
@@ -17,7 +17,7 @@ from vicode.templating import read_asset, render
 def plan_site_index(
     site_inputs: Mapping[str, SiteInput], *, title: str = "", is_markdown: bool = False
 ) -> tuple[PlannedFile, ...]:
-    """The page that leads to the sites, which lie in folders of these names, and what it looks like."""
+    """Plan the home page and its assets; the keys of `site_inputs` are the folders of the sites."""
     rows = tuple(_project_card(folder, site_inputs[folder]) for folder in sorted(site_inputs, key=natural_sort_key))
     if is_markdown:
         text = render_markdown_page("projects", projects=rows, title=title or "Projects")

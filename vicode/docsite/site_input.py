@@ -1,4 +1,4 @@
-"""What a site is about: a project, what is found in it, and its files as somebody wrote them."""
+"""The input of a site: a project, its findings, and its source files."""
 
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
@@ -13,7 +13,7 @@ from vicode.store import OpenProject, SourceMap
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SourceText:
-    """A file as it was written: `path` as readers know it, `line_numbers` of the things in it, counted from 1."""
+    """A source file: `path` is for display, `line_numbers` are 1-based lines of nodes."""
 
     path: str
     text: str
@@ -23,9 +23,9 @@ class SourceText:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ComponentFinding:
-    """A finding with the component it is about, "" for the project, and its line, 0 for none.
+    """A finding with its component ("" for the project) and line (0 if unknown).
 
-    `file` is the file it is in when that is none of the subject's sources, as one that cannot be read.
+    `file` is set if the finding is in a file that is not among the sources, such as an unreadable one.
     """
 
     component: str
@@ -36,10 +36,10 @@ class ComponentFinding:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SiteInput:
-    """All that a site is made from.
+    """The input of a site.
 
-    `sources` are by component, "" is the project's own file; `components_with_errors` names by language the components that nothing
-    can be generated for.
+    `sources` is keyed by component, "" for the project file. `components_with_errors` lists, by language, the
+    components for which no code can be generated.
     """
 
     project: Project
@@ -50,14 +50,14 @@ class SiteInput:
 
     @property
     def name(self) -> str:
-        """What readers call it: its title, else the name of the project."""
+        """The title, else the name of the project."""
         return self.title or self.project.name
 
 
 def make_site_input(
     opened: OpenProject, project: Project, findings: Iterable[Finding], faulty: Mapping[str, frozenset[str]]
 ) -> SiteInput:
-    """The subject of a project on disk; `project` may be a part of it."""
+    """The input for a project on disk; `project` may be a part of it."""
     folder = opened.folder.resolve()
     sources = {}
     for name, source in opened.sources.items():
@@ -88,7 +88,7 @@ def _display_path(file: FilePath, folder: FilePath) -> str:
 
 
 def iter_documented_paths(design: Design) -> Iterator[DesignPath]:
-    """The paths of all things in a design that a page describes."""
+    """The paths of all nodes of a design that have a description on its page."""
     yield ("common",)
     yield from (("states", state.name) for state in design.states)
     yield from ((section, declaration.name) for section, declaration in design.declarations())
@@ -96,7 +96,7 @@ def iter_documented_paths(design: Design) -> Iterator[DesignPath]:
 
 
 def _line_numbers(design: Design, source: SourceMap) -> dict[DesignPath, int]:
-    # A thing with a name begins with it; decisions, which end with a number, have none.
+    # A named node starts at its name; the path of a decision ends with an index.
     return {
         path: source.locate(path, of_key=not isinstance(path[-1], int)).line
         for path in iter_documented_paths(design)

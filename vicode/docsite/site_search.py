@@ -1,4 +1,4 @@
-"""What can be found: every name, with its doc and the code below it, as one list for the index and for the search."""
+"""The entries of the name index and of the search: all names with their descriptions and code."""
 
 import json
 from collections.abc import Iterable, Iterator
@@ -16,7 +16,7 @@ _KINDS = {"parameters": "parameter", "outputs": "output", "variables": "variable
 
 
 def search_entries(project: Project, addresses: SiteUrls, title: str) -> tuple[SiteEntry, ...]:
-    """Everything that has a name, by name; `title` is what readers call the project."""
+    """List all named elements, sorted by name; `title` is the title of the project."""
     entries = [*_project_entries(project, addresses, title)]
     for design in project.designs:
         entries += _design_entries(design, addresses)
@@ -26,10 +26,10 @@ def search_entries(project: Project, addresses: SiteUrls, title: str) -> tuple[S
 
 
 def search_script(entries: Iterable[SiteEntry]) -> str:
-    """The list as a script, since a page that was opened as a file may not read other files.
+    """The index as a script, because a page opened from a file cannot read other files.
 
-    What many entries share stands in tables, to which they have numbers: kinds, places, pages, and pieces of code. An
-    anchor is left out where it is made of kind and name, and so is what is empty at the end of an entry.
+    Entries refer to shared strings (kinds, parents, pages, code snippets) by their numbers in tables. An anchor that
+    equals kind and name is omitted, as are empty values at the end of an entry.
     """
     kinds, places, pages, pieces = _StringTable(), _StringTable(), _StringTable(), _StringTable()
     rows = []
@@ -37,13 +37,13 @@ def search_script(entries: Iterable[SiteEntry]) -> str:
         page, _hash, anchor = each.href.partition("#")
         anchor_part = 0 if anchor == f"{each.kind}-{each.name}" else anchor
         words = [pieces.add(piece) for piece in dict.fromkeys(each.search_text.split("\n")) if piece]
-        # The first sentence of a doc that is there anyway is no place.
+        # A summary of the description is not a parent.
         place = "" if each.context in each.doc else each.context
         row = [each.name, kinds.add(each.kind), places.add(place), pages.add(page)]
         row += [anchor_part, " ".join(each.doc.split()), words]
         empties: tuple[object, ...] = ([], "", 0)
         for empty in empties:
-            # A text that is empty is a place, the page itself, unlike the number.
+            # An empty string is the anchor of the page itself, unlike the number 0.
             if row[-1] != empty:
                 break
             row.pop()
@@ -56,13 +56,13 @@ def search_script(entries: Iterable[SiteEntry]) -> str:
         "entries": rows,
     }
     text = json.dumps(index, ensure_ascii=False, separators=(",", ":")).replace("],[", "],\n[")
-    # Two signs end a line in JavaScript, though not in JSON.
+    # Two characters are line ends in JavaScript, but not in JSON.
     text = text.replace("\u2028", "\\u2028").replace("\u2029", "\\u2029")
     return f"/* vicode docs: what can be found */\nwindow.vicodeSearchIndex = {text};\n"
 
 
 class _StringTable:
-    """Gives each value a number, by the order in which they come."""
+    """Numbers distinct values in order of first use."""
 
     def __init__(self) -> None:
         self._numbers: dict[str, int] = {}
@@ -127,9 +127,9 @@ def _interface_entries(interface: Interface, addresses: SiteUrls) -> Iterator[Si
 
 
 def _search_texts(design: Design) -> dict[DesignPath, str]:
-    """Expressions, code and docs of decisions, a line each, by the state they are in; () for what is in none.
+    """Expressions, code and descriptions of decisions, one per line, by the path of their state, or () outside states.
 
-    What decides about a transition has its target behind it.
+    The guard of a transition is followed by its target.
     """
     found = ((each.path, each.decision) for each in iter_decisions(design))
     targets = {path: decision.to for path, decision in found if isinstance(decision, Transition)}

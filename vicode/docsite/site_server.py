@@ -1,6 +1,6 @@
-"""Shows a site in the browsers of this machine while it is built again and again; pages reload by themselves.
+"""Serves a site on this machine and reloads its pages after each build.
 
-What makes them reload is put into a page on its way to the browser: the files on disk know nothing of it.
+The server inserts the reload script into pages; the files on disk do not contain it.
 """
 
 import json
@@ -30,7 +30,7 @@ _PING_S = 15.0
 
 @dataclass(slots=True)
 class ReloadBroadcaster:
-    """What happened to a site, told to all browsers: which files changed when, and what stands in the way now."""
+    """Publishes builds to all browsers: changed files and current errors."""
 
     errors: str = ""
     _server_id: str = field(default_factory=lambda: secrets.token_hex(4))
@@ -41,11 +41,11 @@ class ReloadBroadcaster:
 
     @property
     def build_id(self) -> str:
-        """What a page that is sent now has been built by."""
+        """The identifier of the latest build."""
         return f"{self._server_id}.{self._build_number}"
 
     def publish(self, changed: Iterable[str], errors: str) -> None:
-        """The files that changed, by their addresses, and all that is wrong."""
+        """Announce changed files by URL path, and the current errors."""
         with self._condition:
             self._build_number += 1
             self._changed |= dict.fromkeys(changed, self._build_number)
@@ -53,30 +53,30 @@ class ReloadBroadcaster:
             self._condition.notify_all()
 
     def close(self) -> None:
-        """Let everybody who waits go."""
+        """Release all waiting requests."""
         with self._condition:
             self._is_closed = True
             self._condition.notify_all()
 
     def message_since(self, build: str) -> str:
-        """What a page of a build has to know, as JSON; of a build of another time all has changed."""
+        """The changes since a build as JSON; for an unknown build, all files."""
         name, _dot, number = build.partition(".")
         is_known = name == self._server_id and number.isdecimal()
         changed = [path for path, at in self._changed.items() if at > int(number)] if is_known else ["*"]
         return json.dumps({"changed": sorted(changed), "errors": self.errors})
 
     def wait(self, number: int) -> int | None:
-        """The number of the latest news, as soon as it is another, or a while is over; None at the end."""
+        """Wait for a new build, up to a timeout; return its number, or None after `close`."""
         with self._condition:
             self._condition.wait_for(lambda: self._is_closed or self._build_number != number, timeout=_PING_S)
             return None if self._is_closed else self._build_number
 
 
 class SiteServer:
-    """Serves a folder to this machine alone, from threads of its own. Close it in the end."""
+    """Serves a folder on this machine, in background threads. Call `close` when done."""
 
     def __init__(self, folder: Path, broadcaster: ReloadBroadcaster, port: int = 0) -> None:
-        """Listen on a port, a free one if left out.
+        """Listen on a port; by default, on a free one.
 
         Raises:
             OSError: The port is taken.
@@ -88,7 +88,7 @@ class SiteServer:
 
     @property
     def url(self) -> str:
-        """Where the site is seen."""
+        """The URL of the home page."""
         return f"http://{HOST}:{self._server.server_port}/"
 
     def close(self) -> None:
@@ -106,7 +106,7 @@ class SiteServer:
 
 
 def add_reload_script(html: str, build_id: str) -> str:
-    """A page with what makes it reload."""
+    """Insert the reload script into a page."""
     style = f'<link rel="stylesheet" href="{_INTERNAL_PREFIX}live_reload.css">'
     script = f'<script src="{_INTERNAL_PREFIX}live_reload.js" data-build="{build_id}" defer></script>'
     return html.replace("</head>", f"{style}\n{script}\n</head>", 1)
@@ -121,13 +121,13 @@ class _HttpServer(ThreadingHTTPServer):
 
 
 class _RequestHandler(BaseHTTPRequestHandler):
-    """Answers one browser."""
+    """Handles one connection."""
 
     protocol_version = "HTTP/1.1"
     server: _HttpServer
 
     def do_GET(self) -> None:
-        """Send a file of the site, or the news."""
+        """Send a file of the site, or the event stream."""
         address = urlsplit(self.path)
         if not self._has_local_host():
             self._send(HTTPStatus.FORBIDDEN, b"This server answers to 127.0.0.1 and localhost alone.\n", "text/plain")
@@ -139,7 +139,7 @@ class _RequestHandler(BaseHTTPRequestHandler):
             self._send_file(unquote(address.path))
 
     def _has_local_host(self) -> bool:
-        """A page of a stranger whose name leads here has that name as its host."""
+        """Check the host name against DNS rebinding: a foreign page sends its own name as the host."""
         port = self.server.server_port
         return self.headers.get("Host") in (f"{HOST}:{port}", f"localhost:{port}")
 
@@ -175,7 +175,7 @@ class _RequestHandler(BaseHTTPRequestHandler):
                 if number is None:
                     return
         except OSError:
-            # The page was closed.
+            # The browser disconnected.
             return
 
     def _send(self, status: HTTPStatus, content: bytes, kind: str) -> None:
@@ -188,11 +188,11 @@ class _RequestHandler(BaseHTTPRequestHandler):
         self.wfile.write(content)
 
     def log_message(self, format: str, *args: object) -> None:  # noqa: A002 - as the library has it
-        """Nobody reads it."""
+        """Suppress the request log."""
 
 
 def _read_site_file(folder: Path, path: str) -> bytes | None:
-    """A file of the site by its address; nothing outside of the folder, and nothing else that lies in it."""
+    """The file at a URL path; only generated files inside the folder."""
     name = path.removeprefix("/")
     if not name or name.endswith("/"):
         name += "index.html"

@@ -1,4 +1,4 @@
-"""Writes a site into a folder: makes and touches only what is not there already as it should be."""
+"""Writes a site into a folder: renders and writes only outdated files."""
 
 import json
 import os
@@ -24,13 +24,13 @@ GENERATED_HEADERS = (
 
 CACHE_VARIABLE = "VICODE_CACHE"
 _PAGES = (".css", ".html", ".js", ".md", ".rst", ".svg", ".yml")
-# What else says how a page looks.
+# Libraries that affect the pages.
 _LIBRARIES = ("jinja2", "markdown-it-py", "markupsafe", "pygments")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PlannedFile:
-    """A file to be; `key` names all that it is made from, so that it need not be made to know that it is the same."""
+    """A file to write; `key` is a digest of its inputs, so an unchanged file is not rendered."""
 
     path: str
     key: str
@@ -39,7 +39,7 @@ class PlannedFile:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Manifest:
-    """What a folder was made from: by file its key and a digest of its bytes; `tool` is what made them."""
+    """The state of a written folder: key and content digest of each file; `tool` is the version that wrote them."""
 
     tool: str = ""
     files: Mapping[str, tuple[str, str]] = field(default_factory=dict)
@@ -47,9 +47,9 @@ class Manifest:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SiteWriteResult:
-    """What became of a folder: `changed` are the files that were written or taken away, `foreign` those of others.
+    """The result of writing a site; `changed` are the files that were written or deleted.
 
-    Where there are foreign ones nothing was written.
+    `foreign` are existing files that vicode did not write; if there are any, nothing is written.
     """
 
     manifest: Manifest
@@ -60,7 +60,7 @@ class SiteWriteResult:
 def write_site(
     planned: Iterable[PlannedFile], out: Path, manifest: Manifest, on_progress: Callable[[int, int], None]
 ) -> SiteWriteResult:
-    """Write what is new, take away the pages of what is gone; `on_progress` hears how many of how many files are done."""
+    """Write outdated files and delete stale pages; `on_progress` receives the numbers of finished and all files."""
     wanted = {each.path: each for each in planned}
     there = {path: _find_existing(out / path) for path in wanted}
     stale = {path: _find_existing(out / path) for path in _pages_in(out) if path not in wanted}
@@ -90,7 +90,7 @@ def write_site(
 
 
 def manifest_path(out: Path, environment: Mapping[str, str] = os.environ) -> Path:
-    """Where the manifest of a folder is kept: beside no site, since it says nothing to a reader."""
+    """The path of the manifest of a folder; it is outside the site, because readers do not need it."""
     given, home = environment.get(CACHE_VARIABLE), environment.get("XDG_CACHE_HOME")
     folder = Path(given) if given else (Path(home) if home else Path.home() / ".cache") / "vicode"
     name = sha256(str(out.resolve()).encode("utf-8", "surrogateescape")).hexdigest()[:16]
@@ -98,7 +98,7 @@ def manifest_path(out: Path, environment: Mapping[str, str] = os.environ) -> Pat
 
 
 def load_manifest(file: Path) -> Manifest:
-    """A manifest that was saved; an empty one where none can be read."""
+    """Load a manifest; return an empty one if it cannot be read."""
     try:
         data = json.loads(file.read_bytes())
         files = {str(path): (str(key), str(digest)) for path, (key, digest) in data["files"].items()}
@@ -108,7 +108,7 @@ def load_manifest(file: Path) -> Manifest:
 
 
 def save_manifest(manifest: Manifest, file: Path) -> None:
-    """Keep a manifest; where nothing can be kept the next building takes longer."""
+    """Save a manifest; on failure, the next build is not incremental."""
     data = {"tool": manifest.tool, "files": manifest.files}
     try:
         file.parent.mkdir(parents=True, exist_ok=True)
@@ -119,7 +119,7 @@ def save_manifest(manifest: Manifest, file: Path) -> None:
 
 @cache
 def tool_digest() -> str:
-    """A name for what makes pages: our code and templates, and the libraries they use."""
+    """A digest of the code, templates and libraries that render pages."""
     package = Path(vicode.__file__).parent
     sources = sorted(path for path in package.rglob("*.py") if path.relative_to(package).parts[0] != "editor")
     digest = sha256()
@@ -143,7 +143,7 @@ def _pages_in(out: Path) -> list[str]:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class _ExistingFile:
-    """A file that is there."""
+    """A file on disk."""
 
     digest: str
     is_generated: bool

@@ -1,4 +1,4 @@
-"""Code as HTML: coloured by classes, line by line."""
+"""Syntax highlighting as HTML, line by line."""
 
 import keyword
 import re
@@ -10,11 +10,11 @@ from pygments.token import Comment, Keyword, Name, Number, Operator, String
 
 from vicode.xabsl.tokens import KEYWORDS
 
-# A longer text is not coloured: it would be read by nobody, and cost minutes.
+# Longer texts are not highlighted: it would take minutes.
 _MAX_HIGHLIGHTED_CHARS = 400_000
 LANGUAGE_TITLES = {"python": "Python", "cpp": "C++", "xabsl": "XABSL", "yaml": "YAML"}
 
-# Classes of the style sheet: keywords, strings, numbers (m), comments, what is defined (f).
+# Classes of the style sheet: keywords, strings, numbers (m), comments, definitions (f).
 _CLASSES = (
     *((kind, "k") for kind in (Keyword, Operator.Word, Name.Tag)),
     *((String, "s"), (Number, "m"), (Comment, "c")),
@@ -26,8 +26,8 @@ def _one_of(words: Sequence[str]) -> str:
     return "|".join(map(re.escape, sorted(words)))
 
 
-# What most pages show is found by one expression each, many times faster than Pygments tries rule after rule. What
-# stands in no named group has no colour; names are found so that nothing inside them is taken for a word or number.
+# One regular expression per language is many times faster than the lexers of Pygments. Text
+# outside the named groups is not highlighted; matching whole names avoids matches inside them.
 _PYTHON = re.compile(
     r"(?P<c>#[^\n]*)"
     r"|(?P<s>\b(?i:[rbfu]|[rbf]{2})?(?:\"\"\"(?s:\\.|.)*?\"\"\"|'''(?s:\\.|.)*?'''|\"(?:\\.|[^\"\\\n])*\"|'(?:\\.|[^'\\\n])*'))"
@@ -48,15 +48,15 @@ _LEXERS = {"cpp": CppLexer, "yaml": YamlLexer}
 
 
 def highlight_lines(text: str, language: str) -> tuple[str, ...]:
-    """The lines of a text, each as HTML of its own."""
+    """Highlight a text; each line is separate HTML."""
     plain = text.replace("\r\n", "\n").replace("\r", "\n").removesuffix("\n")
     pieces = _tokens(plain, language) if len(plain) <= _MAX_HIGHLIGHTED_CHARS else [("", plain)]
     return tuple("".join(map(_token_html, pieces)).split("\n"))
 
 
 def code_row(number: int, html: str, href: str, title: str) -> str:
-    """The row of a line in a table of code; `href` leads to what it comes from, which `title` names."""
-    # Not by a template: most of all that a site says stands in such rows.
+    """A table row for a line of code; `href` links to the node with the name `title`."""
+    # Not a template: most of the content of a site is in these rows.
     about = escape(title)
     link = f'<a href="{escape(href)}" title="{about}" aria-label="{about}">↗</a>' if href else ""
     return (
@@ -66,12 +66,12 @@ def code_row(number: int, html: str, href: str, title: str) -> str:
 
 
 def highlight_block(text: str, language: str) -> str:
-    """A piece of code as HTML."""
+    """Highlight a code block."""
     return "\n".join(highlight_lines(text.strip("\n"), language))
 
 
 def _token_html(piece: tuple[str, str]) -> str:
-    """A coloured piece of several lines is one in each of them."""
+    """Split spans at line ends."""
     name, text = piece
     html = escape(text, quote=False)
     if not name:
@@ -80,7 +80,7 @@ def _token_html(piece: tuple[str, str]) -> str:
 
 
 def _tokens(text: str, language: str) -> Iterator[tuple[str, str]]:
-    """The text in pieces with the class of each, "" for none."""
+    """The tokens of a text with their classes, "" for none."""
     expression = _EXPRESSIONS.get(language)
     if expression is None:
         yield from _pygments_tokens(text, language)

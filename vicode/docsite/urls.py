@@ -1,4 +1,4 @@
-"""Which page and place of the site a thing is found at; all pages lie side by side, so an address holds everywhere."""
+"""URLs of pages and anchors. All pages are in one folder, so relative URLs are the same on each page."""
 
 import re
 from collections.abc import Iterable
@@ -14,12 +14,12 @@ _SINGULAR = {"parameters": "parameter", "outputs": "output", "variables": "varia
 
 
 def slug(name: str) -> str:
-    """A name as a part of an address."""
+    """Convert a name to a part of a URL."""
     return re.sub(r"[^A-Za-z0-9_-]+", "-", name)[:_MAX_SLUG_LENGTH].strip("-") or "x"
 
 
 def path_anchor(path: DesignPath) -> str:
-    """The place on a component's page of the thing that a path of its design leads to; "" for the page itself."""
+    """The anchor of the node at a path on the page of its component; "" for the page itself."""
     match path:
         case ("states", str(name), "transitions", int(), *_):
             return f"{state_anchor(name)}-{_decision_steps(path[3:])}"
@@ -36,12 +36,12 @@ def path_anchor(path: DesignPath) -> str:
 
 
 def state_anchor(name: str) -> str:
-    """The place of a state on its page."""
+    """The anchor of a state."""
     return "common" if name == COMMON else f"state-{slug(name)}"
 
 
 def _decision_steps(path: DesignPath) -> str:
-    """The numbers and branches that lead to a decision, without what is inside it."""
+    """The part of a path that leads to a decision, without the keys inside it."""
     steps = []
     for step in path:
         if not isinstance(step, int) and step not in ("then", "else"):
@@ -51,7 +51,7 @@ def _decision_steps(path: DesignPath) -> str:
 
 
 class SiteUrls:
-    """The addresses of a project's things; file systems that do not tell cases apart keep all pages."""
+    """The URLs of a project; file names are unique on case-insensitive file systems, too."""
 
     def __init__(self, project: Project) -> None:
         self._project = project
@@ -64,7 +64,7 @@ class SiteUrls:
             tuple(each.name for each in project.enumerations),
             tuple(self._agents),
         )
-        """All that addresses are made from."""
+        """The inputs of all URLs."""
 
     def component(self, name: str) -> str:
         """The page of a component; "" for an unknown one."""
@@ -77,31 +77,31 @@ class SiteUrls:
         return name in self._stems
 
     def design_path(self, component: str, path: DesignPath) -> str:
-        """Where a thing of a design is described."""
+        """The description of a node of a design."""
         anchor = path_anchor(path)
         return self.component(component) + (f"#{anchor}" if anchor else "")
 
     def member(self, component: str, section: str, name: str) -> str:
-        """Where a parameter, output or variable of a component is described."""
+        """The description of a parameter, output or variable."""
         page = self.component(component)
         return f"{page}#{_SINGULAR[section]}-{slug(name)}" if page else ""
 
     def symbols(self, component: str) -> str:
-        """Where the symbols of a component are listed with all others."""
+        """The symbols of a component on the page of all symbols."""
         return f"{SYMBOLS}#symbols-{(self._stems | self._interfaces)[component]}"
 
     def code(self, component: str, variant: str) -> str:
-        """The page with a text of a component: `variant` is source or a language."""
+        """The code page of a component; `variant` is "source" or a language."""
         return f"{variant}-{self._stems[component]}.html" if component else f"{variant}.html"
 
     def enumeration(self, name: str, element: str = "") -> str:
-        """Where a type, or one of its elements, is described; "" for an unknown one."""
+        """The description of an enumeration or of one of its elements; "" if unknown."""
         if self._project.enumeration(name) is None:
             return ""
         return f"{TYPES}#enum-{slug(name)}" + (f"-{slug(element)}" if element else "")
 
     def constant(self, name: str) -> str:
-        """Where a constant is described."""
+        """The description of a constant."""
         return f"{TYPES}#constant-{slug(name)}"
 
     def agent(self, name: str) -> str:
@@ -110,7 +110,7 @@ class SiteUrls:
 
 
 def _stems(names: Iterable[str]) -> dict[str, str]:
-    """Names as parts of addresses; none differs from another in case alone."""
+    """Convert names to URL parts that differ in more than case."""
     stems: dict[str, str] = {}
     taken: set[str] = set()
     for name in names:

@@ -12,7 +12,7 @@ from vicode.model.traversal import iter_actions
 
 
 def use_rows(design: Design, linker: NameLinker) -> Iterator[UseRow]:
-    """What a design uses, and in which states."""
+    """The components that a design uses, with the states."""
     for use in design.uses:
         component = linker.component(use.component)
         yield UseRow(
@@ -25,7 +25,7 @@ def use_rows(design: Design, linker: NameLinker) -> Iterator[UseRow]:
 
 
 def user_rows(project: Project, component: str, addresses: SiteUrls) -> Iterator[UseRow]:
-    """Who uses a component, and in which states."""
+    """The designs that use a component, with the states."""
     for design in project.designs:
         linker = NameLinker(project, addresses, design)
         for use in design.uses:
@@ -44,12 +44,12 @@ def user_rows(project: Project, component: str, addresses: SiteUrls) -> Iterator
 
 
 def required_in(design: Design, alias: str, linker: NameLinker) -> RichText:
-    """The states that require it."""
+    """The states that require the component."""
     return join_spans(linker.state(state.name) for state in design.states if alias in state.requires)
 
 
 def modulated_in(design: Design, alias: str, linker: NameLinker) -> RichText:
-    """The states that call it."""
+    """The states that modulate the component."""
     calls = (
         each.state for each in iter_actions(design) if isinstance(each.action, Call) and each.action.alias == alias
     )

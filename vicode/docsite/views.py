@@ -1,11 +1,11 @@
-"""What templates see: finished strings and lists. A field named `html`, or ending in `_html`, is HTML already."""
+"""The data for templates: strings and lists. Fields named `html` or ending in `_html` contain HTML."""
 
 from dataclasses import dataclass, field
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TextSpan:
-    """A piece of a line: with `href` a link, `title` its tip, `css_class` a class of the style sheet."""
+    """A span of text; `href` makes it a link, `title` is its tooltip."""
 
     text: str
     href: str = ""
@@ -18,7 +18,7 @@ RichText = tuple[TextSpan, ...]
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CodeBlock:
-    """A piece of code in a language."""
+    """A code block in a language."""
 
     language: str
     html: str
@@ -26,9 +26,9 @@ class CodeBlock:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class DeclarationRow:
-    """A parameter, output, variable or constant; `css_class` says which, where a table has several.
+    """A parameter, output, variable or constant.
 
-    `read_in` and `set_in` are the components that do so, with the states as tips.
+    `read_in` and `set_in` link to the components that read and set it, with the states as tooltips.
     """
 
     anchor: str
@@ -47,7 +47,7 @@ class DeclarationRow:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class DeclarationTable:
-    """All declarations of one section; `columns` are those that say something."""
+    """The declarations of one section; `columns` are the non-empty columns."""
 
     title: str
     initial_heading: str
@@ -57,7 +57,7 @@ class DeclarationTable:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TransitionRow:
-    """A row of the transition table: all guards of `guards` must hold; `order` leads to the line of pseudo code."""
+    """A row of the transition table; all `guards` must hold; `order` links to the line of pseudocode."""
 
     order: TextSpan
     source: TextSpan
@@ -70,7 +70,7 @@ class TransitionRow:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PseudocodeLine:
-    """A line of pseudo code; `blocks` is the code of its guard, `code_links` where its decision stands in other texts."""
+    """A line of pseudocode; `blocks` is the code of its guard, `code_links` lead to code pages."""
 
     depth: int
     parts: RichText
@@ -83,7 +83,7 @@ class PseudocodeLine:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ActionView:
-    """One action: a line, or code."""
+    """One action: a line of text or code blocks."""
 
     text: RichText = ()
     blocks: tuple[CodeBlock, ...] = ()
@@ -91,7 +91,7 @@ class ActionView:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ActionPhaseView:
-    """What a state does at one occasion."""
+    """The actions of one phase (entry, iteration, exit) of a state."""
 
     title: str
     actions: tuple[ActionView, ...]
@@ -99,9 +99,9 @@ class ActionPhaseView:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class StateView:
-    """A state, or what is common to all; `predecessors` are the states that lead here.
+    """A state or the common section; `predecessors` are the states with transitions to it.
 
-    `is_folded` says that the tree shows only a part of the decisions.
+    If `is_folded`, the tree shows only a part of the decisions.
     """
 
     anchor: str
@@ -119,7 +119,7 @@ class StateView:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class UseRow:
-    """A used component, or one that uses this one: the states that require and that modulate it."""
+    """A used component, or a user, with the states that require and modulate it."""
 
     component: TextSpan
     alias: str
@@ -130,7 +130,7 @@ class UseRow:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class FindingRow:
-    """A finding; `severity` is a word and a class."""
+    """A finding; `severity` is also a CSS class."""
 
     severity: str
     code: str
@@ -152,13 +152,13 @@ class FindingGroup:
 
     @property
     def count(self) -> int:
-        """How many there are."""
+        """The number of findings."""
         return len(self.rows)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LanguageView:
-    """What a language makes of a component: a page, or reasons why not; `is_enabled`: the project asks for it."""
+    """Generated code in a language, or the reasons why there is none."""
 
     title: str
     href: str
@@ -169,7 +169,7 @@ class LanguageView:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ComponentPageView:
-    """The page of a design; `transitions` are by source, `columns` those of them that say something."""
+    """The page of a design; `transitions` are grouped by source, `columns` are the non-empty columns."""
 
     name: str
     doc_html: str
@@ -193,7 +193,7 @@ class ComponentPageView:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class InterfaceView:
-    """The page of a component that has no design; `file` is its address, `css_class` what it is."""
+    """The page of a component without a design; `file` is its file name."""
 
     file: str
     name: str
@@ -208,7 +208,7 @@ class InterfaceView:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class InterfaceRow:
-    """A line of the list of interfaces: `symbol_count` counts what can be read or set, `user_count` who uses it."""
+    """A row of the list of interfaces."""
 
     component: TextSpan
     parameters: RichText
@@ -230,7 +230,7 @@ class SymbolGroup:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class EnumerationView:
-    """A type: its elements are anchor, name and doc; `declarations` are all things of it, `used_by` who says its name."""
+    """An enumeration; `elements` are (anchor, name, description), `declarations` have this type."""
 
     anchor: str
     name: str
@@ -243,7 +243,7 @@ class EnumerationView:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ReachableComponentRow:
-    """A state machine that an agent may activate."""
+    """A state machine that an agent can activate."""
 
     component: TextSpan
     summary: str
@@ -252,9 +252,9 @@ class ReachableComponentRow:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class AgentView:
-    """The page of an agent: all that it may activate, drawn and as lists; `hand_written` are written by hand.
+    """The page of an agent with the components that it can activate.
 
-    `is_partial` says that something is not drawn.
+    If `is_partial`, the diagram omits components.
     """
 
     name: str
@@ -269,7 +269,7 @@ class AgentView:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class AgentRow:
-    """A line of the list of agents."""
+    """A row of the list of agents."""
 
     agent: TextSpan
     name: str
@@ -280,7 +280,7 @@ class AgentRow:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ComponentRow:
-    """A line of the list of components."""
+    """A row of the list of components."""
 
     component: TextSpan
     summary: str
@@ -291,7 +291,7 @@ class ComponentRow:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class HomeView:
-    """The first page; `counts` are how many of what, `is_partial` says that something is not drawn."""
+    """The home page; `counts` are numbers with links; if `is_partial`, the diagram omits components."""
 
     doc_html: str
     counts: tuple[tuple[int, TextSpan], ...]
@@ -304,7 +304,7 @@ class HomeView:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ProjectCard:
-    """A site among others; `folder` is where it lies."""
+    """An entry of the common home page; `folder` contains the site."""
 
     link: TextSpan
     folder: str
@@ -314,7 +314,7 @@ class ProjectCard:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CodeView:
-    """A page of code; `code_pages` are all texts of the same component, `rows_html` is a row of the table for each line."""
+    """A code page; `code_pages` links to all files of the component, `rows_html` has one table row per line."""
 
     title: str
     path: str
@@ -326,7 +326,7 @@ class CodeView:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SiteEntry:
-    """Something that can be found: `badges` are looked through as well."""
+    """An entry of the search index; `badges` are searched, too."""
 
     name: str
     kind: str
@@ -338,7 +338,7 @@ class SiteEntry:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PageHead:
-    """What every page has; `menu_href` is the address of its entry in the menu."""
+    """The data that every page has; `menu_href` is the link of its menu entry."""
 
     title: str
     file: str
