@@ -88,12 +88,14 @@ def test_of_a_long_file_no_more_is_read_than_one_would_read(tmp_path: Path) -> N
 
 @pytest.mark.parametrize("command", ["check", "gen", "edit"])
 @pytest.mark.parametrize(
-    ("name", "told"), [("notes.md", "folder with designs\n"), ("agents.xabsl", "'vicode import' makes")]
+    ("name", "told"), [("notes.md", "folder with designs\n"), ("agents.xabsl", "'vicode import' converts")]
 )
 def test_what_is_no_design_is_told(
     command: str, name: str, told: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     (tmp_path / name).write_text("# Notes\n")
     assert vicode(command, str(tmp_path / name)) == 2
-    assert f"{name} is not a design; specify a design (.yaml) or a folder with designs" in (said := capsys.readouterr().err)
+    assert f"{name} is not a design; specify a design (.yaml) or a folder with designs" in (
+        said := capsys.readouterr().err
+    )
     assert told in said

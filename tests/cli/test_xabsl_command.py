@@ -35,12 +35,14 @@ def test_a_file_without_agents_is_rejected_with_a_suggestion(
         assert main(command) == 2
         assert f"{option} has no agents; name the file that has them: circle/agents.xabsl" in capsys.readouterr().err
     assert main(["check", "circle"]) == 2
-    assert "'vicode import circle/agents.xabsl' makes designs" in capsys.readouterr().err
+    assert "'vicode import circle/agents.xabsl' converts an XABSL behavior" in capsys.readouterr().err
     assert main(["docs", "circle", "--out", "site"]) == 0
     assert (tmp_path / "site" / "component-drive_circle.html").is_file()
     shutil.copytree(CIRCLE, tmp_path / "other")
     assert main(["docs", ".", "--out", "site"]) == 2
-    assert "contains several behaviors; specify one of circle/agents.xabsl, other/agents.xabsl" in capsys.readouterr().err
+    assert (
+        "contains several behaviors; specify one of circle/agents.xabsl, other/agents.xabsl" in capsys.readouterr().err
+    )
 
 
 def test_without_output_the_code_is_printed(capsys: pytest.CaptureFixture[str]) -> None:
