@@ -89,7 +89,7 @@ def test_an_interrupt_ends_it_with_the_summary(robot: Path) -> None:
     assert last["summary"]["stopped"] == "interrupted"
 
 
-def test_it_ends_quietly_when_nobody_reads_the_stream(robot: Path) -> None:
+def test_a_closed_stream_ends_the_run_silently(robot: Path) -> None:
     process = subprocess.Popen(
         command(robot, *in_world("--real-time", "--stream", "--tick-ms", "1")),
         stdout=subprocess.PIPE,
@@ -124,7 +124,7 @@ def test_errors_are_counted_or_stop_it(robot: Path) -> None:
         ("sample_player:Side", "is not a component; derive it from bica.component.Component"),
     ],
 )
-def test_what_cannot_start_is_said_in_a_line(robot: Path, name: str, message: str) -> None:
+def test_a_failed_start_is_reported_in_one_line(robot: Path, name: str, message: str) -> None:
     done = run(robot, name)
     assert done.returncode == 2
     assert message in done.stderr

@@ -1,4 +1,4 @@
-"""An exception in a component's own code: where it is said to be, and that the component goes on."""
+"""Exceptions in components: their reported location, and that the component continues."""
 
 from __future__ import annotations
 
@@ -94,7 +94,9 @@ def make_clumsy(records: list[ErrorRecord], fails_in: str) -> tuple[Root, Clumsy
         ("action", "_do_things", "Busy", 5),
     ],
 )
-def test_the_place_is_told(records: list[ErrorRecord], fails_in: str, method: str, state: str, line: int) -> None:
+def test_the_location_is_reported(
+    records: list[ErrorRecord], fails_in: str, method: str, state: str, line: int
+) -> None:
     make_clumsy(records, fails_in)
     [record] = records
     assert (record.component, record.design_file, record.state) == ("Clumsy", "designs/clumsy.yaml", state)
@@ -106,7 +108,7 @@ def test_the_place_is_told(records: list[ErrorRecord], fails_in: str, method: st
     assert (record.iteration, record.time_ns) == (1, 0)
 
 
-def test_the_component_goes_on_at_its_next_iteration(records: list[ErrorRecord]) -> None:
+def test_the_component_continues_in_its_next_iteration(records: list[ErrorRecord]) -> None:
     root, clumsy = make_clumsy(records, "guard")
     root.step()
     assert len(records) == clumsy.works == 2
@@ -144,7 +146,7 @@ def test_a_place_is_printed_once_and_counted(capsys: pytest.CaptureFixture[str])
     assert printed.count("\n") == 1
 
 
-def test_a_failing_modulate_is_the_callers_mistake(records: list[ErrorRecord]) -> None:
+def test_a_failing_modulate_is_an_error_of_the_caller(records: list[ErrorRecord]) -> None:
     class Caller(Component):
         def __init__(self, root: Root) -> None:
             super().__init__(root)

@@ -1,4 +1,4 @@
-"""A file is the old one or the new one, whatever happens while it is written."""
+"""A write is atomic: after a failure or crash, a file has its old or its new content."""
 
 import os
 import random
@@ -52,7 +52,7 @@ def test_a_link_stays_a_link(tmp_path: Path) -> None:
     assert (tmp_path / "real.yaml").read_text() == "new"
 
 
-def test_what_may_not_be_written_is_told_by_its_place(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_failed_write_names_the_file(monkeypatch: pytest.MonkeyPatch) -> None:
     with tempfile.TemporaryDirectory() as folder, monkeypatch.context() as changed:
         path = Path(folder, "a.yaml")
         path.write_text("old")
@@ -85,7 +85,7 @@ def _as_nobody(ask: Callable[..., bool]) -> Callable[..., bool]:
     return asked
 
 
-def test_a_failure_leaves_the_old_file_alone(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_failure_keeps_the_old_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     path = tmp_path / "a.yaml"
     path.write_text("old")
 
@@ -99,7 +99,7 @@ def test_a_failure_leaves_the_old_file_alone(tmp_path: Path, monkeypatch: pytest
     assert [each.name for each in tmp_path.iterdir()] == ["a.yaml"]
 
 
-def test_what_is_read_only_is_not_replaced(tmp_path: Path) -> None:
+def test_a_read_only_file_is_not_replaced(tmp_path: Path) -> None:
     path = tmp_path / "a.yaml"
     path.write_text("old")
     path.chmod(0o444)

@@ -1,4 +1,4 @@
-"""The JSON Schema says what the reader says."""
+"""The JSON Schema accepts the same files as the reader."""
 
 from pathlib import Path
 
@@ -31,7 +31,7 @@ CORE_WORDS: dict[str, object] = {"": None, "~": None, "null": None, "true": True
 
 
 @pytest.mark.parametrize("schema", [design_schema(), project_schema()], ids=["design", "project"])
-def test_the_schema_is_one(schema: dict[str, object]) -> None:
+def test_the_schema_is_valid(schema: dict[str, object]) -> None:
     Draft202012Validator.check_schema(schema)
 
 

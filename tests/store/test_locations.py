@@ -1,4 +1,4 @@
-"""Findings about things get the lines and columns of their files, down to characters inside any kind of text."""
+"""Locations of findings: lines and columns, also of characters in each style of text."""
 
 from pathlib import Path
 
@@ -68,12 +68,12 @@ def test_a_path_leads_to_its_characters(path: ThingPath, span: tuple[int, int] |
     assert _underlined(path, span) == expected
 
 
-def test_the_key_is_meant_when_asked_for() -> None:
+def test_of_key_locates_the_key() -> None:
     assert _underlined(("states", "Kick"), of_key=True) == "Kick"
     assert _underlined((*WHEN, 0, "when"), of_key=True) == "when"
 
 
-def test_findings_and_notes_get_their_places(tmp_path: Path) -> None:
+def test_findings_and_notes_get_locations(tmp_path: Path) -> None:
     (tmp_path / "player.yaml").write_text(TEXT, encoding="utf-8")
     project = open_project(tmp_path)
     first = Finding(

@@ -41,7 +41,7 @@ def test_a_design_file_opens_the_project_above_it(tmp_path: Path) -> None:
     assert "Player" in project.files
 
 
-def test_a_folder_without_project_file_is_a_project_of_its_own(tmp_path: Path) -> None:
+def test_a_folder_without_project_file_is_a_project(tmp_path: Path) -> None:
     _write(tmp_path / "my-robot", player=_design("Player"))
     for path in (tmp_path / "my-robot", tmp_path / "my-robot" / "player.yaml"):
         project = open_project(path)
@@ -50,7 +50,7 @@ def test_a_folder_without_project_file_is_a_project_of_its_own(tmp_path: Path) -
         assert set(project.files) == {"Player"}
 
 
-def test_a_foreign_project_file_above_is_not_ours(tmp_path: Path) -> None:
+def test_an_unrelated_project_file_above_is_ignored(tmp_path: Path) -> None:
     _write(tmp_path, project="name: something else\n", robot__player=_design("Player"))
     assert open_project(tmp_path / "robot" / "player.yaml").project.name == "robot"
 
@@ -67,7 +67,7 @@ def test_broken_files_stay_visible(tmp_path: Path) -> None:
     assert note.location.line == 2
 
 
-def test_a_file_that_is_named_is_read_whatever_it_is(tmp_path: Path) -> None:
+def test_an_explicit_file_is_always_read(tmp_path: Path) -> None:
     _write(tmp_path, notes="just: notes\n")
     project = open_project(tmp_path / "notes.yaml")
     assert {finding.rule.code for finding in project.findings} == {"Y102", "Y104"}
@@ -83,7 +83,7 @@ def test_links_do_not_lead_out_of_the_folder(tmp_path: Path) -> None:
     assert set(open_project(tmp_path / "inside").files) == {"Player"}
 
 
-def test_a_file_that_may_not_be_read_is_a_finding(tmp_path: Path) -> None:
+def test_an_unreadable_file_is_a_finding(tmp_path: Path) -> None:
     _write(tmp_path, player=_design("Player"))
     os.mkfifo(tmp_path / "pipe.yaml")
     (tmp_path / "folder.yaml").mkdir()
@@ -100,14 +100,14 @@ def test_all_projects_of_a_folder_are_found(tmp_path: Path) -> None:
     assert find_projects(tmp_path / "blink") == (tmp_path / "blink",)
 
 
-def test_a_design_in_another_encoding_is_not_passed_over(tmp_path: Path) -> None:
+def test_a_design_in_another_encoding_is_reported(tmp_path: Path) -> None:
     (tmp_path / "player.yaml").write_bytes(_design("Player").encode("utf-16"))
     project = open_project(tmp_path)
     assert project.broken_files == (tmp_path / "player.yaml",)
     assert [finding.rule.code for finding in project.findings] == ["Y110"]
 
 
-def test_a_file_that_says_the_same_is_not_parsed_again(tmp_path: Path) -> None:
+def test_an_unchanged_file_is_not_parsed_again(tmp_path: Path) -> None:
     _write(tmp_path, a=_design("A"), b=_design("B"))
     before = open_project(tmp_path)
     _write(tmp_path, b=_design("B") + "doc: other\n")

@@ -1,4 +1,4 @@
-"""What the reader makes of sound texts: short forms, names that YAML would take for truths, places."""
+"""Reading of valid texts: short forms, names that YAML reads as booleans, locations."""
 
 import pytest
 
@@ -68,14 +68,14 @@ def test_short_forms_mean_the_long_ones() -> None:
     assert short.states[0].actions == (_code("work()"),)
 
 
-def test_a_key_with_nothing_behind_it_is_left_out() -> None:
+def test_a_key_without_value_counts_as_missing() -> None:
     design = _read("doc:\nuses:\nstates:\n  A:\n    enter:\n    leave: |\n    at:\n    modulates: {head: }\n  B: ~\n")
     assert [state.name for state in design.states] == ["A", "B"]
     assert design.states[0].modulates == (Call(alias="head"),)
     assert design.states[0].leave == ()
 
 
-def test_order_is_kept_where_it_means_something() -> None:
+def test_significant_order_is_kept() -> None:
     design = _read(
         "states:\n  A:\n    actions:\n      - set: {b: 1, a: 2}\n      - call: head\n        with: {tilt: 1, pan: 2}\n"
     )
@@ -96,7 +96,7 @@ def test_a_broken_part_does_not_hide_the_rest() -> None:
     assert read.design.states[0].transitions == (Stay(),)
 
 
-def test_a_design_without_a_component_is_called_like_its_file() -> None:
+def test_the_file_name_is_the_default_component_name() -> None:
     read = read_design("vicode: 1\nstates: {}\n", "designs/goalie.yaml")
     assert [finding.rule.code for finding in read.findings] == ["Y104"]
     assert read.design == Design(component="goalie")
@@ -128,18 +128,18 @@ def test_the_nearest_known_key_is_named() -> None:
 
 @pytest.mark.parametrize("mark", ["", "\ufeff"])
 @pytest.mark.parametrize("line_end", ["\n", "\r\n"])
-def test_places_do_not_mind_line_ends_marks_and_other_letters(mark: str, line_end: str) -> None:
+def test_locations_are_independent_of_line_ends_and_byte_order_marks(mark: str, line_end: str) -> None:
     text = mark + "vicode: 1\ncomponent: Player\ndoc: ü😀\nstates: {ä😀: {at: no}}\n".replace("\n", line_end)
     (finding,) = read_design(text, "a.yaml").findings
     assert finding.location == SourceLocation(file="a.yaml", line=4, column=19, length=2)
 
 
-def test_bytes_that_are_no_text_are_a_finding() -> None:
+def test_invalid_bytes_are_a_finding() -> None:
     for content in (b"\xff\xfe", "vicode: 1".encode("utf-16"), b"doc: \x00\n", b"doc: \x1b\n"):
         assert [finding.rule.code for finding in read_design(content).findings] == ["Y110"]
 
 
-def test_another_encoding_is_told_at_its_first_byte() -> None:
+def test_another_encoding_is_reported_at_its_first_byte() -> None:
     latin = "vicode: 1\ncomponent: A\ndoc: gr\u00fcn\n".encode("latin-1")
     (finding,) = read_design(latin, "a.yaml").findings
     assert finding.location == SourceLocation(file="a.yaml", line=3, column=8, length=1)

@@ -13,7 +13,7 @@ EXPECTED = re.compile(r"# E: ((?:Y\d+ ?)+)")
 
 
 @pytest.mark.parametrize("path", CASES, ids=lambda path: path.stem)
-def test_mistakes_are_found_at_their_lines(path: Path) -> None:
+def test_errors_are_reported_at_their_lines(path: Path) -> None:
     text = path.read_text(encoding="utf-8")
     lines = text.splitlines()
     expected = {
@@ -27,7 +27,7 @@ def test_mistakes_are_found_at_their_lines(path: Path) -> None:
 
 
 @pytest.mark.parametrize("path", CASES, ids=lambda path: path.stem)
-def test_findings_can_be_read_by_people(path: Path) -> None:
+def test_findings_have_a_message_and_location(path: Path) -> None:
     text = path.read_text(encoding="utf-8")
     for finding in _read(path.name, text):
         assert finding.message

@@ -1,4 +1,4 @@
-"""One edit changes its own lines only: laws over random texts with comments, and over the designs that we ship."""
+"""An edit only changes its own lines: laws on random texts with comments and on the example designs."""
 
 from collections import Counter
 from collections.abc import Callable

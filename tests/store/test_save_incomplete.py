@@ -1,4 +1,4 @@
-"""What a person has half written can be saved, and comes back as half written; what no file can hold is said."""
+"""Incomplete designs can be saved and read back; values that YAML cannot represent raise an error."""
 
 from dataclasses import replace
 from pathlib import Path
@@ -26,7 +26,7 @@ def with_state(state: State) -> Design:
 
 
 @pytest.mark.parametrize("old_text", [PLAYER, ""], ids=["patched", "fresh"])
-def test_a_name_whose_expression_is_not_written_yet_is_kept(old_text: str) -> None:
+def test_a_name_with_empty_expression_is_kept(old_text: str) -> None:
     half = State(
         name="Half",
         enter=(Assign(values=(("kicks", ""),)),),
@@ -42,7 +42,7 @@ def test_a_name_whose_expression_is_not_written_yet_is_kept(old_text: str) -> No
 
 
 @pytest.mark.parametrize("blank", BLANKS)
-def test_what_is_nothing_but_spaces_is_saved_as_nothing(blank: str) -> None:
+def test_blank_texts_are_saved_as_empty(blank: str) -> None:
     transition = Transition(to="Kick", guard=Guard(when=blank, after=blank))
     design = with_state(State(name="Half", enter=(Assign(values=(("kicks", blank),)),), transitions=(transition,)))
     design = replace(design, variables=(*design.variables, Declaration(name="extra", type=blank, initial=blank)))
@@ -54,13 +54,13 @@ def test_what_is_nothing_but_spaces_is_saved_as_nothing(blank: str) -> None:
     assert read.variables[-1] == Declaration(name="extra")
 
 
-def test_half_a_character_is_saved_as_a_sign_for_it() -> None:
+def test_a_lone_surrogate_is_replaced() -> None:
     code = RunCode(code=Code(texts=(("python", "a = '\ud83d'\n"),)))
     text = save_design(with_state(State(name="Half", doc="\ud83d", actions=(code,))), PLAYER)
     assert text.encode("utf-8").count("\ufffd".encode()) == 2
 
 
-def test_what_no_file_can_hold_is_said_in_words() -> None:
+def test_unwritable_values_raise_an_error() -> None:
     design = replace(player(), variables=(Declaration(name="x" * 5000),))
     with pytest.raises(ValueError, match="cannot be written as YAML"):
         save_design(design, PLAYER)

@@ -1,4 +1,4 @@
-"""What saving does to the forms that people write: short forms, brackets, quotes, broken parts, line ends."""
+"""Saving keeps the notation of the file: short forms, brackets, quotes, invalid parts, line ends."""
 
 from collections.abc import Callable
 from dataclasses import replace
@@ -109,12 +109,12 @@ def _run(text: str) -> RunCode:
         ),
     ],
 )
-def test_an_edit_looks_as_a_person_would_write_it(edit: Callable[[Design], Design], old: str, new: str) -> None:
+def test_an_edit_uses_the_notation_of_the_file(edit: Callable[[Design], Design], old: str, new: str) -> None:
     assert TEXT.count(old) == 1
     assert _edited(edit) == TEXT.replace(old, new)
 
 
-def test_what_was_not_understood_stays() -> None:
+def test_unread_parts_are_kept() -> None:
     text = (
         "vicode: 1\ncomponent: Player\ncolour: red  # unknown\nstates:\n  Look:\n    at: far away\n    transitions:\n"
         "      - {when: no target}\n      - {to: Look}\n  Kick: [broken]\n"
@@ -132,14 +132,14 @@ def test_line_ends_marks_and_a_missing_last_one_are_kept() -> None:
         assert saved == f"{text}\r\n  New: {{}}"
 
 
-def test_brackets_open_when_code_of_several_lines_comes_in() -> None:
+def test_flow_style_becomes_block_style_for_multiline_code() -> None:
     guard = Guard(when="seen", code=Code(texts=(("python", "x = 1\nreturn x\n"),)))
     saved = _edited(_look(lambda state: replace(state, transitions=(Transition(to="Kick", guard=guard),))))
     transition = "      - to: Kick   # beside it\n        when: seen\n        code: |\n          x = 1\n"
     assert transition in saved
 
 
-def test_two_states_of_one_name_are_not_saved() -> None:
+def test_duplicate_state_names_are_not_saved() -> None:
     design = Design(component="Player", states=(State(name="A"), State(name="A")))
     with pytest.raises(ValueError, match="duplicate names cannot be saved: A"):
         save_design(design)
