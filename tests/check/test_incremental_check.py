@@ -1,4 +1,4 @@
-"""Checking a project again finds what checking every design by itself finds, whatever was edited."""
+"""Incremental checks report the same findings as checking each design separately."""
 
 import random
 from dataclasses import replace
@@ -15,7 +15,7 @@ STEPS = st.lists(st.tuples(st.sampled_from(EDITS), st.integers(0, 99)), min_size
 
 
 @given(steps=STEPS, has_all_languages=st.booleans())
-def test_what_was_found_before_is_what_is_found_now(steps: list[tuple[Edit, int]], has_all_languages: bool) -> None:
+def test_incremental_findings_equal_separate_findings(steps: list[tuple[Edit, int]], has_all_languages: bool) -> None:
     project = FORWARD
     for edit, seed in steps:
         project = edit(project, random.Random(seed))
@@ -34,7 +34,7 @@ def design_of(name: str, *used: str) -> Design:
     )
 
 
-def test_what_another_design_steps_counts() -> None:
+def test_steps_of_another_design_invalidate_the_cache() -> None:
     ends = (design_of("top", "left", "right"), design_of("left", "low"), design_of("low"))
     twice = Project(name="Steps", designs=(*ends, design_of("right", "low")))
     once = replace(twice, designs=(*ends, design_of("right")))

@@ -1,4 +1,4 @@
-"""Findings as values and as text: order, caret, JSON, and the nearest known name."""
+"""Findings: sorting, rendering as text and JSON, and name suggestions."""
 
 import json
 
@@ -23,17 +23,17 @@ def _finding(code: str, line: int = 1, column: int = 1, length: int = 1) -> Find
     return Finding(rule=get_rule(code), message="wrong", fix="fix it", location=place)
 
 
-def test_findings_are_in_the_order_of_their_places_and_said_once() -> None:
+def test_findings_are_sorted_by_location_without_duplicates() -> None:
     late, early, other = _finding("D401", 10), _finding("D421", 9, 2), _finding("D402", 9, 2)
     assert sort_findings([late, early, late, other]) == (other, early, late)
 
 
-def test_the_worst_severity_counts() -> None:
+def test_worst_severity() -> None:
     assert worst_severity([]) is None
     assert worst_severity([_finding("D430"), _finding("D421")]) is Severity.WARNING
 
 
-def test_a_caret_stands_under_the_guilty_text() -> None:
+def test_the_caret_marks_the_location() -> None:
     text = render_text([_finding("D402", 3, 9, 4)], lambda _file, _line: "  - {to: Jmup}\n")
     assert text == ("goalie.yaml:3:9: error D402 unknown-state: wrong; fix it\n      - {to: Jmup}\n            ^^^^\n")
 
@@ -49,7 +49,7 @@ def test_notes_follow_their_finding() -> None:
     )
 
 
-def test_json_names_the_thing_and_the_place() -> None:
+def test_json_contains_subject_and_location() -> None:
     thing = FindingSubject(component="Goalie", path=("states", "Wait"))
     finding = Finding(
         rule=get_rule("D422"),
@@ -73,7 +73,7 @@ def test_json_names_the_thing_and_the_place() -> None:
     }
 
 
-def test_the_nearest_name_forgives_case_and_slips() -> None:
+def test_nearest_name_ignores_case_and_typos() -> None:
     assert nearest_name("kik", ["Wait", "Kick"]) == "Kick"
     assert nearest_name("", ["Wait"]) is None
     assert did_you_mean("zzz", ["Wait"], "add it") == "add it"

@@ -1,4 +1,4 @@
-"""What is disabled is kept, and the design works as if it were not there."""
+"""Disabled items stay in the design, but have no effect."""
 
 from dataclasses import replace
 
@@ -30,7 +30,7 @@ DESIGN = Design(
 )
 
 
-def test_what_is_disabled_and_what_leads_there_does_not_work() -> None:
+def test_strip_disabled_removes_disabled_items_and_transitions_to_them() -> None:
     works = strip_disabled(DESIGN)
     assert works.common.transitions == ()
     assert [state.name for state in works.states] == ["A", "B"]
@@ -39,7 +39,7 @@ def test_what_is_disabled_and_what_leads_there_does_not_work() -> None:
     assert works.states[1].transitions == ()
 
 
-def test_disabling_and_enabling_change_only_the_marks() -> None:
+def test_set_disabled_changes_only_the_flags() -> None:
     off = set_disabled(
         DESIGN, ["B"], [("states", "A", "transitions", 1, "then", 1), ("common", "transitions", 0)], disabled=True
     )
@@ -54,7 +54,7 @@ def test_disabling_and_enabling_change_only_the_marks() -> None:
 
 
 @given(designs)
-def test_what_works_works_as_it_is(design: Design) -> None:
+def test_strip_disabled_keeps_enabled_items(design: Design) -> None:
     works = strip_disabled(design)
     assert strip_disabled(works) == works
     without = replace(design, states=tuple(state for state in design.states if not state.disabled))

@@ -1,4 +1,4 @@
-"""Pure edits: what they change, and that they touch nothing else."""
+"""Edits of designs change only their target."""
 
 from dataclasses import replace
 
@@ -56,7 +56,7 @@ def targets(design: Design) -> list[tuple[str, str]]:
     return [(at.source, at.decision.to) for at in iter_transitions(design) if isinstance(at.decision, Transition)]
 
 
-def test_rename_follows_every_way_and_keeps_an_id() -> None:
+def test_rename_state_updates_transitions_and_keeps_the_id() -> None:
     renamed = rename_state(DESIGN, "B", "Back")
     assert [(state.name, state.id) for state in renamed.states] == [("A", ""), ("Back", "")]
     assert targets(renamed) == [(COMMON, "Back"), ("A", "Back"), ("A", "Back"), ("A", "A"), ("Back", "A")]
@@ -64,14 +64,14 @@ def test_rename_follows_every_way_and_keeps_an_id() -> None:
     assert rename_state(DESIGN, "B", "A") == DESIGN
 
 
-def test_a_renamed_state_with_code_keeps_its_first_name_as_id() -> None:
+def test_rename_state_with_code_uses_the_first_name_as_id() -> None:
     code = RunCode(code=Code(texts=(("python", "pass"),)))
     with_code = update_state(DESIGN, "B", lambda state: replace(state, enter=(code,)))
     there = rename_state(rename_state(with_code, "B", "C"), "C", "D")
     assert there.states[1].id == "B"
 
 
-def test_remove_states_takes_their_transitions_and_finds_another_start() -> None:
+def test_remove_states_removes_transitions_and_replaces_the_initial_state() -> None:
     smaller = remove_states(DESIGN, ["A"])
     assert smaller.initial == "B"
     assert targets(smaller) == [(COMMON, "B")]
@@ -79,7 +79,7 @@ def test_remove_states_takes_their_transitions_and_finds_another_start() -> None
     assert remove_states(DESIGN, ["A", "B"]).initial == ""
 
 
-def test_transitions_get_ids_of_their_own_when_they_need_one() -> None:
+def test_assign_id_creates_unique_ids() -> None:
     twice = add_transition(add_transition(DESIGN, "B", "A"), "B", "A")
     for index in (1, 2, 2):
         twice = assign_id(twice, ("states", "B", "transitions", index))
@@ -88,7 +88,7 @@ def test_transitions_get_ids_of_their_own_when_they_need_one() -> None:
     assert targets(add_transition(DESIGN, COMMON, "A"))[1] == (COMMON, "A")
 
 
-def test_decisions_are_replaced_moved_and_removed_inside_groups() -> None:
+def test_decisions_in_groups_are_replaced_moved_and_removed() -> None:
     path = ("states", "A", "transitions", 1, "then", 0)
     changed = replace_decision(DESIGN, path, Stay(doc="wait"))
     found = find_decision(changed, path)
@@ -100,7 +100,7 @@ def test_decisions_are_replaced_moved_and_removed_inside_groups() -> None:
     assert targets(both)[1:] == [("A", "A"), ("B", "A")]
 
 
-def test_many_removals_at_once_do_not_shift_each_other() -> None:
+def test_removals_do_not_shift_each_other() -> None:
     state = State(name="A", transitions=tuple(Transition(to="A", doc=str(number)) for number in range(12)))
     design = Design(component="C", states=(state,))
     smaller = remove_decisions(design, [("states", "A", "transitions", index) for index in (2, 9, 10, 11)])
@@ -120,7 +120,7 @@ def test_uses_and_links() -> None:
     assert (gone.uses, gone.states[0].requires, gone.states[1].actions) == ((), (), ())
 
 
-def test_rename_use_follows_expressions_calls_and_links() -> None:
+def test_rename_use_updates_expressions_calls_and_links() -> None:
     renamed = rename_use(DESIGN, "head", "neck")
     assert renamed.uses == (Use(alias="neck", component="Head"),)
     assert renamed.states[0].requires == ("neck",)

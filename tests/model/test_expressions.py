@@ -1,4 +1,4 @@
-"""Expressions: what parses to what, and where each mistake stands."""
+"""Expressions: trees, types and positions of errors."""
 
 import pytest
 from hypothesis import given
@@ -125,7 +125,7 @@ def test_types(text: str, type_: str) -> None:
         ("ready\n and tires", "E303", "tires"),
     ],
 )
-def test_mistakes_stand_at_their_characters(text: str, code: str, guilty: str | None) -> None:
+def test_diagnostics_have_exact_spans(text: str, code: str, guilty: str | None) -> None:
     mistakes = parse_expression(text, SCOPE).diagnostics
     assert [mistake.rule.code for mistake in mistakes] == [code]
     start, end = mistakes[0].span
@@ -142,7 +142,7 @@ def test_expected_types() -> None:
     assert "round" in mistake.fix
 
 
-def test_all_mistakes_come_at_once_with_the_nearest_name() -> None:
+def test_all_diagnostics_are_reported_with_the_nearest_name() -> None:
     mistakes = parse_expression("tires > 1 and perception.ball_sen", SCOPE, "bool").diagnostics
     assert [mistake.fix for mistake in mistakes] == ["did you mean 'tries'?", "did you mean 'ball_seen'?"]
 
@@ -161,12 +161,12 @@ def test_shape_of_trees() -> None:
 @pytest.mark.parametrize(
     "text", ["(" * 300, "-" * 9000 + "1", "1+" * 4000 + "1", "x" * 20_000, "a\0b", "not " * 500 + "ready"]
 )
-def test_monstrous_texts_are_mistakes(text: str) -> None:
+def test_oversized_texts_are_rejected(text: str) -> None:
     assert [mistake.rule.code for mistake in parse_expression(text, SCOPE).diagnostics] == ["E301"]
 
 
 @given(st.text(max_size=60) | st.text(alphabet="tries perception.ball_x()<>=+-*/%0123456789 \n#'\"\\", max_size=60))
-def test_never_raises_and_stays_inside_the_text(text: str) -> None:
+def test_never_raises_and_spans_stay_within_the_text(text: str) -> None:
     parsed = parse_expression(text, SCOPE, "bool")
     assert (parsed.tree is not None) or parsed.diagnostics
     for mistake in parsed.diagnostics:

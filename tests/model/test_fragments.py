@@ -1,4 +1,4 @@
-"""A part of a design is a design; putting it in makes names free and keeps what can be kept."""
+"""Extracting fragments and inserting them with unique names and ids."""
 
 from hypothesis import given
 from hypothesis import strategies as st
@@ -59,13 +59,13 @@ def arrows(design: Design) -> list[tuple[str, str]]:
     return [(at.source, at.decision.to) for at in iter_transitions(design) if isinstance(at.decision, Transition)]
 
 
-def test_a_part_takes_along_the_components_it_speaks_of() -> None:
+def test_a_fragment_includes_the_components_it_refers_to() -> None:
     assert [use.alias for use in extract_fragment(DESIGN, FragmentSelection(states=["A"])).uses] == ["head", "legs"]
     assert [use.alias for use in extract_fragment(DESIGN, FragmentSelection(states=["B"])).uses] == ["eyes"]
     assert extract_fragment(DESIGN, FragmentSelection(states=["C"], aliases=["legs"])).uses == (DESIGN.uses[1],)
 
 
-def test_names_are_made_free_and_transitions_between_the_pasted_are_kept() -> None:
+def test_inserted_names_are_unique_and_inner_transitions_are_kept() -> None:
     joined = insert_fragment(
         DESIGN, extract_fragment(DESIGN, FragmentSelection(states=["A", "B"])), available=ALL, offset=(40, 90)
     )
@@ -75,7 +75,7 @@ def test_names_are_made_free_and_transitions_between_the_pasted_are_kept() -> No
     assert (joined.design.uses, joined.design.initial) == (DESIGN.uses, "A")
 
 
-def test_what_leads_nowhere_is_left_out_with_the_groups_it_leaves_empty() -> None:
+def test_dangling_transitions_and_empty_groups_are_dropped() -> None:
     joined = insert_fragment(
         Design(component="Other"), extract_fragment(DESIGN, FragmentSelection(states=["A", "B"])), available=ALL
     )
@@ -85,7 +85,7 @@ def test_what_leads_nowhere_is_left_out_with_the_groups_it_leaves_empty() -> Non
     assert [use.component for use in joined.design.uses] == ["Head", "Legs", "Eyes"]
 
 
-def test_an_alias_that_means_something_else_here_gets_another_name() -> None:
+def test_a_conflicting_alias_is_renamed() -> None:
     other = Design(component="Other", uses=(Use(alias="legs", component="Wheels"), Use(alias="head", component="Head")))
     joined = insert_fragment(other, extract_fragment(DESIGN, FragmentSelection(states=["A"])), available=ALL)
     assert [(use.alias, use.component) for use in joined.design.uses][2:] == [("legs2", "Legs")]
@@ -94,7 +94,7 @@ def test_an_alias_that_means_something_else_here_gets_another_name() -> None:
     assert action.code.in_language("python") == "self.legs2.go()"
 
 
-def test_components_that_are_not_to_be_had_are_told() -> None:
+def test_unavailable_components_are_reported() -> None:
     joined = insert_fragment(
         Design(component="Other"), extract_fragment(DESIGN, FragmentSelection(states=["A"])), available={"Head"}
     )
@@ -102,7 +102,7 @@ def test_components_that_are_not_to_be_had_are_told() -> None:
     assert [use.alias for use in joined.design.uses] == ["head"]
 
 
-def test_code_never_shares_an_id() -> None:
+def test_ids_of_code_are_unique() -> None:
     joined = insert_fragment(DESIGN, extract_fragment(DESIGN, FragmentSelection(states=["A"])), available=ALL)
     copy = joined.design.states[-1]
     assert isinstance(copy.actions[0], RunCode)
@@ -114,20 +114,20 @@ def test_code_never_shares_an_id() -> None:
     assert cut.design.states[0].actions[0].id == "go"
 
 
-def test_numbers_at_the_end_of_names_are_counted_on() -> None:
+def test_numbers_at_the_end_of_names_are_incremented() -> None:
     design = Design(component="X", states=(State(name="Kick2"), State(name="Kick3"), State(name="7")))
     joined = insert_fragment(design, design, available=())
     assert joined.states == ("Kick4", "Kick5", "72")
 
 
-def test_transitions_without_their_state_go_to_others() -> None:
+def test_transitions_are_appended_to_other_states() -> None:
     part = extract_fragment(DESIGN, FragmentSelection(decisions=[("states", "A", "transitions", 0)]))
     assert [item.to for item in part.common.transitions if isinstance(item, Transition)] == ["B"]
     joined = append_decisions(DESIGN, part, ["B", "C"], available=ALL)
     assert arrows(joined.design)[-2:] == [("B", "B"), ("C", "B")]
 
 
-def test_the_common_part_is_joined_once() -> None:
+def test_the_common_section_is_inserted_once() -> None:
     part = extract_fragment(DESIGN, FragmentSelection(states=["C"], common=True))
     assert insert_fragment(DESIGN, part, available=()).design.common.transitions == (
         Transition(to="C"),
@@ -144,14 +144,14 @@ def replace_states(design: Design) -> Design:
     return Design(component=design.component, common=design.common)
 
 
-def test_a_decision_is_repeated_behind_itself() -> None:
+def test_duplicate_decision_inserts_the_copy_after_it() -> None:
     twice = duplicate_decision(DESIGN, ("states", "A", "transitions", 0))
     assert [getattr(item, "id", "") for item in twice.states[0].transitions] == ["a_to_b", "a_to_b2", "", ""]
     assert duplicate_decision(DESIGN, ("states", "A", "transitions", 9)) is DESIGN
 
 
 @given(designs, designs, st.data())
-def test_any_part_fits_anywhere(design: Design, other: Design, data: st.DataObject) -> None:
+def test_any_fragment_can_be_inserted_into_any_design(design: Design, other: Design, data: st.DataObject) -> None:
     names = data.draw(st.lists(st.sampled_from([state.name for state in design.states] or ["x"]), max_size=3))
     part = extract_fragment(design, FragmentSelection(states=names, common=data.draw(st.booleans())))
     joined = insert_fragment(other, part, available={use.component for use in part.uses})
@@ -164,7 +164,7 @@ def test_any_part_fits_anywhere(design: Design, other: Design, data: st.DataObje
     assert read_design(save_design(result)).design == result
 
 
-def test_calls_count_as_speaking_of_a_component() -> None:
+def test_calls_count_as_references() -> None:
     design = Design(
         component="X",
         uses=(Use(alias="head", component="Head"),),

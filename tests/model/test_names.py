@@ -1,4 +1,4 @@
-"""Names that are near to what was typed."""
+"""Conversion of text to names."""
 
 import pytest
 
@@ -17,6 +17,6 @@ from vicode.model.names import is_valid_name, name_from_text
         ("x" * 81, ""),
     ],
 )
-def test_the_nearest_name_is_one_or_nothing(text: str, name: str) -> None:
+def test_name_from_text_returns_a_valid_name_or_nothing(text: str, name: str) -> None:
     assert name_from_text(text) == name
     assert not name or is_valid_name(name)

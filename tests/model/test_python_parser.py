@@ -1,4 +1,4 @@
-"""Python's parser in several threads at once: the editor checks while it generates, and reads props of its own."""
+"""Concurrent use of the Python parser."""
 
 import ast
 import gc
@@ -31,13 +31,13 @@ def restless_threads() -> Iterator[None]:
     gc.set_threshold(*thresholds)
 
 
-def test_threads_do_not_disturb_each_other() -> None:
+def test_threads_parse_concurrently() -> None:
     with ThreadPoolExecutor(4) as threads:
         trees = list(threads.map(parse_module, [SOURCE] * 40))
     assert all(len(tree.body) == 1 for tree in trees)
 
 
-def test_who_reads_literals_takes_turns() -> None:
+def test_literal_parsing_uses_the_parser_lock() -> None:
     read = serialize_calls(ast.literal_eval)
     with ThreadPoolExecutor(4) as threads:
         trees = [threads.submit(parse_module, SOURCE) for _ in range(40)]

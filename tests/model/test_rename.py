@@ -1,4 +1,4 @@
-"""A new name is said wherever the thing is meant, and nowhere else."""
+"""Renames change all references to a symbol and nothing else."""
 
 from collections import Counter
 from dataclasses import replace
@@ -46,7 +46,7 @@ def things_of(project: Project) -> list[SymbolRef]:
 
 @settings(max_examples=max(60, settings.default.max_examples))
 @given(projects, st.data())
-def test_a_rename_brings_no_findings_and_can_be_taken_back(project: Project, data: st.DataObject) -> None:
+def test_a_rename_adds_no_findings_and_is_reversible(project: Project, data: st.DataObject) -> None:
     thing = data.draw(st.sampled_from(things_of(project)))
     renamed = rename_symbol(project, thing, "another_name")
     assert not is_declared(renamed, thing)
@@ -95,7 +95,7 @@ def test_a_rename_brings_no_findings_and_can_be_taken_back(project: Project, dat
         ),
     ],
 )
-def test_only_what_is_meant_is_renamed_in_an_expression(said: ReferenceRename, text: str, wanted: str) -> None:
+def test_rename_in_expression(said: ReferenceRename, text: str, wanted: str) -> None:
     assert rename_in_expression(text, said) == wanted
 
 
@@ -142,7 +142,9 @@ SHARED = ReferenceRename(kind=ReferenceKind.ENUMERATION, old="Side", new="Half")
         ),
     ],
 )
-def test_only_what_is_certain_is_renamed_in_python(role: str, said: ReferenceRename, text: str, wanted: str) -> None:
+def test_only_unambiguous_references_are_renamed_in_python(
+    role: str, said: ReferenceRename, text: str, wanted: str
+) -> None:
     assert rename_in_python(text, role, said) == wanted
 
 
@@ -186,12 +188,14 @@ EYES = ReferenceRename(kind=ReferenceKind.MEMBER, owner="eyes", old="tries", new
         ("action", OWN, 'x = "open; this->tries', 'x = "open; this->tries'),
     ],
 )
-def test_only_what_is_certain_is_renamed_in_cpp(role: str, said: ReferenceRename, text: str, wanted: str) -> None:
+def test_only_unambiguous_references_are_renamed_in_cpp(
+    role: str, said: ReferenceRename, text: str, wanted: str
+) -> None:
     assert rename_in_cpp(text, role, said) == wanted
 
 
 @given(st.text(alphabet="self.this->tries\"'/*() \n\\R:{};", max_size=60))
-def test_cpp_of_any_kind_is_read_and_only_names_change(text: str) -> None:
+def test_any_cpp_is_accepted_and_only_names_change(text: str) -> None:
     renamed = rename_in_cpp(text, "action", OWN)
     assert renamed.replace("attempts", "tries") == text
 
@@ -265,7 +269,7 @@ def test_an_output_is_renamed_where_others_read_it() -> None:
     assert predicate.in_language("python") == "return self.again.close"
 
 
-def test_the_memory_of_a_design_is_nobody_elses() -> None:
+def test_variables_of_a_design_are_private() -> None:
     renamed = rename_symbol(TEAM, SymbolRef(component="Player", section="variables", name="near"), "close")
     assert renamed.designs[0] == FOLLOW
     assert renamed.designs[1].common.transitions[0].guard.when == "follow.near and close"

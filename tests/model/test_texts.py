@@ -1,4 +1,4 @@
-"""Every text of a design is found, and each can be replaced alone."""
+"""iter_texts finds all texts; rewrite_text replaces each of them."""
 
 from hypothesis import given
 
@@ -8,7 +8,7 @@ from vicode.model.texts import iter_texts, rewrite_text
 
 
 @given(designs)
-def test_each_text_can_be_replaced_where_it_stands(design: Design) -> None:
+def test_each_text_can_be_replaced(design: Design) -> None:
     before = [(each.path, each.text) for each in iter_texts(design)]
     for path, text in before:
         changed = rewrite_text(design, path, lambda old: f"{old}~")
@@ -18,6 +18,6 @@ def test_each_text_can_be_replaced_where_it_stands(design: Design) -> None:
 
 
 @given(designs)
-def test_a_path_to_nothing_changes_nothing(design: Design) -> None:
+def test_an_unknown_path_changes_nothing(design: Design) -> None:
     for path in (("states", "nowhere", "doc"), ("common", "transitions", 99, "when"), ("module", "klingon"), ("x", 0)):
         assert rewrite_text(design, path, lambda _old: "new") == design

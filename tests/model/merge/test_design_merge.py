@@ -1,4 +1,4 @@
-"""Three-way merges: what does not touch comes together, what touches is told with its path and both values."""
+"""Three-way merges: independent edits are merged; overlapping edits are conflicts with path and both values."""
 
 from dataclasses import replace
 from typing import Any
@@ -51,7 +51,7 @@ def with_doc(design: Design, name: str, doc: str) -> Design:
 
 
 def merged(ours: Design, theirs: Design) -> Design:
-    """The merge of two sides that do not touch."""
+    """Merge two sides without conflicts."""
     result = merge_designs(BASE, ours, theirs)
     assert result.conflicts == ()
     return result.design
@@ -61,7 +61,7 @@ def paths(ours: Design, theirs: Design) -> list[Any]:
     return [conflict.path for conflict in merge_designs(BASE, ours, theirs).conflicts]
 
 
-def test_edits_of_different_things_come_together() -> None:
+def test_edits_of_different_items_are_merged() -> None:
     ours = with_doc(add_state(BASE, State(name="D")), "A", "mine")
     theirs = with_doc(add_state(replace(BASE, frequency_hz=5.0), State(name="E")), "B", "theirs")
     both = merged(ours, theirs)
@@ -69,7 +69,7 @@ def test_edits_of_different_things_come_together() -> None:
     assert (both.frequency_hz, both.states[0].doc, both.states[1].doc) == (5.0, "mine", "theirs")
 
 
-def test_a_rename_meets_edits_of_the_other_side() -> None:
+def test_a_rename_is_merged_with_edits_of_the_other_side() -> None:
     ours = rename_state(BASE, "A", "Begin")
     theirs = add_transition(with_doc(BASE, "A", "theirs"), "C", "A", Guard(when="y"))
     both = merged(ours, theirs)
@@ -79,12 +79,12 @@ def test_a_rename_meets_edits_of_the_other_side() -> None:
     assert merged(theirs, ours).states[0].doc == "theirs"
 
 
-def test_a_renamed_component_takes_the_other_sides_links_along() -> None:
+def test_a_renamed_alias_applies_to_links_of_the_other_side() -> None:
     both = merged(rename_use(BASE, "head", "neck"), add_requirement(BASE, "A", "head"))
     assert both.state("A") == replace(BASE.states[0], requires=("neck",))
 
 
-def test_two_names_for_one_thing_are_a_conflict() -> None:
+def test_two_renames_of_one_item_are_a_conflict() -> None:
     result = merge_designs(BASE, rename_state(BASE, "A", "One"), rename_state(BASE, "A", "Two"))
     assert [(each.path, each.ours, each.theirs) for each in result.conflicts] == [
         (("states", "A", "name"), "One", "Two")
@@ -96,7 +96,7 @@ def test_two_names_for_one_thing_are_a_conflict() -> None:
     assert theirs.design.initial == "Two"
 
 
-def test_one_value_changed_twice_is_a_conflict_with_a_choice() -> None:
+def test_different_changes_of_one_value_are_a_conflict() -> None:
     ours, theirs = with_doc(BASE, "A", "mine"), with_doc(BASE, "A", "theirs")
     result = merge_designs(BASE, ours, theirs)
     (conflict,) = result.conflicts
@@ -110,24 +110,24 @@ def test_one_value_changed_twice_is_a_conflict_with_a_choice() -> None:
     assert merge_designs(BASE, ours, theirs, theirs_at=[conflict.path]).design == theirs
 
 
-def test_lines_of_a_text_come_together() -> None:
+def test_changes_of_different_lines_are_merged() -> None:
     ours = replace(BASE, doc="Plays\n\nuntil it scores")
     theirs = replace(BASE, doc="plays\n\nuntil it scores\nor time is up")
     assert merged(ours, theirs).doc == "Plays\n\nuntil it scores\nor time is up"
 
 
-def test_what_is_gone_here_and_changed_there_is_a_conflict() -> None:
+def test_removing_a_changed_item_is_a_conflict() -> None:
     assert paths(remove_states(BASE, ["B"]), with_doc(BASE, "B", "new")) == [("states", "B")]
     assert merged(remove_states(BASE, ["B"]), with_doc(BASE, "C", "new")).state("B") is None
 
 
-def test_what_is_gone_here_and_needed_there_is_a_conflict() -> None:
+def test_removing_a_referenced_item_is_a_conflict() -> None:
     smaller, leading = remove_states(BASE, ["C"]), add_transition(BASE, "B", "C")
     assert paths(smaller, leading) == [("states", "C")]
     assert merge_designs(BASE, leading, smaller).design.state("C") is not None
 
 
-def test_a_reference_that_dangles_within_one_side_is_no_conflict() -> None:
+def test_a_dangling_reference_within_one_side_is_no_conflict() -> None:
     dangling = add_transition(remove_states(BASE, ["C"]), "B", "C")
     theirs = with_doc(BASE, "A", "new")
     assert merged(dangling, theirs) == with_doc(dangling, "A", "new")
@@ -136,13 +136,13 @@ def test_a_reference_that_dangles_within_one_side_is_no_conflict() -> None:
 
 
 @pytest.mark.parametrize("name", ["D", "E"])
-def test_things_of_one_name_added_twice(name: str) -> None:
+def test_items_with_one_name_added_by_both_sides(name: str) -> None:
     ours, theirs = (add_state(BASE, State(name=each, doc=each)) for each in ("D", name))
     assert paths(ours, theirs) == []
     assert paths(ours, add_state(BASE, State(name="D", doc="another"))) == [("states", "D")]
 
 
-def test_decisions_are_found_again_wherever_they_stand() -> None:
+def test_moved_decisions_are_matched() -> None:
     first = ("states", "A", "transitions", 0)
     ours = reorder_decision(BASE, first, 1)
     theirs = update_state(
@@ -153,7 +153,7 @@ def test_decisions_are_found_again_wherever_they_stand() -> None:
     assert merged(added, theirs).states[0].transitions[1] == Transition(to="B", guard=Guard(when="y"))
 
 
-def test_guards_within_groups_and_code_within_actions_come_together() -> None:
+def test_guards_in_groups_and_code_in_actions_are_merged() -> None:
     group = DecisionGroup(guard=Guard(when="x"), then=(Transition(to="B"),), otherwise=(Transition(to="C"),))
     run = RunCode(code=Code(texts=(("python", "a\nb\nc\n"),)))
     base = update_state(BASE, "A", lambda state: replace(state, transitions=(group,), enter=(run,)))
@@ -183,7 +183,7 @@ def test_guards_within_groups_and_code_within_actions_come_together() -> None:
     assert result.design.states[0].enter == (RunCode(code=Code(texts=(("python", "A\nb\nC\n"),))),)
 
 
-def test_assignments_and_declarations_come_together() -> None:
+def test_assignments_and_declarations_are_merged() -> None:
     def assign(values: tuple[tuple[str, str], ...]) -> Design:
         return update_state(BASE, "B", lambda state: replace(state, actions=(Assign(values=values),)))
 
@@ -194,7 +194,7 @@ def test_assignments_and_declarations_come_together() -> None:
     assert merged(ours, theirs).variables[0] == Declaration(name="count", type="int", doc="how many")
 
 
-def test_one_name_given_to_two_things_stays_with_ours() -> None:
+def test_a_name_used_for_two_items_stays_with_ours() -> None:
     ours = replace(BASE, variables=(Declaration(name="k", type="int"), Declaration(name="m")))
     theirs = replace(BASE, variables=(*BASE.variables, Declaration(name="k", doc="another")))
     result = merge_designs(BASE, ours, theirs)
@@ -203,14 +203,14 @@ def test_one_name_given_to_two_things_stays_with_ours() -> None:
 
 
 @given(designs, designs)
-def test_one_side_alone_wins(base: Design, side: Design) -> None:
+def test_a_side_without_changes_yields_the_other_side(base: Design, side: Design) -> None:
     assert merge_designs(base, side, base).design == side
     assert merge_designs(base, base, side).design == side
     assert merge_designs(base, side, side).design == side
 
 
 @given(designs, designs, designs)
-def test_any_three_merge_and_every_choice_is_taken(base: Design, ours: Design, theirs: Design) -> None:
+def test_any_three_designs_merge_and_choices_are_applied(base: Design, ours: Design, theirs: Design) -> None:
     result = merge_designs(base, ours, theirs)
     chosen = {conflict.path for conflict in result.conflicts}
     again = merge_designs(base, ours, theirs, theirs_at=chosen)

@@ -1,4 +1,4 @@
-"""Texts of two sides: lines that do not touch come together, and no keystroke is lost."""
+"""Text merges by lines and by characters."""
 
 import pytest
 from hypothesis import given
@@ -19,7 +19,7 @@ texts = st.text("ab \n", max_size=12)
         ("a\nb", "x\ny", "x\ny", "x\ny"),
     ],
 )
-def test_lines_come_together_unless_they_touch(base: str, ours: str, theirs: str, merged: str | None) -> None:
+def test_lines_are_merged_unless_they_are_adjacent(base: str, ours: str, theirs: str, merged: str | None) -> None:
     assert merge_lines(base, ours, theirs) == merged
 
 
@@ -32,12 +32,12 @@ def test_lines_come_together_unless_they_touch(base: str, ours: str, theirs: str
         ("a\nb", "a\nb!", "?a\nb", "?a\nb!"),
     ],
 )
-def test_what_is_typed_at_once_is_kept(base: str, ours: str, theirs: str, merged: str) -> None:
+def test_concurrent_typing_is_kept(base: str, ours: str, theirs: str, merged: str) -> None:
     assert merge_characters(base, ours, theirs) == merged
 
 
 @given(texts, texts)
-def test_one_side_alone_wins(base: str, text: str) -> None:
+def test_unchanged_side_yields_the_other_side(base: str, text: str) -> None:
     for merge in (merge_lines, merge_characters):
         assert merge(base, text, base) == text
         assert merge(base, base, text) == text
@@ -45,7 +45,7 @@ def test_one_side_alone_wins(base: str, text: str) -> None:
 
 
 @given(texts, st.text("XY", max_size=4), st.text("UV", max_size=4), st.integers(0, 12), st.integers(0, 12))
-def test_no_keystroke_is_lost(base: str, mine: str, yours: str, here: int, there: int) -> None:
+def test_no_inserted_character_is_lost(base: str, mine: str, yours: str, here: int, there: int) -> None:
     merged = merge_characters(base, base[:here] + mine + base[here:], base[:there] + yours + base[there:])
     assert mine in merged
     assert yours in merged
