@@ -22,7 +22,7 @@ def test_a_guard_is_marked_at_its_characters() -> None:
     path = ("states", "S", "transitions", 0, "when")
     marks = mark_text(text, path, check_design(Project(name="p"), design))
     assert shown(text, marks) == [("m", "error", 2)]
-    assert marks[0].message == "'m' is not declared – declare it, or correct the name"
+    assert marks[0].message == "'m' is not declared – declare it or correct the name"
 
 
 def test_assignments_are_marked_at_the_name_or_in_the_value() -> None:

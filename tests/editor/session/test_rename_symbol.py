@@ -76,7 +76,7 @@ def test_a_symbol_of_one_design_is_renamed_by_an_edit(workspace: Workspace, fold
         (SPEED, "so fast", "such as soFast"),
         (SPEED, "turn", "there is already a parameter turn"),
         (SPEED, "go_straight", "'go_straight' is already the name of"),
-        (SPEED, "state_time", "a name of the runtime"),
+        (SPEED, "state_time", "is reserved by the runtime"),
         (SPEED, "class", "class"),
         (SymbolRef(component="Body", section="parameters", name="gone"), "x", "no parameter gone any more"),
         (SymbolRef(section="constants", name="pan_threshold"), "speed", "'speed' is already the name of"),
