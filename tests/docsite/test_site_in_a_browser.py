@@ -80,7 +80,7 @@ def test_searching_by_keys(page: Page, site: Path) -> None:
     expect(page.locator("tr:target")).to_contain_text("net_bearing")
     page.keyboard.press("/")
     page.keyboard.type("nobody says this")
-    expect(page.locator("#search-results")).to_contain_text("Nothing")
+    expect(page.locator("#search-results")).to_contain_text("No results.")
 
 
 def test_what_is_found_in_a_transition_shows_it(page: Page, site: Path) -> None:
@@ -92,7 +92,7 @@ def test_what_is_found_in_a_transition_shows_it(page: Page, site: Path) -> None:
     expect(found.locator("code.about")).to_contain_text("→ AlignFront")
     expect(found.locator("mark").first).to_be_visible()
     page.locator("#search").fill("( [a .*")
-    expect(page.locator("#search-results")).to_contain_text("Nothing")
+    expect(page.locator("#search-results")).to_contain_text("No results.")
     page.locator("#search").fill("AlignFront")
     expect(page.get_by_role("option").first.locator("bdi mark")).to_have_text("AlignFront")
 
@@ -117,8 +117,8 @@ def nested(depth: int, wide: int) -> tuple[Decision, ...]:
 
 def test_a_box_stands_for_tests_that_are_not_drawn(page: Page, deep_site: Path) -> None:
     page.goto((deep_site / "component-Deep.html").as_uri())
-    expect(page.locator("#state-Many").get_by_text("too many tests for one drawing")).to_be_visible()
-    expect(page.locator("#state-Row").get_by_text("too many tests for one drawing")).to_have_count(0)
+    expect(page.locator("#state-Many").get_by_text("does not show all conditions")).to_be_visible()
+    expect(page.locator("#state-Row").get_by_text("does not show all conditions")).to_have_count(0)
     page.locator("#state-Many a.folded").nth(4).click()
     expect(page.locator("li:target")).to_be_in_viewport()
     expect(page.locator("li:target")).to_contain_text("something.seen and distance < 0")
