@@ -1,7 +1,7 @@
-"""Many people at work on one design: how soon edits reach every window, whether one is lost, what memory it takes.
+"""Many users on one design: the latency of edits in other windows, lost edits, memory.
 
-Run `python -m benchmarks.collaboration [CLIENTS] [SECONDS]`. The clients are sockets that speak the pages' own protocol, in
-one process beside the server: fifty real browsers would measure the machine, not the server. Each moves its own state.
+Run `python -m benchmarks.collaboration [CLIENTS] [SECONDS]`. The clients are sockets that use the protocol of the pages, in one
+separate process: fifty real browsers would measure the machine, not the server. Each client moves its own state.
 """
 
 import asyncio

@@ -54,7 +54,9 @@ def build_layout_graph(design: Design, only: Collection[str] | None = None) -> L
     nodes = tuple(_layout_nodes(design, only))
     known = {node.id for node in nodes}
     candidates = (*_transition_edges(design), *_use_edges(design))
-    edges = [edge for edge in candidates if edge.source in known and edge.target in known and edge.source != edge.target]
+    edges = [
+        edge for edge in candidates if edge.source in known and edge.target in known and edge.source != edge.target
+    ]
     return LayoutGraph(nodes=nodes, edges=_orient_edges(nodes, edges))
 
 

@@ -11,7 +11,7 @@ from urllib.parse import parse_qs, quote, urlencode, urlsplit
 
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
-TOKEN_COOKIE = "vicode_token"
+TOKEN_COOKIE = "vicode_token"  # noqa: S105 - the name of a cookie
 MAX_BODY_BYTES = 8_000_000
 _HEADERS = (
     (b"x-content-type-options", b"nosniff"),

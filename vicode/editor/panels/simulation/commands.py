@@ -15,7 +15,7 @@ _BREAKPOINT_KINDS = ("states", "transitions")
 def simulation_commands(
     get_controller: "Callable[[], SimulationController]", show_panel: Callable[[], None]
 ) -> tuple[Command, ...]:
-    """The commands. `get_controller` returns the controller of the window, created on first use; `show_panel` opens the panel."""
+    """The commands; `get_controller` returns the controller of the window, created on first use."""
 
     def toggle() -> None:
         _toggle_breakpoint(get_controller())

@@ -11,6 +11,8 @@ from vicode.editor.view import ItemRef
 
 
 class SimulationControls:
+    """The toolbar: buttons, position, speed and the status line."""
+
     def __init__(self, controller: SimulationController) -> None:
         self.controller = controller
         with ui.element("div").classes("simulation-bar").props('role="toolbar" aria-label="Simulation"'):

@@ -7,8 +7,7 @@ from pathlib import Path
 from vicode.check import check_project
 from vicode.editor.session.simulation.inputs import SimulationInput, collect_inputs, input_types, make_stub
 from vicode.editor.view import transition_key
-from vicode.findings import DesignPath as DesignPath
-from vicode.findings import Severity
+from vicode.findings import DesignPath, Severity
 from vicode.generators import collect_components, generate, python_class_path, python_probes
 from vicode.model.design import Decision, DecisionGroup, Design, State, Transition
 from vicode.model.project import INTERNAL, Interface, Project
