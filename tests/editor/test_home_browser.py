@@ -78,7 +78,7 @@ def test_a_new_design_begins_with_a_template(editor: str, page: Page, project: P
     name = dialog.get_by_label("Component")
     name.fill("knöck knock")
     dialog.get_by_role("button", name="Create").click()
-    expect(page.get_by_text("letters, digits and underscores for a component, such as KnockKnock")).to_be_visible()
+    expect(page.get_by_text("letters, digits and underscores, such as KnockKnock")).to_be_visible()
     expect(name).to_have_value("KnockKnock")
     dialog.get_by_role("button", name="Cancel").click()
     expect(dialog).to_have_count(0)
