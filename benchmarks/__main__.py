@@ -1,4 +1,4 @@
-"""`python -m benchmarks` measures the runtime; the canvas, which needs a browser, has a command of its own."""
+"""`python -m benchmarks` measures the runtime; the canvas, which needs a browser, has a separate command."""
 
 from benchmarks.runtime import main
 

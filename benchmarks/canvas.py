@@ -200,7 +200,7 @@ def open_page(browser: Browser, address: str) -> tuple[Page, float]:
 
 @contextmanager
 def serving(scene: dict[str, object]) -> Iterator[str]:
-    """Serve a scene in a process of its own."""
+    """Serve a scene in a separate process."""
     with tempfile.TemporaryDirectory() as folder, socket.socket() as free:
         scene_file = Path(folder, "scene.json")
         scene_file.write_text(json.dumps(scene), encoding="utf-8")

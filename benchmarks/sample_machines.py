@@ -34,7 +34,7 @@ class Machine:
 
 
 class TickClock:
-    """A clock that goes on by one tick whenever it is read, so that all see the same times."""
+    """A clock that advances by one tick per read, so that all candidates get the same times."""
 
     def __init__(self) -> None:
         self._now_ns = 0

@@ -19,7 +19,7 @@ AGAIN = "stopping after this iteration; press Ctrl-C again to kill the program\n
 
 
 class InterruptingPrinter(PlainTracePrinter):
-    """Presses Ctrl-C as often as it is told to when the program says something."""
+    """Sends Ctrl-C a given number of times when the program prints output."""
 
     def __init__(self, times: int) -> None:
         self.times = times

@@ -60,7 +60,7 @@ def read_pages(files: tuple[OutputFile, ...]) -> dict[str, ReadPage]:
 
 
 def find_broken_links(files: tuple[OutputFile, ...]) -> list[str]:
-    """Every address that leads nowhere, and every one that leads out of the folder."""
+    """Return all broken links and all links to files outside the folder."""
     pages = read_pages(files)
     paths = {file.path for file in files}
     broken = []

@@ -18,7 +18,7 @@ ROOT = Path(__file__).parents[2]
 
 @dataclass
 class WatchProcess:
-    """A site that is watched by a process of its own; `lines` are all that it said."""
+    """`vicode docs --watch` in a separate process; `lines` is its output."""
 
     project: Path
     out: Path
@@ -34,7 +34,7 @@ class WatchProcess:
             stderr=subprocess.STDOUT,
             text=True,
         )
-        # Once it has looked for what changed meanwhile it follows every change.
+        # After the initial check for changes, it reacts to every change.
         self.wait_for("press Ctrl-C to stop")
         self.wait_for("0 changed")
 

@@ -28,7 +28,7 @@ def finding_groups(rows: Iterable[FindingRow]) -> tuple[FindingGroup, ...]:
 
 
 def finding_row(component_finding: ComponentFinding, subject: SiteInput, addresses: SiteUrls) -> FindingRow:
-    """The row of a finding; without a line of its own, it gets the line of its subject."""
+    """The row of a finding; without a line, it gets the line of its subject."""
     finding = component_finding.finding
     name = component_finding.component or subject.name
     path = finding.subject.path if finding.subject else ()
