@@ -1,7 +1,8 @@
 """Many users on one design: the latency of edits in other windows, lost edits, memory.
 
-Run `python -m benchmarks.collaboration [CLIENTS] [SECONDS]`. The clients are sockets that use the protocol of the pages, in
-one separate process: fifty real browsers would measure the machine, not the server. Each client moves its own state.
+Run `python -m benchmarks.collaboration [CLIENTS] [SECONDS]`. The clients are sockets that use the protocol of the
+pages, in one separate process: fifty real browsers would measure the machine, not the server. Each client moves its
+own state.
 """
 
 import asyncio

@@ -2,56 +2,66 @@
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING
 
 from vicode.findings import DesignPath
 from vicode.model.design import COMMON, Call, Design, State
 from vicode.model.project import Project
 
-Graph = Mapping[str, tuple[str, ...]]
-"""The successors of each node."""
+if TYPE_CHECKING:
+    import networkx as nx
+
+
+class ComponentGraph:
+    """A directed graph of components, given by the successors of each node.
+
+    networkx is imported by the first query of a node with successors: most designs have none, and the import takes
+    a tenth of a second.
+    """
+
+    def __init__(self, successors: Mapping[str, tuple[str, ...]]) -> None:
+        self.successors = successors
+
+    @cached_property
+    def _digraph(self) -> "nx.DiGraph[str]":
+        import networkx as nx  # noqa: PLC0415 - see the class
+
+        return nx.DiGraph(self.successors)
+
+    def descendants(self, start: str) -> set[str]:
+        """Return the nodes that can be reached from a node, without the node itself."""
+        if not self.successors.get(start):
+            return set()
+        import networkx as nx  # noqa: PLC0415 - see the class
+
+        return set(nx.descendants(self._digraph, start))
+
+    def path(self, start: str, goal: str) -> list[str]:
+        """Return the nodes of a shortest path, including both ends; empty if there is no path."""
+        if start == goal:
+            return [start]
+        if goal not in self.descendants(start):
+            return []
+        import networkx as nx  # noqa: PLC0415 - see the class
+
+        return list(nx.shortest_path(self._digraph, start, goal))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ComponentGraphs:
     """Components as nodes; the edges of a design lead to the components it uses or steps."""
 
-    uses: Graph
-    steps: Graph
+    uses: ComponentGraph
+    steps: ComponentGraph
 
     def transitive_steps(self, component: str) -> set[str]:
         """Return all components that stepping a component may step, without the component itself."""
-        return find_descendants(self.steps, component)
+        return self.steps.descendants(component)
 
     def is_in_cycle(self, component: str) -> bool:
         """Whether stepping a component may step it again, which is reported as a cycle."""
-        return any(find_path(self.steps, successor, component) for successor in self.steps.get(component, ()))
-
-
-def find_descendants(graph: Graph, start: str) -> set[str]:
-    """Return the nodes that can be reached from a node, without the node itself."""
-    reached, pending = {start}, [start]
-    while pending:
-        for successor in graph.get(pending.pop(), ()):
-            if successor not in reached:
-                reached.add(successor)
-                pending.append(successor)
-    return reached - {start}
-
-
-def find_path(graph: Graph, start: str, goal: str) -> list[str]:
-    """Return the nodes of a shortest path, including both ends; empty if there is no path."""
-    previous, queue = {start: start}, [start]
-    for node in queue:
-        for successor in graph.get(node, ()):
-            if successor not in previous:
-                previous[successor] = node
-                queue.append(successor)
-    if goal not in previous:
-        return []
-    path = [goal]
-    while path[-1] != start:
-        path.append(previous[path[-1]])
-    return path[::-1]
+        return any(self.steps.path(successor, component) for successor in self.steps.successors.get(component, ()))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -69,11 +79,15 @@ def build_graphs(project: Project) -> ComponentGraphs:
     """Build both graphs; of two designs with the same name the first one counts."""
     designs = {design.component: design for design in reversed(project.designs)}
     return ComponentGraphs(
-        uses={name: tuple(dict.fromkeys(use.component for use in design.uses)) for name, design in designs.items()},
-        steps={
-            name: tuple(dict.fromkeys(step.component for step in iter_steps(design)))
-            for name, design in designs.items()
-        },
+        uses=ComponentGraph(
+            {name: tuple(dict.fromkeys(use.component for use in design.uses)) for name, design in designs.items()}
+        ),
+        steps=ComponentGraph(
+            {
+                name: tuple(dict.fromkeys(step.component for step in iter_steps(design)))
+                for name, design in designs.items()
+            }
+        ),
     )
 
 

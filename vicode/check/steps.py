@@ -6,7 +6,7 @@ from functools import cache, partial
 from itertools import combinations
 
 from vicode.check.context import RuleContext
-from vicode.check.graphs import StepSite, find_path
+from vicode.check.graphs import StepSite
 from vicode.findings import Finding, Note
 from vicode.model.design import COMMON, Use
 from vicode.model.expressions import Done, OutputRef, walk
@@ -69,7 +69,7 @@ def _shared_descendants(context: RuleContext, first: str, second: str) -> frozen
     shared = ({first} | context.graphs.transitive_steps(first)) & ({second} | context.graphs.transitive_steps(second))
     unlimited = {component for component in shared if not _has_frequency(context, component)}
     return frozenset(
-        each for each in unlimited if not any(other != each and find_path(graph, other, each) for other in unlimited)
+        each for each in unlimited if not any(other != each and graph.path(other, each) for other in unlimited)
     )
 
 

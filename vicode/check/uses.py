@@ -3,7 +3,6 @@
 from collections.abc import Iterator
 
 from vicode.check.context import RuleContext
-from vicode.check.graphs import find_path
 from vicode.findings import DesignPath, Finding, did_you_mean
 from vicode.model.design import Assign, Call
 
@@ -60,7 +59,7 @@ def find_cycles(context: RuleContext) -> Iterator[Finding]:
     """D408: components that use each other in a cycle."""
     own, graph = context.design.component, context.graphs.uses
     for use in context.design.uses:
-        if path := find_path(graph, use.component, own):
+        if path := graph.path(use.component, own):
             cycle = [own, *path]
             message = f"components use each other in a cycle: {' → '.join(cycle)}"
             yield context.make_finding("D408", ("uses", use.alias), message, "remove one of these uses")
