@@ -97,7 +97,7 @@ def add_remove_button(context: WindowContext, node_path: ProjectNodePath, show_n
             what = f"move {node_path.name(context.workspace.project)} up"
             show_write_error(context, write_project(context, node_path.move_up, what, node_path, is_confirmed=True))
 
-        icon_button("arrow_upward", "Move up:", move_up).classes("move-up")
+        icon_button("arrow_upward", "Move up", move_up).classes("move-up")
     icon_button("close", "Remove", lambda: confirm_and_remove(context, node_path))
     show_name(node_path.name(context.workspace.project))
 
