@@ -35,7 +35,7 @@ def address(project: Path, tmp_path: Path) -> Iterator[str]:
     )
     assert process.stdout is not None
     try:
-        found = (re.match(r"(http://127\.0\.0\.1:\d+/) ", line) for line in process.stdout)
+        found = (re.match(r"Serving (http://127\.0\.0\.1:\d+/);", line) for line in process.stdout)
         yield next(match[1] for match in found if match)
     finally:
         process.terminate()
