@@ -128,7 +128,7 @@ class Client:
             x = self.log.next_mark()
             self.last = (x, random.randrange(1000))
             item = {"of": "states", "id": self.name, "x": self.last[0], "y": self.last[1]}
-            await self._gesture({"kind": "move", "items": [item]})
+            await self._gesture({"kind": "move", "items": [item], "how": "drag"})
 
     async def disconnect(self) -> None:
         """Close the window; what it could no longer say does not matter then."""
@@ -153,7 +153,7 @@ class Client:
         code, now_s = str(data.get("code", "")), time.perf_counter()
         self.log.last_event_s = now_s
         if "showPresence" in code:
-            await self._emit("presence-painted", {})
+            await self._emit("presencePainted", {})
         if "renameInPlace" in code:
             self.created_state = re.findall(r"State\d*", code)[-1]
             self.renames.set()

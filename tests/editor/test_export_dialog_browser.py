@@ -30,7 +30,9 @@ def download(page: Page, dialog: Locator) -> tuple[str, bytes]:
 def test_a_picture_is_looked_at_and_downloaded(editor: str, page: Page) -> None:
     open_player(page, editor)
     dialog = ask(page)
-    expect(dialog.get_by_role("img", name="The drawing")).to_have_js_property("complete", value=True)
+    expect(dialog.get_by_role("img", name="Preview of the exported diagram")).to_have_js_property(
+        "complete", value=True
+    )
     name, svg = download(page, dialog)
     assert name == "player.svg"
     texts = {element.text for element in ElementTree.fromstring(svg).iter() if element.tag.endswith("}text")}
@@ -61,7 +63,7 @@ def test_a_text_is_copied_from_the_palette(editor: str, page: Page) -> None:
     page.keyboard.press("Control+k")
     page.keyboard.type("copy as plantuml")
     page.keyboard.press("Enter")
-    expect(page.get_by_text("PlantUML of Player is on the clipboard")).to_be_visible()
+    expect(page.get_by_text("Copied Player as PlantUML")).to_be_visible()
     text = page.evaluate("navigator.clipboard.readText()")
     assert text.startswith("@startuml")
     assert "[*] --> LookForBall" in text
