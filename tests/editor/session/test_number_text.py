@@ -2,7 +2,7 @@
 
 import pytest
 
-from vicode.editor.session import messages
+from vicode.editor.session import texts
 from vicode.editor.session.number_text import (
     format_number,
     format_range,
@@ -23,13 +23,13 @@ from vicode.editor.session.number_text import (
         ("0, 9000", ""),
         ("[-1.5, 2]", ""),
         ("5, 5", ""),
-        ("5", messages.INVALID_RANGE),
-        ("1, 2, 3", messages.INVALID_RANGE),
-        ("1,", messages.INVALID_RANGE),
-        ("low, high", messages.INVALID_RANGE),
-        ("0, inf", messages.INVALID_RANGE),
-        ("nan, 1", messages.INVALID_RANGE),
-        ("2, 1", messages.RANGE_REVERSED),
+        ("5", texts.INVALID_RANGE),
+        ("1, 2, 3", texts.INVALID_RANGE),
+        ("1,", texts.INVALID_RANGE),
+        ("low, high", texts.INVALID_RANGE),
+        ("0, inf", texts.INVALID_RANGE),
+        ("nan, 1", texts.INVALID_RANGE),
+        ("2, 1", texts.RANGE_REVERSED),
     ],
 )
 def test_a_range_is_two_finite_numbers_in_order(text: str, error: str) -> None:
@@ -44,9 +44,9 @@ def test_a_range_is_two_finite_numbers_in_order(text: str, error: str) -> None:
     [
         ("", ""),
         ("0.5", ""),
-        ("0", messages.FREQUENCY_TOO_LOW),
-        ("-1", messages.FREQUENCY_TOO_LOW),
-        ("inf", messages.FREQUENCY_TOO_LOW),
+        ("0", texts.FREQUENCY_TOO_LOW),
+        ("-1", texts.FREQUENCY_TOO_LOW),
+        ("inf", texts.FREQUENCY_TOO_LOW),
         ("1O", "'1O' is not a number: enter Hz, such as 10 or 0.5"),
     ],
 )
@@ -61,6 +61,6 @@ def test_a_frequency_is_positive_and_finite(text: str, error: str) -> None:
     ("text", "is_valid"), [("", True), ("3", True), ("999999", True), ("1000000", False), ("1.5", False), ("-1", False)]
 )
 def test_a_count_is_a_whole_number(text: str, *, is_valid: bool) -> None:
-    assert validate_count(text) == ("" if is_valid else messages.INVALID_COUNT)
+    assert validate_count(text) == ("" if is_valid else texts.INVALID_COUNT)
     if is_valid:
         assert parse_count(text) == (float(text) if text else None)

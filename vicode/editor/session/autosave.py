@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from difflib import unified_diff
 
-from vicode.editor.session import messages
+from vicode.editor.session import texts
 from vicode.editor.session.descriptions import error_reason
 from vicode.editor.session.document import ChangeNotice, DocumentSession
 from vicode.editor.session.library import Library
@@ -60,7 +60,7 @@ class AutosaveService:
                 # The header shows the conflict until a user resolves it.
                 continue
             except (OSError, ValueError) as error:
-                _notify_once(document, messages.cannot_save(document.file.name, error_reason(error)))
+                _notify_once(document, texts.cannot_save(document.file.name, error_reason(error)))
 
     def close(self) -> None:
         """Save and journal the latest edits, then close the journals."""
@@ -103,7 +103,7 @@ class AutosaveService:
             self.recovery.discard(lost)
             return 0
         merged = merge_designs(base or document.design, mine, document.design)
-        DocumentSession(document.shared, person).edit(messages.RECOVER, lambda _design: merged.design)
+        DocumentSession(document.shared, person).edit(texts.RECOVER, lambda _design: merged.design)
         self.recovery.discard(lost)
         return len(merged.conflicts)
 

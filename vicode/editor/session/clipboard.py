@@ -9,7 +9,7 @@ from dataclasses import replace
 from typing import Any
 
 from vicode.diagram import complete_layout
-from vicode.editor.session import messages
+from vicode.editor.session import texts
 from vicode.editor.session.document import DocumentSession
 from vicode.editor.session.gestures import EditResult, parse_point
 from vicode.editor.view import ItemRef, parse_transition_key, transition_key
@@ -53,18 +53,18 @@ def duplicate_items(document: DocumentSession, payload: Mapping[str, Any]) -> Ed
     part = _with_positions(extract_fragment(design, replace(wanted, common=False, aliases=())), design)
     if part.states:
         joined = insert_fragment(design, part, available=(), offset=_free_offset(design, part, _PASTE_OFFSET))
-        document.edit(messages.insert_states("duplicate", joined.states), lambda _design: joined.design)
+        document.edit(texts.insert_states("duplicate", joined.states), lambda _design: joined.design)
         return _select_inserted(joined)
     paths = sorted((path for path in wanted.decisions if find_decision(design, path)), key=str, reverse=True)
     if not paths:
-        return EditResult(error=messages.SELECT_TO_DUPLICATE)
+        return EditResult(error=texts.SELECT_TO_DUPLICATE)
 
     def change(old: Design) -> Design:
         for path in paths:
             old = duplicate_decision(old, path)
         return old
 
-    document.edit(messages.duplicate_transitions(len(paths)), change)
+    document.edit(texts.duplicate_transitions(len(paths)), change)
     if len(paths) > 1:
         return EditResult()
     return EditResult(
@@ -98,33 +98,33 @@ def paste(
     joined = insert_fragment(
         design, positioned, available=known_components, offset=_free_offset(design, positioned, by)
     )
-    document.edit(messages.insert_states("paste", joined.states), lambda _design: joined.design)
+    document.edit(texts.insert_states("paste", joined.states), lambda _design: joined.design)
     return _select_inserted(joined)
 
 
 def _paste_decisions(document: DocumentSession, part: Design, known: Collection[str], names: list[str]) -> EditResult:
     names = [name for name in names if document.design.state(name) is not None]
     if not names:
-        return EditResult(error=messages.SELECT_TO_PASTE)
+        return EditResult(error=texts.SELECT_TO_PASTE)
     joined = append_decisions(document.design, part, names, available=known)
-    document.edit(messages.PASTE_TRANSITIONS, lambda _design: joined.design)
+    document.edit(texts.PASTE_TRANSITIONS, lambda _design: joined.design)
     return replace(_select_inserted(joined), new_selection=None)
 
 
 def _read_part(text: object) -> Design | str:
     """The design in a text, or the error message."""
     if not isinstance(text, str) or len(text) > MAX_CHARACTERS or not _SECTION.search(text):
-        return messages.NOTHING_TO_PASTE
+        return texts.NOTHING_TO_PASTE
     read = read_design(text if re.search(r"^vicode *:", text, re.MULTILINE) else _HEAD + text, "clipboard")
     errors = [finding for finding in read.findings if finding.severity is Severity.ERROR]
     if read.design is None or errors:
-        return f"{messages.NOTHING_TO_PASTE}: {errors[0].message}" if errors else messages.NOTHING_TO_PASTE
+        return f"{texts.NOTHING_TO_PASTE}: {errors[0].message}" if errors else texts.NOTHING_TO_PASTE
     design = read.design
     wrong = [state.name for state in design.states if not is_valid_state_name(state.name)]
     wrong += [use.alias for use in design.uses if not is_valid_name(use.alias)]
     if wrong:
-        return f"{messages.NOTHING_TO_PASTE}: {messages.invalid_name(wrong[0])}"
-    return design if design.states or design.common.transitions else messages.NOTHING_TO_PASTE
+        return f"{texts.NOTHING_TO_PASTE}: {texts.invalid_name(wrong[0])}"
+    return design if design.states or design.common.transitions else texts.NOTHING_TO_PASTE
 
 
 def _parse_selection(items: Iterable[Mapping[str, Any]]) -> FragmentSelection:
@@ -171,5 +171,5 @@ def _to_grid(value: float) -> float:
 
 
 def _select_inserted(joined: InsertResult) -> EditResult:
-    note = messages.missing_components(dict.fromkeys(joined.missing))
+    note = texts.missing_components(dict.fromkeys(joined.missing))
     return EditResult(new_selection=tuple(ItemRef(kind="states", id=name) for name in joined.states), note=note)

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from vicode.check import check_project
-from vicode.editor.session import messages
+from vicode.editor.session import texts
 from vicode.findings import Finding, Severity
 from vicode.model.project import Project
 from vicode.output import FileDiff, FileStatus, apply_diffs, back_up_edited, compare_files
@@ -68,13 +68,13 @@ def prepare_output(folder: Path, job: GenerationInput, component: str) -> Pendin
     sound = [language for language in languages if not any(error.applies_to(language) for error in errors)]
     reason = _reason(errors, component) if errors else ""
     if errors and not sound:
-        return PendingOutput(folder=folder, error=messages.nothing_generated(reason), manual_edits={})
+        return PendingOutput(folder=folder, error=texts.nothing_generated(reason), manual_edits={})
     files = generate(project, components=(component,), languages=sound, sources=job.source_paths)
     differences = compare_files(files, folder, kept_paths=list_outputs(project), is_generated=has_header)
     skipped = [language for language in languages if language not in sound]
     return PendingOutput(
         folder=folder,
-        skipped=messages.nothing_generated(reason, skipped) if skipped else "",
+        skipped=texts.nothing_generated(reason, skipped) if skipped else "",
         differences=differences,
         manual_edits=find_hand_edits_by_file(differences),
     )
@@ -97,14 +97,14 @@ def write_output(prepared: PendingOutput, *, is_forced: bool = False) -> Generat
         return GenerationResult(message=prepared.error, is_complete=False)
     if prepared.manual_edits and not is_forced:
         first = next(iter(prepared.manual_edits.values()))[0]
-        message = messages.nothing_generated(f"{first.message}: {first.fix}")
+        message = texts.nothing_generated(f"{first.message}: {first.fix}")
         return GenerationResult(message=message, is_complete=False)
     for path in prepared.manual_edits:
         back_up_edited(prepared.folder / path)
     files = apply_diffs(prepared.differences, prepared.folder)
-    message = messages.up_to_date(prepared.folder.name)
+    message = texts.up_to_date(prepared.folder.name)
     if files:
-        message = messages.generated([path.name for path in files], files[0].parent)
+        message = texts.generated([path.name for path in files], files[0].parent)
     if prepared.skipped:
         message = f"{message}. {prepared.skipped}"
     return GenerationResult(message=message, is_complete=not prepared.skipped, files=files)

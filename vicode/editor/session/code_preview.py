@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
-from vicode.editor.session import messages
+from vicode.editor.session import texts
 from vicode.editor.view import ItemRef, item_at_path
 from vicode.generators import GENERATORS, Origin, UnsoundDesignError, generate, list_origins
 from vicode.model.design import Design
@@ -67,14 +67,14 @@ def preview_code(
     project = replace(project, designs=designs)
     languages = [language for language in GENERATORS if language in project.languages]
     if not languages:
-        return CodePreview(note=messages.no_generator(project.languages))
+        return CodePreview(note=texts.no_generator(project.languages))
     files: list[PreviewFile] = []
     notes: list[str] = []
     for language in languages:
         try:
             files += _files(project, design.component, language, sources)
         except UnsoundDesignError as error:
-            notes.append(messages.no_code(error, language if len(languages) > 1 else ""))
+            notes.append(texts.no_code(error, language if len(languages) > 1 else ""))
     edited = (replace(file, edited_regions=_edited(file, folder)) if folder else file for file in files)
     return CodePreview(note="; ".join(dict.fromkeys(notes)), files=tuple(edited))
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
-from vicode.editor.session import messages
+from vicode.editor.session import texts
 from vicode.editor.session.descriptions import describe_path
 from vicode.editor.session.history import CompoundEdit, HistoryEntry, UndoConflict, UndoHistory
 from vicode.editor.session.presence import DISK_USER, PresenceRoom, UserDirectory
@@ -199,7 +199,7 @@ class DocumentSession:
         if entry is not None and entry.compound is not None:
             return self.undo_compound(entry.compound)
         outcome = self.history.undo(self.user_id, self.shared.clock())
-        return self._adopt_history(outcome, messages.cannot_undo)
+        return self._adopt_history(outcome, texts.cannot_undo)
 
     def redo(self) -> str:
         """Redo the user's latest undone edit; returns an error message if it conflicts with later edits of others."""
@@ -207,10 +207,10 @@ class DocumentSession:
         if entry is not None and entry.compound is not None:
             error = entry.compound.redo(self.user_id)
             if not error:
-                self.record_compound(entry.compound, messages.redo_label(entry.compound.label))
+                self.record_compound(entry.compound, texts.redo_label(entry.compound.label))
             return error
         outcome = self.history.redo(self.user_id, self.shared.clock())
-        return self._adopt_history(outcome, messages.cannot_redo)
+        return self._adopt_history(outcome, texts.cannot_redo)
 
     def undo_compound(self, compound: CompoundEdit) -> str:
         """Undo an edit of several files, and record that if this history contains it; returns an error message."""
@@ -218,7 +218,7 @@ class DocumentSession:
         entries = reversed(self.history.compound_entries())
         undone = next((entry for entry in entries if entry.compound == compound), None)
         if not error and undone is not None:
-            label = messages.undo_label(compound.label)
+            label = texts.undo_label(compound.label)
             self._append(replace(self._new_entry(label, self.design), undone_id=undone.id))
         return error
 
@@ -256,13 +256,13 @@ class DocumentSession:
         for number, entry in enumerate((*undone, *redone)):
             error = self._undo_or_redo(entry, is_undo=number < len(undone))
             if error and entry.compound and self._changes_only_other_files(entry):
-                notes.append(messages.edit_kept(entry.compound.label, error))
+                notes.append(texts.edit_kept(entry.compound.label, error))
             elif error:
                 if not number:
                     self.shared.set_history(self.history.moved_to(start), self)
                 return error
         target = self.history.moved_to(entry_id)
-        self.post_notice(messages.user_jumped(self.shared.users.name_of(self.user_id), target.current.label))
+        self.post_notice(texts.user_jumped(self.shared.users.name_of(self.user_id), target.current.label))
         self.shared.set_history(target, self)
         return "; ".join(notes)
 
@@ -287,9 +287,9 @@ class DocumentSession:
         history = self.history
         if design is not None and design != disk.design:
             history = history.append_branch(
-                replace(self._new_entry(messages.VERSION_ON_DISK, disk.design), user_id=DISK_USER)
+                replace(self._new_entry(texts.VERSION_ON_DISK, disk.design), user_id=DISK_USER)
             )
-            self.post_notice(messages.merged_from_disk(self.file.name))
+            self.post_notice(texts.merged_from_disk(self.file.name))
         self._set_history_or_notify(
             history.append(self._new_entry(label, design if design is not None else disk.design))
         )

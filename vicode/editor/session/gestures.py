@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from vicode.diagram import NodeLayout
-from vicode.editor.session import messages
+from vicode.editor.session import texts
 from vicode.editor.session.document import DocumentSession
 from vicode.editor.view import ItemRef, parse_transition_key, transition_key
 from vicode.findings import DesignPath
@@ -89,7 +89,7 @@ def apply_gesture(
         return handler(document, payload)
     except (KeyError, TypeError, ValueError, AttributeError, OverflowError):
         # Only a malformed payload raises these: from an outdated page or another script.
-        return EditResult(error=messages.INVALID_REQUEST)
+        return EditResult(error=texts.INVALID_REQUEST)
 
 
 def create_state(document: DocumentSession, at: Point, source: str = "") -> str:
@@ -100,7 +100,7 @@ def create_state(document: DocumentSession, at: Point, source: str = "") -> str:
         grown = add_state(design, State(name=name, at=at))
         return add_transition(grown, source, name) if source else grown
 
-    document.edit(messages.add_state(name), change)
+    document.edit(texts.add_state(name), change)
     return name
 
 
@@ -130,12 +130,12 @@ def _move(document: DocumentSession, payload: Payload) -> EditResult:
         moved[item["of"]][str(item["id"])] = parse_point(item)
     common = next(iter(moved["common"].values()), None)
     count = sum(len(group) for group in moved.values())
-    label = messages.move_items(count, next(iter(moved["states"]), "component"))
+    label = texts.move_items(count, next(iter(moved["states"]), "component"))
     how = str(payload.get("how"))
     # Successive nudges of the same items are one edit, like the letters of a word.
     coalesce_key = f"nudge {sorted((group, *ids) for group, ids in moved.items())}" if how == "nudge" else ""
     document.edit(
-        messages.ALIGNMENTS.get(how, label),
+        texts.ALIGNMENTS.get(how, label),
         lambda design: move_nodes(design, moved["states"], moved["components"], common),
         coalesce_key=coalesce_key,
     )
@@ -149,7 +149,7 @@ def _connect(document: DocumentSession, payload: Payload) -> EditResult:
         name = create_state(document, parse_point(payload), source)
         return EditResult(new_selection=(ItemRef(kind="states", id=name),), state_to_rename=name)
     target = _require_state(document, str(target))
-    document.edit(messages.connect(source, target), lambda design: add_transition(design, source, target))
+    document.edit(texts.connect(source, target), lambda design: add_transition(design, source, target))
     return EditResult(new_selection=(ItemRef(kind="transitions", id=_last_transition_key(document.design, source)),))
 
 
@@ -157,15 +157,15 @@ def _reconnect(document: DocumentSession, payload: Payload) -> EditResult:
     key, state = str(payload["id"]), _require_state(document, str(payload["state"]))
     located = find_decision(document.design, parse_transition_key(key))
     if located is None or not isinstance(located.decision, Transition):
-        return EditResult(error=messages.TRANSITION_GONE)
+        return EditResult(error=texts.TRANSITION_GONE)
     transition, path = located.decision, located.path
     if payload["end"] == "target":
         changed = replace(transition, to=state)
-        document.edit(messages.change_target(state), lambda design: replace_decision(design, path, changed))
+        document.edit(texts.change_target(state), lambda design: replace_decision(design, path, changed))
         return EditResult()
     if located.groups:
-        return EditResult(error=messages.TREE_SOURCE)
-    document.edit(messages.change_source(state), lambda design: _with_source(design, path, transition, state))
+        return EditResult(error=texts.TREE_SOURCE)
+    document.edit(texts.change_source(state), lambda design: _with_source(design, path, transition, state))
     return EditResult(new_selection=(ItemRef(kind="transitions", id=_last_transition_key(document.design, state)),))
 
 
@@ -181,10 +181,10 @@ def _rename(document: DocumentSession, payload: Payload) -> EditResult:
     if old == new:
         return EditResult()
     if not is_valid_state_name(new):
-        return EditResult(error=messages.invalid_state_name(new))
+        return EditResult(error=texts.invalid_state_name(new))
     if document.design.state(new) is not None:
-        return EditResult(error=messages.name_exists("state", new))
-    document.edit(messages.rename(old, new), lambda design: rename_state(design, old, new))
+        return EditResult(error=texts.name_exists("state", new))
+    document.edit(texts.rename(old, new), lambda design: rename_state(design, old, new))
     return EditResult(new_selection=(ItemRef(kind="states", id=new),))
 
 
@@ -192,10 +192,10 @@ def _rename_use(document: DocumentSession, old: str, new: str) -> EditResult:
     if old == new:
         return EditResult()
     if not is_valid_name(new):
-        return EditResult(error=messages.invalid_alias(new))
+        return EditResult(error=texts.invalid_alias(new))
     if document.design.use(new) is not None:
-        return EditResult(error=messages.alias_exists(new))
-    document.edit(messages.rename(old, new), lambda design: rename_use(design, old, new))
+        return EditResult(error=texts.alias_exists(new))
+    document.edit(texts.rename(old, new), lambda design: rename_use(design, old, new))
     return EditResult(new_selection=(ItemRef(kind="components", id=new),))
 
 
@@ -213,7 +213,7 @@ def _delete(document: DocumentSession, payload: Payload) -> EditResult:
             smaller = remove_link(smaller, state, alias, modulates=kind == "modulates")
         return remove_states(remove_uses(smaller, named["components"]), named["states"])
 
-    document.edit(messages.delete_items(count), change)
+    document.edit(texts.delete_items(count), change)
     return EditResult(new_selection=())
 
 
@@ -226,11 +226,11 @@ def _disable(document: DocumentSession, payload: Payload) -> EditResult:
     ]
     decisions = [decision for decision in located if decision is not None]
     if not states and not decisions:
-        return EditResult(error=messages.SELECT_TO_DISABLE)
+        return EditResult(error=texts.SELECT_TO_DISABLE)
     are_disabled = [*(state.disabled for state in states), *(decision.decision.disabled for decision in decisions)]
     disabled = not all(are_disabled)
     names, paths = [state.name for state in states], [decision.path for decision in decisions]
-    label = messages.set_disabled(names, len(paths), disabled=disabled)
+    label = texts.set_disabled(names, len(paths), disabled=disabled)
     document.edit(label, lambda design: set_disabled(design, names, paths, disabled=disabled))
     return EditResult()
 
@@ -242,11 +242,11 @@ def _names(items: Iterable[Payload], of: str, identity: str) -> bool:
 def _link(document: DocumentSession, payload: Payload) -> EditResult:
     state, alias = _require_state(document, str(payload["state"])), str(payload["component"])
     if document.design.use(alias) is None:
-        return EditResult(error=messages.unused_alias(alias))
+        return EditResult(error=texts.unused_alias(alias))
     if payload["kind_of_link"] == "requires":
-        document.edit(messages.add_link(state, "requires", alias), lambda design: add_requirement(design, state, alias))
+        document.edit(texts.add_link(state, "requires", alias), lambda design: add_requirement(design, state, alias))
     else:
-        document.edit(messages.add_link(state, "modulates", alias), lambda design: add_modulation(design, state, alias))
+        document.edit(texts.add_link(state, "modulates", alias), lambda design: add_modulation(design, state, alias))
     return EditResult()
 
 
@@ -254,16 +254,16 @@ def _reorder(document: DocumentSession, payload: Payload) -> EditResult:
     """Move a transition up or down by one in the order of priority, or to the position of another."""
     path = parse_transition_key(str(payload["id"]))
     if find_decision(document.design, path) is None:
-        return EditResult(error=messages.TRANSITION_GONE)
+        return EditResult(error=texts.TRANSITION_GONE)
     index = int(path[-1]) + (1 if payload.get("by", 0) > 0 else -1)
     if payload.get("onto") is not None:
         onto = parse_transition_key(str(payload["onto"]))
         if onto[:-1] != path[:-1]:
-            return EditResult(error=messages.TREE_ORDER)
+            return EditResult(error=texts.TREE_ORDER)
         index = int(onto[-1])
     last = max(int(located.path[-1]) for located in iter_decisions(document.design) if located.path[:-1] == path[:-1])
     index = max(0, min(index, last))
-    document.edit(messages.REORDER_TRANSITIONS, lambda design: reorder_decision(design, path, index))
+    document.edit(texts.REORDER_TRANSITIONS, lambda design: reorder_decision(design, path, index))
     return EditResult(new_selection=(ItemRef(kind="transitions", id=transition_key((*path[:-1], index))),))
 
 
@@ -272,7 +272,7 @@ def _label(document: DocumentSession, payload: Payload) -> EditResult:
     key = str(payload["id"])
     located = find_decision(document.design, parse_transition_key(key))
     if located is None or not isinstance(located.decision, Transition):
-        return EditResult(error=messages.TRANSITION_GONE)
+        return EditResult(error=texts.TRANSITION_GONE)
     label_at: Point | None = None
     if payload["at"] is not None:
         fraction, offset = (float(value) for value in payload["at"])
@@ -282,7 +282,7 @@ def _label(document: DocumentSession, payload: Payload) -> EditResult:
         label_at = (round(fraction, 3), round(offset))
     moved = replace(located.decision, label_at=label_at)
     document.edit(
-        messages.MOVE_LABEL,
+        texts.MOVE_LABEL,
         lambda design: replace_decision(design, located.path, moved),
         coalesce_key=f"label {key}" if payload.get("by") == "nudge" else "",
     )
@@ -293,12 +293,12 @@ def _mark(document: DocumentSession, payload: Payload) -> EditResult:
     """Make a state the initial one, or toggle whether it is final."""
     name = _require_state(document, str(payload["id"]))
     if payload["mark"] == "initial":
-        document.edit(messages.set_initial(name), lambda design: replace(design, initial=name))
+        document.edit(texts.set_initial(name), lambda design: replace(design, initial=name))
     else:
         state = document.design.state(name)
         final = state is not None and not state.final
         document.edit(
-            messages.set_final(name, final=final),
+            texts.set_final(name, final=final),
             lambda design: update_state(design, name, lambda old: replace(old, final=final)),
         )
     return EditResult()

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Protocol
 
-from vicode.editor.session import messages
+from vicode.editor.session import texts
 from vicode.findings import DesignPath
 from vicode.model.design import Design
 from vicode.model.merge import merge_designs
@@ -75,7 +75,7 @@ class UndoHistory:
     @staticmethod
     def begin(design: Design, at_s: float = 0.0) -> "UndoHistory":
         """A history that contains only the opened design."""
-        return UndoHistory(entries={0: HistoryEntry(label=messages.OPEN, design=design, at_s=at_s)})
+        return UndoHistory(entries={0: HistoryEntry(label=texts.OPEN, design=design, at_s=at_s)})
 
     @property
     def current(self) -> HistoryEntry:
@@ -120,7 +120,7 @@ class UndoHistory:
             return UndoConflict(
                 entry=entry, blocking_entry=self._first_conflicting(entry, parent), path=merged.conflicts[0].path
             )
-        label = messages.undo_label(entry.label)
+        label = texts.undo_label(entry.label)
         reverted = HistoryEntry(user_id=user_id, label=label, at_s=at_s, undone_id=entry.id, design=merged.design)
         return replace(self._appended(reverted), redo_stacks=redo_stacks)
 
@@ -137,7 +137,7 @@ class UndoHistory:
         merged = merge_designs(parent.design, self.current.design, entry.design)
         if merged.conflicts:
             return UndoConflict(entry=entry, blocking_entry=self.current, path=merged.conflicts[0].path)
-        label = messages.redo_label(entry.label)
+        label = texts.redo_label(entry.label)
         redone = HistoryEntry(user_id=user_id, label=label, at_s=at_s, design=merged.design)
         return replace(self._appended(redone), redo_stacks=redo_stacks)
 

@@ -2,7 +2,7 @@
 
 import math
 
-from vicode.editor.session import messages
+from vicode.editor.session import texts
 
 _MAX_COUNT_LENGTH = 6
 
@@ -13,8 +13,8 @@ def validate_frequency(text: str) -> str:
     try:
         value = float(text)
     except ValueError:
-        return messages.invalid_frequency(text)
-    return "" if math.isfinite(value) and value > 0 else messages.FREQUENCY_TOO_LOW
+        return texts.invalid_frequency(text)
+    return "" if math.isfinite(value) and value > 0 else texts.FREQUENCY_TOO_LOW
 
 
 def parse_frequency(text: str) -> float | None:
@@ -36,10 +36,10 @@ def validate_range(text: str) -> str:
     try:
         values = [float(part) for part in parts]
     except ValueError:
-        return messages.INVALID_RANGE
+        return texts.INVALID_RANGE
     if len(values) != 2 or not all(math.isfinite(value) for value in values):
-        return messages.INVALID_RANGE
-    return "" if values[0] <= values[1] else messages.RANGE_REVERSED
+        return texts.INVALID_RANGE
+    return "" if values[0] <= values[1] else texts.RANGE_REVERSED
 
 
 def parse_range(text: str) -> tuple[float, float] | None:
@@ -57,7 +57,7 @@ def format_range(value: tuple[float, float] | None) -> str:
 def validate_count(text: str) -> str:
     number = text.strip()
     is_count = number.isascii() and number.isdecimal() and len(number) <= _MAX_COUNT_LENGTH
-    return "" if is_count or not number else messages.INVALID_COUNT
+    return "" if is_count or not number else texts.INVALID_COUNT
 
 
 def parse_count(text: str) -> int | None:

@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from vicode.editor.session import messages
+from vicode.editor.session import texts
 from vicode.editor.session.descriptions import error_reason
 from vicode.editor.session.document import DocumentSession
 from vicode.editor.session.presence import DISK_USER
@@ -53,7 +53,7 @@ class ProjectEdit:
 
     @property
     def label(self) -> str:
-        return messages.edit_project_file(self.summary)
+        return texts.edit_project_file(self.summary)
 
     def undo(self, _user_id: str) -> str:
         return self._merge_and_write(self.new, self.old or "")
@@ -67,10 +67,10 @@ class ProjectEdit:
             now = file.read_bytes().decode("utf-8") if file else ""
             text = merge_lines(base, now, wanted)
             if text is None or (text and read_project_file(text, "project.yaml").project is None):
-                return messages.not_done(messages.PROJECT_LINES_CHANGED)
+                return texts.not_done(texts.PROJECT_LINES_CHANGED)
             _write_or_remove(self.workspace, file, None if self.old is None and not text else text)
         except (OSError, ValueError) as error:
-            return messages.not_done(error_reason(error))
+            return texts.not_done(error_reason(error))
         return ""
 
 
@@ -96,17 +96,17 @@ def edit_project_file(
     """
     file = find_project_file(workspace.folder)
     if file is not None and is_read_only(file):
-        return ProjectEditResult(error=messages.read_only([file.name]))
+        return ProjectEditResult(error=texts.read_only([file.name]))
     known = workspace.project
     content = file.read_bytes() if file else b""
     read = read_project_file(content, file.name) if file else None
     project = known if read is None else read.project
     if project is None:
-        return ProjectEditResult(error=messages.project_file_unreadable(_first_error(read)))
+        return ProjectEditResult(error=texts.project_file_unreadable(_first_error(read)))
     old = content.decode("utf-8") if file else None
     project = replace(project, designs=known.designs)
     if node is not None and node.names(project) != node.names(known):
-        return ProjectEditResult(error=messages.changed_on_disk("project.yaml"))
+        return ProjectEditResult(error=texts.changed_on_disk("project.yaml"))
     changed = change(project)
     error = "" if allow_errors else describe_new_errors(project, changed, ())
     if error:
@@ -114,7 +114,7 @@ def edit_project_file(
     try:
         new = save_project_file(changed, old or "")
     except ValueError as reason:
-        return ProjectEditResult(error=messages.not_representable(reason))
+        return ProjectEditResult(error=texts.not_representable(reason))
     if new == old:
         return ProjectEditResult()
     _write_or_remove(workspace, file, new)

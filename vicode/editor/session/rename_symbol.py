@@ -7,7 +7,7 @@ from difflib import SequenceMatcher
 from pathlib import Path
 
 from vicode.check import check_project
-from vicode.editor.session import messages
+from vicode.editor.session import texts
 from vicode.editor.session.descriptions import describe_path, error_reason
 from vicode.editor.session.document import DocumentSession, FileTransaction
 from vicode.editor.session.rename_component import FileChange, validate_writable
@@ -55,8 +55,8 @@ def validate_identifier(name: str) -> str:
     """An error message if a text is not a valid name, else an empty string."""
     wanted = name.strip()
     if not wanted:
-        return messages.NAME_MISSING
-    return "" if is_valid_name(wanted) else messages.invalid_identifier(wanted)
+        return texts.NAME_MISSING
+    return "" if is_valid_name(wanted) else texts.invalid_identifier(wanted)
 
 
 def plan_symbol_rename(workspace: Workspace, symbol: SymbolRef, new: str) -> SymbolRenamePlan:
@@ -78,7 +78,7 @@ def plan_symbol_rename(workspace: Workspace, symbol: SymbolRef, new: str) -> Sym
     file = find_project_file(workspace.folder) if is_shared else None
     error = error or validate_writable(workspace, touched) or _validate_project_file(project, file)
     if error or (is_shared and file is None):
-        return SymbolRenamePlan(symbol=symbol, new=new, error=error or messages.PROJECT_FILE_MISSING)
+        return SymbolRenamePlan(symbol=symbol, new=new, error=error or texts.PROJECT_FILE_MISSING)
     changes = [_design_change(workspace, design) for design in renamed.designs if design.component in touched]
     if file is not None:
         changes.append(_project_change(file, renamed))
@@ -98,7 +98,7 @@ def apply_symbol_rename(workspace: Workspace, plan: SymbolRenamePlan, user_id: s
     """
     current = plan_symbol_rename(workspace, plan.symbol, plan.new)
     if current != plan:
-        return current.error or messages.PLAN_OUTDATED
+        return current.error or texts.PLAN_OUTDATED
     edit = RenameEdit(workspace=workspace, symbol=plan.symbol, new=plan.new)
     transaction = FileTransaction(files=_files_of(plan), label=edit.label, user_id=user_id, compound=edit)
     _write_all(workspace, plan, transaction)
@@ -115,16 +115,16 @@ class RenameEdit:
 
     @property
     def label(self) -> str:
-        return messages.rename(self.symbol.name, self.new)
+        return texts.rename(self.symbol.name, self.new)
 
     def undo(self, user_id: str) -> str:
         plan = plan_symbol_rename(self.workspace, replace(self.symbol, name=self.new), self.symbol.name)
-        files, label = _files_of(plan), messages.undo_label(self.label)
+        files, label = _files_of(plan), texts.undo_label(self.label)
         return self._apply(plan, FileTransaction(files=files, label=label, user_id=user_id, undone_edit=self))
 
     def redo(self, user_id: str) -> str:
         plan = plan_symbol_rename(self.workspace, self.symbol, self.new)
-        files, label = _files_of(plan), messages.redo_label(self.label)
+        files, label = _files_of(plan), texts.redo_label(self.label)
         return self._apply(plan, FileTransaction(files=files, label=label, user_id=user_id, compound=self))
 
     def _apply(self, plan: SymbolRenamePlan, transaction: FileTransaction) -> str:
@@ -138,7 +138,7 @@ class RenameEdit:
         try:
             _write_all(self.workspace, plan, transaction)
         except (OSError, ValueError) as error:
-            return messages.not_done(error_reason(error))
+            return texts.not_done(error_reason(error))
         return ""
 
 
@@ -160,7 +160,7 @@ def _write_all(workspace: Workspace, plan: SymbolRenamePlan, transaction: FileTr
     finally:
         workspace.sync_from_disk(transaction)
     user = workspace.users.name_of(transaction.user_id) if transaction.user_id else "Someone"
-    notice = messages.user_renamed(user, describe_symbol(plan.symbol), plan.new, len(transaction.files))
+    notice = texts.user_renamed(user, describe_symbol(plan.symbol), plan.new, len(transaction.files))
     for document in workspace.documents:
         session = DocumentSession(document.shared, transaction.user_id)
         if document.file in transaction.files:
@@ -178,11 +178,11 @@ def _validate_name(project: Project, symbol: SymbolRef, new: str) -> str:
     if invalid:
         return invalid
     if not is_declared(project, symbol):
-        return messages.symbol_gone(describe_symbol(symbol))
+        return texts.symbol_gone(describe_symbol(symbol))
     if new in sibling_names(project, symbol):
-        return messages.name_exists(_kind(symbol), new)
+        return texts.name_exists(_kind(symbol), new)
     if symbol.section == "components" and project.interface(new) is not None:
-        return messages.name_exists("component", new)
+        return texts.name_exists("component", new)
     return ""
 
 
@@ -196,9 +196,9 @@ def _validate_code(project: Project, symbol: SymbolRef, new: str) -> str:
         ("python", has_reference_in_python, "self."),
         ("cpp", has_reference_in_cpp, "this->"),
     ):
-        texts = ((located.code.in_language(language) or "", located.role) for located in iter_code(design))
-        if any(has_reference(text, role, reference) for text, role in texts):
-            return messages.name_used_in_code(symbol.component, f"{prefix}{new}")
+        code = ((located.code.in_language(language) or "", located.role) for located in iter_code(design))
+        if any(has_reference(text, role, reference) for text, role in code):
+            return texts.name_used_in_code(symbol.component, f"{prefix}{new}")
     return ""
 
 
@@ -225,10 +225,10 @@ def _validate_project_file(project: Project, file: Path | None) -> str:
     if file is None:
         return ""
     if is_read_only(file):
-        return messages.read_only([file.name])
+        return texts.read_only([file.name])
     read = read_project_file(_read(file), str(file)).project
     if read is None or any(getattr(read, section) != getattr(project, section) for section in _PROJECT_SECTIONS):
-        return messages.changed_or_unreadable(file.name)
+        return texts.changed_or_unreadable(file.name)
     return ""
 
 
@@ -237,7 +237,7 @@ def _design_change(workspace: Workspace, design: Design) -> FileChange:
     text = _read(file)
     new = save_design(design, text)
     return FileChange(
-        file=file, old=text, new=new, summary=messages.line_summary(design.component, _changed_lines(text, new))
+        file=file, old=text, new=new, summary=texts.line_summary(design.component, _changed_lines(text, new))
     )
 
 
@@ -253,7 +253,7 @@ def _project_change(file: Path, renamed: Project) -> FileChange:
         agents=renamed.agents,
     )
     new = save_project_file(changed, text)
-    return FileChange(file=file, old=text, new=new, summary=messages.line_summary(file.name, _changed_lines(text, new)))
+    return FileChange(file=file, old=text, new=new, summary=texts.line_summary(file.name, _changed_lines(text, new)))
 
 
 def _changed_lines(old: str, new: str) -> int:
@@ -286,8 +286,8 @@ def _manual_step(project: Project, symbol: SymbolRef) -> str:
     if interface is None or ":" not in interface.implementation:
         return ""
     if symbol.section == "components":
-        return messages.class_keeps_name(interface.implementation)
-    return messages.rename_in_class(interface.implementation)
+        return texts.class_keeps_name(interface.implementation)
+    return texts.rename_in_class(interface.implementation)
 
 
 def _read(file: Path) -> str:

@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import replace
 from typing import Any
 
-from vicode.editor.session import messages
+from vicode.editor.session import texts
 from vicode.editor.session.document import DocumentSession
 from vicode.editor.session.gestures import EditResult, apply_gesture
 from vicode.editor.view import ItemRef, make_table, parse_row_id, parse_transition_key, transition_key
@@ -56,7 +56,7 @@ def apply_table_edit(document: DocumentSession, payload: Payload) -> EditResult:
         return EditResult(error=str(error))
     except (KeyError, TypeError, ValueError, AttributeError):
         # Only a malformed payload raises these: from an outdated page or another script.
-        return EditResult(error=messages.INVALID_REQUEST)
+        return EditResult(error=texts.INVALID_REQUEST)
 
 
 def _set(document: DocumentSession, payload: Payload) -> EditResult:
@@ -64,15 +64,15 @@ def _set(document: DocumentSession, payload: Payload) -> EditResult:
     item = parse_row_id(str(payload["row"]))
     now = _cell(document, item, column)
     if column not in _TEXTS or len(value) > MAX_CELL_LENGTH:
-        raise TableEditError(messages.CELL_TOO_LONG if column in _TEXTS else messages.CELL_READ_ONLY)
+        raise TableEditError(texts.CELL_TOO_LONG if column in _TEXTS else texts.CELL_READ_ONLY)
     if value == now:
         return EditResult()
     if now != base:
-        raise TableEditError(messages.cell_changed(now))
+        raise TableEditError(texts.cell_changed(now))
     if item.kind == "states":
         return _set_in_state(document, item.id, column, value)
     if item.kind == "common":
-        raise TableEditError(messages.CELL_IN_INSPECTOR)
+        raise TableEditError(texts.CELL_IN_INSPECTOR)
     return _set_in_decision(document, item.id, column, value)
 
 
@@ -85,9 +85,9 @@ def _cell(document: DocumentSession, item: ItemRef, column: str) -> str:
     rows = make_table(document.design, ())["rows"]
     cells = next((row["cells"] for row in rows if parse_row_id(row["id"]) == item), None)
     if cells is None:
-        raise TableEditError(messages.ROW_GONE)
+        raise TableEditError(texts.ROW_GONE)
     if column not in cells:
-        raise TableEditError(messages.CELL_READ_ONLY)
+        raise TableEditError(texts.CELL_READ_ONLY)
     return str(cells[column])
 
 
@@ -96,7 +96,7 @@ def _set_in_state(document: DocumentSession, name: str, column: str, value: str)
         return apply_gesture(document, {"kind": "rename", "of": "states", "id": name, "name": value})
     if column == "doc":
         document.edit(
-            messages.edit_cell(column),
+            texts.edit_cell(column),
             lambda design: update_state(design, name, lambda state: replace(state, doc=value)),
         )
         return EditResult()
@@ -108,7 +108,7 @@ def _set_in_state(document: DocumentSession, name: str, column: str, value: str)
         known = {call.alias: call for call in state.modulates}
         return replace(state, modulates=tuple(known.get(alias, Call(alias=alias)) for alias in aliases))
 
-    document.edit(messages.edit_cell(column), lambda design: update_state(design, name, change))
+    document.edit(texts.edit_cell(column), lambda design: update_state(design, name, change))
     return EditResult()
 
 
@@ -121,7 +121,7 @@ def _aliases(design: Design, text: str) -> tuple[str, ...]:
     aliases = tuple(dict.fromkeys(text.replace(",", " ").split()))
     for alias in aliases:
         if design.use(alias) is None:
-            raise TableEditError(messages.unknown_alias(alias, [use.alias for use in design.uses]))
+            raise TableEditError(texts.unknown_alias(alias, [use.alias for use in design.uses]))
     return aliases
 
 
@@ -132,9 +132,9 @@ def _set_in_decision(document: DocumentSession, key: str, column: str, value: st
     changed: Decision
     if column == "name":
         if not isinstance(decision, Transition):
-            raise TableEditError(messages.NO_TARGET)
+            raise TableEditError(texts.NO_TARGET)
         if document.design.state(value) is None:
-            raise TableEditError(messages.unknown_state(value))
+            raise TableEditError(texts.unknown_state(value))
         changed = replace(decision, to=value)
     elif column == "doc":
         changed = replace(decision, doc=value)
@@ -142,7 +142,7 @@ def _set_in_decision(document: DocumentSession, key: str, column: str, value: st
         text = value.strip()
         guard = decision.guard
         changed = replace(decision, guard=replace(guard, when=text) if column == "when" else replace(guard, after=text))
-    document.edit(messages.edit_cell(column), lambda design: replace_decision(design, path, changed))
+    document.edit(texts.edit_cell(column), lambda design: replace_decision(design, path, changed))
     return EditResult()
 
 
@@ -152,11 +152,11 @@ def _toggle(document: DocumentSession, payload: Payload) -> EditResult:
     if column == "disabled":
         _toggle_disabled(document, item)
     elif column == "final":
-        document.edit(messages.edit_cell(column), lambda design: update_state(design, item.id, _flip_final))
+        document.edit(texts.edit_cell(column), lambda design: update_state(design, item.id, _flip_final))
     elif column == "initial":
         if document.design.initial == item.id:
-            raise TableEditError(messages.INITIAL_REQUIRED)
-        document.edit(messages.edit_cell(column), lambda design: replace(design, initial=item.id))
+            raise TableEditError(texts.INITIAL_REQUIRED)
+        document.edit(texts.edit_cell(column), lambda design: replace(design, initial=item.id))
     return EditResult()
 
 
@@ -164,7 +164,7 @@ def _toggle_disabled(document: DocumentSession, item: ItemRef) -> None:
     states = [item.id] if item.kind == "states" else []
     paths = [parse_transition_key(item.id)] if item.kind == "transitions" else []
     flag = _cell(document, item, "disabled") == "False"
-    label = messages.set_disabled(states, len(paths), disabled=flag)
+    label = texts.set_disabled(states, len(paths), disabled=flag)
     document.edit(label, lambda design: set_disabled(design, states, paths, disabled=flag))
 
 
@@ -178,9 +178,7 @@ def _add_state(document: DocumentSession, payload: Payload) -> EditResult:
     above = _source_of_row(str(payload.get("row") or ""))
     names = [state.name for state in document.design.states]
     index = names.index(above) + 1 if above in names else len(names)
-    document.edit(
-        messages.add_state(name), lambda design: reorder_state(add_state(design, State(name=name)), name, index)
-    )
+    document.edit(texts.add_state(name), lambda design: reorder_state(add_state(design, State(name=name)), name, index))
     return EditResult(new_selection=(ItemRef(kind="states", id=name),), state_to_rename=name)
 
 
@@ -189,10 +187,10 @@ def _add_transition(document: DocumentSession, payload: Payload) -> EditResult:
     row = str(payload["row"])
     source, design = _source_of_row(row), document.design
     if source != COMMON and design.state(source) is None:
-        raise TableEditError(messages.ROW_GONE)
+        raise TableEditError(texts.ROW_GONE)
     target = next((state.name for state in design.states if state.name != source), source)
     if target == COMMON:
-        raise TableEditError(messages.NO_STATE_TO_CONNECT)
+        raise TableEditError(texts.NO_STATE_TO_CONNECT)
     item = parse_row_id(row)
     where = decisions_path(design, source)
     path = parse_transition_key(item.id) if item.kind == "transitions" else None
@@ -203,7 +201,7 @@ def _add_transition(document: DocumentSession, payload: Payload) -> EditResult:
     def change(old: Design) -> Design:
         return reorder_decision(add_transition(old, source, target), (*where, last), index)
 
-    document.edit(messages.connect(source, target), change)
+    document.edit(texts.connect(source, target), change)
     return EditResult(new_selection=(ItemRef(kind="transitions", id=transition_key((*where, index))),))
 
 
@@ -215,13 +213,11 @@ def _count(design: Design, source: str) -> int:
 def _remove(document: DocumentSession, payload: Payload) -> EditResult:
     item = parse_row_id(str(payload["row"]))
     if item.kind == "states" and document.design.state(item.id):
-        document.edit(messages.remove(item.id), lambda design: remove_states(design, [item.id]))
+        document.edit(texts.remove(item.id), lambda design: remove_states(design, [item.id]))
     elif item.kind == "transitions" and document.has_decision(item.id):
-        document.edit(
-            messages.REMOVE_TRANSITION, lambda design: remove_decisions(design, [parse_transition_key(item.id)])
-        )
+        document.edit(texts.REMOVE_TRANSITION, lambda design: remove_decisions(design, [parse_transition_key(item.id)]))
     else:
-        raise TableEditError(messages.ROW_NOT_REMOVABLE)
+        raise TableEditError(texts.ROW_NOT_REMOVABLE)
     return EditResult()
 
 
@@ -231,16 +227,16 @@ def _move(document: DocumentSession, payload: Payload) -> EditResult:
     design = document.design
     if item.kind == "states" and design.state(item.id):
         index = [state.name for state in design.states].index(item.id) + by
-        document.edit(messages.REORDER_STATES, lambda old: reorder_state(old, item.id, index))
+        document.edit(texts.REORDER_STATES, lambda old: reorder_state(old, item.id, index))
         return EditResult(new_selection=(item,))
     located = find_decision(design, parse_transition_key(item.id)) if item.kind == "transitions" else None
     if located is None:
-        raise TableEditError(messages.ROW_NOT_MOVABLE)
+        raise TableEditError(texts.ROW_NOT_MOVABLE)
     path: DesignPath = located.path
     moved = (*path[:-1], int(path[-1]) + by)
     if find_decision(design, moved) is None:
         return EditResult()
-    document.edit(messages.REORDER_TRANSITIONS, lambda old: reorder_decision(old, path, int(moved[-1])))
+    document.edit(texts.REORDER_TRANSITIONS, lambda old: reorder_decision(old, path, int(moved[-1])))
     return EditResult(new_selection=(ItemRef(kind="transitions", id=transition_key(moved)),))
 
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from vicode.check import check_design, check_project
-from vicode.editor.session import code_generation, messages
+from vicode.editor.session import code_generation, texts
 from vicode.editor.session.code_generation import GenerationInput, GenerationResult, PendingOutput
 from vicode.editor.session.document import DiskVersion, DocumentSession, FileTransaction, SharedDocument
 from vicode.editor.session.presence import DISK_USER, UserDirectory
@@ -190,14 +190,14 @@ class Workspace:
             self._write(document, None, document.shared.disk_text)
             return
         merged = merge_designs(document.shared.saved, document.design, disk.design, theirs_at=theirs_at)
-        document.adopt_disk_version(disk, messages.RESOLVE_CONFLICT, merged.design)
+        document.adopt_disk_version(disk, texts.RESOLVE_CONFLICT, merged.design)
 
     def reload(self, document: DocumentSession) -> str:
         """Replace a design by the version on disk; returns an error message or an empty string."""
         disk = _disk_version(document, _read(document.file))
         if disk.design is None:
-            return messages.design_gone(document.file.name, document.design.component)
-        document.adopt_disk_version(disk, messages.RELOAD)
+            return texts.design_gone(document.file.name, document.design.component)
+        document.adopt_disk_version(disk, texts.RELOAD)
         return ""
 
     def can_create(self, component: str) -> bool:
@@ -277,7 +277,7 @@ class Workspace:
             write_text(document.file, new)
         findings = read_design(new, document.file.name).findings
         written = DiskVersion(text=new, design=document.design, parse_findings=findings)
-        document.adopt_disk_version(written, messages.SAVE)
+        document.adopt_disk_version(written, texts.SAVE)
 
     def _file_for(self, component: str) -> Path:
         return self.folder / f"{snake_case(component)}.yaml"
@@ -324,14 +324,14 @@ class Workspace:
             shared.mark_saved(disk)
             session.apply_transaction(transaction, disk.design)
         elif session.is_saved:
-            session.adopt_disk_version(disk, messages.RELOAD)
+            session.adopt_disk_version(disk, texts.RELOAD)
         else:
             merged = merge_designs(shared.saved, session.design, disk.design)
             if merged.conflicts:
                 shared.disk_conflict = disk
                 shared.notify_listeners(session)
             else:
-                session.adopt_disk_version(disk, messages.MERGE, merged.design)
+                session.adopt_disk_version(disk, texts.MERGE, merged.design)
 
     def _check(self, design: Design) -> tuple[Finding, ...]:
         designs = (design if other.component == design.component else other for other in self.project.designs)
