@@ -222,9 +222,9 @@ def test_typing_in_a_field_is_one_entry(document: DocumentSession) -> None:
     assert len(document.history.path) == 3
 
 
-def test_listeners_are_called_until_they_unsubscribe(document: DocumentSession) -> None:
+def test_subscribers_are_called_until_they_unsubscribe(document: DocumentSession) -> None:
     revs: list[int] = []
-    unsubscribe = document.subscribe(lambda changed: revs.append(changed.rev))
+    unsubscribe = document.shared.changes.subscribe(lambda changed: revs.append(changed.rev))
     apply_gesture(document, {"kind": "create", "x": 0, "y": 0})
     apply_gesture(document, {"kind": "undo"})
     unsubscribe()

@@ -28,7 +28,7 @@ def test_users_are_guests_until_they_choose_a_name() -> None:
 def test_presences_are_listed_and_changes_are_notified() -> None:
     users, room = UserDirectory(), PresenceRoom()
     counts: list[int] = []
-    unsubscribe = room.subscribe(lambda: counts.append(len(room.presences)))
+    unsubscribe = room.changes.subscribe(lambda: counts.append(len(room.presences)))
     room.join("a", users.get_or_create_user("1", "Ana"))
     room.join("b", users.get_or_create_user("2", "Ben"))
     room.update("b", selected=(ItemRef(kind="states", id="Kick"),))

@@ -216,7 +216,7 @@ def test_a_failed_autosave_is_reported_once(service: AutosaveService, project: P
     assert document is not None
     service.set_autosave(workspace, is_on=True)
     notices: list[str] = []
-    document.subscribe(lambda by: notices.append(by.shared.notice.text))
+    document.shared.changes.subscribe(lambda by: notices.append(by.shared.notice.text))
     document.file.chmod(0o444)
     service.clock = lambda: document.history.current.at_s + 5
     service.save_idle_documents()

@@ -109,7 +109,7 @@ def test_users_of_changed_designs_are_notified(workspace: Workspace, folder: Pat
     document = workspace.open_document("FollowBall")
     assert document is not None
     notices: list[str] = []
-    document.subscribe(lambda _by: notices.append(document.shared.notice.text))
+    document.shared.changes.subscribe(lambda _by: notices.append(document.shared.notice.text))
     user = workspace.users.get_or_create_user("ada", "Ada")
     assert apply_symbol_rename(workspace, plan_symbol_rename(workspace, SPEED, "ahead"), user.id) == ""
     assert notices[-1] == "Ada renamed parameter forward to ahead in 2 files"
@@ -214,7 +214,7 @@ def test_windows_on_unaffected_designs_are_notified(workspace: Workspace) -> Non
     turn = workspace.open_document("Turn")
     assert turn is not None
     notices: list[str] = []
-    turn.shared.listeners.append(lambda by: notices.append(by.user_id))
+    turn.shared.changes.subscribe(lambda by: notices.append(by.user_id))
     symbol = SymbolRef(section="constants", name="net_x")
     assert apply_symbol_rename(workspace, plan_symbol_rename(workspace, symbol, "goal_x"), "someone") == ""
     assert "someone" in notices

@@ -69,7 +69,7 @@ class AutosaveControls:
             self.autosave.set_autosave(workspace, is_on=not workspace.autosave)
         text = texts.autosave_switched(workspace.project.name, is_on=workspace.autosave)
         self.context.show_toast(text, "info")
-        self.context.notify_listeners()
+        self.context.notify_subscribers()
 
     def resolve_conflict(self) -> None:
         """Open the conflict dialog."""

@@ -76,13 +76,13 @@ class DesignPage:
         PresenceSync(context, user, self.view.canvas_controller.canvas, self.header.presence_bar)
         register_shortcuts(commands)
         initial_item = navigator.select_initial(request.select)
-        context.subscribe(self._refresh)
+        context.changes.subscribe(self._refresh)
         self._refresh()
         self.view.canvas_controller.canvas.on_ready = self.side_panels.build
         if initial_item:
             self.view.canvas_controller.scroll_to_initial(initial_item)
         self._scheduled: set[Callable[[], None]] = set()
-        ui.context.client.on_delete(session.subscribe(self._on_change))
+        ui.context.client.on_delete(session.shared.changes.subscribe(self._on_change))
         ui.timer(1.0, self._follow_disk)
 
     def _commands(self, theme: Theme, others: tuple[Command, ...]) -> tuple[Command, ...]:
@@ -141,7 +141,7 @@ class DesignPage:
         if not self.view.canvas_controller.canvas.is_deleted:
             with self.view.canvas_controller.canvas.client:
                 self.side_panels.design_changed()
-                self.context.notify_listeners()
+                self.context.notify_subscribers()
 
     def _refresh(self) -> None:
         for panel in (self.view, self.header, self.side_panels, self.autosave, self.tour):

@@ -56,7 +56,7 @@ class DesignView:
         self._diagram_pane.set_visibility(not table)
         self._table_pane.set_visibility(table)
         self._update_buttons()
-        self.context.notify_listeners()
+        self.context.notify_subscribers()
         if not table:
             ui.run_javascript(_FOCUS_CANVAS)
             return

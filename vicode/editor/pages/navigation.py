@@ -43,7 +43,7 @@ class Navigator:
         here = SearchTarget(project=context.workspace.key, component=context.design.component)
         self.palette = CommandPalette(index, self.go_to, here)
         context.open_component = self.open_component
-        context.subscribe(self._update_address)
+        context.changes.subscribe(self._update_address)
 
     def commands(self) -> tuple[Command, ...]:
         """Return the commands find, back and home."""

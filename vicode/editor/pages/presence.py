@@ -27,8 +27,8 @@ class PresenceSync:
         client.on_connect(self._join)
         client.on_disconnect(lambda: context.presence.leave(context.window))
         client.on_delete(lambda: context.presence.leave(context.window))
-        client.on_delete(context.presence.subscribe(self._on_presence_change))
-        context.subscribe(lambda: context.presence.update(context.window, selected=context.selected))
+        client.on_delete(context.presence.changes.subscribe(self._on_presence_change))
+        context.changes.subscribe(lambda: context.presence.update(context.window, selected=context.selected))
 
     def rename(self, name: str) -> None:
         """Rename the user in all windows, and store the name in the browser."""
@@ -59,7 +59,7 @@ class PresenceSync:
             self.presence_bar.refresh()
             if typing != self.shown_typing:
                 self.shown_typing = typing
-                self.context.notify_listeners()
+                self.context.notify_subscribers()
 
 
 def _other_user(presence: Presence) -> RemoteUser:

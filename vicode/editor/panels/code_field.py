@@ -21,7 +21,6 @@ from vicode.editor.session.completion import (
     complete_expression,
     complete_python,
 )
-from vicode.findings import DesignPath
 from vicode.model.design import Declaration
 
 _SHOWN_MESSAGES = 6
@@ -41,7 +40,6 @@ class CodeFieldSpec:
     find_marks: Callable[[str], Sequence[CodeMark]]
     css_class: str
     is_expression: bool = True
-    lint_path: DesignPath = ()
 
 
 def code_field(context: WindowContext, binding: FieldBinding) -> Field:
@@ -55,7 +53,6 @@ def code_field(context: WindowContext, binding: FieldBinding) -> Field:
         ),
         css_class="code-field",
         is_expression=False,
-        lint_path=lint_path,
     )
     return _build(context, binding, spec)
 
@@ -116,11 +113,15 @@ def _enlarge(small: Field, spec: CodeFieldSpec) -> None:
         with ui.row().classes("dialog-buttons"):
             ui.button("Close", on_click=dialog.close).props("flat no-caps")
 
+    def unsubscribe() -> None:
+        for stop in stops:
+            stop()
+
     def follow() -> None:
         if large.is_path_valid():
             large.refresh()
             return
-        stop()
+        unsubscribe()
         context.show_toast(texts.CODE_OWNER_CHANGED, "warning")
         large.is_closing = True
         # Text typed before belongs to the new path of the code, if it still exists.
@@ -134,10 +135,10 @@ def _enlarge(small: Field, spec: CodeFieldSpec) -> None:
         dialog.close()
 
     def close() -> None:
-        stop()
+        unsubscribe()
         dialog.delete()
 
-    stop = context.subscribe(follow)
+    stops = (context.changes.subscribe(follow), context.linter.changes.subscribe(large.refresh))
     dialog.on("hide", close)
 
 
@@ -159,19 +160,12 @@ class CodeField(Field):
     def __post_init__(self) -> None:
         """Subscribe to changes; the editor reports its focus through its own event."""
         self.element.on_value_change(lambda event: self._on_typed(event.value))
-        if self.spec.lint_path:
-            self.context.linter.subscribe(self)
         self.refresh()
-
-    @property
-    def is_deleted(self) -> bool:
-        """Whether its form was rebuilt."""
-        return self.element.is_deleted
 
     def refresh(self) -> None:
         """Show the value of the design and its findings."""
         super().refresh()
-        if self.is_deleted:
+        if self.element.is_deleted:
             return
         text = str(self.element.value or "")
         marks = tuple(self.spec.find_marks(text))

@@ -1,43 +1,28 @@
 """Runs the linter on the Python code of the open design, in a thread, while code fields are shown."""
 
-from typing import Protocol
-from weakref import WeakSet
-
 from nicegui import background_tasks, run
 
 from vicode.editor.session.document import DocumentSession
 from vicode.editor.session.lint import LintWarning, LintWarnings, lint_design
+from vicode.editor.session.subscribers import Subscribers
 from vicode.editor.session.workspace import Workspace
 from vicode.findings import DesignPath
 from vicode.model.texts import iter_texts
 
 
-class LintSubscriber(Protocol):
-    """A field that shows lint warnings."""
-
-    @property
-    def is_deleted(self) -> bool:
-        """Whether it was removed from the page."""
-
-    def refresh(self) -> None:
-        """Show the current warnings."""
-
-
 class CodeLinter:
-    """The lint warnings of one window, updated when the design has changed."""
+    """The lint warnings of one window, updated when the design has changed.
+
+    Subscribers of `changes` are called after each update.
+    """
 
     def __init__(self, workspace: Workspace, document: DocumentSession) -> None:
-
         self._workspace, self._document = workspace, document
-        self._subscribers: WeakSet[LintSubscriber] = WeakSet()
+        self.changes: Subscribers[[]] = Subscribers()
         self._warnings: LintWarnings = {}
         self._texts: dict[DesignPath, str] = {}
         self._linted_rev = -1
         self._is_busy = False
-
-    def subscribe(self, subscriber: LintSubscriber) -> None:
-        """Refresh a field when there are new warnings, as long as it exists."""
-        self._subscribers.add(subscriber)
 
     def lints_for(self, path: DesignPath, text: str) -> tuple[LintWarning, ...]:
         """Return the warnings for the code at a path, if they belong to this text; start the linter if necessary."""
@@ -61,6 +46,4 @@ class CodeLinter:
                 self._texts = {item.path: item.text for item in iter_texts(design) if item.language == "python"}
         finally:
             self._is_busy = False
-        for subscriber in tuple(self._subscribers):
-            if not subscriber.is_deleted:
-                subscriber.refresh()
+        self.changes.notify()

@@ -66,7 +66,7 @@ class FindingNavigator:
         if self.context.selected != items:
             self.context.select(*items)
         else:
-            self.context.notify_listeners()
+            self.context.notify_subscribers()
 
     def fill_fix_menu(self, menu: ui.menu, finding: Finding) -> None:
         """Fill the menu of a finding with its fixes. Computed when the menu opens, as each is tried on the design."""

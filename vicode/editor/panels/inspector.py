@@ -44,6 +44,7 @@ class Inspector:
         self.rebuild_timer = ui.timer(_REBUILD_DELAY_S, self.refresh, active=False)
         self.previous_forms: deque[tuple[int, list[Field]]] = deque(maxlen=_MAX_PREVIOUS_FORMS)
         """The previous forms with their ids: the browser may still show one of them."""
+        context.linter.changes.subscribe(lambda: None if self.body.is_deleted else self.refresh())
         ui.on("delayed-input", lambda event: self.apply_delayed_input(event.args))
         ui.on("input-transferred", lambda event: self.transfer_input(event.args))
 

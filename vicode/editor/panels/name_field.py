@@ -202,7 +202,7 @@ def apply_rename_plan(context: WindowContext, plan: SymbolRenamePlan) -> bool:
         error_text = texts.operation_failed(error_reason(error))
     if error_text:
         context.show_toast(texts.sentence(error_text), "warning")
-    context.notify_listeners()
+    context.notify_subscribers()
     return not error_text
 
 
@@ -211,5 +211,5 @@ def _undo_rename(context: WindowContext, edit: RenameEdit) -> None:
     if error_text:
         context.show_toast(error_text, "warning")
         return
-    context.notify_listeners()
+    context.notify_subscribers()
     context.show_toast(texts.renamed_back(edit.symbol.name), "positive")

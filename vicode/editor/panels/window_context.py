@@ -10,10 +10,9 @@ from vicode.editor.panels.code_editor import CodeEditorFactory
 from vicode.editor.panels.code_linter import CodeLinter
 from vicode.editor.panels.toasts import show_toast
 from vicode.editor.session import DocumentSession, PresenceRoom, Workspace
+from vicode.editor.session.subscribers import Subscribers
 from vicode.editor.view import ItemRef
 from vicode.model.design import Design
-
-ChangeListener = Callable[[], None]
 
 
 @dataclass(eq=False, kw_only=True)
@@ -39,7 +38,8 @@ class WindowContext:
     """Keys of the open sections of forms."""
     code_editors: CodeEditorFactory = field(default_factory=CodeEditorFactory)
     linter: CodeLinter = field(init=False)
-    _listeners: list[ChangeListener] = field(default_factory=list)
+    changes: Subscribers[[]] = field(default_factory=Subscribers)
+    """Called after each change of design or selection."""
 
     def __post_init__(self) -> None:
         self.linter = CodeLinter(self.workspace, self.document)
@@ -72,23 +72,12 @@ class WindowContext:
         """Replace the selection."""
         if self.selected != things:
             self.selected = things
-            self.notify_listeners()
+            self.notify_subscribers()
 
-    def subscribe(self, listener: ChangeListener) -> Callable[[], None]:
-        """Call `listener` after each change of design or selection; return a function that unsubscribes it."""
-        self._listeners.append(listener)
-
-        def stop() -> None:
-            if listener in self._listeners:
-                self._listeners.remove(listener)
-
-        return stop
-
-    def notify_listeners(self) -> None:
-        """Call all listeners."""
+    def notify_subscribers(self) -> None:
+        """Call all subscribers in the client of this window."""
         with self.client:
-            for listener in tuple(self._listeners):
-                listener()
+            self.changes.notify()
 
     def run_in_background(self, work: Coroutine[Any, Any, object], name: str) -> None:
         """Run a coroutine as a task of this window; the page reports its exceptions."""

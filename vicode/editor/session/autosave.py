@@ -123,4 +123,4 @@ def _notify_once(document: DocumentSession, text: str) -> None:
     shared = document.shared
     if shared.notice.text != text:
         shared.notice = ChangeNotice(text, DISK_USER, shared.rev)
-        shared.notify_listeners(DocumentSession(shared, DISK_USER))
+        shared.changes.notify(DocumentSession(shared, DISK_USER))

@@ -11,6 +11,7 @@ from vicode.editor.session import texts
 from vicode.editor.session.descriptions import describe_path
 from vicode.editor.session.history import CompoundEdit, HistoryEntry, UndoConflict, UndoHistory
 from vicode.editor.session.presence import DISK_USER, PresenceRoom, UserDirectory
+from vicode.editor.session.subscribers import Subscribers
 from vicode.editor.view import Scene, diff_scenes, make_scene, parse_transition_key
 from vicode.findings import Finding
 from vicode.model.design import Design
@@ -18,7 +19,6 @@ from vicode.model.merge import Conflict, merge_designs
 from vicode.model.project import Project
 from vicode.model.traversal import find_decision
 
-DocumentListener = Callable[["DocumentSession"], None]
 DesignChecker = Callable[[Design], tuple[Finding, ...]]
 _MAX_RECENT_DESIGNS = 60
 
@@ -74,7 +74,8 @@ class SharedDocument:
     rev: int = field(init=False, default=0)
     disk_conflict: DiskVersion | None = field(init=False, default=None)
     notice: ChangeNotice = field(init=False, default=ChangeNotice())
-    listeners: list[DocumentListener] = field(init=False, default_factory=list)
+    changes: Subscribers[["DocumentSession"]] = field(init=False, default_factory=Subscribers)
+    """Called after every change with the session that made it."""
     _drawn: tuple[Project, tuple[Finding, ...], Scene] | None = field(init=False, default=None)
     _recent_designs: dict[int, Design] = field(init=False, default_factory=dict)
     _differences: deque[tuple[Scene, Scene, dict[str, Any]]] = field(
@@ -86,7 +87,7 @@ class SharedDocument:
         self.findings = self._find()
 
     def set_history(self, history: UndoHistory, origin: "DocumentSession") -> None:
-        """Replace the history and notify the listeners."""
+        """Replace the history and notify the subscribers."""
         if history is self.history:
             return
         self._recent_designs[self.rev] = self.history.current.design
@@ -94,7 +95,7 @@ class SharedDocument:
         self.history = history
         self.rev += 1
         self.findings = self._find()
-        self.notify_listeners(origin)
+        self.changes.notify(origin)
 
     def scene(self, project: Project) -> Scene:
         """The scene of the canvas, cached for all windows."""
@@ -136,12 +137,7 @@ class SharedDocument:
         findings = self._find()
         if findings != self.findings:
             self.findings = findings
-            self.notify_listeners(DocumentSession(self, DISK_USER))
-
-    def notify_listeners(self, origin: "DocumentSession") -> None:
-        """Call all listeners with the session that made the change."""
-        for listener in tuple(self.listeners):
-            listener(origin)
+            self.changes.notify(DocumentSession(self, DISK_USER))
 
     def _find(self) -> tuple[Finding, ...]:
         return tuple(dict.fromkeys((*self.parse_findings, *self.check(self.history.current.design))))
@@ -314,12 +310,6 @@ class DocumentSession:
         """Announce a change of the whole design to the other users."""
         self.shared.notice = ChangeNotice(text, self.user_id, self.shared.rev)
 
-    def subscribe(self, listener: DocumentListener) -> Callable[[], None]:
-        """Call `listener` after every change with the session that made it; returns a function that unsubscribes."""
-        listeners = self.shared.listeners
-        listeners.append(listener)
-        return lambda: listeners.remove(listener) if listener in listeners else None
-
     def _new_entry(self, label: str, design: Design, coalesce_key: str = "") -> HistoryEntry:
         return HistoryEntry(
             user_id=self.user_id, label=label, at_s=self.shared.clock(), coalesce_key=coalesce_key, design=design
@@ -329,9 +319,9 @@ class DocumentSession:
         self.shared.set_history(self.history.append(entry), self)
 
     def _set_history_or_notify(self, history: UndoHistory) -> None:
-        """Listeners also show whether the design is saved, which changes without a new entry."""
+        """Subscribers also show whether the design is saved, which changes without a new entry."""
         if history is self.history:
-            self.shared.notify_listeners(self)
+            self.shared.changes.notify(self)
         else:
             self.shared.set_history(history, self)
 

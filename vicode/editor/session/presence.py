@@ -1,9 +1,9 @@
 """Presence: the users of the editor, and what each of their windows selects and edits."""
 
-from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from typing import Any
 
+from vicode.editor.session.subscribers import Subscribers
 from vicode.editor.view import ItemRef
 from vicode.findings import DesignPath
 from vicode.model.design import Point
@@ -66,25 +66,25 @@ class UserDirectory:
 
 @dataclass(eq=False)
 class PresenceRoom:
-    """The open windows of one design; listeners are called after every change."""
+    """The open windows of one design; subscribers of `changes` are called after each."""
 
     _presences: dict[str, Presence] = field(default_factory=dict)
-    _listeners: list[Callable[[], None]] = field(default_factory=list)
+    changes: Subscribers[[]] = field(default_factory=Subscribers)
 
     def join(self, window: str, user: User) -> None:
         self._presences[window] = Presence(window=window, user=user)
-        self._notify()
+        self.changes.notify()
 
     def leave(self, window: str) -> None:
         if self._presences.pop(window, None) is not None:
-            self._notify()
+            self.changes.notify()
 
     def update(self, window: str, **changes: Any) -> None:
         """Change `user`, `selected`, `editing_path` or `pointer` of a window."""
         before = self._presences.get(window)
         if before is not None and (now := replace(before, **changes)) != before:
             self._presences[window] = now
-            self._notify()
+            self.changes.notify()
 
     @property
     def presences(self) -> tuple[Presence, ...]:
@@ -99,15 +99,6 @@ class PresenceRoom:
         """The names of the users who edit a field in other windows."""
         names = (other.user.name for other in self.others(window) if path and other.editing_path == path)
         return tuple(dict.fromkeys(names))
-
-    def subscribe(self, listener: Callable[[], None]) -> Callable[[], None]:
-        """Call `listener` after every change; returns a function that unsubscribes."""
-        self._listeners.append(listener)
-        return lambda: self._listeners.remove(listener) if listener in self._listeners else None
-
-    def _notify(self) -> None:
-        for listener in tuple(self._listeners):
-            listener()
 
 
 def clean_name(name: str) -> str:

@@ -186,4 +186,4 @@ def _write_or_remove(workspace: Workspace, file: Path | None, text: str | None) 
         file.unlink()
     workspace.sync_from_disk()
     for document in workspace.documents:
-        document.shared.notify_listeners(DocumentSession(document.shared, DISK_USER))
+        document.shared.changes.notify(DocumentSession(document.shared, DISK_USER))

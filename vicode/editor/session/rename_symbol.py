@@ -166,7 +166,7 @@ def _write_all(workspace: Workspace, plan: SymbolRenamePlan, transaction: FileTr
         if document.file in transaction.files:
             session.post_notice(notice)
         # The form of every design shows the declarations of the project.
-        document.shared.notify_listeners(session)
+        document.shared.changes.notify(session)
 
 
 def _kind(symbol: SymbolRef) -> str:

@@ -93,7 +93,7 @@ class Workspace:
                 file=file, disk_text=text, saved=design, check=self._check, parse_findings=findings, users=self.users
             )
             document = DocumentSession(shared)
-            document.subscribe(self._recheck_dependents)
+            document.shared.changes.subscribe(self._recheck_dependents)
             self._documents[component] = document
         return self._documents.get(component)
 
@@ -319,7 +319,7 @@ class Workspace:
         if disk.design is None:
             # The file is missing or incomplete: keep the open design until a user saves it.
             shared.disk_conflict = disk
-            shared.notify_listeners(session)
+            shared.changes.notify(session)
         elif session.is_saved and transaction is not None:
             shared.mark_saved(disk)
             session.apply_transaction(transaction, disk.design)
@@ -329,7 +329,7 @@ class Workspace:
             merged = merge_designs(shared.saved, session.design, disk.design)
             if merged.conflicts:
                 shared.disk_conflict = disk
-                shared.notify_listeners(session)
+                shared.changes.notify(session)
             else:
                 session.adopt_disk_version(disk, texts.MERGE, merged.design)
 

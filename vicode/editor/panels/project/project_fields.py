@@ -267,7 +267,7 @@ def write_project(
         message = texts.project_saved(what, result.broken_designs)
         context.document.record_compound(edit)
         context.offer_undo(message, lambda: _undo(context, edit))
-        context.notify_listeners()
+        context.notify_subscribers()
     return result.error
 
 
@@ -275,4 +275,4 @@ def _undo(context: WindowContext, edit: ProjectEdit) -> None:
     error = context.document.undo_compound(edit)
     if error:
         context.show_toast(error, "warning")
-    context.notify_listeners()
+    context.notify_subscribers()
