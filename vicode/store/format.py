@@ -63,7 +63,7 @@ _XABSL_NAME = KeySchema("xabsl_name", TEXT, "name in XABSL")
 _TITLE = KeySchema("title", TEXT, "short heading")
 _ID = KeySchema("id", NAME, "identifier that does not change with edits; written by the editor")
 _POSITION = KeySchema("at", POSITION, "center on the canvas")
-_FREQUENCY = KeySchema("frequency", FREQUENCY, "frequency in Hz; default: works in each step", field="frequency_hz")
+_FREQUENCY = KeySchema("frequency", FREQUENCY, "frequency in Hz; default: runs on every step", field="frequency_hz")
 
 
 def _declaration(name: str, value_key: str, meaning: str, *more: KeySchema) -> RecordSchema:
