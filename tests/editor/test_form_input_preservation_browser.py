@@ -81,7 +81,7 @@ def kick_hard(other: Page, url: str, name: str = "Shoot") -> Locator:
     doc.fill("Kick hard, with the eyes on the ball.")
     doc.blur()
     other.get_by_role("tab", name="History").click()
-    expect(other.get_by_role("group", name="History").get_by_text(f"edit doc of state {name}")).to_be_visible()
+    expect(other.get_by_role("group", name="History").get_by_text(f"edit description of state {name}")).to_be_visible()
     return doc
 
 

@@ -84,7 +84,7 @@ def test_undo_takes_back_ones_own_work_only(editor: str, page: Page, other: Page
     other.get_by_role("textbox", name="Description").blur()
     expect(page.get_by_role("textbox", name="Description")).to_have_value("changed again")
     page.get_by_role("button", name="Undo").click()
-    expect(page.get_by_text("Ben has since changed doc of state LookForBall")).to_be_visible()
+    expect(page.get_by_text("Ben has since changed description of state LookForBall")).to_be_visible()
     expect(page.get_by_role("textbox", name="Description")).to_have_value("changed again")
 
 

@@ -79,7 +79,7 @@ def test_undo_reports_a_conflict_with_a_later_edit(sessions: tuple[DocumentSessi
     say(ben, "A", "changed")
     before = ana.design
     message = ana.undo()
-    assert message == "Cannot undo “say mine”: Ben has since changed doc of state A (“say changed”)"
+    assert message == "Cannot undo “say mine”: Ben has since changed description of state A (“say changed”)"
     assert ana.design is before
     assert ben.undo() == ""
     assert ana.undo() == ""

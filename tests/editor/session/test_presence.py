@@ -39,7 +39,7 @@ def test_presences_are_listed_and_changes_are_notified() -> None:
     room.update("b", editing_path=("states", "Kick", "doc"))
     assert room.names_editing(("states", "Kick", "doc"), "a") == ("Ben",)
     assert room.names_editing(("states", "Kick", "doc"), "b") == ()
-    assert [describe_presence(other) for other in room.others("a")] == ["edits doc of state Kick"]
+    assert [describe_presence(other) for other in room.others("a")] == ["edits description of state Kick"]
     room.leave("b")
     assert room.others("a") == ()
     unsubscribe()
@@ -49,7 +49,7 @@ def test_presences_are_listed_and_changes_are_notified() -> None:
 
 def test_paths_and_values_are_described() -> None:
     assert describe_path(()) == "the design"
-    assert describe_path(("doc",)) == "doc of the design"
+    assert describe_path(("doc",)) == "description of the design"
     assert describe_path(("variables", "n", "type")) == "type of variable n"
     assert describe_path(("states", "Kick", "transitions", 1, "when")) == "transition 2 of state Kick, when"
     assert describe_path(("common", "transitions", 0)) == "transition 1 of the common section"

@@ -21,12 +21,12 @@ _ITEM_KINDS = {
     "actions": "action",
     "leave": "leave action",
 }
-_ATTRIBUTES = {"at": "position", "to": "target"}
+_ATTRIBUTES = {"at": "position", "doc": "description", "label_at": "label position", "to": "target"}
 _MAX_VALUE_LENGTH = 400
 
 
 def describe_path(path: DesignPath) -> str:
-    """The subject of a path, such as "doc of state Kick" or "transition 2 of state Kick, when"."""
+    """The subject of a path, such as "description of state Kick" or "transition 2 of state Kick, when"."""
     if not path:
         return "the design"
     section, *rest = path

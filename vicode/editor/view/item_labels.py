@@ -8,7 +8,7 @@ from vicode.model.traversal import find_decision
 _PARTS = {
     "when": "guard",
     "after": "time",
-    "doc": "doc",
+    "doc": "description",
     "enter": "enter",
     "leave": "leave",
     "actions": "actions",

@@ -11,7 +11,7 @@ export const COLUMNS = [
   { name: "requires", title: "Requires", kind: "text", mono: true, from: "uses" },
   { name: "modulates", title: "Modulates", kind: "text", mono: true, from: "uses" },
   { name: "code", title: "Code", kind: "marks" },
-  { name: "doc", title: "Doc", kind: "text" },
+  { name: "doc", title: "Description", kind: "text" },
 ];
 
 export const rowName = (row) => `${row.lead} ${row.cells.name ?? ""}`.trim();
