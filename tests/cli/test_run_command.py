@@ -64,7 +64,7 @@ def test_an_interrupt_ends_it_with_a_summary(lamps: Path) -> None:
     out, err = process.communicate(timeout=60)
     assert process.returncode == 130
     assert "stopped: interrupted" in out
-    assert err == "stopping after this iteration; press Ctrl-C again to kill the program\n"
+    assert err == "stopping after this iteration; press Ctrl-C again to stop immediately\n"
 
 
 def test_failing_code_is_told_and_counted(lamps: Path) -> None:

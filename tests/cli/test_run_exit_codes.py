@@ -15,7 +15,7 @@ from vicode.cli.trace_output import PlainTracePrinter, follow_process
 __all__ = ["lamps"]
 
 DEAF = "import signal, time; signal.signal(signal.SIGINT, signal.SIG_IGN); print('up', flush=True); time.sleep(60)"
-AGAIN = "stopping after this iteration; press Ctrl-C again to kill the program\n"
+AGAIN = "stopping after this iteration; press Ctrl-C again to stop immediately\n"
 
 
 class InterruptingPrinter(PlainTracePrinter):
@@ -81,9 +81,9 @@ def test_an_endless_loop_of_the_user_ends_without_a_traceback(endless: Path) -> 
 @pytest.mark.parametrize(
     ("code", "ending"),
     [
-        ("import sys; sys.exit(5)", "by itself with exit code 5"),
-        ("import os; os._exit(0)", "by itself with exit code 0"),
-        ("import os; os._exit(2)", "by itself with exit code 2"),
+        ("import sys; sys.exit(5)", "unexpectedly with exit code 5"),
+        ("import os; os._exit(0)", "unexpectedly with exit code 0"),
+        ("import os; os._exit(2)", "unexpectedly with exit code 2"),
         ("import os; os.kill(os.getpid(), 9)", "by signal SIGKILL"),
     ],
 )

@@ -33,7 +33,9 @@ def test_a_file_without_agents_is_rejected_with_a_suggestion(
     option = "circle/Options/drive_circle.xabsl"
     for command in (["xabsl", "compile", option], ["import", option, "--out", "made"], ["docs", option]):
         assert main(command) == 2
-        assert f"{option} has no agents; name the file that has them: circle/agents.xabsl" in capsys.readouterr().err
+        assert (
+            f"{option} has no agents; specify the file with the agents: circle/agents.xabsl" in capsys.readouterr().err
+        )
     assert main(["check", "circle"]) == 2
     assert "'vicode import circle/agents.xabsl' converts an XABSL behavior" in capsys.readouterr().err
     assert main(["docs", "circle", "--out", "site"]) == 0

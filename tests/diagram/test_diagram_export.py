@@ -249,8 +249,8 @@ def test_text_formats_mention_transitions_to_missing_states(form: ExportFormat, 
     lines = [line.strip() for line in export_design(lost, form).decode().splitlines()]
     said = [line for line in lines if "not drawn" in line]
     assert said == [
-        f"{mark}not drawn: every state to Nowhere, as there is no such state",
-        f"{mark}not drawn: A to Gone end, as there is no such state",
+        f"{mark}not drawn: every state to Nowhere, because there is no such state",
+        f"{mark}not drawn: A to Gone end, because there is no such state",
     ]
     # Transitions omitted because only some states are exported are not mentioned.
     some = export_design(lost, form, ExportOptions(only=frozenset({"B"}))).decode()

@@ -32,7 +32,7 @@ def test_layers_are_used_if_graphviz_needs_far_more_space() -> None:
     design = ring_design(300, chords=3)
     layout = compute_layout(design, timeout_s=PATIENCE_S)
     assert layout.method == LayoutMethod.LAYERS
-    assert "times as large; placed in layers instead" in layout.note
+    assert "times as large; used a layered layout instead" in layout.note
     assert screens_needed(layout.layout.states.values()) < 6
     _assert_sound(design, layout)
 
@@ -89,7 +89,7 @@ def test_a_timeout_falls_back_to_layers_and_the_next_request_is_served() -> None
     with LayoutService() as service:
         late = service.compute(design, timeout_s=0.2)
         assert late.method == LayoutMethod.LAYERS
-        assert late.note == "Graphviz took longer than 0.2 s; placed in layers instead"
+        assert late.note == "Graphviz took longer than 0.2 s; used a layered layout instead"
         assert service.compute(ring_design(5), timeout_s=PATIENCE_S).method == LayoutMethod.GRAPHVIZ
     _assert_sound(design, late)
 
@@ -98,7 +98,7 @@ def test_a_killed_worker_is_replaced() -> None:
     suicidal = (sys.executable, "-c", "import os, signal; input(); os.kill(os.getpid(), signal.SIGKILL)")
     with LayoutService(suicidal) as service:
         layout = service.compute(ring_design(5), timeout_s=PATIENCE_S)
-        assert layout.note == "Graphviz stopped unexpectedly; placed in layers instead"
+        assert layout.note == "Graphviz stopped unexpectedly; used a layered layout instead"
         assert service.compute(ring_design(5), timeout_s=PATIENCE_S) == layout
 
 

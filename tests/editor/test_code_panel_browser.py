@@ -110,7 +110,7 @@ def test_code_edited_by_hand_is_shown_and_kept(editor: str, page: Page, project:
     expect(page.locator(".preview .is-edited").first).to_be_visible()
     page.get_by_role("button", name="Generate", exact=True).click()
     expect(dialog.get_by_text("the code of region 'module' was edited here")).to_be_visible()
-    dialog.get_by_role("button", name="Back up edits as .edited and write").click()
+    dialog.get_by_role("button", name="Back up edited files and write").click()
     expect(dialog).to_have_count(0)
     expect(notification(page).filter(has_text="Generated player.py")).to_have_count(1)
     assert "import math" not in file.read_text()

@@ -117,7 +117,7 @@ def test_an_edit_ends_the_run_and_offers_restart(editor: str, page: Page) -> Non
 
 def test_the_player_plays_in_its_own_world(editor: str, page: Page) -> None:
     open_simulation(page, editor)
-    choose(page, "Simulate with", "All in field.world:World")
+    choose(page, "Simulate with", "All components run in field.world:World")
     page.get_by_role("button", name="Run until the state changes (Shift+F6)").click()
     expect(page.get_by_text("Entered FollowBall")).to_be_visible()
     expect(page.get_by_text("No inputs: all components run.")).to_be_visible()
@@ -159,7 +159,7 @@ def test_a_recorded_trace_is_viewed(editor: str, page: Page, tmp_path: Path) -> 
     open_simulation(page, editor)
     choose(page, "Simulate with", "View a trace")
     with page.expect_file_chooser() as chooser:
-        page.get_by_role("button", name="Choose a trace …").click()
+        page.get_by_role("button", name="Choose a trace…").click()
     chooser.value.set_files(trace)
     expect(page.get_by_role("button", name="trace.jsonl")).to_be_visible()
     where(page, "before the first step")

@@ -117,7 +117,7 @@ class _Interrupt:
         self.is_requested = True
         if not self._is_silent:
             # Bypasses Python's streams: the signal may interrupt a write to them.
-            os.write(2, b"stopping after this iteration; press Ctrl-C again to end at once\n")
+            os.write(2, b"stopping after this iteration; press Ctrl-C again to stop immediately\n")
         signal.signal(signal.SIGINT, signal.default_int_handler)
 
 

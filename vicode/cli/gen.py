@@ -132,7 +132,7 @@ def _require_no_file_in_path(path: Path) -> None:
     """Raise an error that names the file in place of a folder; the error of the system names another path."""
     for parent in path.parents:
         if parent.exists() and not parent.is_dir():
-            raise NotADirectoryError(errno.ENOTDIR, "a folder is needed here, but this is a file", parent.as_posix())
+            raise NotADirectoryError(errno.ENOTDIR, "expected a folder, found a file", parent.as_posix())
 
 
 def _outdated_findings(differences: tuple[FileDiff, ...], folder: Path) -> Iterator[Finding]:

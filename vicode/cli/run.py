@@ -105,7 +105,7 @@ def _warn_of_missing_world(opened: LoadedProject) -> None:
     if asking:
         more = f" and {len(asking) - 1} more" if len(asking) > 1 else ""
         fix = "set world: module:Class to a class that provides them"
-        print(f"vicode: project.yaml has no world, but {asking[0]}{more} require it; {fix}", file=sys.stderr)
+        print(f"vicode: project.yaml has no world, which {asking[0]}{more} needs; {fix}", file=sys.stderr)
 
 
 def _run_process(command: list[str], *, is_plain: bool) -> int:

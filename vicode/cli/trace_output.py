@@ -139,7 +139,7 @@ def _exit_code(code: int, ending: _RunOutcome) -> int:
     if ending.has_failed:
         return _FAILED
     if ending.summary is None:
-        cause = f"by itself with exit code {code}" if code >= 0 else f"by signal {signal.Signals(-code).name}"
+        cause = f"unexpectedly with exit code {code}" if code >= 0 else f"by signal {signal.Signals(-code).name}"
         print(f"the program ended {cause}", file=sys.stderr)
         return 1
     return code if code in (1, _INTERRUPTED) else int(ending.summary["errors"] > 0 or code != 0)
@@ -198,7 +198,7 @@ class _InterruptForwarder:
         self._waiter.start()
 
     def _wait_for_answer(self) -> None:
-        self._printer.show_notice("stopping after this iteration; press Ctrl-C again to kill the program")
+        self._printer.show_notice("stopping after this iteration; press Ctrl-C again to stop immediately")
         if not self._has_ended.wait(_INTERRUPT_TIMEOUT_S) and self._child.returncode is None:
             self._printer.show_notice("the program did not stop and was killed")
             _kill(self._child)

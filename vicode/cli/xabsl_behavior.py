@@ -29,7 +29,9 @@ def load_behavior(agents: Path, parse_text: "ParseText | None" = None) -> "Progr
     main = source.files.get(source.main)
     if main is not None and main.file.body and not source.has_agents:
         suggestion = next(_nearby_agent_files(agents), None)
-        raise OSError(f"{agents} has no agents; name the file that has them{f': {suggestion}' if suggestion else ''}")
+        raise OSError(
+            f"{agents} has no agents; specify the file with the agents{f': {suggestion}' if suggestion else ''}"
+        )
     return source
 
 

@@ -61,14 +61,14 @@ class LayoutService:
         try:
             centres = self._request_positions(graph, timeout_s) if graph.nodes else {}
         except _GraphvizFailedError as reason:
-            note = f"{reason}; placed in layers instead"
+            note = f"{reason}; used a layered layout instead"
             return LayoutResult(
                 layout=fit_layout(design, layered_positions(design, only), only), method=LayoutMethod.LAYERS, note=note
             )
         layers = layered_positions(design, only)
         larger = screens_needed(centres.values()) / screens_needed(layers.values())
         if screens_needed(centres.values()) > _MAX_SCREENS and larger > _MAX_GROWTH:
-            note = f"Graphviz made it {larger:.1f} times as large; placed in layers instead"
+            note = f"the Graphviz layout is {larger:.1f} times as large; used a layered layout instead"
             return LayoutResult(layout=fit_layout(design, layers, only), method=LayoutMethod.LAYERS, note=note)
         return LayoutResult(layout=fit_layout(design, centres, only), method=LayoutMethod.GRAPHVIZ)
 
@@ -199,5 +199,5 @@ def _read_answer(line: str, graph: LayoutGraph) -> dict[str, Point]:
         raise _GraphvizFailedError(f"Graphviz could not be run ({answer['error']})")
     centres = {id_: (float(x), float(y)) for id_, (x, y) in answer["positions"].items()}
     if centres.keys() != {node.id for node in graph.nodes}:
-        raise _GraphvizFailedError("Graphviz left something out")
+        raise _GraphvizFailedError("Graphviz returned an incomplete layout")
     return centres

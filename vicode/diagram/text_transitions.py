@@ -44,5 +44,5 @@ def describe_dangling_transitions(design: Design, only: Collection[str] | None =
         is_wanted = only is None or each.source in only or each.source == COMMON
         if is_wanted and each.decision.to not in names:
             source = EVERY_STATE if each.source == COMMON else each.source
-            words = f"not drawn: {source} to {each.decision.to}, as there is no such state"
+            words = f"not drawn: {source} to {each.decision.to}, because there is no such state"
             yield "".join(letter if letter.isprintable() else "\ufffd" for letter in " ".join(words.split()))

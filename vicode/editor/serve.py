@@ -116,8 +116,8 @@ def _add_access_control(app: "App", address: ServerAddress) -> None:
 
 def _startup_message(path: Path, address: ServerAddress, start: str) -> str:
     if path.is_dir() and start != address.url:
-        return f"vicode serves {path} at {address.url}  (press Ctrl-C to stop)\n  open {start}"
-    return f"vicode serves {path} at {start}  (press Ctrl-C to stop)"
+        return f"Serving {path} at {address.url} (press Ctrl-C to stop)\nOpen {start}"
+    return f"Serving {path} at {start} (press Ctrl-C to stop)"
 
 
 def _first_page(library: "Library") -> str:

@@ -1,4 +1,4 @@
-"""The catalogue of rules, one record for each rule."""
+"""The catalog of rules, one record for each rule."""
 
 from dataclasses import dataclass
 from enum import StrEnum

@@ -246,7 +246,7 @@ def decode_response(line: bytes) -> Response:
         name for name, value in plain.items() if name in _FIELD_TYPES and not isinstance(value, _FIELD_TYPES[name])
     ]
     if wrong:
-        raise ProtocolError(f"not of its type: {wrong[0]}")
+        raise ProtocolError(f"wrong type: {wrong[0]}")
     try:
         return make(**plain)
     except TypeError as error:
@@ -263,5 +263,5 @@ def _parse(line: bytes) -> dict[str, Any]:
     except (ValueError, RecursionError) as error:
         raise ProtocolError(f"no JSON: {line[:80]!r}") from error
     if not isinstance(plain, dict):
-        raise ProtocolError(f"no object: {line[:80]!r}")
+        raise ProtocolError(f"not an object: {line[:80]!r}")
     return plain

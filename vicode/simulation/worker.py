@@ -157,7 +157,7 @@ class _Worker:
             with time_limit(limit_s), wrap_user_errors("the world failed", only_user_code=True):
                 do()
         except TimeLimitError as error:
-            words = f"did not end within {limit_s:g} s; it may be an endless loop"
+            words = f"did not end within {limit_s:g} s; it may contain an endless loop"
             return self._failed(error, words)
         except (UserCodeError, CyclicUseError) as error:
             return Failed(message=str(error), prints=self._prints.drain()[0])

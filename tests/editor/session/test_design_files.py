@@ -63,7 +63,7 @@ def test_an_interrupted_rename_leaves_a_project_without_errors(workspace: Worksp
         ("Perception", "already a component Perception"),
         ("1st", "letters, digits"),
         ("../x", "letters, digits"),
-        ("FaceBall", "already its name"),
+        ("FaceBall", "the name is unchanged"),
         ("Taken", "already a file taken.yaml"),
     ],
 )
@@ -118,7 +118,7 @@ def test_a_trashed_design_can_be_restored(
     assert (folder / "turn.yaml").read_bytes() == before
     assert workspace.project.design("Turn") is not None
     assert workspace.removed_components == {}
-    assert "there is a new turn.yaml" in trash.restore_from_trash(workspace, trashed)
+    assert "turn.yaml already exists" in trash.restore_from_trash(workspace, trashed)
 
 
 def test_an_unsaved_design_cannot_be_trashed(workspace: Workspace) -> None:

@@ -94,7 +94,7 @@ def test_a_state_becomes_initial_or_final(document: DocumentSession) -> None:
 def test_alignments_have_labels(document: DocumentSession) -> None:
     items = [{"of": "states", "id": name, "x": 5, "y": index} for index, name in enumerate("AB")]
     do(document, "move", items=items, how="align-left")
-    assert document.undo_label == "align left sides"
+    assert document.undo_label == "align left edges"
     do(document, "move", items=items[:1], how="<script>")
     assert "script" not in document.undo_label
 

@@ -48,7 +48,7 @@ def test_an_edit_of_the_project_is_written_and_undone(workspace: Workspace, fold
     assert taken_back(again) == ""
     assert (folder / "project.yaml").read_text() == before["project.yaml"] + "# mine\n"
     (folder / "project.yaml").write_text(now.replace("internal: true", "internal: false"))
-    assert taken_back(again) == "Not done: the same lines of project.yaml have changed since"
+    assert taken_back(again) == "Undo or redo failed: these lines of project.yaml have changed in the meantime"
     (folder / "project.yaml").write_text("vicode: [")
     assert edit_project_file(workspace, change).error.startswith("project.yaml cannot be read: a value is missing")
     (folder / "project.yaml").write_text("# later\n")
@@ -57,7 +57,7 @@ def test_an_edit_of_the_project_is_written_and_undone(workspace: Workspace, fold
     latin_1 = 'vicode: 1\ndoc: "für"\n'.encode("latin-1")
     (folder / "project.yaml").write_bytes(latin_1)
     assert edit_project_file(workspace, change).error.endswith("is not UTF-8; save the file as UTF-8")
-    assert taken_back(again).startswith("Not done: ")
+    assert taken_back(again).startswith("Undo or redo failed: ")
     assert (folder / "project.yaml").read_bytes() == latin_1
     (folder / "project.yaml").unlink()
     # Without a file one is made; to take that back removes it.
@@ -218,7 +218,9 @@ def test_an_edit_of_the_project_is_an_entry_of_the_open_design(workspace: Worksp
     assert (player.design.doc, text()) == ("Plays well.", changed)
     (folder / "project.yaml").write_text(changed.replace("constant: 0", "constant: 1"))
     told = player.jump_to(0)
-    assert told.startswith("“project.yaml: one more constant” was kept. Not done: the same lines of project.yaml")
+    assert told.startswith(
+        "“project.yaml: one more constant” was kept. Undo or redo failed: these lines of project.yaml"
+    )
     assert player.design.doc not in ("Plays.", "Plays well.")
     assert "constant: 1" in text()
 

@@ -78,7 +78,7 @@ def test_a_symbol_of_one_design_is_renamed_by_an_edit(workspace: Workspace, fold
         (SPEED, "go_straight", "'go_straight' is already the name of"),
         (SPEED, "state_time", "is reserved by the runtime"),
         (SPEED, "class", "class"),
-        (SymbolRef(component="Body", section="parameters", name="gone"), "x", "no parameter gone any more"),
+        (SymbolRef(component="Body", section="parameters", name="gone"), "x", "parameter gone no longer exists"),
         (SymbolRef(section="constants", name="pan_threshold"), "speed", "'speed' is already the name of"),
         (SymbolRef(section="elements", owner="Side", name="left"), "right", "already an element right"),
     ],

@@ -77,7 +77,7 @@ def test_a_loop_that_catches_everything_is_killed(tmp_path: Path, monkeypatch: p
     [
         ("os._exit(3)", "exited with code 3"),
         ("sys.exit(4)", "Lamp, state Lit, Lit.actions, line 2: ended the program with SystemExit: 4"),
-        ("os.kill(os.getpid(), 11)", "lamp, Lit.actions, line 2: was ended by SIGSEGV"),
+        ("os.kill(os.getpid(), 11)", "lamp, Lit.actions, line 2: was terminated by SIGSEGV"),
     ],
 )
 def test_an_exit_of_the_process_is_reported(tmp_path: Path, code: str, words: str) -> None:

@@ -52,7 +52,7 @@ CANVAS_COMMANDS = (
     CanvasCommand("use", "Add component…", _CREATE, ("U",), menus=("nothing",)),
     CanvasCommand("new-target", "Add transition to new state", _CREATE, ("N",), menus=("states", "common")),
     CanvasCommand("connect", "Connect to…", _CREATE, ("T",), menus=("states", "components", "common")),
-    CanvasCommand("finish-connection", "Finish connection at the target", _CREATE, ("Enter",)),
+    CanvasCommand("finish-connection", "Finish connection", _CREATE, ("Enter",)),
     CanvasCommand("open-guard", "Edit guard", _MODIFY, ("Enter",), menus=("transitions",)),
     CanvasCommand("open-design", "Open design", _MODIFY, ("Enter",), menus=("components",)),
     CanvasCommand("open-common", "Edit common transitions and actions", _MODIFY, ("Enter",), menus=("common",)),
@@ -76,7 +76,7 @@ CANVAS_COMMANDS = (
     ),
     CanvasCommand("select-all", "Select all", _EDIT, ("Ctrl+A",), menus=("nothing",)),
     CanvasCommand("align-left", "Align left edges", _ARRANGE, ("Alt+A",), menus=("several",)),
-    CanvasCommand("align-centre", "Align centres", _ARRANGE, ("Alt+H",), menus=("several",)),
+    CanvasCommand("align-centre", "Align centers", _ARRANGE, ("Alt+H",), menus=("several",)),
     CanvasCommand("align-right", "Align right edges", _ARRANGE, ("Alt+D",), menus=("several",)),
     CanvasCommand("align-top", "Align top edges", _ARRANGE, ("Alt+W",), menus=("several",)),
     CanvasCommand("align-middle", "Align middles", _ARRANGE, ("Alt+V",), menus=("several",)),
@@ -101,14 +101,14 @@ CANVAS_COMMANDS = (
     CanvasCommand("next", "Select next element", _NAVIGATE, ("Tab",), keys_label="Tab"),
     CanvasCommand("previous", "Select previous element", _NAVIGATE, ("Shift+Tab",), keys_label="Shift+Tab"),
     CanvasCommand(
-        "select-nearest", "Select nearest node in that direction", _NAVIGATE, _with_arrows("Ctrl+"),
+        "select-nearest", "Select nearest node in the arrow direction", _NAVIGATE, _with_arrows("Ctrl+"),
         keys_label="Ctrl+Arrow keys",
     ),
     CanvasCommand(
-        "add-nearest", "Add nearest node to the selection", _NAVIGATE, _with_arrows("Ctrl+Shift+"),
+        "add-nearest", "Add nearest node in the arrow direction to selection", _NAVIGATE, _with_arrows("Ctrl+Shift+"),
         keys_label="Ctrl+Shift+Arrow keys",
     ),
-    CanvasCommand("cancel", "Cancel gesture, else clear selection", _NAVIGATE, ("Escape",), keys_label="Escape"),
+    CanvasCommand("cancel", "Cancel gesture or clear selection", _NAVIGATE, ("Escape",), keys_label="Escape"),
 )  # fmt: skip
 
 GESTURE_HELP = (
@@ -124,7 +124,7 @@ GESTURE_HELP = (
     ("Shift+click or Ctrl+click", "add to or remove from the selection"),
     ("Right-click", "context menu"),
     ("Space+drag or middle-button drag", "pan"),
-    ("Wheel", "zoom at the pointer; on a touchpad two fingers pan and a pinch zooms"),
+    ("Wheel", "zoom at the pointer; on a touchpad, two fingers pan and a pinch zooms"),
     ("Drag a design from the list", "add it as a component"),
     ("Touch", "one finger selects and drags, or pans on empty space; long press opens the menu; two fingers zoom"),
 )

@@ -57,7 +57,7 @@ def confirm_writing(prepared: PendingOutput, component: str, write: Callable[[bo
 
         with ui.row().classes("dialog-buttons"):
             ui.button("Cancel", on_click=dialog.close).props("flat no-caps")
-            label = "Back up edits as .edited and write" if prepared.manual_edits else "Write"
+            label = "Back up edited files and write" if prepared.manual_edits else "Write"
             primary_button(label, confirm).props("autofocus")
     dialog.on("hide", dialog.delete)
 

@@ -114,7 +114,7 @@ class SearchPanel:
             self.context.show_toast(result.error or texts.NO_MATCHES_TO_REPLACE, "warning")
             return
         # Repeat the query: the design may change before the edit is applied.
-        label = f"replace {what[:20]} by {replacement[:20]}"
+        label = f"replace {what[:20]} with {replacement[:20]}"
         self.context.edit(label, lambda design: replace_matches(design, self.query, replacement, only).design)
         self.context.show_toast(texts.replaced(result.count), "positive")
 

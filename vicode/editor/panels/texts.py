@@ -174,11 +174,11 @@ def save_again(file: str, *, is_deleted: bool) -> str:
 
 
 def conflict_count(number: int) -> str:
-    return f"{pluralize(number, 'conflict')}; everything else merged."
+    return f"{pluralize(number, 'conflict')}; everything else is merged."
 
 
 def history_jump_warning(left: str) -> str:
-    return f"This leaves {left}, for all users. The steps stay in the history."
+    return f"This undoes {left} for all users. The steps stay in the history."
 
 
 def recovery_question(component: str, time: str, *, is_deleted: bool) -> str:

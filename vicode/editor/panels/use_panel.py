@@ -106,7 +106,7 @@ def _about(declaration: Declaration) -> str:
     return ", ".join(part for part in parts if part)
 
 
-_ORIGINS = {WORLD: "Provided by the world", INTERNAL: "Memory shared by all designs"}
+_ORIGINS = {WORLD: "Provided by the world", INTERNAL: "Variables shared by all designs"}
 
 
 def _table(declarations: tuple[Declaration, ...]) -> None:

@@ -10,6 +10,7 @@ from vicode.model.names import name_from_text
 
 MAX_NAME_LENGTH = 80
 _MAX_QUOTED_LENGTH = 40
+_COLUMNS = {"name": "target", "doc": "description"}
 
 # Labels of the undo history.
 
@@ -26,12 +27,12 @@ REORDER_TRANSITIONS = "reorder transitions"
 REMOVE_TRANSITION = "remove transition"
 PASTE_TRANSITIONS = "paste transitions"
 ALIGNMENTS = {
-    "align-left": "align left sides",
-    "align-centre": "align centres",
-    "align-right": "align right sides",
-    "align-top": "align tops",
+    "align-left": "align left edges",
+    "align-centre": "align centers",
+    "align-right": "align right edges",
+    "align-top": "align top edges",
     "align-middle": "align middles",
-    "align-bottom": "align bottoms",
+    "align-bottom": "align bottom edges",
     "distribute-across": "distribute horizontally",
     "distribute-down": "distribute vertically",
 }
@@ -115,7 +116,7 @@ def insert_states(verb: str, names: Sequence[str]) -> str:
 
 
 def edit_cell(column: str) -> str:
-    return f"edit {'To' if column == 'name' else column.capitalize()}"
+    return f"edit {_COLUMNS.get(column, column)}"
 
 
 def edit_project_file(summary: str) -> str:
@@ -157,13 +158,13 @@ def alias_exists(name: str) -> str:
 
 
 NAME_MISSING = "enter a name"
-NAME_UNCHANGED = "this is already its name"
+NAME_UNCHANGED = "the name is unchanged"
 
 # Gestures, the clipboard and the table.
 
 INVALID_REQUEST = "the editor cannot read this request: reload the page"
 TRANSITION_GONE = "this transition no longer exists"
-TREE_SOURCE = "a branch of a decision tree starts at the state of its tree"
+TREE_SOURCE = "the source of a transition in a decision tree cannot be changed"
 TREE_ORDER = "a transition in a decision tree can only be reordered within its branch"
 SELECT_TO_DISABLE = "select states or transitions to disable"
 SELECT_TO_DUPLICATE = "select states or transitions to duplicate"
@@ -245,13 +246,13 @@ def edit_kept(label: str, reason: str) -> str:
 
 
 def not_done(reason: str) -> str:
-    return f"Not done: {reason}"
+    return f"Undo or redo failed: {reason}"
 
 
 # Files.
 
 PROJECT_FILE_MISSING = "there is no project.yaml"
-PROJECT_LINES_CHANGED = "the same lines of project.yaml have changed since"
+PROJECT_LINES_CHANGED = "these lines of project.yaml have changed in the meantime"
 PLAN_OUTDATED = "a file has changed: check the list again"
 NO_READABLE_DESIGN = "the file contains no readable design"
 
@@ -265,7 +266,7 @@ def not_representable(reason: object) -> str:
 
 
 def read_only(files: Collection[str]) -> str:
-    return f"{', '.join(files)} cannot be changed: read-only"
+    return f"{', '.join(files)} {'is' if len(files) == 1 else 'are'} read-only"
 
 
 def unsaved_changes(components: Sequence[str]) -> str:
@@ -298,14 +299,14 @@ def design_gone(file: str, component: str) -> str:
 
 
 def cannot_restore(file: str, component: str) -> str:
-    return f"there is a new {file}: {component} stays in the trash"
+    return f"{file} already exists: {component} stays in the trash"
 
 
 # Renaming.
 
 
 def symbol_gone(symbol: str) -> str:
-    return f"there is no {symbol} any more"
+    return f"{symbol} no longer exists"
 
 
 def name_used_in_code(component: str, expression: str) -> str:

@@ -92,7 +92,7 @@ class ExpressibilityChecker:
                 pass
 
 
-_ARITHMETIC_FIX = "say arithmetic: xabsl to use the arithmetic of XABSL in every language"
+_ARITHMETIC_FIX = "set arithmetic: xabsl to use the arithmetic of XABSL in every language"
 
 
 def is_never_zero(node: Expr, constants: Mapping[str, ConstantValue]) -> bool:

@@ -20,7 +20,7 @@ export const CLIPBOARD_TOO_LARGE = "The text on the clipboard is too large";
 export const CONNECT = "Connect to";
 export const CHANGE_TARGET = "Change target to";
 export const CHANGE_SOURCE = "Change source to";
-export const chooseTarget = (action) => `${action} …: click a node or type its name. Esc cancels.`;
+export const chooseTarget = (action) => `${action}…: click a node or type its name. Esc cancels.`;
 export const confirmTarget = (action, name) => `${action} ${name}: press Enter. Esc cancels.`;
 export const DROP_ON_LABEL = "Drop on another label of this state to change the priority";
 

@@ -37,7 +37,7 @@ class GuardsList:
         stops = frozenset(self.controller.breakpoints.items)
         shape = (state, tuple((row.key, row.text, row.outcome) for row in rows), stops)
         waits = "" if iteration is None or iteration.worked else " · not tested now"
-        self._rebuild(rows, f"Guards of {state}", f"{seconds:.2f} s in it{waits}", shape)
+        self._rebuild(rows, f"Guards of {state}", f"{seconds:.2f} s in this state{waits}", shape)
         for row, (_old, icon, word, reads) in zip(rows, self._shown, strict=True):
             _show(row, icon, word, reads)
 

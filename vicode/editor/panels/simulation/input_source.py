@@ -13,7 +13,7 @@ from vicode.editor.session.simulation.traces import TraceError
 # The file is sent in a multipart body.
 _MAX_BYTES = MAX_BODY_BYTES - 65_536
 _TOO_LARGE = f"The file is too large for a trace (at most {_MAX_BYTES / 1e6:.1f} MB): record a shorter run"
-_PICK = "Choose a trace …"
+_PICK = "Choose a trace…"
 _MANUAL, _ALL_COMPONENTS, _FROM_TRACE, _REPLAY = (
     "Manual inputs",
     "All components run",
@@ -31,14 +31,14 @@ class InputSourceForm:
         world = controller.context.workspace.project.world
         labels = {
             _MANUAL: _MANUAL,
-            _ALL_COMPONENTS: f"All in {world}" if world else _ALL_COMPONENTS,
+            _ALL_COMPONENTS: f"All components run in {world}" if world else _ALL_COMPONENTS,
             _FROM_TRACE: _FROM_TRACE,
             _REPLAY: _REPLAY,
         }
         self.choice = ui.select(labels, value=_MANUAL, label="Simulate with", on_change=self._choose)
         self.choice.props("dense outlined options-dense stack-label").classes("field")
         self.pick = ui.button(_PICK, icon="upload_file", color=None).props("outline dense no-caps no-wrap align=left")
-        self.hint = ui.label("recorded with vicode run DESIGN --trace FILE --values").classes("small trace-hint")
+        self.hint = ui.label("Record one with: vicode run DESIGN --trace FILE --values").classes("small trace-hint")
         self.upload = ui.upload(
             auto_upload=True,
             max_file_size=_MAX_BYTES,
@@ -54,7 +54,7 @@ class InputSourceForm:
             self.tick.props("suffix=ms")
             for box in (self.seed, self.tick):
                 box.props("dense outlined stack-label").classes("field")
-            ui.label("Simulated by you").classes("field-label")
+            ui.label("Components with manual inputs").classes("field-label")
             self.rows = ui.column().classes("stub-rows")
         self._listed: object = None
         self._stubbed: frozenset[str] = frozenset()

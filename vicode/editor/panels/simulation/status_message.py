@@ -11,7 +11,7 @@ def status_message(controller: SimulationController) -> tuple[str, str]:
     """The status text and its kind: error, warning, past or info."""
     simulation = controller.simulation
     if controller.is_starting:
-        return ("info", "Starting: generating and loading the code …")
+        return ("info", "Starting: generating and loading the code…")
     if controller.start_error:
         return ("error", controller.start_error)
     if controller.is_stale and simulation is not None and simulation.status is RunStatus.ENDED:

@@ -37,7 +37,7 @@ UNFIXABLE: Mapping[str, str] = {
     "D412": _AMBIGUOUS,
     "D414": "code cannot be translated automatically",
     **dict.fromkeys(("L701", "L702"), "there is no general replacement in the language"),
-    "L703": "the robot's program uses the XABSL name, too",
+    "L703": "the robot program also uses the XABSL name",
     "L704": _AMBIGUOUS,
     "D425": "where to step the component is not certain",
     **dict.fromkeys(("G501", "G502", "G503"), "Generate shows and writes generated files"),

@@ -36,7 +36,7 @@ def fix_bad_range(case: FixContext) -> list[Fix]:
 
 def fix_bad_frequency(_case: FixContext) -> list[Fix]:
     """D416."""
-    return [Fix(label="Run at every step", edit=lambda old: replace(old, frequency_hz=None))]
+    return [Fix(label="Run on every step", edit=lambda old: replace(old, frequency_hz=None))]
 
 
 def fix_unused_declaration(case: FixContext) -> list[Fix]:

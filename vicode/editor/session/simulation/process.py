@@ -161,7 +161,7 @@ class RunProcess:
         with contextlib.suppress(TimeoutError):
             code = await asyncio.wait_for(self._process.wait(), 2.0)
         await asyncio.sleep(0.05)
-        words = f"was ended by {signal.Signals(-code).name}" if code < 0 else f"exited with code {code}"
+        words = f"was terminated by {signal.Signals(-code).name}" if code < 0 else f"exited with code {code}"
         tail = self._stderr_tail.decode(errors="replace").strip().splitlines()
         error = RunFailedError(f"{self._code_location()}{words}", prints=tuple(tail[-20:]))
         self.kill()

@@ -263,7 +263,7 @@ class Simulation:
         if self.status is RunStatus.ENDED:
             # The simulation was ended while the process started.
             runner.kill()
-            raise RunFailedError("The simulation was ended.")
+            raise RunFailedError("The simulation was stopped.")
         self._process = runner
         latest: list[IterationResult] = []
         for changes, count in self.recording.input_segments(len(self.recording)):
