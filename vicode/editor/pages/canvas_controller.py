@@ -53,9 +53,7 @@ class CanvasController:
     def __init__(self, context: WindowContext) -> None:
         self.context = context
         self.on_preview: Callable[..., None] = lambda **_answer: None
-        context.run_canvas_command = self.run_command
         self.page_commands: Mapping[str, Callable[[], object]] = {}
-        context.reveal, context.is_shown = self.center_on, self._exists
         self.canvas = Canvas(self._on_gesture, self._share_pointer, self._on_malformed)
         self.canvas.classes("canvas")
         self.design = context.design
@@ -93,7 +91,7 @@ class CanvasController:
         self.scene = scene
         rebased = [rebase_selection(item, self.design, self.context.design) for item in self.context.selected]
         self.design = self.context.design
-        self.context.selected = tuple(item for item in rebased if item is not None and self._exists(item))
+        self.context.selected = tuple(item for item in rebased if item is not None and self.exists(item))
 
     def show_selection(self) -> None:
         """Show the selection of the window on the canvas."""
@@ -113,7 +111,8 @@ class CanvasController:
         desk = self.context
         return desk.document.shared.scene(desk.workspace.project)
 
-    def _exists(self, item: ItemRef) -> bool:
+    def exists(self, item: ItemRef) -> bool:
+        """Whether an item is on the canvas."""
         if item.kind in ("design", "common"):
             return True
         return any(node["id"] == item.id for node in self.scene.get(item.kind, ())) or (
@@ -225,4 +224,4 @@ class CanvasController:
             return
         use = self.context.design.use(identity) if of == "components" else None
         if use is not None:
-            self.context.open_component(use.component)
+            self.context.page.open_component(use.component)

@@ -29,6 +29,7 @@ from vicode.editor.panels.undo_bar import UndoBar
 from vicode.editor.panels.window_context import WindowContext
 from vicode.editor.session import DocumentSession, Library, Workspace
 from vicode.editor.session.autosave import AutosaveService
+from vicode.editor.view import ItemRef
 from vicode.editor.view.page_urls import design_url
 
 # Changes by other users are drawn first; the panels follow.
@@ -37,7 +38,7 @@ _PANELS_DELAY_S = 0.1
 
 
 class DesignPage:
-    """One window on one design. All its content can be rebuilt from the document."""
+    """One window on one design, and the services for its panels. All its content can be rebuilt from the document."""
 
     def __init__(
         self,
@@ -50,13 +51,15 @@ class DesignPage:
         """Build the page for the current request."""
         user = identify_user(library.users)
         session = DocumentSession(document.shared, user.id)
-        self.context = context = WindowContext(workspace=workspace, document=session, client=ui.context.client)
+        self.context = context = WindowContext(
+            workspace=workspace, document=session, client=ui.context.client, page=self
+        )
         theme = Theme(context.code_editors, apply_theme())
         findings = FindingNavigator(context)
         with ui.element("div").classes("shell"):
             skip = ui.element("a").classes("skip-link")
-            context.offer_undo = UndoBar().show
-            dialogs = DesignDialogs(show_toast=show_toast, offer_undo=context.offer_undo)
+            self.undo_bar = UndoBar()
+            dialogs = DesignDialogs(show_toast=show_toast, offer_undo=self.offer_undo)
             head = ui.element("header").classes("head")
             self.designs = DesignsList(library, (workspace.key, document.design.component), dialogs)
             with ui.element("main").classes("design-view").props("tabindex=-1") as main:
@@ -64,7 +67,7 @@ class DesignPage:
             self.side_panels = SidePanels(context, self.view.canvas_controller.canvas, findings)
         self.autosave = AutosaveControls(context, autosave)
         self.tour = Tour(context, lambda: self.view.is_table_shown, starts_automatically=request.tour)
-        navigator = Navigator(context, request.index, request.trail)
+        self.navigator = navigator = Navigator(context, request.index, request.trail)
         new = Command("new-design", "New design", lambda: dialogs.ask_new(workspace), MenuGroup.DESIGN, icon="add")
         parts = (findings, navigator, self.autosave, self.tour)
         commands = self._commands(theme, (new, *(command for part in parts for command in part.commands())))
@@ -75,15 +78,25 @@ class DesignPage:
             ui.label("Skip to the design")
         PresenceSync(context, user, self.view.canvas_controller.canvas, self.header.presence_bar)
         register_shortcuts(commands)
-        initial_item = navigator.select_initial(request.select)
+        navigator.select_initial(request.select, self.view.canvas_controller)
         context.changes.subscribe(self._refresh)
         self._refresh()
         self.view.canvas_controller.canvas.on_ready = self.side_panels.build
-        if initial_item:
-            self.view.canvas_controller.scroll_to_initial(initial_item)
         self._scheduled: set[Callable[[], None]] = set()
         ui.context.client.on_delete(session.shared.changes.subscribe(self._on_change))
         ui.timer(1.0, self._follow_disk)
+
+    def reveal(self, item: ItemRef) -> None:
+        self.view.canvas_controller.center_on(item)
+
+    def run_canvas_command(self, command: str) -> None:
+        self.view.canvas_controller.run_command(command)
+
+    def open_component(self, component: str) -> None:
+        self.navigator.open_component(component)
+
+    def offer_undo(self, text: str, undo: Callable[[], object]) -> None:
+        self.undo_bar.show(text, undo)
 
     def _commands(self, theme: Theme, others: tuple[Command, ...]) -> tuple[Command, ...]:
         """Return all commands of the page in their listing order."""

@@ -7,11 +7,11 @@ from dataclasses import dataclass
 from nicegui import ui
 
 from vicode.editor.pages import texts
+from vicode.editor.pages.canvas_controller import CanvasController
 from vicode.editor.panels.command import Command, MenuGroup
 from vicode.editor.panels.command_palette import CommandPalette
 from vicode.editor.panels.window_context import WindowContext
 from vicode.editor.session.search_index import SearchIndex, SearchTarget
-from vicode.editor.view import ItemRef
 from vicode.editor.view.page_urls import design_url, extend_trail, parse_selection
 
 HOME = "/"
@@ -42,7 +42,6 @@ class Navigator:
         self._shown = context.selected
         here = SearchTarget(project=context.workspace.key, component=context.design.component)
         self.palette = CommandPalette(index, self.go_to, here)
-        context.open_component = self.open_component
         context.changes.subscribe(self._update_address)
 
     def commands(self) -> tuple[Command, ...]:
@@ -64,13 +63,12 @@ class Navigator:
             ),
         )
 
-    def select_initial(self, selection: str) -> ItemRef | None:
-        """Select the item that the URL names; None if it does not exist."""
+    def select_initial(self, selection: str, canvas_controller: CanvasController) -> None:
+        """Select and show the item that the URL names, if it exists."""
         selected = parse_selection(selection)
-        if selected is None or not self._context.is_shown(selected):
-            return None
-        self._context.selected = self._shown = (selected,)
-        return selected
+        if selected is not None and canvas_controller.exists(selected):
+            self._context.selected = self._shown = (selected,)
+            canvas_controller.scroll_to_initial(selected)
 
     def go_to(self, target: SearchTarget) -> None:
         """Show an item of this or another design."""
@@ -81,7 +79,7 @@ class Navigator:
             context.select()
         else:
             context.select(target.selected)
-            context.reveal(target.selected)
+            context.page.reveal(target.selected)
 
     def open_component(self, component: str) -> None:
         """Open the design of a used component."""

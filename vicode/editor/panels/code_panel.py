@@ -106,4 +106,4 @@ class CodePanel:
         first, last = self.file.item_lines(item) if self.file else (0, 0)
         self.code_assist.highlight_lines(first, last, reveal=False)
         self.context.select(item)
-        self.context.reveal(ItemRef(kind=item.kind, id=item.id))
+        self.context.page.reveal(ItemRef(kind=item.kind, id=item.id))

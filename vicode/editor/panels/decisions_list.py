@@ -96,7 +96,7 @@ def _target(item: Decision) -> str:
 def _opener(context: WindowContext, decision_ref: ItemRef) -> Callable[[], None]:
     def select() -> None:
         context.select(decision_ref)
-        context.reveal(decision_ref)
+        context.page.reveal(decision_ref)
 
     return select
 

@@ -62,7 +62,7 @@ class FindingNavigator:
         if finding.subject is not None:
             item = item_at_path(finding.subject.path)
             items = () if item.kind == "design" else (item,)
-            self.context.reveal(item)
+            self.context.page.reveal(item)
         if self.context.selected != items:
             self.context.select(*items)
         else:

@@ -54,4 +54,4 @@ def multi_selection_panel(context: WindowContext) -> None:
 def _row(context: WindowContext, buttons: tuple[tuple[str, str, str], ...]) -> None:
     with ui.row().classes("multi-selection-row"):
         for command, icon, label in buttons:
-            icon_button(icon, label, partial(context.run_canvas_command, command))
+            icon_button(icon, label, partial(context.page.run_canvas_command, command))

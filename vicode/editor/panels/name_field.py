@@ -181,7 +181,7 @@ def _rename_in_files(context: WindowContext, plan: SymbolRenamePlan) -> None:
     if apply_rename_plan(context, plan):
         edit = RenameEdit(workspace=context.workspace, symbol=plan.symbol, new=plan.new)
         context.document.record_compound(edit)
-        context.offer_undo(texts.renamed(plan.symbol.name, plan.new), lambda: _undo_rename(context, edit))
+        context.page.offer_undo(texts.renamed(plan.symbol.name, plan.new), lambda: _undo_rename(context, edit))
 
 
 def _apply_in_design(context: WindowContext, plan: SymbolRenamePlan) -> None:

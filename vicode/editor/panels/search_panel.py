@@ -95,7 +95,7 @@ class SearchPanel:
     def _open(self, match: TextMatch) -> None:
         item = item_at_path(match.path)
         self.context.select(*(() if item.kind == "design" else (item,)))
-        self.context.reveal(item)
+        self.context.page.reveal(item)
 
     def _open_first(self) -> None:
         if self.result.matches:

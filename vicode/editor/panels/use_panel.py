@@ -58,7 +58,7 @@ def _designed(context: WindowContext, use: Use, interface: Interface) -> None:
         ui.label(interface.title).classes("interface-title")
     ui.label(interface.doc).classes("doc")
     ui.label(_facts(interface)).classes("small")
-    ui.button("Open design", icon="open_in_new", on_click=lambda: context.open_component(use.component)).props(
+    ui.button("Open design", icon="open_in_new", on_click=lambda: context.page.open_component(use.component)).props(
         "flat no-caps dense"
     )
     heading(f"Outputs, read as {alias}.…")

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Coroutine
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, Protocol
 
 from nicegui import Client, background_tasks
 
@@ -15,24 +15,31 @@ from vicode.editor.view import ItemRef
 from vicode.model.design import Design
 
 
+class PageServices(Protocol):
+    """What panels ask of their page."""
+
+    def reveal(self, item: ItemRef) -> None:
+        """Scroll the canvas to an item."""
+
+    def run_canvas_command(self, command: str) -> None:
+        """Run a command of the canvas by its name."""
+
+    def open_component(self, component: str) -> None:
+        """Open the design of another component."""
+
+    def offer_undo(self, text: str, undo: Callable[[], object]) -> None:
+        """Show a message about a change of files, with an undo button."""
+
+
 @dataclass(eq=False, kw_only=True)
 class WindowContext:
-    """The state shared by the panels of one window; the page sets the callbacks."""
+    """The state shared by the panels of one window."""
 
     workspace: Workspace
     document: DocumentSession
     client: Client
     """The client of this window. Handlers use it after an edit, as their own button may be deleted by then."""
-    reveal: Callable[[ItemRef], None] = field(default=lambda _thing: None)
-    """Scroll the canvas to an item."""
-    run_canvas_command: Callable[[str], None] = field(default=lambda _command: None)
-    """Run a command of the canvas by its name."""
-    open_component: Callable[[str], None] = field(default=lambda _component: None)
-    """Open the design of another component."""
-    offer_undo: Callable[[str, Callable[[], object]], None] = field(default=lambda _words, _act: None)
-    """Show a message about a change of files, with an undo button."""
-    is_shown: Callable[[ItemRef], bool] = field(default=lambda _thing: True)
-    """Whether an item is on the canvas."""
+    page: PageServices
     selected: tuple[ItemRef, ...] = ()
     open_sections: set[str] = field(default_factory=set)
     """Keys of the open sections of forms."""

@@ -266,7 +266,7 @@ def write_project(
     if edit is not None:
         message = texts.project_saved(what, result.broken_designs)
         context.document.record_compound(edit)
-        context.offer_undo(message, lambda: _undo(context, edit))
+        context.page.offer_undo(message, lambda: _undo(context, edit))
         context.notify_subscribers()
     return result.error
 

@@ -93,7 +93,7 @@ class ConsoleOutput:
         def select() -> None:
             if thing is not None:
                 self.controller.context.select(thing)
-                self.controller.context.reveal(thing)
+                self.controller.context.page.reveal(thing)
 
         return select
 

@@ -75,7 +75,7 @@ class SimulationControls:
     def _reveal(self) -> None:
         simulation = self.controller.simulation
         if simulation is not None and simulation.shown_iteration is not None:
-            self.controller.context.reveal(ItemRef(kind="states", id=simulation.shown_iteration.state))
+            self.controller.context.page.reveal(ItemRef(kind="states", id=simulation.shown_iteration.state))
 
     def _continue_from_here(self) -> None:
         if self.controller.simulation is not None:

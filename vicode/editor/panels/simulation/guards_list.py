@@ -83,7 +83,7 @@ class GuardsList:
     def _opener(self, thing: ItemRef) -> Callable[[], None]:
         def select() -> None:
             self.controller.context.select(thing)
-            self.controller.context.reveal(thing)
+            self.controller.context.page.reveal(thing)
 
         return select
 
