@@ -53,7 +53,8 @@ def test_the_same_seed_gives_the_same_trace(robot: Path, tmp_path: Path) -> None
         assert run(robot, *in_world("--seed", seed, "--trace", str(path), "--values")).returncode == 0
         traces.append(path.read_bytes())
     assert traces[0] == traces[1] != traces[2]
-    *records, last = [json.loads(line) for line in traces[0].splitlines()]
+    header, *records, last = [json.loads(line) for line in traces[0].splitlines()]
+    assert header == {"vicode-trace": 1, "runtime": "bica"}
     assert [record["iteration"] for record in records] == list(range(1, len(records) + 1))
     assert last["summary"]["stopped"] == "finished"
     assert last["summary"]["world"]["acts"] > 1

@@ -44,7 +44,7 @@ def test_changes_of_state_and_a_summary_are_printed(lamps: Path) -> None:
 def test_a_trace_has_values_when_they_are_asked_for(lamps: Path) -> None:
     process = start("lamps/lamp.yaml", "--ticks", "2", "--trace", "trace", "--values")
     process.communicate(timeout=60)
-    assert "values" in json.loads(Path("trace").read_text().splitlines()[0])["tree"][0]
+    assert "values" in json.loads(Path("trace").read_text().splitlines()[1])["tree"][0]
 
 
 def test_the_same_seed_gives_the_same_trace(lamps: Path) -> None:
@@ -53,7 +53,7 @@ def test_the_same_seed_gives_the_same_trace(lamps: Path) -> None:
         process.communicate(timeout=60)
         assert process.returncode == 0
     assert Path("one").read_bytes() == Path("two").read_bytes()
-    assert json.loads(Path("one").read_text().splitlines()[0])["tree"][0]["component"] == "Lamp"
+    assert json.loads(Path("one").read_text().splitlines()[1])["tree"][0]["component"] == "Lamp"
 
 
 def test_an_interrupt_ends_it_with_a_summary(lamps: Path) -> None:

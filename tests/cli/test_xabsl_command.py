@@ -20,7 +20,15 @@ def test_a_behavior_is_compiled_and_run(tmp_path: Path, capsys: pytest.CaptureFi
     inputs = ["--symbols", str(symbols), "--inputs", str(CIRCLE / "inputs.csv")]
     assert main(["xabsl", "run", str(code), *inputs, "--trace", str(trace)]) == 0
     expected = [json.loads(line) for line in read_case("drive_circle", "trace.jsonl").splitlines()]
-    assert [json.loads(line) for line in trace.read_text().splitlines()] == expected
+    header, *records = [json.loads(line) for line in trace.read_text().splitlines()]
+    assert header == {"vicode-trace": 1, "runtime": "xabsl"}
+    assert [(record["iteration"] - 1, record["time_ns"] // 10**6) for record in records] == [
+        (line["c"], line["t"]) for line in expected
+    ]
+    assert [record["tree"][0]["state"] for record in records] == [line["tree"][0][2] for line in expected]
+    turn = {"component": "turn", "by": "drive_circle", "link": "modulates", "parameters": {"speed": 45}}
+    assert turn.items() <= records[1]["tree"][1].items()
+    assert [record["tree"][0]["changed_from"] for record in records[2:5]] == [None, "turning", None]
     assert main(["xabsl", "run", str(code), *inputs, "--bench", "3"]) == 0
     assert "cycles per second" in capsys.readouterr().out
 

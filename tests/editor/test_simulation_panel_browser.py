@@ -155,7 +155,7 @@ def test_a_recorded_trace_is_viewed(editor: str, page: Page, tmp_path: Path) -> 
     lines.append(
         {"iteration": 2, "time_ns": 10**8, "tree": [{**root, "state": "GetUp", "changed_from": "LookForBall"}]}
     )
-    trace.write_text("\n".join(json.dumps(line) for line in lines))
+    trace.write_text("\n".join(json.dumps(line) for line in [{"vicode-trace": 1, "runtime": "bica"}, *lines]))
     open_simulation(page, editor)
     choose(page, "Simulate with", "View a trace")
     with page.expect_file_chooser() as chooser:

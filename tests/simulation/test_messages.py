@@ -1,6 +1,7 @@
 """The protocol round-trips, and malformed lines are rejected without a traceback."""
 
 import json
+from dataclasses import replace
 
 import pytest
 from hypothesis import given
@@ -35,7 +36,14 @@ SETUP = Setup(
     world="w:W",
     seed=3,
 )
-MOMENT = IterationResult(iteration=1, time_ns=0, state="Dark", prints=["Ä\n"], guards={"Dark/0": {"holds": None}})
+
+
+def iteration(number: int, state: str, *, world: object = None, **more: object) -> IterationResult:
+    tree = [{"component": "Lamp", "state": state, **more}]
+    return IterationResult(iteration=number, time_ns=0, tree=tree, world=world)
+
+
+MOMENT = replace(iteration(1, "Dark"), prints=["Ä\n"], guards={"Dark/0": {"holds": None}})
 
 
 def test_setup_and_requests_round_trip() -> None:
@@ -63,7 +71,7 @@ def test_responses_round_trip(answer: Ready | IterationResult | Inspected | Stop
 
 
 def test_an_iteration_above_the_size_limit_omits_its_values() -> None:
-    large = IterationResult(iteration=2, time_ns=5, state="Lit", world="x" * MAX_MESSAGE_BYTES)
+    large = iteration(2, "Lit", world="x" * MAX_MESSAGE_BYTES)
     told = decode_response(encode_response(large))
     assert isinstance(told, IterationResult)
     assert (told.iteration, told.state, told.world) == (2, "Lit", None)
@@ -80,7 +88,9 @@ def test_an_iteration_above_the_size_limit_omits_its_values() -> None:
         b"{}",
         b'{"kind":"nothing"}',
         b'{"kind":"iteration"}',
-        b'{"kind":"iteration","iteration":"1","time_ns":0,"state":"Dark"}',
+        b'{"kind":"iteration","iteration":"1","time_ns":0,"tree":[{"component":"Lamp","state":"Dark"}]}',
+        b'{"kind":"iteration","iteration":1,"time_ns":0,"tree":[]}',
+        b'{"kind":"iteration","iteration":1,"time_ns":0,"tree":[{"component":"Lamp","state":4}]}',
         b'{"kind":"stopped","reason":4}',
         b'{"kind":"ready","more":1}',
         b"[" * 100_000,
@@ -111,7 +121,7 @@ def test_any_line_decodes_or_raises_a_protocol_error(plain: dict[str, object]) -
 
 
 def test_stop_reasons_have_priorities() -> None:
-    moment = IterationResult(iteration=4, time_ns=0, state="Lit", changed_from="Dark", transition="Dark/0", done=True)
+    moment = iteration(4, "Lit", changed_from="Dark", transition="Dark/0", done=True)
     every = StopConditions(states=("Lit",), transitions=("Dark/0",), changes=True)
     assert stop_reason(moment, every, was_done=False) == "transition"
     assert stop_reason(moment, StopConditions(states=("Lit",), changes=True), was_done=False) == "state"

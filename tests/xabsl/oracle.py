@@ -68,7 +68,8 @@ class Oracle:
             self.twice.append(name)
         if key not in self.was:
             self.state[name], self.since[name] = option.initial, self.now
-        state = next(candidate for candidate in option.states if candidate.name == self.state[name])
+        before = self.state[name]
+        state = next(candidate for candidate in option.states if candidate.name == before)
         target = self._decide(state.decision, (option, state))
         if target != state.name:
             self.state[name], self.since[name] = target, self.now
@@ -82,7 +83,7 @@ class Oracle:
                 inner.append(["s", action[1], self.values[action[1]]])
         parameters = {slot.name: self.parameters[slot.name] for slot in option.parameters}
         times = [self.now - self.activated[key], self.now - self.since[name]]
-        node += [self.state[name], *times, parameters, inner]
+        node += [self.state[name], *times, parameters, inner, before]
 
     def _decide(self, tree: Term, caller: tuple[CompiledOption, CompiledState]) -> str:
         while tree[0] == "i":

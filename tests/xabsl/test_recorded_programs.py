@@ -4,11 +4,11 @@ import json
 
 import pytest
 
-from tests.xabsl.xabsl_cases import CASES, PROGRAMS, parse_words, read_case
+from tests.xabsl.xabsl_cases import CASES, PROGRAMS, original_record, parse_words, read_case
 from vicode.xabsl.compiler import CompileResult, compile_source, declared_symbols
 from vicode.xabsl.engine.code_reader import read_code
 from vicode.xabsl.engine.code_writer import write_code
-from vicode.xabsl.engine.replay import read_rows, replay
+from vicode.xabsl.engine.replay import ReplayRobot, read_rows
 from vicode.xabsl.engine.symbols import read_symbols, write_symbols
 from vicode.xabsl.source_loader import load_source
 
@@ -40,5 +40,8 @@ def test_every_cycle_matches_the_original_engine(name: str) -> None:
     rows = read_rows(read_case(name, "inputs.csv").splitlines())
     expected_lines = [json.loads(line) for line in read_case(name, "trace.jsonl").splitlines()]
     assert len(rows) == len(expected_lines)
-    for line, expected in zip(replay(program, symbols, rows), expected_lines, strict=True):
-        assert json.loads(line) == expected
+    robot = ReplayRobot(program, symbols)
+    for cycle, (row, expected) in enumerate(zip(rows, expected_lines, strict=True)):
+        robot.apply_row(row)
+        robot.engine.execute()
+        assert original_record(robot, cycle) == expected

@@ -247,14 +247,14 @@ def test_synchronized_and_capacity_states_of_a_team() -> None:
     program, symbols = compiled(COOPERATIVE)
     columns = ["time", *(f"{robot}:ball.seen" for robot in range(3))]
     rows = [",".join(columns)] + [f"{20 * number},{int(number > 1)},{int(number > 5)},0" for number in range(20)]
-    lines = [json.loads(line) for line in replay_team(program, symbols, read_rows(rows), 3, 2)]
-    states = [[line["tree"][0][2] for line in lines if line["r"] == robot] for robot in range(3)]
+    _header, *lines = [json.loads(line) for line in replay_team(program, symbols, read_rows(rows), 3, 2)]
+    states = [[line["tree"][0]["state"] for line in lines if line["robot"] == robot] for robot in range(3)]
     # Robot 2 executes the option but never wants to enter, so no robot becomes ready.
     assert states[2] == ["wait"] * 20
     assert not any("ready" in robot for robot in states)
     rows = [",".join(columns)] + [f"{20 * number},{int(number > 1)},{int(number > 5)},1" for number in range(20)]
-    lines = [json.loads(line) for line in replay_team(program, symbols, read_rows(rows), 3, 2)]
-    states = [[line["tree"][0][2] for line in lines if line["r"] == robot] for robot in range(3)]
+    _header, *lines = [json.loads(line) for line in replay_team(program, symbols, read_rows(rows), 3, 2)]
+    states = [[line["tree"][0]["state"] for line in lines if line["robot"] == robot] for robot in range(3)]
     entered = [robot.index("ready") for robot in states]
     # The last robot also waits for answers, so all enter within one cycle. Only one at a time may kick.
     assert max(entered) - min(entered) <= 1

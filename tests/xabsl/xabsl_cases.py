@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from vicode.xabsl.engine.replay import ReplayRobot
 from vicode.xabsl.parser import parse
 from vicode.xabsl.source_loader import ParseText, ProgramSource, load_source
 
@@ -52,6 +53,24 @@ def read_case(program: str, name: str) -> str:
         return path.read_text(encoding="utf-8")
     with gzip.open(f"{path}.gz", "rt", encoding="utf-8") as file:
         return file.read()
+
+
+def original_record(robot: ReplayRobot, cycle: int) -> dict[str, Any]:
+    """The last cycle in the form in which the traces of the original engine are recorded."""
+    engine, values = robot.engine, {}
+
+    def node(each: list[Any]) -> list[Any]:
+        match each[0]:
+            case "s":
+                values[each[1]] = robot._json_value(robot._kinds[each[1]], each[2])
+                return ["s", each[1], values[each[1]]]
+            case "b":
+                return ["b", each[1], each[2], robot._parameters("", each[3])]
+        return [*each[:5], robot._parameters("", each[5]), [node(child) for child in each[6]]]
+
+    nodes = [node(each) for each in engine.trace]
+    record = {"c": cycle, "t": robot.now, "agent": engine.agent, "tree": nodes, "out": values}
+    return {**record, "err": engine.errors} if engine.errors else record
 
 
 def parse_words(code: str) -> list[Any]:

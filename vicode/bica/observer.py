@@ -1,17 +1,25 @@
-"""Observer: records the activation tree of each iteration as JSON-compatible dictionaries."""
+"""Observer: records each iteration as JSON-compatible dictionaries, in the form of a trace (docs/traces.md)."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from dataclasses import asdict
 from enum import Enum
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, NotRequired, TypedDict
 
 from .component import Component
 from .timing import replace_step, will_work
 
 if TYPE_CHECKING:
+    from .errors import ErrorRecord
     from .root import Root
+
+TRACE_HEADER = {"vicode-trace": 1, "runtime": "bica"}
+"""The first line of a trace: the version of the form and the writer."""
+
+_MAX_ERRORS = 20
 
 ActivationLink = Literal["root", "requires", "modulates"]
 
@@ -33,11 +41,12 @@ class StepRecord(TypedDict):
 
 
 class IterationRecord(TypedDict):
-    """One iteration; `tree` lists the steps in the order of their start."""
+    """One iteration; `tree` lists the steps in the order of their start, `errors` the first exceptions."""
 
     iteration: int
     time_ns: int
     tree: list[StepRecord]
+    errors: list[dict[str, Any]]
 
 
 class Observer:
@@ -53,6 +62,7 @@ class Observer:
         self._sink = sink if sink is not None else self.records.append
         self._values = values
         self._tree: list[StepRecord] = []
+        self._errors: list[dict[str, Any]] = []
         self._active: list[str] = []
         self._modulated: tuple[Component, dict[str, Any]] | None = None
 
@@ -69,13 +79,21 @@ class Observer:
         component.__dict__["modulate"] = observed_modulate
         replace_step(component, lambda: self._observe_step(component, plain_step))
 
+    def add_error(self, error: ErrorRecord) -> None:
+        """Record an exception of this iteration; of its file only the name, since folders differ from run to run."""
+        if len(self._errors) < _MAX_ERRORS:
+            self._errors.append({**asdict(error), "file": Path(error.file).name})
+
     def observe_iteration(self, root: Root) -> None:
         """Step the root component and pass the record of the iteration to the sink."""
-        self._tree = []
+        self._tree, self._errors = [], []
         self._active.clear()
         self._modulated = None
-        root.main.step()
-        self._sink({"iteration": root.iteration, "time_ns": root.now_ns, "tree": self._tree})
+        try:
+            root.main.step()
+        finally:
+            errors = self._errors
+            self._sink({"iteration": root.iteration, "time_ns": root.now_ns, "tree": self._tree, "errors": errors})
 
     def _observe_step(self, component: Component, plain_step: Callable[[], None]) -> None:
         record = self._begin_record(component)

@@ -26,7 +26,7 @@ def make_parser() -> argparse.ArgumentParser:
         default="continue",
         help="what to do after an exception in a component (default: continue)",
     )
-    add("--trace", metavar="FILE", help="write one JSON line per iteration and a summary to FILE")
+    add("--trace", metavar="FILE", help="write a trace to FILE: a header, one JSON line per iteration and a summary")
     add("--stream", action="store_true", help="write JSON lines with snapshots of the world to standard output")
     add("--values", action="store_true", help="include outputs and variables in the JSON lines")
     return parser

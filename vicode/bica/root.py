@@ -114,6 +114,8 @@ class Root:
     def report(self, record: ErrorRecord) -> None:
         """Count the error of a component and handle it according to `on_error`."""
         self.errors[record.place] += 1
+        if self._observer is not None:
+            self._observer.add_error(record)
         if callable(self._on_error):
             self._on_error(record)
         elif self._on_error == "stop":

@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING, Any, TextIO
 from .clock import RealClock, SimulatedClock
 from .errors import ComponentError, CyclicUseError
 from .loader import UserCodeError, load_component, make_world, wrap_user_errors
-from .observer import IterationRecord, Observer, to_json_value
+from .observer import TRACE_HEADER, IterationRecord, Observer, to_json_value
 from .options import make_parser
 from .root import Root
 
@@ -62,6 +62,7 @@ def _prepare(options: argparse.Namespace, files: ExitStack) -> tuple[_RecordWrit
     if options.trace:
         trace = Path(options.trace).open("w", encoding="utf-8")  # noqa: SIM115 - closed by the stack
         files.callback(trace.close)
+        trace.write(json.dumps(TRACE_HEADER) + "\n")
     writer = _RecordWriter(trace=trace, world=world, options=options)
     with wrap_user_errors(f"cannot create {options.component}"):
         return writer, _make_root(component_class, writer)

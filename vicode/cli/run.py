@@ -28,7 +28,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     add("--ticks", type=options.count, metavar="N", help="stop after N iterations")
     add("--seed", type=int, default=0, metavar="N", help="random seed of the world (default: %(default)s)")
-    add("--trace", metavar="FILE", help="write a trace: one line of JSON per iteration, and a summary")
+    add("--trace", metavar="FILE", help="write a trace (docs/traces.md) to FILE")
     add("--values", action="store_true", help="include outputs and variables in the trace, for replay in the editor")
     add("--real-time", action="store_true", help="run in real time instead of as fast as possible")
     add("--tick-ms", type=options.tick_ms, metavar="MS", help="time between iterations (default: 20)")

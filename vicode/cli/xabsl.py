@@ -96,7 +96,7 @@ def _add_run(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("code", metavar="CODE", type=Path, help="intermediate code")
     parser.add_argument("--symbols", metavar="FILE", type=Path, required=True, help="the list of all symbols")
     parser.add_argument("--inputs", metavar="CSV", type=Path, required=True, help="inputs, one row per cycle")
-    parser.add_argument("--trace", metavar="JSONL", type=Path, help="write the trace to JSONL, one line per cycle")
+    parser.add_argument("--trace", metavar="JSONL", type=Path, help="write the trace to JSONL (docs/traces.md)")
     parser.add_argument(
         "--strict", action="store_true", help="apply the rules of the second version of the original engine"
     )

@@ -3,18 +3,15 @@
 from __future__ import annotations
 
 import importlib
-from dataclasses import asdict
 from typing import Any, cast
 
-from vicode.bica import Component, ErrorRecord, IterationRecord, Observer, Root, SimulatedClock
+from vicode.bica import Component, IterationRecord, Observer, Root, SimulatedClock
 from vicode.bica.loader import load_component, make_world, wrap_user_errors
 from vicode.bica.observer import to_json_value
 from vicode.simulation.guards import GuardEvaluator
 from vicode.simulation.limits import CapturedOutput
 from vicode.simulation.messages import Inputs, IterationResult, Setup
 from vicode.simulation.stubs import StubComponent, convert_value, install_stub_module
-
-_MAX_ERRORS = 20
 
 
 class RunHost:
@@ -27,7 +24,6 @@ class RunHost:
 
     def __init__(self, setup: Setup, prints: CapturedOutput) -> None:
         self._setup, self._prints = setup, prints
-        self._errors: list[dict[str, Any]] = []
         self._record: IterationRecord | None = None
         self._clock = SimulatedClock()
         install_stub_module(setup.stubs)
@@ -38,7 +34,12 @@ class RunHost:
         observer = Observer(self._on_record, values=True)
         with wrap_user_errors(f"cannot create {setup.component}"):
             self._root = Root(
-                component_class, clock=self._clock, world=world, on_error=self._on_error, observer=observer
+                # The observer records errors, so they are not printed.
+                component_class,
+                clock=self._clock,
+                world=world,
+                on_error=lambda _error: None,
+                observer=observer,
             )
         self._stubs = [each for each in self._root.components if isinstance(each, StubComponent)]
         for each in self._stubs:
@@ -82,31 +83,20 @@ class RunHost:
     def _on_record(self, record: IterationRecord) -> None:
         self._record = record
 
-    def _on_error(self, record: ErrorRecord) -> None:
-        if len(self._errors) < _MAX_ERRORS:
-            self._errors.append(asdict(record))
-
     def _make_result(self) -> IterationResult:
         record = self._record
         assert record is not None
-        root = record["tree"][0]
-        errors, self._errors = self._errors, []
         lines, left_out = self._prints.drain()
         snapshot = getattr(self._root.world, "snapshot", None)
         return IterationResult(
             iteration=record["iteration"],
             time_ns=record["time_ns"],
-            state=root["state"],
-            changed_from=root["changed_from"],
-            transition=root["transition"],
-            worked=root["worked"],
-            done=root["done"],
-            finished=bool(getattr(self._root.world, "finished", False)),
             tree=[cast("dict[str, Any]", step) for step in record["tree"]],
+            errors=record["errors"],
+            world=to_json_value(snapshot()) if snapshot is not None else None,
+            finished=bool(getattr(self._root.world, "finished", False)),
             guards=self._watch.evaluate(),
             prints=lines,
             omitted_lines=left_out,
-            errors=errors,
             calls=[call for each in self._stubs for call in each.drain_calls()],
-            world=to_json_value(snapshot()) if snapshot is not None else None,
         )

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, dataclass, field, fields
 from typing import Any, Literal
 
 Inputs = Mapping[str, Mapping[str, Any]]
@@ -92,7 +92,7 @@ class Ready:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class IterationResult:
-    """The record of one iteration.
+    """The record of one iteration as in a trace (docs/traces.md), and what only a simulation knows.
 
     `finished` is reported by the world. `guards` are those of the active state by decision: `holds` is true, false or
     unknown (None), `parts` the same for each condition, `reads` the values of names. `calls` are calls of functions of
@@ -101,20 +101,40 @@ class IterationResult:
 
     iteration: int
     time_ns: int
-    state: str
-    changed_from: str | None = None
-    transition: str | None = None
-    worked: bool = True
-    done: bool = False
+    tree: list[dict[str, Any]]
+    errors: list[dict[str, Any]] = field(default_factory=list)
+    world: Any = None
     finished: bool = False
-    tree: list[dict[str, Any]] = field(default_factory=list)
     guards: dict[str, dict[str, Any]] = field(default_factory=dict)
     prints: list[str] = field(default_factory=list)
     omitted_lines: int = 0
-    errors: list[dict[str, Any]] = field(default_factory=list)
     calls: list[dict[str, Any]] = field(default_factory=list)
-    world: Any = None
     kind: Literal["iteration"] = "iteration"
+
+    @property
+    def state(self) -> str:
+        """The state of the root component."""
+        return str(self.tree[0]["state"])
+
+    @property
+    def changed_from(self) -> str | None:
+        """The state that the root component left."""
+        return self.tree[0].get("changed_from")
+
+    @property
+    def transition(self) -> str | None:
+        """The transition that the root component took."""
+        return self.tree[0].get("transition")
+
+    @property
+    def worked(self) -> bool:
+        """Whether the period of the root component had elapsed."""
+        return self.tree[0].get("worked") is True
+
+    @property
+    def done(self) -> bool:
+        """Whether the root component is in a final state."""
+        return self.tree[0].get("done") is True
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -154,13 +174,7 @@ _RESPONSES: dict[str, type[Response]] = {
 _FIELD_TYPES: dict[str, type | tuple[type, ...]] = {
     "iteration": int,
     "time_ns": int,
-    "state": str,
-    "changed_from": (str, type(None)),
-    "transition": (str, type(None)),
-    "worked": bool,
-    "done": bool,
     "finished": bool,
-    "tree": list,
     "guards": dict,
     "prints": list,
     "omitted_lines": int,
@@ -169,6 +183,12 @@ _FIELD_TYPES: dict[str, type | tuple[type, ...]] = {
     "reason": str,
     "message": str,
     "error": (dict, type(None)),
+}
+_STEP_TYPES: dict[str, type | tuple[type, ...]] = {
+    "component": str,
+    "state": str,
+    "changed_from": (str, type(None)),
+    "transition": (str, type(None)),
 }
 
 
@@ -224,9 +244,7 @@ def encode_response(answer: Response) -> bytes:
     few = IterationResult(
         iteration=answer.iteration,
         time_ns=answer.time_ns,
-        state=answer.state,
-        changed_from=answer.changed_from,
-        transition=answer.transition,
+        tree=[{**answer.tree[0], "parameters": {}, "values": {}}],
         prints=["(the values of this iteration are too large to show)"],
     )
     return _line(asdict(few))
@@ -238,19 +256,47 @@ def decode_response(line: bytes) -> Response:
     Raises:
         ProtocolError: It is not a response; user code may have written to the pipe.
     """
-    plain = _parse(line)
+    return _make_response(_parse(line))
+
+
+def decode_iteration(plain: Mapping[str, Any]) -> IterationResult:
+    """Decode the record of an iteration from a trace; unknown fields are ignored.
+
+    Raises:
+        ProtocolError: It is not such a record.
+    """
+    known = {field.name: plain[field.name] for field in fields(IterationResult) if field.name in plain}
+    answer = _make_response({**known, "kind": "iteration"})
+    assert isinstance(answer, IterationResult)
+    return answer
+
+
+def _make_response(plain: dict[str, Any]) -> Response:
     make = _RESPONSES.get(str(plain.get("kind")))
     if make is None:
-        raise ProtocolError(f"not a response: {line[:80]!r}")
-    wrong = [
-        name for name, value in plain.items() if name in _FIELD_TYPES and not isinstance(value, _FIELD_TYPES[name])
-    ]
+        raise ProtocolError(f"not a response: {str(plain)[:80]}")
+    wrong = _wrong_field(plain, _FIELD_TYPES)
+    if not wrong and make is IterationResult:
+        wrong = _wrong_step(plain.get("tree"))
     if wrong:
-        raise ProtocolError(f"wrong type: {wrong[0]}")
+        raise ProtocolError(f"wrong type: {wrong}")
     try:
         return make(**plain)
     except TypeError as error:
         raise ProtocolError(f"no {plain['kind']}: {error}") from error
+
+
+def _wrong_field(plain: Mapping[str, Any], types: Mapping[str, type | tuple[type, ...]]) -> str:
+    return next((name for name, value in plain.items() if name in types and not isinstance(value, types[name])), "")
+
+
+def _wrong_step(tree: object) -> str:
+    if not isinstance(tree, list) or not tree or not all(isinstance(step, dict) for step in tree):
+        return "tree"
+    for step in tree:
+        if wrong := _wrong_field({"component": None, "state": None, **step}, _STEP_TYPES):
+            return wrong
+    return ""
 
 
 def _line(plain: dict[str, Any]) -> bytes:

@@ -10,9 +10,9 @@ from vicode.simulation import IterationResult
 
 
 def moment(number: int, state: str, **values: object) -> IterationResult:
-    tree = [{"component": "Lamp", "by": None, "values": values}]
     transition = f"{state}/0" if number > 1 and state == "Lit" else None
-    return IterationResult(iteration=number, time_ns=(number - 1) * 20, state=state, transition=transition, tree=tree)
+    tree = [{"component": "Lamp", "by": None, "state": state, "transition": transition, "values": values}]
+    return IterationResult(iteration=number, time_ns=(number - 1) * 20, tree=tree)
 
 
 def recorded(*states: str) -> Recording:

@@ -9,6 +9,7 @@ import pytest
 
 from tests.editor.simulation.lamp_project import prepare_lamp, recorded_iterations, simulate, write_lamps
 from vicode.editor.session.simulation import RunStatus, Simulation
+from vicode.editor.session.simulation.process import ProcessTransport
 from vicode.simulation import StopConditions
 
 SEEN = ("Eye", "seen")
@@ -195,9 +196,10 @@ def test_invalid_values_are_rejected(lamps: Path) -> None:
 def test_the_process_ends_with_the_simulation(lamps: Path) -> None:
     async def act(simulation: Simulation) -> None:
         await simulation.start()
-        runner = simulation._process
-        assert runner is not None
-        folder, pid = runner._folder, runner.pid
+        client = simulation._client
+        assert client is not None
+        assert isinstance(client.transport, ProcessTransport)
+        folder, pid = client.transport.folder, client.transport.process.pid
         assert folder.is_dir()
         simulation.end()
         assert simulation.status is RunStatus.ENDED

@@ -60,7 +60,7 @@ def test_an_endless_loop_is_reported_with_its_line(tmp_path: Path) -> None:
 
 
 def test_a_loop_that_catches_everything_is_killed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("vicode.editor.session.simulation.process._GRACE_S", 0.5)
+    monkeypatch.setattr("vicode.editor.session.simulation.client._GRACE_S", 0.5)
     code = "while True:\n              try: time.sleep(9)\n              except BaseException: pass"
     folder = lamp(tmp_path, code)
 
@@ -199,7 +199,8 @@ async def main():
     folder = Path({str(folder)!r})
     simulation = Simulation(prepared=prepare_lamp(folder, limit_s=60.0), cwd=folder)
     await simulation.start()
-    print(simulation._process.pid, simulation._process._folder, flush=True)
+    transport = simulation._client.transport
+    print(transport.process.pid, transport.folder, flush=True)
     await simulation.step(100)
 
 asyncio.run(main())

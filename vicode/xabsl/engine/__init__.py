@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from .code_reader import CodeError, read_code
-    from .engine import Engine, OptionView, Trace
+    from .engine import Engine, OptionView
     from .program import Program
     from .replay import ReplayError
     from .symbols import SymbolList, SymbolListError, read_symbols
@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from .validation import LoadError
 
 _MODULES = {
-    **dict.fromkeys(("Engine", "OptionView", "Trace"), "engine"),
+    **dict.fromkeys(("Engine", "OptionView"), "engine"),
     "LoadError": "validation",
     "Program": "program",
     "ReplayError": "replay",
@@ -32,7 +32,6 @@ __all__ = [
     "ReplayError",
     "SymbolList",
     "SymbolListError",
-    "Trace",
     "read_code",
     "read_symbols",
 ]

@@ -2,7 +2,7 @@
 
 import time
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from types import SimpleNamespace
 from typing import Any
 
@@ -40,14 +40,6 @@ class OptionView:
     option_time: int
     state_time: int
     parameters: dict[str, Any]
-
-
-@dataclass(slots=True)
-class Trace:
-    """Trace of one cycle: nodes as described in `replay`, and the symbols that were set."""
-
-    nodes: list[Any] = field(default_factory=list)
-    values: dict[str, Any] = field(default_factory=dict)
 
 
 def monotonic_ms() -> int:
@@ -91,7 +83,10 @@ class Engine:
         """Errors of the last cycle."""
         self.errors_occurred = False
         """Whether an error occurred since the start or the last `reset`."""
-        self.trace = Trace()
+        self.trace: list[Any] = []
+        """Nodes of the last cycle in the order of execution: ["s", symbol, value], ["b", behavior, time,
+        {parameter: value}] and ["o", option, state, option_time, state_time, {parameter: value}, [node], state before].
+        """
         self.messages: list[str] = []
         """Conflicts between robots in the last cycle."""
         self.cycle = 0
@@ -126,7 +121,7 @@ class Engine:
         if self.messages:
             self.messages.clear()
         if self._is_traced:
-            self.trace = Trace()
+            self.trace = []
         for run, _name in self._roots:
             run(now, cycle)
 
@@ -278,19 +273,19 @@ class Engine:
 
     def _begin_option_trace(self, number: int) -> list[Any]:
         inner: list[Any] = []
-        outer, self.trace.nodes = self.trace.nodes, inner
-        outer.append(["o", self.program.options[number].name, "", 0, 0, {}, inner])
+        outer, self.trace = self.trace, inner
+        state = self._states[self._records[number].run]
+        outer.append(["o", self.program.options[number].name, state, 0, 0, {}, inner, state])
         return outer
 
     def _end_option_trace(self, number: int, outer: list[Any], now: int) -> None:
         view = self._view(number, now)
         node = outer[-1]
         node[2:6] = [view.state, view.option_time, view.state_time, view.parameters]
-        self.trace.nodes = outer
+        self.trace = outer
 
     def _trace_symbol(self, symbol: str, value: object) -> None:
-        self.trace.nodes.append(["s", symbol, value])
-        self.trace.values[symbol] = value
+        self.trace.append(["s", symbol, value])
 
     def _trace_behavior(self, record: BehaviorRecord, now: int, cycle: int, arguments: dict[str, Any]) -> None:
         if record.last_cycle != cycle:
@@ -298,6 +293,6 @@ class Engine:
         if not record.was_active:
             record.active_since = now
         parameters = {slot.name: arguments[record.keywords[slot.name]] for slot in record.slots}
-        self.trace.nodes.append(["b", record.name, (now - record.active_since) & _MASK, parameters])
+        self.trace.append(["b", record.name, (now - record.active_since) & _MASK, parameters])
         record.act(**arguments)
         record.last_cycle = cycle

@@ -1,9 +1,4 @@
-"""Runs a program on recorded inputs and writes a trace in JSON lines.
-
-A line is {"c": cycle, "t": ms, "agent", "tree": [node], "out": {symbol: value}, "err"?: [text], "r"?: robot}. Nodes are
-["o", option, state, option_time, state_time, {parameter: value}, [node]], ["b", behavior, time, {parameter: value}] and
-["s", symbol, value], in the order of execution.
-"""
+"""Runs a program on recorded inputs and writes a trace in JSON lines (docs/traces.md)."""
 
 import csv
 import json
@@ -16,6 +11,11 @@ from .engine import Engine
 from .linker import python_name
 from .program import Program, TypedSlot
 from .symbols import RobotSymbol, SymbolList
+
+TRACE_HEADER = '{"vicode-trace":1,"runtime":"xabsl"}'
+"""The first line of a trace: the version of the form and the writer."""
+
+_NS_PER_MS = 1_000_000
 
 
 class ReplayError(ValueError):
@@ -126,6 +126,9 @@ class ReplayRobot:
         slots = [slot for option in program.options for slot in option.parameters]
         slots += [slot for behavior in symbols.behaviors for slot in behavior.parameters]
         self._slots = {slot.name: slot for slot in slots}
+        self._targets = {
+            (each.name, state.name) for each in program.options for state in each.states if state.is_target
+        }
 
     def apply_row(self, row: dict[str, str], prefix: str = "") -> None:
         """Set the inputs from a row.
@@ -149,30 +152,53 @@ class ReplayRobot:
                 self.world.set_input(name, _parse_number(name, cell))
 
     def trace_line(self, cycle: int, number: int | None = None) -> str:
-        """Format the trace of the last cycle as a line of JSON."""
+        """Format the last cycle as a line of a trace."""
         engine = self.engine
-        record: dict[str, Any] = {"c": cycle, "t": self.now, "agent": engine.agent}
+        record: dict[str, Any] = {"iteration": cycle, "time_ns": self.now * _NS_PER_MS, "agent": engine.agent}
         if number is not None:
-            record["r"] = number
-        record["tree"] = [self._node(node) for node in engine.trace.nodes]
-        record["out"] = {
-            name: self._json_value(self._kinds[name], value) for name, value in engine.trace.values.items()
-        }
-        if engine.errors:
-            record["err"] = engine.errors
+            record["robot"] = number
+        record["tree"] = list(self._steps(engine.trace))
+        record["errors"] = [{"message": error} for error in engine.errors]
         return json.dumps(record, separators=(",", ":"))
 
-    def _node(self, node: list[Any]) -> list[Any]:
-        match node[0]:
-            case "s":
-                return ["s", node[1], self._json_value(self._kinds[node[1]], node[2])]
-            case "b":
-                return ["b", node[1], node[2], self._parameters(node[3])]
-        return [*node[:5], self._parameters(node[5]), [self._node(child) for child in node[6]]]
+    def _steps(self, nodes: list[Any], by: str | None = None) -> Iterator[dict[str, Any]]:
+        for node in nodes:
+            if node[0] == "b":
+                yield self._step(node[1], by, node[2], node[3])
+            elif node[0] == "o":
+                _kind, name, state, option_time, state_time, parameters, inner, before = node
+                yield {
+                    **self._step(name, by, option_time, parameters),
+                    "state": state,
+                    "state_time_ns": state_time * _NS_PER_MS,
+                    "changed_from": before if before != state else None,
+                    "done": (name, state) in self._targets,
+                    "values": {
+                        child[1]: self._json_value(self._kinds[child[1]], child[2])
+                        for child in inner
+                        if child[0] == "s"
+                    },
+                }
+                yield from self._steps(inner, name)
 
-    def _parameters(self, values: dict[str, Any]) -> dict[str, Any]:
+    def _step(self, name: str, by: str | None, active_ms: int, parameters: dict[str, Any]) -> dict[str, Any]:
+        return {
+            "component": name,
+            "by": by,
+            "link": "root" if by is None else "modulates",
+            "worked": True,
+            "component_time_ns": active_ms * _NS_PER_MS,
+            "state": "",
+            "state_time_ns": 0,
+            "changed_from": None,
+            "transition": None,
+            "parameters": self._parameters(name, parameters),
+            "done": False,
+        }
+
+    def _parameters(self, name: str, values: dict[str, Any]) -> dict[str, Any]:
         order = sorted(values, key=lambda name: "dbe".index(self._slots[name].kind))
-        return {name: self._json_value(self._slots[name], values[name]) for name in order}
+        return {each.removeprefix(f"{name}."): self._json_value(self._slots[each], values[each]) for each in order}
 
     def _json_value(self, slot: TypedSlot | RobotSymbol, value: Any) -> Any:
         if slot.kind == "e":
@@ -180,7 +206,9 @@ class ReplayRobot:
         if slot.kind == "b":
             return bool(value)
         number = float(value)
-        return int(number) if math.isfinite(number) and number == int(number) else number
+        if not math.isfinite(number):
+            return str(number)
+        return int(number) if number == int(number) else number
 
 
 def _parse_number(name: str, cell: str) -> float:
@@ -191,14 +219,15 @@ def _parse_number(name: str, cell: str) -> float:
 
 
 def replay(program: Program, symbols: SymbolList, rows: list[dict[str, str]], *, strict: bool = False) -> Iterator[str]:
-    """Run a program on inputs; yields one line of JSON per cycle.
+    """Run a program on inputs; yields the lines of a trace.
 
     Raises:
         LoadError: The program does not match the symbols.
         ReplayError: The inputs do not match the symbols.
     """
     robot = ReplayRobot(program, symbols, strict=strict)
-    for cycle, row in enumerate(rows):
+    yield TRACE_HEADER
+    for cycle, row in enumerate(rows, start=1):
         robot.apply_row(row)
         robot.engine.execute()
         yield robot.trace_line(cycle)
@@ -219,7 +248,8 @@ def replay_team(
     for number, robot in enumerate(team):
         robot.engine.team.priority, robot.engine.team.ticks = number, ticks
     sent = [robot.engine.generate_outgoing_message() for robot in team]
-    for cycle, row in enumerate(rows):
+    yield TRACE_HEADER
+    for cycle, row in enumerate(rows, start=1):
         received, sent = sent, []
         for number, robot in enumerate(team):
             robot.apply_row(row, f"{number}:")

@@ -20,11 +20,12 @@ from vicode.editor.session.simulation import (
     behavior_key,
     prepare_run,
 )
-from vicode.editor.session.simulation.traces import TraceError, input_script, read_trace
+from vicode.editor.session.simulation.traces import input_script, read_iterations
 from vicode.editor.view import ItemRef
 from vicode.generators import UnsoundDesignError
 from vicode.simulation import IterationResult, StopConditions
 from vicode.simulation.stop_reasons import COUNT_REACHED
+from vicode.simulation.trace import TraceError
 
 SPEEDS = (0.1, 0.25, 0.5, 1.0, 2.0, 5.0, 20.0)
 _PLAY_INTERVAL_S = 0.04
@@ -122,7 +123,7 @@ class SimulationController:
         Raises:
             TraceError: It is not a trace of this design.
         """
-        self.trace, self.is_replay = read_trace(text, self.context.design), is_replay
+        self.trace, self.is_replay = read_iterations(text, self.context.design), is_replay
         self.is_stale = self.simulation is not None
         self._notify()
 

@@ -33,7 +33,7 @@ class GuardsList:
         iteration, design = simulation.shown_iteration, simulation.prepared.design
         state = iteration.state if iteration else design.initial
         rows = list_guard_rows(design, state, simulation.guards)
-        seconds = iteration.tree[0].get("state_time_ns", 0) / 1e9 if iteration and iteration.tree else 0.0
+        seconds = iteration.tree[0].get("state_time_ns", 0) / 1e9 if iteration else 0.0
         stops = frozenset(self.controller.breakpoints.items)
         shape = (state, tuple((row.key, row.text, row.outcome) for row in rows), stops)
         waits = "" if iteration is None or iteration.worked else " · not tested now"

@@ -8,7 +8,7 @@ from nicegui.events import UploadEventArguments
 from vicode.editor.access import MAX_BODY_BYTES
 from vicode.editor.panels.simulation.controller import SimulationController
 from vicode.editor.session.simulation import stubbed_components, used_components
-from vicode.editor.session.simulation.traces import TraceError
+from vicode.simulation.trace import TraceError
 
 # The file is sent in a multipart body.
 _MAX_BYTES = MAX_BODY_BYTES - 65_536

@@ -1,14 +1,15 @@
 """One simulation of an open design: a run and its recorded past, which can be viewed and continued from."""
 
 import asyncio
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Awaitable, Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from enum import StrEnum
 from pathlib import Path
 from typing import Any
 
+from vicode.editor.session.simulation.client import RunClient, RunFailedError
 from vicode.editor.session.simulation.inputs import SimulationInput
-from vicode.editor.session.simulation.process import RunFailedError, RunProcess, start_process
+from vicode.editor.session.simulation.process import start_process
 from vicode.editor.session.simulation.recording import MAX_ITERATIONS, Recording, merge_inputs
 from vicode.editor.session.simulation.setup import PreparedRun
 from vicode.simulation import Inputs, IterationResult, Request, StopConditions
@@ -50,6 +51,7 @@ class Simulation:
         cwd: the working directory of the process, the project folder.
         script: inputs to set before each iteration, if a trace provides them.
         replay: recorded iterations to view instead of running anything.
+        start_client: starts the program that runs the component.
     """
 
     prepared: PreparedRun
@@ -57,6 +59,7 @@ class Simulation:
     script: Sequence[Inputs] = ()
     replay: Sequence[IterationResult] = ()
     on_change: Callable[[], None] = field(default=lambda: None)
+    start_client: Callable[[PreparedRun, Path], Awaitable[RunClient]] = start_process
     recording: Recording = field(init=False, default_factory=Recording)
     cursor: int = field(init=False, default=0)
     status: RunStatus = field(init=False, default=RunStatus.PAUSED)
@@ -65,9 +68,9 @@ class Simulation:
     guards: Mapping[str, Any] = field(init=False, default_factory=dict)
     stop_reason: str = field(init=False, default="")
     """Why the last run stopped."""
-    _process: RunProcess | None = field(init=False, default=None)
-    _closing: list[RunProcess] = field(init=False, default_factory=list)
-    _process_iterations: int = field(init=False, default=0)
+    _client: RunClient | None = field(init=False, default=None)
+    _closing: list[RunClient] = field(init=False, default_factory=list)
+    _client_iterations: int = field(init=False, default=0)
     """How many iterations the process has made."""
     _initial_guards: Mapping[str, Any] = field(init=False, default_factory=dict)
     _pending: dict[str, dict[str, Any]] = field(init=False, default_factory=dict)
@@ -161,7 +164,7 @@ class Simulation:
         self.recording.truncate(self.cursor)
         # The form already shows the inputs of the next iteration.
         self._pending = {component: dict(values) for component, values in after.items()}
-        self._kill_process()
+        self._close_client()
         self._clear_failure()
 
     async def set_input(self, key: tuple[str, str], value: Any) -> bool:
@@ -184,7 +187,7 @@ class Simulation:
     def end(self) -> None:
         """Kill the process; the recorded past remains."""
         self._pause_requested = True
-        self._kill_process()
+        self._close_client()
         self.status = RunStatus.ENDED
 
     async def wait_closed(self) -> None:
@@ -211,7 +214,7 @@ class Simulation:
         while left and reason == COUNT_REACHED and not self._pause_requested:
             if not self.can_step:
                 return self._end_reason()
-            await self._synchronize_process()
+            await self._synchronize_client()
             made = len(self.recording)
             reason = await self._run_chunk(min(left, _CHUNK, MAX_ITERATIONS - made), stops)
             left -= len(self.recording) - made
@@ -229,7 +232,7 @@ class Simulation:
         return "end"
 
     async def _run_chunk(self, count: int, stops: StopConditions) -> str:
-        assert self._process is not None
+        assert self._client is not None
         self.status = RunStatus.RUNNING
         changes, self._pending = self._pending, {}
         at = len(self.recording)
@@ -240,7 +243,7 @@ class Simulation:
         waiting = [changes]
         request = Request(kind="run", inputs=changes, count=count, stops=stops)
         try:
-            rested = await self._process.run(request, lambda iteration: self._add_iteration(iteration, waiting))
+            rested = await self._client.run(request, lambda iteration: self._add_iteration(iteration, waiting))
         except RunFailedError:
             # Inputs that no iteration has used yet are pending.
             self._pending = waiting.pop() if waiting else {}
@@ -250,21 +253,21 @@ class Simulation:
 
     def _add_iteration(self, iteration: IterationResult, waiting: list[dict[str, dict[str, Any]]]) -> None:
         self.recording.add(iteration, waiting.pop() if waiting else {})
-        self._process_iterations = self.cursor = len(self.recording)
+        self._client_iterations = self.cursor = len(self.recording)
         self.guards = iteration.guards
 
-    async def _synchronize_process(self) -> None:
+    async def _synchronize_client(self) -> None:
         """Ensure a process that has made all recorded iterations, starting and replaying if needed."""
-        if self._process is not None and self._process_iterations == len(self.recording):
+        if self._client is not None and self._client_iterations == len(self.recording):
             return
-        self._kill_process()
+        self._close_client()
         await self.wait_closed()
-        runner = await start_process(self.prepared, self.cwd)
+        client = await self.start_client(self.prepared, self.cwd)
         if self.status is RunStatus.ENDED:
             # The simulation was ended while the process started.
-            runner.kill()
+            client.close()
             raise RunFailedError("The simulation was stopped.")
-        self._process = runner
+        self._client = client
         latest: list[IterationResult] = []
         for changes, count in self.recording.input_segments(len(self.recording)):
             inputs = changes
@@ -272,18 +275,18 @@ class Simulation:
                 request = Request(
                     kind="run", inputs=inputs, count=min(_QUIET_CHUNK, count - begin), suppress_events=True
                 )
-                await self._process.run(request, latest.append)
+                await self._client.run(request, latest.append)
                 inputs = {}
-        self._process_iterations = len(self.recording)
-        if latest and latest[-1] != self.recording.iteration(self._process_iterations):
+        self._client_iterations = len(self.recording)
+        if latest and latest[-1] != self.recording.iteration(self._client_iterations):
             self.warning = (
                 "The replay gave a different result: the code depends on real time or on unseeded random numbers."
             )
 
     async def _evaluate_guards(self) -> None:
-        await self._synchronize_process()
-        assert self._process is not None
-        self.guards = (await self._process.evaluate_guards(self._pending)).guards
+        await self._synchronize_client()
+        assert self._client is not None
+        self.guards = (await self._client.evaluate_guards(self._pending)).guards
 
     async def _catch_failure(self, do: Callable[[], Any]) -> Any:
         try:
@@ -295,14 +298,14 @@ class Simulation:
         except OSError as error:
             self.status = RunStatus.FAILED
             self.failure = Failure(message=f"The simulation could not be started: {error}")
-        self._kill_process()
+        self._close_client()
         return None
 
-    def _kill_process(self) -> None:
-        if self._process is not None:
-            self._process.kill()
-            self._closing.append(self._process)
-        self._process, self._process_iterations = None, 0
+    def _close_client(self) -> None:
+        if self._client is not None:
+            self._client.close()
+            self._closing.append(self._client)
+        self._client, self._client_iterations = None, 0
 
     def _notify(self) -> None:
         self.on_change()
