@@ -1,1 +1,1 @@
-"""The web editor: `session` and `view` know no NiceGUI; pages, panels and the canvas do."""
+"""The web editor: `session` and `view` do not depend on NiceGUI."""

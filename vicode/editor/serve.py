@@ -34,7 +34,6 @@ class ServerAddress:
 
     @property
     def url(self) -> str:
-        """URL of the home page."""
         return self.page_url("/")
 
     def page_url(self, path: str) -> str:

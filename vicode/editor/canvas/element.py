@@ -78,7 +78,6 @@ class Canvas(ui.element, component=CANVAS_JS / "vicode_canvas.js"):
         self._call("load", self._full_scene())
 
     def apply(self, changes: SceneChanges) -> None:
-        """Apply a difference to the scene."""
         if self._scene is None:
             raise RuntimeError("apply() requires a scene: call load() first")
         self._scene["rev"], self._embedded_rev = changes["rev"], None
@@ -105,12 +104,11 @@ class Canvas(ui.element, component=CANVAS_JS / "vicode_canvas.js"):
         self._call("centre", of, identity)
 
     def scroll_to_initial(self, of: ElementKind, identity: str) -> None:
-        """Center one element once the page is mounted; a view restored from the browser's history only reveals it."""
+        """Center one element when the page is mounted, or only scroll to it if the browser restores an earlier view."""
         self._initial_target = (of, identity)
         self._call("scrollToInitial", of, identity)
 
     def fit(self) -> None:
-        """Fit the whole scene into the view."""
         self._call("fit")
 
     def rename_in_place(self, state: str) -> None:
@@ -128,7 +126,6 @@ class Canvas(ui.element, component=CANVAS_JS / "vicode_canvas.js"):
         self._call("runCommand", command)
 
     def focus(self) -> None:
-        """Move the keyboard focus to the canvas."""
         self._call("focus")
 
     def write_clipboard(self, text: str | None) -> None:
@@ -164,7 +161,6 @@ class Canvas(ui.element, component=CANVAS_JS / "vicode_canvas.js"):
             self._send_active()
 
     def set_breakpoints(self, items: Iterable[SceneItem]) -> None:
-        """Set the elements that show a breakpoint sign."""
         self._breakpoints = list(items)
         self._call("setBreakpoints", self._breakpoints)
 
@@ -175,7 +171,6 @@ class Canvas(ui.element, component=CANVAS_JS / "vicode_canvas.js"):
             self._send_presence()
 
     def show_links(self, flag: bool) -> None:
-        """Show or hide the links between states and components."""
         self._links_shown = flag
         self._call("showLinks", flag)
 

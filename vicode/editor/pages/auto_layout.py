@@ -43,7 +43,6 @@ class AutoLayout:
     bar: ui.element = field(init=False)
 
     def __post_init__(self) -> None:
-        """Build the bar, hidden at first."""
         self.bar = ui.element("div").classes("layout-bar").props('role="region" aria-label="Layout"')
         self.bar.set_visibility(False)
         self.canvas_controller.on_preview = self.finish_preview
@@ -66,7 +65,6 @@ class AutoLayout:
             self.context.run_in_background(self._propose(), "lay out")
 
     async def cancel(self) -> None:
-        """Cancel the computation."""
         service, self.service = self.service, None
         self.bar.set_visibility(False)
         if service is not None:
@@ -140,7 +138,6 @@ def _format_count(states: int) -> str:
 
 
 def _node_positions(design: Design, layout: NodeLayout, only: Collection[str] | None) -> Iterator[NodePosition]:
-    """Yield the positions of a layout in the format of the canvas."""
     for name, (x, y) in layout.states.items():
         if only is None or name in only:
             yield {"of": "states", "id": name, "x": x, "y": y}

@@ -72,7 +72,6 @@ class AutosaveControls:
         self.context.notify_subscribers()
 
     def resolve_conflict(self) -> None:
-        """Open the conflict dialog."""
         if self.context.document.shared.disk_conflict is None:
             self.context.show_toast(texts.NO_CONFLICT, "info")
         ask_to_resolve_conflict(self.context)

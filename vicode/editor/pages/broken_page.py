@@ -31,7 +31,6 @@ class BrokenPage:
     """One window on the text of a file, checked as the user types."""
 
     def __init__(self, library: Library, workspace: Workspace, file: Path, name: str) -> None:
-        """Build the page for the current request."""
         self.workspace, self.file, self.name = workspace, file, name
         self.disk_text = ""
         editors = CodeEditorFactory()

@@ -78,7 +78,6 @@ class CanvasController:
         )
 
     def run_command(self, command: str) -> None:
-        """Run a command of the canvas by its name."""
         self.canvas.run_command(command)
 
     def update(self) -> None:
@@ -94,7 +93,6 @@ class CanvasController:
         self.context.selected = tuple(item for item in rebased if item is not None and self.exists(item))
 
     def show_selection(self) -> None:
-        """Show the selection of the window on the canvas."""
         items = [{"of": item.kind, "id": item.id} for item in self.context.selected if item.kind != "design"]
         self.canvas.select(cast("list[SceneItem]", items))
 

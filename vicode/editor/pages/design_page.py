@@ -48,7 +48,6 @@ class DesignPage:
         request: PageRequest,
         autosave: AutosaveService | None,
     ) -> None:
-        """Build the page for the current request."""
         user = identify_user(library.users)
         session = DocumentSession(document.shared, user.id)
         self.context = context = WindowContext(
@@ -99,7 +98,6 @@ class DesignPage:
         self.undo_bar.show(text, undo)
 
     def _commands(self, theme: Theme, others: tuple[Command, ...]) -> tuple[Command, ...]:
-        """Return all commands of the page in their listing order."""
         page_commands = PageCommands(self.context, self.view.canvas_controller, theme)
         commands = (*page_commands.commands(), *others, *self.view.commands())
         commands += ExportDialog(self.context, lambda: page_commands.links_shown).commands()

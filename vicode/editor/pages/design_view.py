@@ -46,7 +46,6 @@ class DesignView:
         )
 
     def toggle(self) -> None:
-        """Switch between diagram and table."""
         self.show(table=not self.is_table_shown)
 
     def show(self, *, table: bool) -> None:

@@ -20,7 +20,6 @@ _SCRIPT = Path(__file__).with_name("form_input_preservation.js")
 
 
 def preserve_form_input() -> None:
-    """Add the script to the page."""
     client = ui.context.client
 
     def on_press(number: object) -> None:

@@ -45,7 +45,6 @@ class Navigator:
         context.changes.subscribe(self._update_address)
 
     def commands(self) -> tuple[Command, ...]:
-        """Return the commands find, back and home."""
         return (
             Command(
                 "find",
@@ -71,7 +70,6 @@ class Navigator:
             canvas_controller.scroll_to_initial(selected)
 
     def go_to(self, target: SearchTarget) -> None:
-        """Show an item of this or another design."""
         context = self._context
         if (target.project, target.component) != (context.workspace.key, context.design.component):
             ui.navigate.to(design_url(target.project, target.component, target.selected))
@@ -82,7 +80,6 @@ class Navigator:
             context.page.reveal(target.selected)
 
     def open_component(self, component: str) -> None:
-        """Open the design of a used component."""
         workspace, here = self._context.workspace, self._context.design.component
         if workspace.project.design(component) is None:
             self._context.show_toast(texts.hand_written_component(component), "info")

@@ -27,7 +27,6 @@ class PageCommands:
         self.links_shown = True
 
     def commands(self) -> tuple[Command, ...]:
-        """Return the commands in their listing order."""
         design, edit, view = MenuGroup.DESIGN, MenuGroup.EDIT, MenuGroup.VIEW
         return (
             Command("save", "Save", self.save, design, icon="save", keys=("Ctrl+S",), while_typing=True),
@@ -66,7 +65,6 @@ class PageCommands:
         self._show_error(self.context.document.undo())
 
     def redo(self) -> None:
-        """Redo the last undone edit."""
         self._show_error(self.context.document.redo())
 
     def generate_code(self) -> None:
@@ -82,7 +80,6 @@ class PageCommands:
             self.context.show_toast(outcome.error, "warning")
 
     def toggle_links(self) -> None:
-        """Show or hide the links of states to required and modulated components."""
         self.links_shown = not self.links_shown
         self.canvas_controller.canvas.show_links(self.links_shown)
 

@@ -43,7 +43,6 @@ class SidePanels:
             self.side = Tabs(_SIDE, "side", "Side panels")
 
     def build(self) -> None:
-        """Build the visible panels."""
         from vicode.editor.panels.code_panel import CodePanel
         from vicode.editor.panels.findings_panel import FindingsPanel
         from vicode.editor.panels.history_panel import HistoryPanel
@@ -61,7 +60,6 @@ class SidePanels:
         )
 
     def commands(self) -> tuple[Command, ...]:
-        """Return the commands of the panels."""
         return (
             *simulation_commands(self._simulate, lambda: self.dock.show(_SIMULATE)),
             Command(
@@ -76,12 +74,10 @@ class SidePanels:
         )
 
     def design_changed(self) -> None:
-        """Tell the simulation that the design has changed."""
         if self._simulator is not None:
             self._simulator.check_design()
 
     def refresh(self) -> None:
-        """Update the visible panels."""
         self.dock.refresh()
         self.side.refresh()
 

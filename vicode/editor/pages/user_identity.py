@@ -13,12 +13,10 @@ _YEAR_S = 365 * 24 * 3600
 
 
 def identify_user(users: UserDirectory) -> User:
-    """Return the user of the current request."""
     name = unquote(ui.context.client.request.cookies.get(NAME_COOKIE, ""))
     return users.get_or_create_user(str(app.storage.browser["id"]), name)
 
 
 def store_name(name: str) -> None:
-    """Store the name of the user in a cookie."""
     cookie = f"{NAME_COOKIE}={quote(clean_name(name), safe='')}; path=/; max-age={_YEAR_S}; samesite=strict"
     ui.run_javascript(f"document.cookie = {json.dumps(cookie)}")

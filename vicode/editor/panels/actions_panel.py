@@ -49,7 +49,6 @@ def actions_panel(
 
 
 def python_code(text: str) -> Code:
-    """Create code with a Python text."""
     return replace_python(None, text)
 
 
@@ -135,7 +134,6 @@ def settable_declarations(context: WindowContext) -> tuple[Declaration, ...]:
 
 
 def component_parameters(context: WindowContext, alias: str) -> tuple[Declaration, ...]:
-    """Return the parameters of a used component."""
     use = context.design.use(alias)
     interface = context.workspace.project.interface(use.component) if use else None
     return interface.parameters if interface else ()

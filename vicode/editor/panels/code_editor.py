@@ -20,13 +20,11 @@ class CodeEditorFactory:
         on_focus: Handler[CodeMirrorFocusChangeEventArguments] | None = None,
         language: SUPPORTED_LANGUAGES | None = "Python",
     ) -> ui.codemirror:
-        """Create an empty code editor."""
         editor = ui.codemirror(language=language, theme=self._theme, on_focus_change=on_focus)
         self._editors.add(editor)
         return editor
 
     def set_dark(self, *, is_dark: bool) -> None:
-        """Switch all editors to the dark or light theme."""
         self._theme = "githubDark" if is_dark else "vscodeLight"
         for editor in tuple(self._editors):
             if not editor.is_deleted:

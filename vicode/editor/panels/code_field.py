@@ -163,7 +163,6 @@ class CodeField(Field):
         self.refresh()
 
     def refresh(self) -> None:
-        """Show the value of the design and its findings."""
         super().refresh()
         if self.element.is_deleted:
             return

@@ -20,7 +20,6 @@ class CodePanel:
     """A read-only view of the files generated for the design."""
 
     def __init__(self, context: WindowContext) -> None:
-        """Build the empty panel; `refresh` fills it."""
         self.context = context
         self.shown_rev = -1
         self.is_busy = False
@@ -45,7 +44,6 @@ class CodePanel:
 
     @property
     def file(self) -> PreviewFile | None:
-        """The shown file."""
         return next((file for file in self.preview.files if file.path == self.file_select.value), None)
 
     async def _generate(self) -> None:

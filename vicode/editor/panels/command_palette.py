@@ -51,7 +51,6 @@ class CommandPalette(ui.element, component="command_palette.js"):
         self.on("choose", self._on_choose)
 
     def open(self) -> None:
-        """Open the palette."""
         self.run_method("open")
 
     def _reload_items(self, event: GenericEventArguments) -> None:
@@ -106,7 +105,6 @@ def _command_item(command: Command) -> SearchItem:
 
 
 def _hit(match: SearchMatch) -> dict[str, Any]:
-    """Return the texts of a row."""
     item = match.item
     return {
         "icon": _ICONS[item.kind],

@@ -47,12 +47,10 @@ class DeclarationRef:
         return "argument" if self.argument is not None else self.section.removesuffix("s")
 
     def find(self, design: Design) -> Declaration | None:
-        """Return the declaration; None if it does not exist."""
         outer = _at(getattr(design, self.section), self.index)
         return outer if self.argument is None or outer is None else _at(outer.arguments or (), self.argument)
 
     def update(self, design: Design, change: Callable[[Declaration], Declaration]) -> Design:
-        """Replace the declaration in a design."""
         return _updated(
             design, self, lambda outer: change(outer) if self.argument is None else self._update_argument(outer, change)
         )
@@ -62,7 +60,6 @@ class DeclarationRef:
         return replace(outer, arguments=tuple(change(each) if at == self.argument else each for at, each in arguments))
 
     def path(self, design: Design, *more: str) -> DesignPath:
-        """Return the path in the design file."""
         outer = _at(getattr(design, self.section), self.index)
         inner = self.find(design)
         if outer is None or inner is None:
@@ -71,7 +68,6 @@ class DeclarationRef:
         return (self.section, outer.name, *middle, *more)
 
     def symbol_ref(self, design: Design, name: str) -> SymbolRef:
-        """Return the symbol for a rename."""
         outer = _at(getattr(design, self.section), self.index)
         if self.argument is None or outer is None:
             return SymbolRef(component=design.component, section=self.section, name=name)
@@ -159,7 +155,6 @@ def _arguments(context: WindowContext, ref: DeclarationRef, fields: list[Field])
 
 
 def add_argument(output: Declaration) -> Declaration:
-    """Add an argument to an output."""
     known = output.arguments or ()
     name = unique_name("argument", {each.name for each in known})
     return replace(output, arguments=(*known, Declaration(name=name, type="float")))

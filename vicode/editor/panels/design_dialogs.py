@@ -24,7 +24,6 @@ class DesignDialogs:
     offer_undo: Callable[[str, Callable[[], object]], None]
 
     def ask_new(self, workspace: Workspace) -> None:
-        """Ask for name and template of a new design."""
         choices = templates.list_templates()
         titles = {each.name: f"{each.title}: {each.doc}" for each in choices}
         with titled_dialog(f"New design in {workspace.project.name}") as dialog:
@@ -48,7 +47,6 @@ class DesignDialogs:
             _buttons(dialog, "Create", create, name)
 
     def ask_duplicate(self, workspace: Workspace, component: str) -> None:
-        """Ask for the name of a copy."""
         with titled_dialog(f"Duplicate {component}") as dialog:
             name = _name_field("Name of the copy", trash.copy_name(workspace, component), "")
 
@@ -122,8 +120,6 @@ class DesignDialogs:
         self.offer_restore(workspace, trash.move_to_trash(workspace, component))
 
     def offer_restore(self, workspace: Workspace, trashed: TrashedDesign) -> None:
-        """Offer to restore a design from the trash."""
-
         def undo() -> None:
             error = trash.restore_from_trash(workspace, trashed)
             text = texts.sentence(error) or texts.restored(trashed.component)

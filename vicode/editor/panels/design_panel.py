@@ -21,7 +21,6 @@ from vicode.model.edits import add_use, remove_uses
 
 
 def design_panel(context: WindowContext) -> list[Field]:
-    """Build the form of the design."""
     panel_title("Component", context.design.component)
     fields = [
         text_field(context, _attribute_binding("Description", "doc"), multiline=True),
@@ -42,7 +41,6 @@ def design_panel(context: WindowContext) -> list[Field]:
 
 
 def _xabsl(context: WindowContext, fields: list[Field]) -> None:
-    """Build the section of the XABSL attributes."""
     design = context.design
     parts = [f"{design.xabsl_name} in XABSL"] if design.xabsl_name else []
     parts += ["XABSL arithmetic"] if design.arithmetic else []
@@ -83,7 +81,6 @@ def _code(context: WindowContext, fields: list[Field]) -> None:
 
 
 def common_panel(context: WindowContext) -> list[Field]:
-    """Build the form of the common transitions and actions."""
     heading("Common transitions", hint="tested in every state, before its own transitions")
     decisions_list(context, COMMON, ("common", "transitions"), context.design.common.transitions)
     heading("Common actions", hint="run in every state, before its own actions")

@@ -29,8 +29,6 @@ class _Row:
 
 @dataclass(frozen=True, slots=True)
 class _UnsavedMark:
-    """The mark of unsaved changes in a row."""
-
     workspace: Workspace
     component: str
     link: ui.link
@@ -69,7 +67,6 @@ class DesignsList:
         self.refresh()
 
     def refresh(self) -> None:
-        """Show the current designs."""
         key = [
             (each.key, sorted(each.project.interfaces()), each.broken_file_names) for each in self.library.workspaces
         ]

@@ -62,7 +62,6 @@ class ExportDialog:
         return (ask, *copies)
 
     def ask(self) -> None:
-        """Open the dialog."""
         selected = _selected_states(self._context)
         with titled_dialog(f"Export {self._context.design.component}") as dialog:
             with ui.element("div").classes("export-choices"):

@@ -40,7 +40,6 @@ class FieldBinding:
     get_path: Callable[[Design], DesignPath] | None = None
 
     def locate(self, design: Design) -> DesignPath:
-        """Return the path of the value in a design."""
         return self.get_path(design) if self.get_path else self.path
 
 
@@ -69,7 +68,6 @@ class Field:
         self.refresh()
 
     def refresh(self) -> None:
-        """Show the value of the design and its findings."""
         value = self.binding.read(self.context.design)
         # A rejected text stays until the value in the design changes.
         if self.error and value != self._value_at_error:
@@ -91,7 +89,6 @@ class Field:
 
     @property
     def path(self) -> DesignPath:
-        """The path of the value in the current design."""
         return self.binding.locate(self.context.design)
 
     def transfer_input_from(self, old: "Field", sent_text: str = "") -> None:
@@ -104,7 +101,6 @@ class Field:
             old._browser_state.field_merge.record_sent(sent_text, self._normalize(sent_text))
 
     def apply_delayed_input(self, text: str) -> None:
-        """Apply text typed into the replaced field."""
         self.element.set_value(text)
 
     def commit_delayed_input(self, text: str) -> None:
@@ -138,7 +134,7 @@ class Field:
         )
 
     def other_findings(self) -> list[Finding]:
-        """Return findings from outside the design."""
+        """Return findings about other files than the design."""
         return []
 
     def _on_typed(self, value: Any) -> None:
@@ -188,7 +184,6 @@ def findings_at(path: DesignPath, findings: Iterable[Finding]) -> list[Finding]:
 def text_field(
     context: WindowContext, binding: FieldBinding, *, monospace: bool = False, multiline: bool = False
 ) -> Field:
-    """Build a text field with its findings below."""
     with ui.column().classes("field"):
         element = TextInput(binding.label, placeholder=binding.hint, multiline=multiline, monospace=monospace)
         element.props("debounce=250")
@@ -229,7 +224,6 @@ class ChoiceField(Field):
     options: ListOptions = field(default=lambda _design: ())
 
     def refresh(self) -> None:
-        """Show the value and the options of the design."""
         if self.has_focus:
             super().refresh()
             return
@@ -255,7 +249,6 @@ def state_names(design: Design) -> list[str]:
 
 
 def checkbox_field(context: WindowContext, binding: FieldBinding) -> Field:
-    """Build a checkbox."""
     return Field(context, binding, ui.checkbox(binding.label).props("dense"))
 
 

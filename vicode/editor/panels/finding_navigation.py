@@ -24,7 +24,6 @@ class FindingNavigator:
     current: Finding | None = field(default=None, init=False)
 
     def commands(self) -> tuple[Command, ...]:
-        """Return the commands for the next and the previous finding."""
         return (
             Command(
                 name="next-finding",
@@ -47,7 +46,6 @@ class FindingNavigator:
         )
 
     def move_by(self, step: int) -> None:
-        """Select the item of the next or previous finding."""
         findings = self.context.document.findings
         finding = next_finding(findings, self.current, step)
         if finding is None:
@@ -56,7 +54,6 @@ class FindingNavigator:
         self.select_finding(finding)
 
     def select_finding(self, finding: Finding) -> None:
-        """Select the item of a finding and scroll to it."""
         self.current = finding
         items: tuple[ItemRef, ...] = ()
         if finding.subject is not None:

@@ -24,7 +24,6 @@ class FindingsPanel:
     """The list of findings in the dock."""
 
     def __init__(self, context: WindowContext, navigator: FindingNavigator) -> None:
-        """Build the empty panel; `refresh` fills it."""
         self.context, self.navigator = context, navigator
         self.hidden_severities: set[Severity] = set()
         self.shown: object = None
@@ -41,7 +40,6 @@ class FindingsPanel:
         self.more.set_visibility(False)
 
     def refresh(self) -> None:
-        """Show the current findings."""
         findings = self.context.document.findings
         matching = filter_findings(findings, self.filter.value or "", self.hidden_severities)
         shown = (findings, matching, self.navigator.current)

@@ -54,7 +54,6 @@ class Header:
         return (f"Saved{autosave}", "") if document.is_saved else (f"Unsaved changes{autosave}", "is-unsaved")
 
     def refresh(self) -> None:
-        """Show the save status, and enable undo and redo."""
         document = self.context.document
         text, kind = self._file_status()
         if self.save_status.text != text:

@@ -12,7 +12,6 @@ _PAGE = {MenuGroup.DESIGN: "Design", MenuGroup.EDIT: "Edit", MenuGroup.VIEW: "Vi
 
 
 def show_help(commands: Sequence[Command]) -> None:
-    """Open the dialog."""
     with titled_dialog("Keyboard shortcuts and gestures", "help") as dialog:
         with ui.element("div").classes("help-scroll"), ui.element("div").classes("help-columns"):
             for group in CommandGroup:

@@ -30,7 +30,6 @@ class Inspector:
     """Builds a form when the selection or the structure of the item changes; else it refreshes the fields."""
 
     def __init__(self, context: WindowContext) -> None:
-        """Build the empty inspector; `refresh` fills it."""
         self.context = context
         self.form_key: object = None
         self.fields: list[Field] = []
@@ -49,7 +48,6 @@ class Inspector:
         ui.on("input-transferred", lambda event: self.transfer_input(event.args))
 
     def refresh(self) -> None:
-        """Show the current state of the selected item."""
         self._update_form_id()
         project = project_structure_key(self.context.workspace.project)
         key = (

@@ -36,7 +36,6 @@ _EDIT = (
 
 
 def multi_selection_panel(context: WindowContext) -> None:
-    """Build the panel for the selection."""
     counts = Counter(item.kind for item in context.selected)
     parts = [f"{counts[kind]} {nouns[counts[kind] > 1]}" for kind, nouns in _NOUNS.items() if counts[kind]]
     panel_title(", ".join(parts) + " selected")

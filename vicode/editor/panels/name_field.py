@@ -83,7 +83,6 @@ class NameField(Field):
     _shown_name: str = ""
 
     def __post_init__(self) -> None:
-        """Subscribe to events that commit the text."""
         super().__post_init__()
         # Shortcuts that save or navigate send a change event while the field keeps the focus.
         for event in ("change",) if self.is_multiline else ("keydown.enter", "change"):
@@ -121,7 +120,6 @@ class NameField(Field):
             self.rename(self._shown_name, text.strip())
 
     def commit(self) -> None:
-        """Commit the text of the field."""
         old, new = str(self.binding.read(self.context.design) or ""), str(self.element.value or "").strip()
         # The text that the field showed is not input, though the design may have a newer name.
         if (not old and not self.is_optional) or new in (old, self._shown_name):

@@ -28,7 +28,7 @@ class PresenceBar:
     """Builds the row; `refresh` updates it."""
 
     def __init__(self, context: WindowContext) -> None:
-        """Build the row; the page sets `rename`, which changes the name of the user."""
+        """Build the row of avatars. The page sets `rename`, which changes the user's name."""
         self.context = context
         self.rename: Callable[[str], None] = lambda _name: None
         self.rendered_key: object = None

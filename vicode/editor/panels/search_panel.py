@@ -25,7 +25,6 @@ class SearchPanel:
     """The search form and its results, which follow the design."""
 
     def __init__(self, context: WindowContext) -> None:
-        """Build the empty panel; `refresh` fills it."""
         self.context = context
         self.result, self.query = TextSearchResult(), TextQuery(text="")
         self.last_search: object = None
@@ -145,7 +144,6 @@ class SearchPanel:
 
 
 def _line(match: TextMatch) -> None:
-    """Build the line of a match, with the match highlighted."""
     with ui.element("span").classes("search-hit-line mono"):
         for text, tag in ((match.before, "span"), (match.matched, "mark"), (match.after, "span")):
             with ui.element(tag):

@@ -73,13 +73,11 @@ def add_splitters() -> None:
 
 
 def side_splitter() -> None:
-    """Build the splitter at the left edge of the side panel."""
     splitter = _splitter("side", "vertical", "Width of the side panel")
     splitter.props('aria-valuemin="280" aria-valuemax="1200" aria-valuenow="368"')
 
 
 def dock_splitter() -> None:
-    """Build the splitter at the upper edge of the dock."""
     splitter = _splitter("dock", "horizontal", "Height of the bottom panel")
     splitter.props('aria-valuemin="64" aria-valuemax="640" aria-valuenow="104"')
 

@@ -89,7 +89,6 @@ def _attribute_binding(name: str, label: str, attribute: str) -> FieldBinding:
 
 
 def _team(context: WindowContext, state: State, fields: list[Field]) -> None:
-    """Build the section of team and XABSL attributes."""
     parts = []
     if state.capacity is not None:
         parts.append(f"capacity {number_text.format_number(state.capacity)}")

@@ -34,7 +34,6 @@ class TablePanel:
         self.grid.load(self.shown)
 
     def refresh(self) -> None:
-        """Show the current design and selection."""
         table = self._table()
         if table != self.shown:
             self.grid.apply(table, diff_tables(self.shown, table))

@@ -43,7 +43,6 @@ class Tabs:
         return str(self._bar.value)
 
     def show(self, name: str) -> None:
-        """Open a tab."""
         self._bar.set_value(name)
 
     def build(self, builders: Mapping[str, Callable[[], Panel]]) -> None:
@@ -53,7 +52,6 @@ class Tabs:
             self.refresh()
 
     def refresh(self) -> None:
-        """Refresh the shown panel."""
         if not self._builders:
             return
         name = self.shown

@@ -93,7 +93,6 @@ class Tour(ui.element, component="vicode_tour.js"):
         self.props["facts"] = self._facts()
 
     def refresh(self) -> None:
-        """Send the current facts to the browser."""
         facts = self._facts()
         if facts != self.props["facts"]:
             self.props["facts"] = facts
@@ -102,7 +101,6 @@ class Tour(ui.element, component="vicode_tour.js"):
         return (Command("tour", "Start tour", self.start, MenuGroup.VIEW, icon="school"),)
 
     def start(self) -> None:
-        """Show the first card."""
         self.run_method("start")
 
     def _facts(self) -> dict[str, object]:

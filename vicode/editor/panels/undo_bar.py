@@ -11,7 +11,6 @@ class UndoBar:
     """Shows the last message until it is undone, dismissed or replaced."""
 
     def __init__(self) -> None:
-        """Build the hidden bar."""
         self._undo_action: Callable[[], object] = lambda: None
         with ui.element("div").classes("undo-bar").props('role="status"') as self._bar:
             self._label = ui.label()

@@ -52,7 +52,7 @@ def _hand_written(context: WindowContext, use: Use, fields: list[Field]) -> None
 
 
 def _designed(context: WindowContext, use: Use, interface: Interface) -> None:
-    """Show the interface of a component with its own design."""
+    """Show the interface of a component that has a design."""
     alias = use.alias
     if interface.title:
         ui.label(interface.title).classes("interface-title")
@@ -120,7 +120,6 @@ def _table(declarations: tuple[Declaration, ...]) -> None:
 
 
 def link_panel(context: WindowContext, key: str) -> list[Field]:
-    """Build the form of a link between a state and a component."""
     kind, state, alias = key.split("/")
     panel_title(f"{state} {kind}", alias)
     ui.button("Go to state", on_click=lambda: context.select(ItemRef(kind="states", id=state))).props(

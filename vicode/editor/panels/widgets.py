@@ -45,7 +45,6 @@ def add_button(label: str, accessible_name: str, act: ClickHandler | None = None
 
 
 def heading(text: str, *, hint: str = "") -> None:
-    """Build a heading inside a panel."""
     with ui.row().classes("heading"):
         ui.label(text).props("role=heading aria-level=3")
         if hint:

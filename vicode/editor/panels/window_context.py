@@ -58,12 +58,10 @@ class WindowContext:
 
     @property
     def design(self) -> Design:
-        """The current design."""
         return self.document.design
 
     @property
     def presence(self) -> PresenceRoom:
-        """The presence room of the design."""
         return self.document.shared.presence
 
     @property
@@ -76,7 +74,6 @@ class WindowContext:
         self.document.edit(label, change, coalesce_key=coalesce_key)
 
     def select(self, *things: ItemRef) -> None:
-        """Replace the selection."""
         if self.selected != things:
             self.selected = things
             self.notify_subscribers()

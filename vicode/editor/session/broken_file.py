@@ -32,7 +32,6 @@ def read_file_text(file: Path) -> str:
 
 
 def parse_text(text: str, name: str) -> ParsedText:
-    """Parse a text as the design file `name`."""
     read = read_design(text, name)
     starts = _line_starts(text)
     marks = tuple(_mark(text, starts, finding) for finding in read.findings if finding.location is not None)

@@ -41,7 +41,6 @@ class CompletionResult:
 
 
 def complete_expression(project: Project, design: Design, text: str, offset: int) -> CompletionResult:
-    """Complete an expression at an offset."""
     scope = build_scope(project, design)
     typed = _typed_before(text, offset)
     owner, start = typed["owner"], offset - len(typed["word"] or "")

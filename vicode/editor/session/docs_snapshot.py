@@ -39,7 +39,6 @@ class DocsSnapshot:
 
 
 def take_snapshot(workspace: Workspace) -> DocsSnapshot:
-    """Capture the current project."""
     drafts = {
         document.design.component: UnsavedDesign(design=document.design, disk_text=document.shared.disk_text)
         for document in workspace.documents

@@ -115,11 +115,10 @@ class SharedDocument:
         return changes
 
     def design_at(self, rev: int) -> Design:
-        """The design at a recent `rev`; the current design for any other."""
+        """The design at revision `rev` if that is recent, otherwise the current design."""
         return self._recent_designs.get(rev, self.history.current.design)
 
     def mark_saved(self, disk: DiskVersion) -> None:
-        """Record the content of the file."""
         assert disk.design is not None
         self.saved, self.disk_text, self.parse_findings = disk.design, disk.text, disk.parse_findings
         self.disk_conflict = None

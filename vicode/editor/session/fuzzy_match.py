@@ -63,7 +63,7 @@ def _row(
 
 
 def _trace_positions(ends: list[list[float]], bests: list[list[float]]) -> tuple[int, ...]:
-    """Trace the best alignment back from the last letter."""
+    """Trace the best alignment backwards from the last letter."""
     positions: list[int] = []
     at = len(ends[0]) - 1
     must = False

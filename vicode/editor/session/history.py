@@ -23,9 +23,7 @@ class CompoundEdit(Protocol):
     """
 
     @property
-    def label(self) -> str:
-        """The label in the undo history."""
-        ...
+    def label(self) -> str: ...
 
     def undo(self, user_id: str) -> str:
         """Undo the edit in all files; returns an error message or an empty string."""
@@ -66,7 +64,7 @@ class UndoConflict:
 
 @dataclass(frozen=True, kw_only=True)
 class UndoHistory:
-    """All entries by id; the first has id 0. `redo_stacks` holds ids by user, the next to redo last."""
+    """All entries by id; the first has id 0. `redo_stacks` holds entry ids by user; the last one is redone next."""
 
     entries: Mapping[int, HistoryEntry]
     current_id: int = 0

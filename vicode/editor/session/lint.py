@@ -46,13 +46,13 @@ class _CodeBlock:
 
 @dataclass(slots=True)
 class _Module:
-    """The module under construction."""
+    """The lines of the module and the code blocks in it, both extended by `add`."""
 
     lines: list[str] = field(default_factory=list)
     blocks: list[_CodeBlock] = field(default_factory=list)
 
     def add(self, located: LocatedCode, text: str, indent: str) -> None:
-        """Add a dedented block at another indentation."""
+        """Add a block with its indentation replaced by `indent`."""
         lines = text.replace("\r\n", "\n").split("\n")
         dedented = textwrap.dedent("\n".join(lines)).split("\n")
         shifts = tuple(len(indent) - (len(old) - len(new)) for old, new in zip(lines, dedented, strict=True))

@@ -35,7 +35,7 @@ class ProjectNodePath:
 
     @property
     def kind(self) -> str:
-        """The section in the singular."""
+        """The kind of the node: its section in the singular, such as "output"."""
         return self.section.removesuffix("s")
 
     def get(self, project: Project) -> Any:
@@ -53,7 +53,6 @@ class ProjectNodePath:
         return _name_of(self.get(project))
 
     def names(self, project: Project) -> tuple[str, ...]:
-        """The names of all nodes on the path."""
         paths = (ProjectNodePath(steps=self.steps[: end + 1]) for end in range(len(self.steps)))
         return tuple(path.name(project) for path in paths)
 
@@ -68,7 +67,6 @@ class ProjectNodePath:
         return changed
 
     def remove(self, project: Project) -> Project:
-        """The project without the node."""
         *outer, (section, number) = self.steps
         name = self.name(project)
 

@@ -135,7 +135,6 @@ class RecoveryStore:
 
     @property
     def autosaved_projects(self) -> frozenset[str]:
-        """The folders of the projects with autosave."""
         try:
             return frozenset((self.folder / _AUTOSAVED).read_text(encoding="utf-8").splitlines())
         except (OSError, UnicodeDecodeError):

@@ -107,7 +107,7 @@ def apply_symbol_rename(workspace: Workspace, plan: SymbolRenamePlan, user_id: s
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RenameEdit:
-    """A new name that was written into several files: the histories of their designs take it back in all of them."""
+    """A rename in several files; undo in the history of any of the designs reverts it in all files."""
 
     workspace: Workspace
     symbol: SymbolRef

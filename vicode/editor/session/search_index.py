@@ -89,7 +89,6 @@ class SearchIndex:
         self._listed: dict[tuple[str, str], tuple[Design, tuple[SearchItem, ...]]] = {}
 
     def items(self) -> list[SearchItem]:
-        """All items of the current designs."""
         listed: dict[tuple[str, str], tuple[Design, tuple[SearchItem, ...]]] = {}
         found: list[SearchItem] = []
         several = len(self._library.workspaces) > 1

@@ -241,5 +241,4 @@ def _move(document: DocumentSession, payload: Payload) -> EditResult:
 
 
 def _source_of_row(row: str) -> str:
-    """The state of a row, or COMMON."""
     return parse_row_id(row).id.split("/")[0]

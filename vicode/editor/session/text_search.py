@@ -87,7 +87,6 @@ class _Search:
 
 
 def find_text(design: Design, query: TextQuery) -> TextSearchResult:
-    """Find all matches of a query in a design."""
     if not query.text:
         return TextSearchResult()
     matches: list[TextMatch] = []

@@ -54,7 +54,6 @@ def restore_from_trash(workspace: Workspace, trashed: TrashedDesign) -> str:
 
 
 def copy_name(workspace: Workspace, component: str) -> str:
-    """An unused name for a copy of a component."""
     return unique_name(component, set(workspace.project.interfaces()))
 
 

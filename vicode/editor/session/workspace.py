@@ -102,7 +102,6 @@ class Workspace:
         return tuple(self._documents.values())
 
     def component_in_file(self, path: Path) -> str | None:
-        """The component of the design in a file."""
         wanted = path.resolve()
         return next((name for name, file in self.files.items() if name and file.resolve() == wanted), None)
 

@@ -32,7 +32,6 @@ class TableGrid(ui.element, component=TABLE_JS / "vicode_table.js"):
         self.on("ready", self._on_ready)
 
     def load(self, table: Mapping[str, Any]) -> None:
-        """Replace the table."""
         self._table = dict(table)
         self._call("load", self._table)
 
@@ -51,7 +50,6 @@ class TableGrid(ui.element, component=TABLE_JS / "vicode_table.js"):
         self._call("select", self._selected)
 
     def edit_cell(self, row: str, column: str) -> None:
-        """Open the editor of a cell."""
         self._call("editCell", row, column)
 
     def show_error(self, payload: Payload, message: str) -> None:
@@ -59,7 +57,6 @@ class TableGrid(ui.element, component=TABLE_JS / "vicode_table.js"):
         self._call("showError", dict(payload), message)
 
     def focus_grid(self) -> None:
-        """Move the keyboard focus to the table."""
         self._is_focus_pending = not self._is_mounted
         self._call("focusGrid")
 

@@ -105,7 +105,6 @@ def _about(declaration: Declaration) -> str:
 
 
 def agent_form(context: WindowContext, node_path: ProjectNodePath, fields: list[Field]) -> None:
-    """Build the form of an agent."""
     group, show_name = form_group(context, node_path, "shared removable")
     with group:
         fields.append(project_name_field(context, "Agent", node_path, show_name))

@@ -123,6 +123,5 @@ def _arguments(context: WindowContext, node_path: ProjectNodePath, fields: list[
 
 
 def show_write_error(context: WindowContext, error: str) -> None:
-    """Show an error, if there is one."""
     if error:
         context.show_toast(sentence(error), "warning")

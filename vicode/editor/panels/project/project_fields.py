@@ -63,11 +63,9 @@ class ProjectTextField(NameField):
     """Returns the path of the value in project.yaml."""
 
     def other_findings(self) -> list[Finding]:
-        """Return the findings in project.yaml."""
         return findings_at(self.get_file_path(), self.context.workspace.project_findings)
 
     def refresh(self) -> None:
-        """Show the value of the file."""
         super().refresh()
         self.on_refresh()
 
@@ -155,7 +153,7 @@ def project_custom_field(
 
 
 def _file_key(node_path: ProjectNodePath, attribute: TextAttribute) -> DesignPath:
-    """The key below which an attribute stands in the file: of an element none, it is its value."""
+    """The path of an attribute below its node in the file; empty for the description of an element."""
     match (node_path.section, attribute.attribute):
         case ("elements", _):
             return ()
@@ -178,8 +176,6 @@ def _input(binding: FieldBinding, *, is_code: bool, is_long: bool = False) -> tu
 
 
 def project_checkbox(context: WindowContext, node_path: ProjectNodePath, label: str, attribute: str) -> Field:
-    """Build a checkbox."""
-
     def read(_design: Design) -> bool:
         return bool(getattr(node_path.get(context.workspace.project), attribute, False))
 
@@ -192,8 +188,6 @@ def project_checkbox(context: WindowContext, node_path: ProjectNodePath, label: 
 def project_choice_field(
     context: WindowContext, node_path: ProjectNodePath, label: str, attribute: str, options: Callable[[], Sequence[str]]
 ) -> Field:
-    """Build a select of one name."""
-
     def read(_design: Design) -> str | None:
         return getattr(node_path.get(context.workspace.project), attribute, None) or None
 

@@ -50,7 +50,6 @@ _PROJECT_ATTRIBUTES = (
 
 
 def project_form(context: WindowContext, fields: list[Field]) -> None:
-    """Build the section."""
     project = context.workspace.project
     parts = (
         ("enumeration", project.enumerations),
@@ -137,7 +136,6 @@ def _enumeration(context: WindowContext, node_path: ProjectNodePath, fields: lis
 
 
 def _element(context: WindowContext, node_path: ProjectNodePath, index: int, fields: list[Field]) -> None:
-    """Build the row of an element."""
     inner = node_path.child("elements", index)
 
     def read(_design: Design) -> str:
@@ -156,8 +154,6 @@ def _element(context: WindowContext, node_path: ProjectNodePath, index: int, fie
 
 
 def _xabsl_element(context: WindowContext, node_path: ProjectNodePath, index: int) -> Field:
-    """Build the field of the XABSL name of an element."""
-
     def name(enumeration: Enumeration | None) -> str:
         names = enumeration.element_names if enumeration else ()
         return names[index] if index < len(names) else ""

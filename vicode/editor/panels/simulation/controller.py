@@ -34,7 +34,7 @@ _UNLIMITED = 1_000_000
 
 
 class SimulationController:
-    """The object that the commands and the panel of one window use."""
+    """The simulation of one window, used by its commands and its panel."""
 
     def __init__(self, context: WindowContext, canvas: Canvas) -> None:
         self.context, self.canvas = context, canvas
@@ -65,7 +65,6 @@ class SimulationController:
         canvas.client.on_delete(self.close)
 
     async def restart(self) -> None:
-        """Start with the current design."""
         self.pause()
         async with self._starting:
             await self._start()
@@ -81,7 +80,7 @@ class SimulationController:
         await self._run(_UNLIMITED, self._stop_conditions(also=state))
 
     async def run_to_time(self, seconds: float) -> None:
-        """Show a recorded iteration at this time, or run until then."""
+        """Show the recorded iteration at this time, or run until this time."""
         if not await self._ensure_started():
             return
         simulation = self._current
@@ -112,7 +111,6 @@ class SimulationController:
         self._notify()
 
     def set_config(self, wish: RunConfig) -> None:
-        """Change the configuration of the next run."""
         self.config = wish
         self.is_stale = self.simulation is not None
         self._notify()
@@ -134,7 +132,6 @@ class SimulationController:
         self._notify()
 
     def toggle_breakpoints(self, *things: ItemRef) -> None:
-        """Toggle breakpoints on states and transitions."""
         self.breakpoints = self.breakpoints.toggled(*things)
         self._show_breakpoints()
         self._notify()
@@ -167,7 +164,6 @@ class SimulationController:
         self._discard_simulation()
 
     def stop(self) -> None:
-        """Stop the simulation and update the panel."""
         self.is_playing = False
         self._discard_simulation()
         self.is_stale = False

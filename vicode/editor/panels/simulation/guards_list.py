@@ -1,4 +1,4 @@
-"""The guards of the active state in priority order, with their truth."""
+"""The guards of the active state in priority order, with their truth values."""
 
 from collections.abc import Callable
 from typing import Any
@@ -13,7 +13,7 @@ _ICONS = {"true": "check_circle", "false": "cancel", "unknown": "help"}
 
 
 class GuardsList:
-    """Rebuilt when the active state changes; otherwise only changed values are updated."""
+    """The list of guards, rebuilt when the active state changes; otherwise only changed values are updated."""
 
     def __init__(self, controller: SimulationController) -> None:
         self.controller = controller
@@ -25,7 +25,6 @@ class GuardsList:
         self.body = ui.column().classes("guards")
 
     def refresh(self) -> None:
-        """Show the guards at the shown iteration."""
         simulation = self.controller.simulation
         if simulation is None:
             self._rebuild((), "Guards", "", None)

@@ -23,7 +23,7 @@ _MANUAL, _ALL_COMPONENTS, _FROM_TRACE, _REPLAY = (
 
 
 class InputSourceForm:
-    """A choice of source, and which components are replaced by stubs."""
+    """Selects the source of the inputs and the components that are replaced by stubs."""
 
     def __init__(self, controller: SimulationController) -> None:
         self.controller = controller
@@ -60,7 +60,6 @@ class InputSourceForm:
         self._stubbed: frozenset[str] = frozenset()
 
     def refresh(self) -> None:
-        """List the components that the design uses."""
         has_trace = bool(self.controller.trace)
         self.pick.set_visibility(self.source in (_FROM_TRACE, _REPLAY))
         self.hint.set_visibility(self.source in (_FROM_TRACE, _REPLAY) and not has_trace)

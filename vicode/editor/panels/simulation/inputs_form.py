@@ -16,7 +16,7 @@ _MAX_CALLS = 8
 
 
 class InputsForm:
-    """Rebuilt for each simulation; shows the inputs at the shown iteration."""
+    """The form of the inputs, rebuilt for each simulation; shows the inputs at the shown iteration."""
 
     def __init__(self, controller: SimulationController) -> None:
         self.controller = controller
@@ -165,7 +165,7 @@ class _FunctionRow(_InputRow):
 
 
 def _controls(each: SimulationInput, name: str, changed: Callable[[Any], None]) -> list[Any]:
-    """The controls of an input, which show the same value."""
+    """Build the controls of an input: a switch, a select, or a number field with a slider if the input has a range."""
     if each.type == "bool":
         switch = ui.switch(value=each.initial, on_change=lambda event: changed(event.value))
         return [_with_aria_label(switch.props("dense"), name)]

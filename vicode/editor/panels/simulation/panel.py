@@ -17,7 +17,7 @@ _RESULT_TABS = ("Plot", "Active components", "Output")
 
 
 class SimulationPanel:
-    """Built when first shown; polls the controller several times per second, independent of the simulation's speed."""
+    """The panel, built when first shown; polls the controller several times per second at any simulation speed."""
 
     def __init__(self, controller: SimulationController) -> None:
         self.controller = controller

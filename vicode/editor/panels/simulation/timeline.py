@@ -20,7 +20,7 @@ _EMIT_CLICK_FRACTION = """(event) => {
 
 
 class Timeline:
-    """Redrawn when an iteration is added or another one is shown."""
+    """The plots, redrawn when an iteration is added or another one is shown."""
 
     def __init__(self, controller: SimulationController) -> None:
         self.controller = controller

@@ -21,7 +21,6 @@ def fix_unknown_language(case: FixContext) -> list[Fix]:
 
 
 def fix_empty_predicate(case: FixContext) -> list[Fix]:
-    """D415."""
     located = case.decision()
     if located is None:
         return []

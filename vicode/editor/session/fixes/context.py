@@ -51,5 +51,4 @@ class FixContext:
         )
 
     def target_names(self) -> set[str]:
-        """The targets of all transitions."""
         return {getattr(located.decision, "to", "") for located in iter_decisions(self.design)}

@@ -26,7 +26,6 @@ def fix_shadowed_decision(case: FixContext) -> list[Fix]:
 
 
 def fix_no_effect(case: FixContext) -> list[Fix]:
-    """D430."""
     located = case.decision()
     if located is None or not isinstance(located.decision, Transition):
         return []

@@ -12,7 +12,6 @@ from vicode.model.texts import rewrite_text
 
 
 def fix_unknown_type(case: FixContext) -> list[Fix]:
-    """P205."""
     if not case.suggested_name:
         return []
     name = case.suggested_name
@@ -22,7 +21,6 @@ def fix_unknown_type(case: FixContext) -> list[Fix]:
 
 
 def fix_bad_range(case: FixContext) -> list[Fix]:
-    """P206."""
     declaration = _declaration_at(case.design, case.path)
     if declaration is None or declaration.range is None:
         return []
@@ -35,7 +33,6 @@ def fix_bad_range(case: FixContext) -> list[Fix]:
 
 
 def fix_bad_frequency(_case: FixContext) -> list[Fix]:
-    """D416."""
     return [Fix(label="Run on every step", edit=lambda old: replace(old, frequency_hz=None))]
 
 

@@ -30,7 +30,6 @@ def fix_bad_name(case: FixContext) -> list[Fix]:
 
 
 def fix_bad_id(case: FixContext) -> list[Fix]:
-    """D404, D413."""
     return [Fix(label="Remove the id", edit=lambda old: _without_id(old, case.path[:-1]))]
 
 

@@ -9,18 +9,15 @@ from vicode.model.names import is_valid_state_name
 
 
 def fix_no_states(_case: FixContext) -> list[Fix]:
-    """D411."""
     return [Fix(label="Add the state Start", edit=_with_start)]
 
 
 def fix_no_initial_state(case: FixContext) -> list[Fix]:
-    """D401."""
     names = list(dict.fromkeys([case.suggested_name or case.design.states[0].name, case.design.states[0].name]))
     return [Fix(label=f"Make {name} the initial state", edit=_initial_state_edit(name)) for name in names]
 
 
 def fix_disabled_initial_state(case: FixContext) -> list[Fix]:
-    """D418."""
     name = case.design.initial
 
     def enable(design: Design) -> Design:
@@ -34,7 +31,6 @@ def fix_disabled_initial_state(case: FixContext) -> list[Fix]:
 
 
 def fix_unknown_state(case: FixContext) -> list[Fix]:
-    """D402."""
     located = case.decision()
     if located is None or not isinstance(located.decision, Transition):
         return []
@@ -53,13 +49,11 @@ def fix_unknown_state(case: FixContext) -> list[Fix]:
 
 
 def fix_unreachable_state(case: FixContext) -> list[Fix]:
-    """D421."""
     name = case.state_name()
     return [Fix(label=f"Remove the state {name}", edit=lambda old: remove_states(old, [name]))]
 
 
 def fix_dead_end(case: FixContext) -> list[Fix]:
-    """D422."""
     name = case.state_name()
 
     def change(design: Design) -> Design:

@@ -44,7 +44,6 @@ def add_use_fixes(case: FixContext, alias: str) -> list[Fix]:
 
 
 def fix_unknown_parameter(case: FixContext) -> list[Fix]:
-    """D409."""
     name, meant = str(case.path[-1]), case.suggested_name
     fixes = []
     if meant:
@@ -56,7 +55,6 @@ def fix_unknown_parameter(case: FixContext) -> list[Fix]:
 
 
 def fix_misplaced_call(case: FixContext) -> list[Fix]:
-    """D410."""
     where = case.path[:-1]
     name = case.state_name()
     call = next((located.action for located in iter_actions(case.design) if located.path == where), None)
@@ -82,7 +80,6 @@ def fix_missing_requirement(case: FixContext) -> list[Fix]:
 
 
 def fix_unused_use(case: FixContext) -> list[Fix]:
-    """D428."""
     alias = str(case.path[1])
     return [Fix(label=f"Stop using {alias}", edit=lambda old: remove_uses(old, [alias]))]
 

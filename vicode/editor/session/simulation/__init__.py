@@ -1,4 +1,4 @@
-"""Simulates an open design: its inputs, the process that runs it, and the recorded past. Free of NiceGUI."""
+"""Simulates an open design: its inputs, the process that runs it, and the recorded past. Independent of NiceGUI."""
 
 from vicode.editor.session.simulation.breakpoints import Breakpoints
 from vicode.editor.session.simulation.inputs import DONE, PARAMETERS, SimulationInput

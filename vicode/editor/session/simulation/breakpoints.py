@@ -17,12 +17,12 @@ class Breakpoints:
     items: frozenset[ItemRef] = field(default_factory=frozenset)
 
     def toggled(self, *things: ItemRef) -> "Breakpoints":
-        """Add breakpoints on these items; if all of them have one, remove them."""
+        """Add breakpoints to these items, or remove the breakpoints if all items have one."""
         able = {ItemRef(kind=each.kind, id=each.id) for each in things if each.kind in _KINDS}
         return Breakpoints(items=self.items - able if able <= self.items else self.items | able)
 
     def existing_in(self, design: Design) -> "Breakpoints":
-        """Those whose items still exist in the design."""
+        """The breakpoints whose items still exist in the design."""
         known = {ItemRef(kind="states", id=state.name) for state in design.states}
         known |= {ItemRef(kind="transitions", id=transition_key(located.path)) for located in iter_transitions(design)}
         return Breakpoints(items=self.items & known)

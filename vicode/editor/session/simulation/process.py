@@ -92,7 +92,7 @@ class ProcessTransport:
         return ""
 
     async def _read_stderr(self) -> None:
-        """Keep the end of what is written to standard error."""
+        """Read standard error and keep the end of it."""
         assert self.process.stderr is not None
         while chunk := await self.process.stderr.read(4096):
             self._stderr_tail = (self._stderr_tail + chunk)[-_MAX_STDERR:]

@@ -71,7 +71,6 @@ class Recording:
                 yield self._changes.get(start, {}), after - start
 
     def inputs_at(self, number: int) -> dict[str, dict[str, Any]]:
-        """All inputs at an iteration."""
         known: dict[str, dict[str, Any]] = {}
         for start in sorted(self._changes):
             if start > number:
@@ -80,7 +79,7 @@ class Recording:
         return known
 
     def truncate(self, length: int) -> None:
-        """Remove the iterations after one."""
+        """Remove all iterations after the first `length`."""
         del self._packed[length:]
         del self.states[length:]
         del self.transitions[length:]
@@ -97,7 +96,7 @@ class Recording:
         return column + array("d", [math.nan]) * missing
 
     def iterations_with_output(self, number: int, limit: int) -> list[int]:
-        """The iterations up to one, from the latest back to the last with output or an error."""
+        """The numbers of the latest `limit` iterations with output or an error, up to iteration `number`."""
         end = bisect_right(self._with_output, number)
         return self._with_output[max(0, end - limit) : end]
 

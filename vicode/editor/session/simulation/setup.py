@@ -17,7 +17,7 @@ from vicode.simulation.stubs import STUB_MODULE
 
 
 class NotReadyError(Exception):
-    """The design cannot be simulated; the message says why."""
+    """The design cannot be simulated; the message is the reason."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -320,7 +320,10 @@ def _initial_inputs(inputs: Sequence[SimulationInput]) -> dict[str, dict[str, An
 
 
 def _accept(known: SimulationInput, value: Any) -> Any | None:
-    """A value, or for a function one for all arguments and a table of others."""
+    """Validate a value from the browser; None if it is invalid.
+
+    The value of a function is a mapping: `value` for all arguments, and `table` with exceptions for some arguments.
+    """
     if known.arguments is None:
         return known.accept(value)
     if not isinstance(value, dict):

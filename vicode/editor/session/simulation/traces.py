@@ -20,7 +20,7 @@ def read_iterations(text: str, design: Design) -> tuple[IterationResult, ...]:
     """The iterations of a trace, with the keys of transitions in the design.
 
     Raises:
-        TraceError: It is not a trace, or one of another component.
+        TraceError: The text is not a trace, or it is a trace of another component.
     """
     if len(text) > MAX_BYTES:
         raise TraceError(f"the trace is longer than {MAX_BYTES // 1_000_000} MB")
