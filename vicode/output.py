@@ -88,7 +88,6 @@ def back_up_edited(path: Path) -> Path:
 
 
 def format_diff(difference: FileDiff) -> str:
-    """Format the difference as a unified diff."""
     old, new = difference.old or "", difference.new or ""
     before = f"a/{difference.path}" if difference.old is not None else "/dev/null"
     after = f"b/{difference.path}" if difference.new is not None else "/dev/null"

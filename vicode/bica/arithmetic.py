@@ -12,7 +12,7 @@ INT_MAX = 2**63 - 1
 
 
 def divide(a: float, b: float) -> float:
-    """Return a / b; division by zero gives an infinity with the sign of both, and nan for 0 / 0."""
+    """Return a / b; division by zero gives an infinity, with the signs of both operands, and nan for 0 / 0."""
     try:
         return a / b
     except ZeroDivisionError:
@@ -20,7 +20,7 @@ def divide(a: float, b: float) -> float:
 
 
 def floor_divide(a: float, b: float) -> float:
-    """Return a // b, rounded towards minus infinity, as a float; by zero as `divide`."""
+    """Return a // b, rounded towards minus infinity, as a float; division by zero as in `divide`."""
     try:
         return float(a) // float(b)
     except ZeroDivisionError:
@@ -28,7 +28,7 @@ def floor_divide(a: float, b: float) -> float:
 
 
 def modulo(a: float, b: float) -> float:
-    """Return a % b with the sign of b, as a float; nan by zero."""
+    """Return a % b with the sign of b, as a float; nan if b is 0."""
     try:
         return float(a) % float(b)
     except ZeroDivisionError:

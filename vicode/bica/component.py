@@ -142,7 +142,7 @@ class Component:
 
     @property
     def is_done(self) -> bool:
-        """Whether it was in a final state after its last step, in this or the previous iteration."""
+        """Whether the component was in a final state after its last step, in this or the previous iteration."""
         return self._current.final and self.root.iteration - self._stepped_in <= 1
 
     @property

@@ -108,7 +108,6 @@ def make_error_record(component: Component, error: Exception) -> ErrorRecord:
 
 
 def describe_exception(error: BaseException) -> str:
-    """Return the type and message of an exception."""
     return f"{type(error).__name__}: {error}" if str(error) else type(error).__name__
 
 

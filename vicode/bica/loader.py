@@ -30,7 +30,7 @@ def load_component(name: str) -> type[Component]:
     """Import the component class `module:Class`.
 
     Raises:
-        UserCodeError: It does not exist, it is no component, or its module fails.
+        UserCodeError: It does not exist, it is not a component, or its module fails.
     """
     component_class = _import_attribute(name)
     if not (isinstance(component_class, type) and issubclass(component_class, Component)):

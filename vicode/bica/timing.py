@@ -72,7 +72,7 @@ def measure_steps(component: Component, cycle_times: dict[str, CycleTimes]) -> N
 
 
 def will_work(component: Component) -> bool:
-    """Return, before a step, whether the component works in it: it restarts, or its period has elapsed."""
+    """Return whether the next step of a component works, because it restarts or its period has elapsed."""
     root = component.root
     missed = root.iteration - component._stepped_in
     is_restart = missed > 1 and (missed > root.iteration or not component.resume)

@@ -1,4 +1,4 @@
-"""Component with XABSL semantics: it restarts and is done as an option in the XABSL engine."""
+"""Component with XABSL semantics: restart and completion follow the XABSL engine."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
 
 class XabslComponent(Component):
-    """A component that behaves as an option in the XABSL engine, even if it is stepped twice in an iteration."""
+    """A component that behaves like an option in the XABSL engine, even if it is stepped twice in an iteration."""
 
     __slots__ = ("_cells", "_restarted_in")
 
@@ -31,7 +31,7 @@ class XabslComponent(Component):
 
     @property
     def is_done(self) -> bool:
-        """Whether it was active in the previous iteration and is in a final state."""
+        """Whether the component was active in the previous iteration and is in a final state."""
         if not self._current.final:
             return False
         iteration = self.root.iteration

@@ -119,7 +119,6 @@ def _validate_not_reserved(identifier: Identifier) -> IdentifierProblem | None:
 
 
 def keyword_languages(identifier: Identifier, languages: tuple[str, ...]) -> tuple[str, ...]:
-    """Return the languages in which a name is a keyword."""
     # Generated Python contains state names only in strings or after a prefix; no generated code contains agent names.
     exempt = {"state": {"python"}, "agent": set(KEYWORDS)}.get(identifier.kind, set())
     return tuple(

@@ -52,7 +52,6 @@ def count_findings(findings: Iterable[Finding]) -> str:
 
 
 def describe_os_error(error: OSError) -> str:
-    """Describe an error in one line."""
     if error.filename is None:
         return str(error)
     return f"{error.filename}: {error.strerror or error}"

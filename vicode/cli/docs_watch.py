@@ -49,7 +49,6 @@ class SiteWatcher:
         self.folders: tuple[Path, ...] = tuple(path if path.is_dir() else path.resolve().parent for path in paths)
 
     def run(self) -> None:
-        """Rebuild after every change until interrupted."""
         while True:
             folders = self.folders
             for _change in iter_changes(folders):

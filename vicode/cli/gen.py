@@ -77,7 +77,6 @@ def _folder(opened: LoadedProject, out: str | None) -> Path:
 
 
 def _differences(opened: LoadedProject, folder: Path, args: argparse.Namespace) -> tuple[FileDiff, ...]:
-    """The differences between the generated files and the folder."""
     from vicode.generators import list_outputs
 
     files = _files(opened, args)

@@ -53,7 +53,6 @@ def run(args: argparse.Namespace) -> int:
 
 
 def _with_layout(project: "Project") -> "Project":
-    """The project with positions for all nodes."""
     from vicode.diagram.layout import LayoutService
     from vicode.model.edits import move_nodes
 
@@ -77,7 +76,6 @@ def _round(at: "tuple[float, float]") -> "tuple[float, float]":
 
 
 def _texts(imported: "ImportResult") -> "dict[str, str]":
-    """The text of each file by path."""
     from vicode.store import add_comments, save_design, save_project_file
 
     project = imported.project

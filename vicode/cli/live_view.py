@@ -28,11 +28,9 @@ class LiveTracePrinter:
             self._console.print(Text.assemble((time, "dim"), (component, "bold"), ":", rest))
 
     def show_text(self, text: str) -> None:
-        """Print output of the program."""
         self._console.print(Text(text, style="red" if text.startswith("error") else ""))
 
     def show_notice(self, text: str) -> None:
-        """Print a message of the runner."""
         self._console.print(Text(text, style="bold"))
 
     def close(self) -> None:

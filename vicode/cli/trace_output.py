@@ -41,7 +41,6 @@ class PlainTracePrinter:
     """Prints one line per state change."""
 
     def show_iteration(self, _record: TraceRecord, changes: list[str], /) -> None:
-        """Print the changes."""
         for change in changes:
             print(change, flush=True)
 
@@ -103,7 +102,6 @@ class StateChangeTracker:
 
 
 def describe_world(world: object) -> str:
-    """Format the record of a world as one line."""
     if not isinstance(world, Mapping):
         return "" if world is None else str(world)
     return "  ".join(f"{name} {_format_value(value)}" for name, value in world.items())
@@ -146,7 +144,6 @@ def _exit_code(code: int, ending: _RunOutcome) -> int:
 
 
 def _show_line(line: str, changes: StateChangeTracker, watcher: TracePrinter, ending: _RunOutcome) -> None:
-    """Show a line of the stream, or record the end of the run."""
     try:
         record = json.loads(line)
     except ValueError:
@@ -212,7 +209,6 @@ def _kill(child: "subprocess.Popen[str]") -> None:
 
 
 def _terminate(child: "subprocess.Popen[str]") -> None:
-    """Terminate the process if it still runs."""
     if child.poll() is None:
         child.terminate()
         try:

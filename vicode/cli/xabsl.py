@@ -33,7 +33,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(args: argparse.Namespace) -> int:
-    """Run one of the commands."""
     act: Callable[[argparse.Namespace], int] = args.act
     return act(args)
 

@@ -211,7 +211,7 @@ class _TreeRenderer:
         self.width = self.column_lefts[-1] + widths[-1]
 
     def render(self, title: str) -> VectorImage:
-        """Edges first, boxes on top."""
+        """Draw the edges, then the boxes on top."""
         groups = [*(self._edge(way, node) for way, node in self.grid.edges), *map(self._node, self.grid.nodes)]
         bottom = max(node.row for node in self.grid.nodes) * _ROW_HEIGHT + _BOX_HEIGHT / 2
         return VectorImage(

@@ -63,7 +63,6 @@ def _project_uses(project: Project) -> UsesByComponent:
 
 
 def component_uses(design: Design) -> Mapping[str, frozenset[str]]:
-    """The components that a design uses, with the kind of use."""
     components = {use.alias: use.component for use in design.uses}
     kinds: dict[str, set[str]] = {component: set() for component in components.values()}
     actions = [*design.common.actions, *(action for state in design.states for action in state.all_actions)]
@@ -98,7 +97,6 @@ def _diagram_node(
 
 
 def dependency_edges(uses: UsesByComponent, shown: Collection[str]) -> Iterator[DiagramEdge]:
-    """The edges between the shown components."""
     for user, found in uses.items():
         for used, kinds in found.items():
             if used not in shown:

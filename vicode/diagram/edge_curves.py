@@ -65,7 +65,6 @@ def self_loop_curves(
 
 
 def point_on_curve(curve: CubicBezier, t: float) -> Point:
-    """The point at a fraction of a curve."""
     x0, y0, x1, y1, x2, y2, x3, y3 = curve
     a, b, c, d = _weights(t)
     return (a * x0 + b * x1 + c * x2 + d * x3, a * y0 + b * y1 + c * y2 + d * y3)

@@ -38,7 +38,7 @@ def make_edge_label(
 
 
 def shorter_labels(edge: DiagramEdge, label: EdgeLabel) -> Iterator[EdgeLabel]:
-    """The label with less and less text."""
+    """Yield the label with progressively shorter texts."""
     for room in _SHORTER_WIDTHS:
         shorter = _make_label(edge, room) if text_width(label.text, LABEL_FONT) > room + 10 else None
         if shorter:
@@ -71,9 +71,7 @@ def _guard_icon(edge: DiagramEdge) -> GuardKind | None:
 
 
 def _available_width(source: DiagramNode, target: DiagramNode, *, beside: int) -> float:
-    """At most the gap between nodes side by side, since a wider label would leave its edge; less if parallel edges
-    share a steep gap.
-    """
+    """The maximum width of a label between nodes side by side: the gap, or less if parallel edges share a steep gap."""
     if source is target:
         return _MAX_WIDTH
     gap = abs(target.center[0] - source.center[0]) - (source.size.width + target.size.width) / 2

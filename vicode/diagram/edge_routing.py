@@ -219,7 +219,7 @@ def _position_beside_curve(curve: CubicBezier, label: EdgeLabel, part: float, si
 
 
 def _offset_point(curve: CubicBezier, part: float, shift: float) -> Point:
-    """To the right of the direction of the curve."""
+    """The point of the curve at `part`, shifted to the right of its direction."""
     x, y = point_on_curve(curve, part)
     dx, dy = _direction(curve, part)
     return (x - dy * shift, y + dx * shift)

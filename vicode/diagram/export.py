@@ -17,7 +17,7 @@ from vicode.model.disabled import strip_disabled
 
 
 def export_design(design: Design, export_format: ExportFormat, options: ExportOptions | None = None) -> bytes:
-    """The content of the file. The same design gives the same bytes; PNG also depends on the installed fonts."""
+    """Return the content of the file. Equal designs give equal bytes; PNG also depends on the installed fonts."""
     chosen = options or ExportOptions()
     writers: dict[ExportFormat, Callable[[Design, Collection[str] | None], str]] = {
         ExportFormat.MERMAID: lambda design, only: write_mermaid(design, only=only),

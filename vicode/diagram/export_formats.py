@@ -21,12 +21,10 @@ class ExportFormat(StrEnum):
 
     @property
     def suffix(self) -> str:
-        """The file name suffix."""
         return {ExportFormat.MERMAID: ".mmd", ExportFormat.PLANTUML: ".puml"}.get(self, f".{self}")
 
     @property
     def media_type(self) -> str:
-        """The media type for browsers."""
         types = {ExportFormat.SVG: "image/svg+xml", ExportFormat.PDF: "application/pdf", ExportFormat.PNG: "image/png"}
         return types.get(self, "text/plain; charset=utf-8")
 

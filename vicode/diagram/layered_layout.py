@@ -78,7 +78,7 @@ def _fold_columns(columns: Sequence[Sequence[str]]) -> Iterator[Point]:
 
 
 def _layout_uses(design: Design, occupied: OccupancyGrid, below: float) -> dict[str, Point]:
-    """In rows below the states."""
+    """Place used components in rows below the states."""
     uses: dict[str, Point] = {}
     positions = _row_positions((ORIGIN[0], below))
     for use in design.uses:

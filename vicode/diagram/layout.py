@@ -140,7 +140,7 @@ def compute_layout(design: Design, *, only: Collection[str] | None = None, timeo
 
 
 class _GraphvizFailedError(Exception):
-    """Graphviz gave no positions; the message says why."""
+    """Graphviz returned no positions; the message is the reason."""
 
 
 def _start_worker(command: WorkerCommand) -> subprocess.Popen[str]:

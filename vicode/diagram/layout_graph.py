@@ -66,7 +66,6 @@ def state_ids(design: Design) -> dict[str, str]:
 
 
 def use_ids(design: Design) -> dict[str, str]:
-    """The id of every used component by alias."""
     return {alias: f"u{index}" for index, alias in enumerate(dict.fromkeys(use.alias for use in design.uses))}
 
 

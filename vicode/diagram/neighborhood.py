@@ -72,7 +72,7 @@ def _more_edges(name: str, labels: Mapping[str, str]) -> Iterator[DiagramEdge]:
 
 
 def _column_positions(name: str, others: Mapping[str, str], side: int) -> Iterator[tuple[str, Point]]:
-    """Boxes in a column, aligned on the side that faces the center."""
+    """Yield the center of each box of a column; the boxes are aligned on the side that faces the middle."""
     edge = _size(name).width / 2 + _COLUMN_GAP
     for row, (key, label) in enumerate(others.items()):
         yield key, (side * (edge + _size(label).width / 2), (row - (len(others) - 1) / 2) * _ROW_HEIGHT)

@@ -61,7 +61,6 @@ class OccupancyGrid:
         return not any(_overlap(at, wide, *other) for cell in _cells(at, wide) for other in self._cells.get(cell, ()))
 
     def occupy_first_free(self, candidates: Iterable[Point], size: Size) -> Point:
-        """Occupy and return the first free position."""
         at = next(position for position in candidates if self.is_free(position, size))
         self.occupy(at, size)
         return at

@@ -83,19 +83,15 @@ def render_diagram(diagram: Diagram, *, title: str, doc: str = "", palette: Colo
 
 
 class _DiagramRenderer:
-    """Draws nodes, edges and labels in the colors of a palette."""
-
     def __init__(self, palette: ColorPalette) -> None:
         self.palette = palette
 
     def node(self, node: DiagramNode) -> ShapeGroup:
-        """A state, a used component or the badge of common transitions."""
         drawers = {"state": self._state, "component": self._component, "common": self._common}
         shapes = tuple(drawers[node.node_type](node))
         return ShapeGroup(title=node.title, css_class=node.node_type, shapes=shapes, href=node.href, key=node.key)
 
     def edge(self, route: EdgeRoute) -> ShapeGroup:
-        """A curve with its arrowhead."""
         pal, edge, ends = self.palette, route.edge, (route.edge.source, route.edge.target)
         tip, base = _arrowhead(route.curve)
         shaft = curve_path((*route.curve[:6], *base))
@@ -246,7 +242,6 @@ def _icon(kind: GuardKind, at: Point) -> Iterable[tuple[tuple[str, tuple[float, 
 
 
 def _quadratic_to_cubic(end: Point, control: Point) -> Point:
-    """The control points of a cubic curve for that of a quadratic one."""
     return (end[0] + 2 / 3 * (control[0] - end[0]), end[1] + 2 / 3 * (control[1] - end[1]))
 
 

@@ -34,11 +34,11 @@ class Rect:
         return cls(at[0] - size.width / 2, at[1] - size.height / 2, at[0] + size.width / 2, at[1] + size.height / 2)
 
     def expanded(self, by: float) -> "Rect":
-        """Larger by this amount on every side."""
+        """The rectangle enlarged by this amount on every side."""
         return Rect(self.left - by, self.top - by, self.right + by, self.bottom + by)
 
     def overlaps(self, other: "Rect") -> bool:
-        """Whether both share more than a border."""
+        """Whether the rectangles share more than a border."""
         return (
             self.left < other.right and other.left < self.right and self.top < other.bottom and other.top < self.bottom
         )

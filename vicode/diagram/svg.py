@@ -13,7 +13,7 @@ _BASELINE_SHIFT = 0.36
 
 
 def write_svg(image: VectorImage, *, is_embedded: bool = False) -> str:
-    """The text of the file; as part of a page it also contains the keys of groups."""
+    """Format an image as SVG. An embedded image also contains the keys of its groups."""
     left, top, width, height = map(_number, (image.left, image.top, image.width, image.height))
     families = ", ".join(f"'{name}'" if " " in name else name for name in FONT_FAMILIES)
     position = f'width="{width}" height="{height}" viewBox="{left} {top} {width} {height}"'

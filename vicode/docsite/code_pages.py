@@ -100,7 +100,6 @@ def code_links_by_path(texts: tuple[CodeFile, ...], addresses: SiteUrls) -> dict
 
 
 def code_page_title(text: CodeFile) -> str:
-    """The title of the page of a file."""
     return f"{text.component or 'Project'}: {text.title}"
 
 
@@ -126,7 +125,6 @@ def code_view(text: CodeFile, links: tuple[TextSpan, ...], addresses: SiteUrls, 
 
 
 def code_page_links(texts: tuple[CodeFile, ...], addresses: SiteUrls) -> tuple[TextSpan, ...]:
-    """Links to the code pages of a component."""
     return tuple(
         TextSpan(text=each.title, href=addresses.code(each.component, each.variant), title=each.path) for each in texts
     )

@@ -40,7 +40,6 @@ class ComponentInputs:
 
 
 def component_view(design: Design, inputs: ComponentInputs) -> ComponentPageView:
-    """The view of the page of a component."""
     project, addresses = inputs.site_input.project, inputs.urls
     linker = NameLinker(project, addresses, design)
     common = design.common
@@ -155,7 +154,6 @@ def _actions(actions: Sequence[Action], linker: NameLinker) -> Iterator[ActionVi
 
 
 def call_text(call: Call, linker: NameLinker) -> RichText:
-    """A call with its arguments."""
     parts: list[TextSpan] = [linker.alias(call.alias), TextSpan(text="(")]
     for index, (name, text) in enumerate(call.arguments):
         parts += [TextSpan(text=", ")] if index else []

@@ -32,12 +32,11 @@ def make_declaration_table(title: str, initial: str, rows: tuple[DeclarationRow,
 
 
 def used_columns(rows: Iterable[DeclarationRow]) -> frozenset[str]:
-    """The columns that are not empty in all rows."""
+    """The columns that have a value in at least one row."""
     return frozenset(name for row in rows for name in _COLUMNS if getattr(row, name))
 
 
 def declaration_rows(declarations: Iterable[Declaration], linker: NameLinker, prefix: str) -> Iterator[DeclarationRow]:
-    """One row per declaration."""
     for each in declarations:
         yield DeclarationRow(
             anchor=prefix + slug(each.name),

@@ -39,7 +39,6 @@ class InterfaceInputs:
 
     @property
     def project(self) -> Project:
-        """Shortcut for `site_input.project`."""
         return self.site_input.project
 
 
@@ -96,7 +95,6 @@ def symbol_groups(known: InterfaceInputs) -> Iterator[SymbolGroup]:
 
 
 def symbol_count(project: Project) -> int:
-    """The number of symbols in a project."""
     declared = sum(len(each.readable) for each in project.components)
     return declared + sum(len(symbol_declarations(design)) for design in project.designs)
 
@@ -117,7 +115,6 @@ def enumeration_views(known: InterfaceInputs) -> Iterator[EnumerationView]:
 
 
 def constant_table(known: InterfaceInputs) -> DeclarationTable:
-    """The table of constants."""
     linker = NameLinker(known.project, known.urls)
     rows = (
         replace(row, read_in=user_links(known.references.users(READ, "", row.name), known))
@@ -193,7 +190,6 @@ def _symbol_rows(owner: Interface | Design, section: str, kind: str, linker: Nam
 
 
 def _declarations_of_type(enumeration: str, known: InterfaceInputs) -> Iterator[TextSpan]:
-    """The declarations of a type."""
     owners: list[Interface | Design] = [*_sorted_interfaces(known.project), *sorted_designs(known.project)]
     for owner in owners:
         for section in ("parameters", "outputs", "variables"):

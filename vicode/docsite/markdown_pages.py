@@ -50,7 +50,6 @@ def markdown_files(contents: Iterable[PageContent]) -> tuple[OutputFile, ...]:
 
 
 def render_markdown_page(template: str, **views: object) -> str:
-    """Render a page without images."""
     return _page(template, MarkdownFormatter(stem="index"), views)
 
 
@@ -68,11 +67,9 @@ class MarkdownFormatter:
     doc = staticmethod(markdown_text.markdown_from_html)
 
     def span(self, part: TextSpan) -> str:
-        """Format a span."""
         return markdown_text.rich_text((part,))
 
     def link(self, name: str, href: str) -> str:
-        """Format a link."""
         return link(escape_text(name), href)
 
     def cell(self, html: str) -> str:
@@ -80,11 +77,9 @@ class MarkdownFormatter:
         return " ".join(markdown_text.markdown_from_html(html).split())
 
     def code_block(self, block: CodeBlock) -> str:
-        """Format a code block of a design."""
         return fence(strip_tags(block.html), _LANGUAGES.get(block.language, ""))
 
     def listing(self, view: CodeView) -> str:
-        """Format a file."""
         return fence("\n".join(map(strip_tags, view.lines_html)))
 
     def image(self, name: str, about: str, svg: str) -> str:

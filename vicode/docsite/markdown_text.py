@@ -66,7 +66,6 @@ def markdown_href(href: str) -> str:
 
 
 def rich_text(parts: RichText) -> str:
-    """Format text with links."""
     return "".join(_part(part) for part in parts)
 
 
@@ -82,7 +81,6 @@ def inline_expression(parts: RichText) -> str:
 
 
 def markdown_from_html(html: str) -> str:
-    """Convert block HTML to Markdown."""
     reader = _MarkdownConverter()
     reader.feed(html)
     reader.close()
@@ -137,7 +135,6 @@ class _MarkdownConverter(HTMLParser):
         self.rows: list[list[str]] = []
 
     def markdown(self) -> str:
-        """The converted text."""
         self._end_line()
         return "\n\n".join(self.blocks[0].lines)
 

@@ -1,4 +1,4 @@
-"""Links in lines: the names in expressions lead to what declares them."""
+"""Converts expressions to rich text in which names link to their declarations."""
 
 import re
 from collections.abc import Iterable, Iterator
@@ -16,12 +16,12 @@ _SECTIONS = ("parameters", "outputs", "variables")
 
 
 def plain_text(text: str) -> RichText:
-    """A line of words only."""
+    """Rich text without links."""
     return (TextSpan(text=text),) if text else ()
 
 
 def join_spans(parts: Iterable[TextSpan], separator: str = ", ") -> RichText:
-    """Parts in a row."""
+    """Join spans with a separator."""
     line: list[TextSpan] = []
     for part in parts:
         line += [TextSpan(text=separator), part] if line else [part]
@@ -29,7 +29,7 @@ def join_spans(parts: Iterable[TextSpan], separator: str = ", ") -> RichText:
 
 
 class NameLinker:
-    """Knows the names that a design, or the project alone, can say."""
+    """Links the names that are visible in a design, or in the project file."""
 
     def __init__(self, project: Project, addresses: SiteUrls, design: Design | None = None) -> None:
         self._project, self._addresses, self._design = project, addresses, design
@@ -37,7 +37,7 @@ class NameLinker:
         self._constants = {each.name: each for each in project.constants}
 
     def expression(self, text: str) -> RichText:
-        """An expression in a line, its names linked and coloured."""
+        """An expression with linked and highlighted names."""
         parts: list[TextSpan] = []
         for part in self._parts(" ".join(text.split())):
             if parts and not part.href and not parts[-1].href and part.css_class == parts[-1].css_class:
@@ -47,23 +47,22 @@ class NameLinker:
         return tuple(parts)
 
     def duration(self, text: str) -> RichText:
-        """An expression that is a time, with its unit."""
+        """A time with its unit."""
         unit = (self._design.time_unit if self._design else "") or "s"
         return (*self.expression(text), TextSpan(text=f" {unit}"))
 
     def component(self, name: str, text: str = "") -> TextSpan:
-        """A component by name."""
         interface = self._project.interface(name)
         doc = summarize(interface.doc) if interface else ""
         return TextSpan(text=text or name, href=self._addresses.component(name), title=doc)
 
     def alias(self, alias: str) -> TextSpan:
-        """A component by what this design calls it."""
+        """The component with this alias."""
         use = self._design.use(alias) if self._design else None
         return self.component(use.component, alias) if use else TextSpan(text=alias)
 
     def parameter(self, alias: str, name: str) -> TextSpan:
-        """A parameter of a component by what this design calls it."""
+        """A parameter of the component with this alias."""
         use = self._design.use(alias) if self._design else None
         interface = self._project.interface(use.component) if use else None
         parameter = interface.parameter(name) if interface else None
@@ -73,7 +72,6 @@ class NameLinker:
         return TextSpan(text=name, href=href, title=_tooltip(parameter))
 
     def state(self, name: str, text: str = "") -> TextSpan:
-        """A state of the design."""
         assert self._design is not None
         state = self._design.state(name)
         if state is None:
@@ -82,7 +80,6 @@ class NameLinker:
         return TextSpan(text=text or name, href=href, title=summarize(state.doc))
 
     def declared_type(self, declaration: Declaration) -> RichText:
-        """The type of a declaration, as it is written."""
         href = self._addresses.enumeration(declaration.type)
         return (TextSpan(text=declaration.type, href=href, css_class="code"),) if declaration.type else ()
 

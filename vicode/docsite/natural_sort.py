@@ -1,4 +1,4 @@
-"""The order of names: without regard to case, numbers in names by their size."""
+"""Natural sort order of names: case is ignored, and digits are compared as numbers."""
 
 import re
 
@@ -7,11 +7,9 @@ from vicode.model.project import Project
 
 
 def natural_sort_key(name: str) -> tuple[list[str | int], str]:
-    """What to sort by."""
     parts = re.split(r"([0-9]+)", name.casefold())
     return ([int(part) if index % 2 else part for index, part in enumerate(parts)], name)
 
 
 def sorted_designs(project: Project) -> list[Design]:
-    """The designs by name."""
     return sorted(project.designs, key=lambda design: natural_sort_key(design.component))

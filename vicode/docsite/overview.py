@@ -35,7 +35,6 @@ def home_view(subject: SiteInput, addresses: SiteUrls, svg: str = "") -> HomeVie
 
 
 def agent_rows(project: Project, addresses: SiteUrls) -> Iterator[AgentRow]:
-    """The rows of the list of agents."""
     linker = NameLinker(project, addresses)
     for agent in project.agents:
         yield AgentRow(

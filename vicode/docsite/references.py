@@ -30,7 +30,6 @@ class SymbolReferences:
 
 
 def find_symbol_references(project: Project) -> SymbolReferences:
-    """Collect the references of all designs."""
     found: dict[ReferenceKey, dict[str, dict[str, None]]] = {}
     symbols = dict(_symbols(project))
     for design in project.designs:
@@ -69,7 +68,7 @@ def _design_references(
 
 
 def _writes(design: Design, aliases: Mapping[str, str]) -> Iterator[tuple[ReferenceKey, str]]:
-    """The names that actions set: variables and, for calls, parameters."""
+    """Yield what actions set (variables, and parameters of calls), with the state."""
     for placed in iter_actions(design):
         match placed.action:
             case Assign(values=values):

@@ -58,7 +58,6 @@ _SCRIPT_FILES = ("search_box", "diagram_viewer", "decision_trees", "menu")
 
 
 def build_site(subject: SiteInput) -> tuple[OutputFile, ...]:
-    """Build the files of a site."""
     with SiteBuilder() as builder:
         return tuple(OutputFile(path=each.path, text=each.render()) for each in builder.plan(subject))
 
@@ -94,7 +93,6 @@ class SiteBuilder:
         return _make_planner(whole, self._cache)
 
     def close(self) -> None:
-        """Stop the layout process."""
         self._service.close()
 
     def __enter__(self) -> "SiteBuilder":
@@ -179,7 +177,6 @@ class _SitePlanner:
             )
 
     def _component_pages(self, only: str = "") -> Iterator[PlannedFile]:
-        """One page per design."""
         for design in self.site_input.project.designs:
             name = design.component
             if only not in ("", self.urls.component(name)):
@@ -198,7 +195,6 @@ class _SitePlanner:
             yield self._page(head, "component", key, partial(_component, design, made))
 
     def _code_pages(self, only: str = "") -> Iterator[PlannedFile]:
-        """One page per source or generated file."""
         for name in self.code_files.component_names:
             if only and only not in {self.urls.code(name, form) for form in ("source", *GENERATORS)}:
                 continue

@@ -41,7 +41,6 @@ class ReloadBroadcaster:
 
     @property
     def build_id(self) -> str:
-        """The identifier of the latest build."""
         return f"{self._server_id}.{self._build_number}"
 
     def publish(self, changed: Iterable[str], errors: str) -> None:
@@ -88,11 +87,9 @@ class SiteServer:
 
     @property
     def url(self) -> str:
-        """The URL of the home page."""
         return f"http://{HOST}:{self._server.server_port}/"
 
     def close(self) -> None:
-        """Stop listening."""
         self._broadcaster.close()
         self._server.shutdown()
         self._server.server_close()
@@ -106,7 +103,6 @@ class SiteServer:
 
 
 def add_reload_script(html: str, build_id: str) -> str:
-    """Insert the reload script into a page."""
     style = f'<link rel="stylesheet" href="{_INTERNAL_PREFIX}live_reload.css">'
     script = f'<script src="{_INTERNAL_PREFIX}live_reload.js" data-build="{build_id}" defer></script>'
     return html.replace("</head>", f"{style}\n{script}\n</head>", 1)
@@ -121,8 +117,6 @@ class _HttpServer(ThreadingHTTPServer):
 
 
 class _RequestHandler(BaseHTTPRequestHandler):
-    """Handles one connection."""
-
     protocol_version = "HTTP/1.1"
     server: _HttpServer
 

@@ -119,7 +119,7 @@ def save_manifest(manifest: Manifest, file: Path) -> None:
 
 @cache
 def tool_digest() -> str:
-    """A digest of the code, templates and libraries that render pages."""
+    """A digest of the code, templates and library versions that determine the pages."""
     package = Path(vicode.__file__).parent
     sources = sorted(path for path in package.rglob("*.py") if path.relative_to(package).parts[0] != "editor")
     digest = sha256()
@@ -143,8 +143,6 @@ def _pages_in(out: Path) -> list[str]:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class _ExistingFile:
-    """A file on disk."""
-
     digest: str
     is_generated: bool
 

@@ -66,7 +66,6 @@ def code_row(number: int, html: str, href: str, title: str) -> str:
 
 
 def highlight_block(text: str, language: str) -> str:
-    """Highlight a code block."""
     return "\n".join(highlight_lines(text.strip("\n"), language))
 
 

@@ -36,7 +36,6 @@ def path_anchor(path: DesignPath) -> str:
 
 
 def state_anchor(name: str) -> str:
-    """The anchor of a state."""
     return "common" if name == COMMON else f"state-{slug(name)}"
 
 
@@ -101,11 +100,9 @@ class SiteUrls:
         return f"{TYPES}#enum-{slug(name)}" + (f"-{slug(element)}" if element else "")
 
     def constant(self, name: str) -> str:
-        """The description of a constant."""
         return f"{TYPES}#constant-{slug(name)}"
 
     def agent(self, name: str) -> str:
-        """The page of an agent."""
         return f"agent-{self._agents[name]}.html"
 
 

@@ -44,12 +44,10 @@ def user_rows(project: Project, component: str, addresses: SiteUrls) -> Iterator
 
 
 def required_in(design: Design, alias: str, linker: NameLinker) -> RichText:
-    """The states that require the component."""
     return join_spans(linker.state(state.name) for state in design.states if alias in state.requires)
 
 
 def modulated_in(design: Design, alias: str, linker: NameLinker) -> RichText:
-    """The states that modulate the component."""
     calls = (
         each.state for each in iter_actions(design) if isinstance(each.action, Call) and each.action.alias == alias
     )

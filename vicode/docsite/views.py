@@ -152,7 +152,6 @@ class FindingGroup:
 
     @property
     def count(self) -> int:
-        """The number of findings."""
         return len(self.rows)
 
 
@@ -338,7 +337,7 @@ class SiteEntry:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PageHead:
-    """The data that every page has; `menu_href` is the link of its menu entry."""
+    """The data of every page; `menu_href` is the link of its menu entry."""
 
     title: str
     file: str

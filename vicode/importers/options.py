@@ -57,7 +57,6 @@ class OptionImporter:
         self._comments = dict(self.parsed.file.comments)
 
     def import_design(self) -> tuple[Design, list[PlacedComment]]:
-        """Return the design and the comments in its file."""
         option = self.option
         component = self.declarations.components[self.definition]
         self.anchors.append((option.first_token, ("component",)))
@@ -90,7 +89,6 @@ class OptionImporter:
         return self.references[id(tokens), token]
 
     def _design_name(self, declared: Definition) -> str:
-        """Return the name of a definition in this design."""
         if declared in self.parameter_names:
             return self.parameter_names[declared]
         if declared in self.declarations.symbols:

@@ -1,4 +1,4 @@
-"""A design and a project of designs as frozen values, expressions as typed trees, pure edits and questions.
+"""Designs and projects as frozen values, expressions as typed trees, and pure functions that edit and query them.
 
-Knows neither files nor YAML nor screens.
+The package does not depend on files, YAML or the user interface.
 """

@@ -112,7 +112,6 @@ def assign_id(design: Design, path: DesignPath) -> Design:
 
 
 def decisions_path(design: Design, source: str) -> DesignPath:
-    """Return the path of the decisions of a source."""
     return ("states", source, "transitions") if design.state(source) else ("common", "transitions")
 
 
@@ -144,7 +143,6 @@ def _remove_decision(design: Design, path: DesignPath) -> Design:
 
 
 def reorder_decision(design: Design, path: DesignPath, to_index: int) -> Design:
-    """Move a decision within its list."""
     index = path[-1]
 
     def moved(items: tuple[Decision, ...]) -> tuple[Decision, ...]:
@@ -160,7 +158,6 @@ def reorder_decision(design: Design, path: DesignPath, to_index: int) -> Design:
 def update_decisions(
     design: Design, path: DesignPath, change: Callable[[tuple[Decision, ...]], tuple[Decision, ...]]
 ) -> Design:
-    """Apply `change` to the list of decisions at a path."""
     if path[:2] == ("common", "transitions"):
         items = _update_nested(design.common.transitions, path[2:], change)
         return replace(design, common=replace(design.common, transitions=items))
@@ -273,8 +270,6 @@ def add_requirement(design: Design, state: str, alias: str) -> Design:
 
 
 def add_modulation(design: Design, state: str, alias: str) -> Design:
-    """Add a modulation with default parameters."""
-
     def with_call(old: State) -> State:
         known = {call.alias for call in old.modulates}
         return old if alias in known else replace(old, modulates=(*old.modulates, Call(alias=alias)))
@@ -283,7 +278,7 @@ def add_modulation(design: Design, state: str, alias: str) -> Design:
 
 
 def remove_link(design: Design, state: str, alias: str, *, modulates: bool) -> Design:
-    """Remove the requirement, or the modulations and calls, of a component from a state."""
+    """Remove the link from a state to a component: its requirement, or its modulations and calls."""
 
     def without(old: State) -> State:
         if not modulates:

@@ -111,7 +111,6 @@ def duplicate_decision(design: Design, path: DesignPath) -> Design:
 
 
 def _references_alias(part: Design, alias: str) -> bool:
-    """Return whether the fragment refers to an alias."""
     return rename_alias(part, alias, f"{alias}_") != part
 
 

@@ -61,7 +61,7 @@ class Interface:
         return self.outputs + self.variables
 
     def output(self, name: str) -> Declaration | None:
-        """Return a readable output or variable."""
+        """Return the output or variable with this name, None if there is none."""
         return next((output for output in self.readable if output.name == name), None)
 
     def variable(self, name: str) -> Declaration | None:

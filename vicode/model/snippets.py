@@ -31,7 +31,6 @@ class PythonSnippet:
 
     @property
     def source(self) -> str:
-        """The source of the completed module."""
         # `pass` makes code that consists only of comments a valid body.
         return "\n".join((self.header, f"{self.indent}pass", *(self.indent + line for line in self.dedented), ""))
 

@@ -62,7 +62,7 @@ class RunHost:
             cast("Any", self.main).modulate(**{**now, **new})
 
     def evaluate_guards(self) -> dict[str, dict[str, Any]]:
-        """The current truth of the guards."""
+        """The current truth values of the guards."""
         return self._watch.evaluate()
 
     def step(self) -> IterationResult:

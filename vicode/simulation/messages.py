@@ -139,7 +139,7 @@ class IterationResult:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Inspected:
-    """The current truth of the guards, without a step."""
+    """The current truth values of the guards, evaluated without a step."""
 
     guards: dict[str, dict[str, Any]]
     kind: Literal["inspected"] = "inspected"
@@ -193,7 +193,6 @@ _STEP_TYPES: dict[str, type | tuple[type, ...]] = {
 
 
 def encode_setup(setup: Setup) -> bytes:
-    """Encode the first line."""
     return _line(asdict(setup))
 
 

@@ -134,7 +134,6 @@ class Patcher:
             self._add_edit(body_start, node.end, indented)
 
     def _replace(self, node: YamlNode, target: TargetNode, slot: ValueSlot) -> None:
-        """Replace the whole value."""
         if slot.in_flow:
             self._replace_in_flow(node, target)
             return
@@ -191,7 +190,6 @@ class Patcher:
                 self._patch_member(node, member, spans)
 
     def _patch_member(self, node: YamlMapping | YamlSequence, member: TargetMember, spans: list[MemberSpan]) -> None:
-        """Patch a member in place."""
         assert member.old_index is not None
         span = spans[member.old_index]
         column = spans[0].key_start - line_start(self.text, spans[0].key_start)

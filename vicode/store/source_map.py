@@ -42,7 +42,6 @@ class SourceMap:
         return self.line_index.locate(node.start, node.end)
 
     def contains(self, path: DesignPath) -> bool:
-        """Whether a node with this path exists."""
         return self._find(path)[1]
 
     def _find(self, path: DesignPath) -> tuple[TypedNode | None, bool]:

@@ -191,7 +191,7 @@ class TargetBuilder:
 
 
 def format_number(number: float) -> str:
-    """Format a number, an integral one without decimals."""
+    """Format a number; integral numbers have no decimal point."""
     return str(int(number)) if number == int(number) and abs(number) < 1e15 else repr(number)
 
 

@@ -131,8 +131,6 @@ def _report_syntax(error: yaml.YAMLError, skipped: int, report: ReadReport) -> N
 
 
 class _TreeBuilder:
-    """Builds the tree from parser events."""
-
     def __init__(self, text: str, skipped: int, report: ReadReport) -> None:
         self.text = text
         self.skipped = skipped

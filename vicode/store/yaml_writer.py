@@ -109,7 +109,6 @@ def format_document(target: TargetNode, style: YamlStyle) -> str:
 
 
 def format_flow(target: TargetNode) -> str:
-    """Format a value in flow style."""
     if isinstance(target, TargetScalar):
         return target.text if target.is_plain else format_inline_text(target.text, in_flow=True)
     assert isinstance(target, TargetCollection), "TargetKeep cannot be formatted"

@@ -117,7 +117,7 @@ class _OptionCompiler:
         self.expressions = ExpressionCompiler(table, report, tokens, self.definition.parameters)
 
     def _find_definition(self) -> Definition:
-        """The definition of this option, also if it is the second one of its name."""
+        """The definition of this option, even if another option has the same name."""
         definition = self.table.options[self.option.name.text]
         if definition.node is self.option:
             return definition

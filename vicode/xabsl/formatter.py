@@ -35,7 +35,6 @@ class TokenFormatter:
 
     @property
     def column(self) -> int:
-        """Length of the current line."""
         return len(self._line) or len(INDENT) * self.depth
 
     def write(self, text: str, gap: str = " ") -> None:
@@ -78,7 +77,6 @@ class TokenFormatter:
         self._is_block_start = False
 
     def has_comments(self) -> bool:
-        """Whether comments precede the next token."""
         return bool(self._comments.get(self._count))
 
     def _start_line(self, text: str) -> None:

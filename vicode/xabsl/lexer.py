@@ -128,7 +128,6 @@ def tokenize(text: str, file: str) -> tuple[Tokens, list[Finding]]:
 
 
 def _add_comment(tokens: Tokens, word: str, start: int) -> None:
-    """Attach a comment to the next token."""
     line = tokens.text.rfind("\n", 0, start) + 1
     is_first = not tokens.text[line:start].strip()
     comment = Comment(word.rstrip().replace("\r", ""), is_first, start in tokens.after_blank_lines)

@@ -22,14 +22,12 @@ class CompileReport:
     def add_finding(
         self, tokens: Tokens, token: int, code: str, message: str, fix: str = "", *, note: Note | None = None
     ) -> None:
-        """Report a problem with a token."""
         notes = (note,) if note else ()
         location = tokens.location(max(token, 0))
         self.findings.append(Finding(rule=get_rule(code), message=message, fix=fix, location=location, notes=notes))
 
 
 def collect_symbols(source: ProgramSource, report: CompileReport) -> SymbolTable:
-    """Build the symbol table of a program."""
     table = SymbolTable()
     collector = _Collector(table, report)
     for parsed in source.files.values():

@@ -18,7 +18,6 @@ class CodePlanner:
         return CodePlan(region_id=self._regions.allocate(role, "."), stem=role, code=code) if code.texts else None
 
     def plan_action(self, source: str, phase: str, code: Code, given_id: str) -> CodePlan:
-        """Plan the code of an action in a state or in the common section."""
         region = given_id or f"{self._owner(source)}.{phase}"
         default = (
             identifier_stem(_source_name(source))

@@ -78,7 +78,6 @@ def operator_chain(parts: list[tuple[str | None, ExpressionDoc]], precedence: in
 
 
 def unary_expression(operator: str, piece: ExpressionDoc, precedence: int) -> ExpressionDoc:
-    """`not x` or `-x`."""
     inner = piece if piece.precedence >= (NOT if precedence == NOT else ATOM) else parenthesized(piece)
     return ExpressionDoc(
         breakable=concat(operator, inner.breakable),
@@ -115,7 +114,6 @@ def conditional_expression(then: ExpressionDoc, test: ExpressionDoc, otherwise: 
 
 
 def parenthesized(piece: ExpressionDoc) -> ExpressionDoc:
-    """Enclose an expression in brackets."""
     doc = bracketed("(", piece.breakable)
     return ExpressionDoc(breakable=doc, unbreakable=doc, starts_with_bracket=True, ends_with_bracket=True)
 

@@ -40,7 +40,6 @@ class MethodWriter:
     expression_printer: PythonExpressionPrinter
 
     def write_states(self) -> list[MethodView]:
-        """Write the methods of the common section and of all states."""
         plan = self.component
         methods: list[MethodView] = []
         if plan.common_decisions:

@@ -39,7 +39,6 @@ def keyword_signature(
 
 
 def type_name(type_: str, expression_printer: PythonExpressionPrinter) -> str:
-    """Return the annotation of a type."""
     return type_ if type_ in (BOOL, INT, FLOAT) else expression_printer.global_name(type_)
 
 

@@ -36,7 +36,6 @@ def section(title: str, entries: list[tuple[str, str]], indent: int) -> str:
 
 
 def comment(text: str, indent: int) -> list[str]:
-    """Format a text as comment lines."""
     prefix = " " * indent + "# "
     clean = _clean(text)
     # Prevent a text from acting as a tool directive.

@@ -77,7 +77,6 @@ class XabslNameMap:
         return number_node(value)
 
     def symbol_name(self, component: str, name: str) -> str:
-        """Return the symbol name of an output or variable."""
         return symbol_name(component, self._readable(component, name))
 
     def output_arguments(self, component: str, name: str) -> tuple[Declaration, ...] | None:

@@ -30,17 +30,14 @@ def wrap_description(text: str, depth: int) -> str:
 
 
 def description_line(text: str) -> str:
-    """Format a text as a description on one line."""
     return " ".join(_printable(text).split()).replace("*/", "* /").replace("/*", "/ *")
 
 
 def title_text(text: str) -> str:
-    """Format a text as a quoted title."""
     return " ".join(_printable(text).split()).replace('"', "'")
 
 
 def header_comment(lines: Iterable[str]) -> str:
-    """Format lines as the header comment of a file."""
     return "\n".join(_printable(line).replace("*/", "* /") for line in lines)
 
 
@@ -52,7 +49,6 @@ def attach_comment(node: tree.SyntaxNode, text: str) -> Iterator[AttachedComment
 
 
 def print_option(option: tree.OptionNode, comments: Iterable[AttachedComment]) -> str:
-    """Print the file of an option with its comments."""
     file = tree.FileNode(body=[option])
     attached_comments = list(comments)
     if attached_comments:

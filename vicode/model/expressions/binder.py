@@ -77,7 +77,6 @@ class ExpressionBinder:
             self.report_span("E304", f"expected a number, found {node.type}", "", node.span)
 
     def get_span(self, syntax: ast.expr | ast.keyword) -> Span:
-        """Return the span of syntax in the text."""
         lead = len(self.text) - len(self.text.lstrip())
         first, last = syntax.col_offset, syntax.end_col_offset or syntax.col_offset + 1
         if self.text.isascii():

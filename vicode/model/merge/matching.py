@@ -37,7 +37,6 @@ def item_key(item: Any) -> Hashable:
 
 
 def find_renamed_states(old: Design, new: Design) -> dict[str, str]:
-    """Map the old names of renamed states to the new ones."""
     removed = [state for state in old.states if new.state(state.name) is None]
     added = [state for state in new.states if old.state(state.name) is None]
     renamed: dict[str, str] = {}
@@ -112,7 +111,7 @@ def _match_equal(old: Sequence[Any], new: Sequence[Any], matches: Matches) -> Ma
 def _match_neighbours(
     old: Sequence[Any], new: Sequence[Any], matches: Matches, is_same: Callable[[Any, Any], bool]
 ) -> Matches:
-    """Add similar items next to matched ones."""
+    """Match similar items whose previous or next item is matched."""
     matched, taken = dict(matches), set(matches.values())
 
     def match(at: int, to: int) -> None:

@@ -13,7 +13,7 @@ _Holder = TypeVar("_Holder", Design, Interface)
 
 
 def rename_symbol(project: Project, symbol: SymbolRef, new: str) -> Project:
-    """The project with a new name for one symbol, and for that symbol only; an unknown one changes nothing."""
+    """Return the project with one symbol renamed; an unknown symbol changes nothing."""
     if not is_declared(project, symbol) or symbol.name == new:
         return project
     designs = tuple(_rename_in_one_design(design, project, symbol, new) for design in project.designs)
@@ -28,7 +28,6 @@ def rename_symbol(project: Project, symbol: SymbolRef, new: str) -> Project:
 
 
 def is_declared(project: Project, symbol: SymbolRef) -> bool:
-    """Return whether the project declares a symbol."""
     return symbol.name in sibling_names(project, symbol)
 
 
@@ -145,7 +144,6 @@ def _rename_in_list(declarations: tuple[Declaration, ...], old: str, new: str) -
 
 
 def _rename_in_project_file(project: Project, symbol: SymbolRef, new: str) -> Project:
-    """Rename a symbol of the project file."""
     match symbol.section:
         case "constants":
             project = replace(project, constants=_rename_in_list(project.constants, symbol.name, new))

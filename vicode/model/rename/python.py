@@ -109,7 +109,6 @@ def _self_attribute(node: ast.expr, me: str) -> str | None:
 
 
 def _last_name_position(node: ast.Attribute) -> _Position:
-    """Return the position of the name after the last dot."""
     assert node.end_lineno is not None
     assert node.end_col_offset is not None
     return (node.end_lineno, node.end_col_offset - len(node.attr.encode()))
@@ -168,7 +167,6 @@ def _argument_names(arguments: ast.arguments) -> set[str]:
 
 
 def _bound_names(tree: ast.AST) -> Iterator[str]:
-    """Yield all names that code binds."""
     for node in ast.walk(tree):
         match node:
             case ast.Name(id=name) if _stored_name(node):

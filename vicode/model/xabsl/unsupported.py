@@ -49,7 +49,6 @@ def find_unsupported_in_design(project: Project, design: Design) -> Iterator[Uns
 
 
 def find_unsupported_in_project(project: Project) -> Iterator[UnsupportedFeature]:
-    """Yield the unsupported features of a project file."""
     scope, constants = build_scope(project, None), evaluate_constants(project)
     for agent in project.agents:
         path: DesignPath = ("agents", agent.name, "root")

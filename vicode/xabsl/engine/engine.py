@@ -43,7 +43,6 @@ class OptionView:
 
 
 def monotonic_ms() -> int:
-    """Milliseconds of a monotonic clock."""
     return time.monotonic_ns() // 1_000_000
 
 
@@ -183,7 +182,6 @@ class Engine:
             state.begin_cycle()
 
     def process_incoming_message(self, message: CoopMessage) -> None:
-        """Process the message of another robot."""
         for number in message.executed:
             self._coop[number].executing += 1
         for number in message.entering:

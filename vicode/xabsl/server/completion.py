@@ -74,7 +74,7 @@ def complete_at(behavior: OpenBehavior, tokens: Tokens, offset: int) -> list[Com
 
 
 def _argument_proposals(table: SymbolTable, context: _CompletionContext) -> Iterator[CompletionProposal]:
-    """Inside parentheses: parameters of the callee, or values for a parameter or a condition."""
+    """Proposals inside parentheses: parameters of the callee, or values for a parameter or a condition."""
     owner = _find_callee(table, context.call)
     if context.kinds[-1] in ("(", ",") and owner is not None:
         for parameter in owner.parameters.values():
@@ -97,7 +97,6 @@ def _find_callee(table: SymbolTable, name: str) -> Definition | None:
 
 
 def _action_proposals(table: SymbolTable) -> Iterator[CompletionProposal]:
-    """The start of an action."""
     for definitions in table.assignable.values():
         for definition in definitions:
             proposal = _definition_proposal(definition)
@@ -113,7 +112,7 @@ def _action_proposals(table: SymbolTable) -> Iterator[CompletionProposal]:
 
 
 def _value_proposals(table: SymbolTable, context: _CompletionContext) -> Iterator[CompletionProposal]:
-    """Readable values: first the elements of the expected enumeration."""
+    """Proposals for values: first the elements of the expected enumeration, then symbols that can be read."""
     yield from (_definition_proposal(element) for element in _expected_elements(table, context))
     option = table.options.get(context.option)
     for parameter in option.parameters.values() if option else ():

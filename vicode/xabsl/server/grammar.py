@@ -15,7 +15,6 @@ def _word_pattern(keywords: tuple[str, ...]) -> str:
 
 
 def grammar() -> dict[str, Any]:
-    """The grammar as JSON data."""
     other_keywords = tuple(KEYWORDS - {*_CONTROL, *_VALUES, *_TYPES})
     patterns = [
         {"name": "comment.block.documentation.xabsl", "begin": r"/\*\*(?![*/])", "end": r"\*/"},
@@ -41,5 +40,4 @@ def grammar() -> dict[str, Any]:
 
 
 def grammar_text() -> str:
-    """The text of the grammar file."""
     return json.dumps(grammar(), indent=2) + "\n"

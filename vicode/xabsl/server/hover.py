@@ -44,7 +44,6 @@ def hover_text(definition: Definition) -> str:
 
 
 def doc_comment(definition: Definition) -> str:
-    """The description of a definition."""
     return str(getattr(definition.node, "doc", ""))
 
 

@@ -117,7 +117,6 @@ class XabslLanguageServer(LanguageServer):
 
 
 def create_server() -> XabslLanguageServer:
-    """Create a server with all features registered."""
     server = XabslLanguageServer()
     _register_document_sync(server)
     _register_queries(server)
