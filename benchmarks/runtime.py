@@ -13,7 +13,7 @@ import time
 from collections.abc import Callable, Sequence
 
 from benchmarks.libraries import Candidate, find_libraries
-from benchmarks.sample_machines import Machine, TickClock, load_source, make_machine, write_component, write_if_elif
+from benchmarks.sample_machines import Machine, TickClock, load_component, load_source, make_machine, write_if_elif
 from benchmarks.senses import Senses
 from vicode.bica import Component, Root
 
@@ -37,17 +37,28 @@ def main() -> None:
         ("200 states x 3, states do nothing", make_machine(200, 3, acts=False), {}),
     ]
     for title, machine, rivals in cases:
-        makers = {HAND_WRITTEN: make_if_elif, "generated component": make_component, **rivals}
+        makers = {
+            HAND_WRITTEN: make_if_elif,
+            "generated component": make_component,
+            "  reading the world": make_world_reader,
+            **rivals,
+        }
         print_case(title, measure_all(machine, makers, inputs, options.rounds))
     print("SMACH is not on the package index and not measured here.")
 
 
 def make_component(machine: Machine, senses: Senses) -> Candidate:
-    root = Root(load_source(write_component(machine)).Measured, clock=TickClock())
+    root = Root(load_component(machine), clock=TickClock())
     component: Component = root.main
     # The component reads the very object that all others read.
     component.senses = senses  # type: ignore[attr-defined]
     return root.step, lambda: component.state
+
+
+def make_world_reader(machine: Machine, senses: Senses) -> Candidate:
+    component_class = load_component(machine, "world")
+    root = Root(component_class, clock=TickClock(), world=senses)
+    return root.step, lambda: root.main.state
 
 
 def make_if_elif(machine: Machine, senses: Senses) -> Candidate:

@@ -4,14 +4,17 @@ from __future__ import annotations
 
 import importlib.util
 import random
+import sys
 import tempfile
 from dataclasses import dataclass
 from pathlib import Path
 from types import ModuleType
 
+from vicode.bica import Component
 from vicode.generators import generate
 from vicode.model.design import Assign, Declaration, Design, Guard, State, Transition, Use
 from vicode.model.project import Interface, Project
+from vicode.output import apply_diffs, compare_files
 
 TICK_NS = 20_000_000
 TIMER_NS = 300_000_000
@@ -59,11 +62,11 @@ def make_machine(states: int, edges: int, *, acts: bool) -> Machine:
     )
 
 
-def write_component(machine: Machine) -> str:
-    """Return the source of the component `Measured` as `vicode gen` writes it."""
-    senses = Interface(
+def load_component(machine: Machine, senses: str = "benchmarks.senses:Senses") -> type[Component]:
+    """Generate and import the component of a machine; `senses` is the implementation of the component that it reads."""
+    interface = Interface(
         component="Senses",
-        implementation="benchmarks.senses:Senses",
+        implementation=senses,
         outputs=tuple(Declaration(name=name, type="float") for name in "abc"),
     )
     design = Design(
@@ -74,8 +77,16 @@ def write_component(machine: Machine) -> str:
         initial="S0",
         states=tuple(make_state(machine, number) for number in range(len(machine.edges))),
     )
-    project = Project(name="bench", components=(senses,), designs=(design,))
-    return next(file.text for file in generate(project) if file.path.endswith("measured.py"))
+    project = Project(name="bench", components=(interface,), designs=(design,))
+    with tempfile.TemporaryDirectory() as folder:
+        apply_diffs(compare_files(generate(project), Path(folder)), Path(folder))
+        for name in [name for name in sys.modules if name.partition(".")[0] == "bench"]:
+            del sys.modules[name]
+        sys.path.insert(0, str(Path(folder, "python")))
+        importlib.invalidate_caches()
+        measured: type[Component] = importlib.import_module("bench.measured").Measured
+        sys.path.pop(0)
+    return measured
 
 
 def make_state(machine: Machine, number: int) -> State:

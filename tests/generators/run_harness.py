@@ -66,6 +66,9 @@ components:
   Legs:
     implementation: parts_{name}:Legs
     parameters: {{speed: {{type: float, default: 7}}, turn: {{type: float, default: 8}}}}
+  Gauge:
+    implementation: world
+    outputs: {{ready: {{type: bool}}, level: {{type: float}}, where: {{type: Side}}}}
   Arm:
     implementation: parts_{name}:Arm
     parameters: {{reach: {{type: float, default: patience * 4}}, fast: {{type: bool}}, side: {{type: Side}}, lift: 7}}

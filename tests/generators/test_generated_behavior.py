@@ -152,6 +152,32 @@ def test_values_have_their_declared_types(play: StartHarness) -> None:
     assert (main.n, main.a) == (22, 10.0)
 
 
+READING = """
+component: Reading
+uses: {gauge: Gauge}
+outputs: {x: 0.0, where: Side.left}
+initial: S
+states:
+  S:
+    transitions: [{to: T, when: gauge.ready and gauge.level > 1}]
+    actions: [{set: {x: x + 1}}]
+  T:
+    enter: self.world.level += 1
+    actions: [{set: {x: gauge.level, where: gauge.where}}]
+"""
+
+
+def test_inputs_of_the_world_are_read_and_converted_where_they_are_mentioned(play: StartHarness) -> None:
+    reading = play(READING)
+    reading.tick(ready=0)
+    assert (reading.errors, reading.main.x) == ([], 1.0)
+    reading.tick(ready=1, level=None)
+    assert [(error.component, error.state, error.body) for error in reading.errors] == [("Reading", "S", "state")]
+    reading.tick(level=2, where="right")
+    assert (reading.main.state, reading.main.x, type(reading.main.x)) == ("T", 3.0, float)
+    assert reading.main.where is type(reading.main.where).right
+
+
 NESTED = """
 component: Nested
 uses: {last: Last}

@@ -47,7 +47,7 @@ from vicode.model.design import (
 )
 from vicode.model.disabled import strip_disabled
 from vicode.model.expressions import BOOL, FLOAT, Expr, Scope, build_scope
-from vicode.model.project import Project
+from vicode.model.project import WORLD, Project
 from vicode.model.traversal import is_exhaustive, iter_expressions
 
 
@@ -127,7 +127,8 @@ def _plan_use(project: Project, modules: Mapping[str, str], alias: str, componen
     interface = project.interface(component)
     if interface is None:
         raise UnsoundDesignError(f"the component '{component}' is not declared")
-    functions = plan_functions(interface.readable, build_scope(project, None))
+    scope = build_scope(project, None)
+    functions = plan_functions(interface.readable, scope)
     if component in modules:
         return UsedComponent(alias=alias, component=component, module=modules[component])
     module = INTERFACES_MODULE if interface.is_generated else ""
@@ -137,6 +138,7 @@ def _plan_use(project: Project, modules: Mapping[str, str], alias: str, componen
         module=module,
         implementation="" if module else interface.implementation,
         functions=functions,
+        inputs=plan_values(interface.outputs, scope) if interface.implementation == WORLD else (),
     )
 
 

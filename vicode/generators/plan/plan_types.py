@@ -34,7 +34,7 @@ class FunctionPlan:
 class UsedComponent:
     """A used component; a generated one has a `module`, a hand-written one an `implementation`.
 
-    `functions` are its outputs with arguments.
+    `functions` are its outputs with arguments, `inputs` its other outputs if the world provides them.
     """
 
     alias: str
@@ -42,6 +42,7 @@ class UsedComponent:
     module: str = ""
     implementation: str = ""
     functions: tuple[FunctionPlan, ...] = ()
+    inputs: tuple[ValuePlan, ...] = ()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

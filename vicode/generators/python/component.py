@@ -13,7 +13,7 @@ from vicode.generators.plan import (
     UsedComponent,
 )
 from vicode.generators.python.expression_doc import format_statement
-from vicode.generators.python.expression_printer import PythonExpressionPrinter, format_number, functions_by_output
+from vicode.generators.python.expression_printer import PythonExpressionPrinter, format_number
 from vicode.generators.python.imports import Import, format_imports
 from vicode.generators.python.methods import BODY_INDENT, METHOD_INDENT, MethodWriter, method_code, python_code
 from vicode.generators.python.names import component_class_name, names_in_code
@@ -44,13 +44,7 @@ class ComponentWriter:
 
     @cached_property
     def expression_printer(self) -> PythonExpressionPrinter:
-        return PythonExpressionPrinter(
-            names=self.names,
-            nonzero_constants=self.project.nonzero_constants,
-            time_unit=self.component.time_unit,
-            uses_xabsl_arithmetic=self.component.arithmetic == "xabsl",
-            functions=functions_by_output(self.component),
-        )
+        return PythonExpressionPrinter.of_component(self.project, self.component, self.names)
 
     def build_view(self) -> ComponentModuleView:
         plan = self.component

@@ -2,13 +2,16 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
+from typing import Self
 
 from vicode.generators.plan import (
     ComponentPlan,
     Condition,
     ExpressionCondition,
     FunctionPlan,
+    ProjectPlan,
     TimerCondition,
+    ValuePlan,
     literal_value,
 )
 from vicode.generators.python.expression_doc import (
@@ -50,6 +53,7 @@ from vicode.model.expressions import (
     Variable,
     walk,
 )
+from vicode.model.names import python_attribute_name
 
 _BUILTIN_FUNCTIONS = {"abs": "abs", "min": "min", "max": "max", "float": "float"}
 _ARITHMETIC_NAMES = {"int": "to_int", "round": "round_half_even"}
@@ -66,6 +70,7 @@ class PythonExpressionPrinter:
         used_names: Collects the printed names of `names`, from which the imports are derived.
         time_unit: "s" or "ms".
         functions: Outputs with arguments by alias and name.
+        inputs: Outputs of components that the world provides, by alias and name.
         enclosing_calls: Functions whose arguments contain the printed expression.
     """
 
@@ -75,7 +80,20 @@ class PythonExpressionPrinter:
     time_unit: str = "s"
     uses_xabsl_arithmetic: bool = False
     functions: Mapping[tuple[str, str], FunctionPlan] = field(default_factory=dict)
+    inputs: Mapping[tuple[str, str], ValuePlan] = field(default_factory=dict)
     enclosing_calls: frozenset[tuple[str, str]] = frozenset()
+
+    @classmethod
+    def of_component(cls, project: ProjectPlan, component: ComponentPlan, names: Mapping[str, str]) -> Self:
+        """Return the printer for the expressions of a component in a module that uses these names."""
+        return cls(
+            names=names,
+            nonzero_constants=project.nonzero_constants,
+            time_unit=component.time_unit,
+            uses_xabsl_arithmetic=component.arithmetic == "xabsl",
+            functions={(use.alias, item.result.name): item for use in component.uses for item in use.functions},
+            inputs={(use.alias, value.name): value for use in component.uses for value in use.inputs},
+        )
 
     def to_doc(self, node: Expr) -> ExpressionDoc:
         """Return the document of a typed tree."""
@@ -136,12 +154,18 @@ class PythonExpressionPrinter:
     def _output_doc(self, reference: OutputRef) -> ExpressionDoc:
         target, arguments = f"self.{reference.alias}.{reference.output}", reference.arguments
         if arguments is None:
-            return atom(target)
+            value = self.inputs.get((reference.alias, reference.output))
+            return atom(target) if value is None else self.input_doc(value)
         if (reference.alias, reference.output) in self.enclosing_calls or (
             self.uses_xabsl_arithmetic and _calls_itself(reference)
         ):
             return self._nested_call_doc(reference)
         return call_expression(target, [_keyword(name, self.to_doc(value)) for name, value in arguments])
+
+    def input_doc(self, value: ValuePlan) -> ExpressionDoc:
+        """Read an attribute of the world as a value of the declared type."""
+        conversion = value.type if value.type in (BOOL, INT, FLOAT) else self.global_name(value.type)
+        return call_expression(conversion, [f"self.world.{world_name(value)}"])
 
     def _nested_call_doc(self, reference: OutputRef) -> ExpressionDoc:
         """Pass the arguments lazily: XABSL stores them in one place per function, which a nested call overwrites."""
@@ -201,9 +225,9 @@ class PythonExpressionPrinter:
         return bool(literal_value(node))
 
 
-def functions_by_output(component: ComponentPlan) -> dict[tuple[str, str], FunctionPlan]:
-    """Return the outputs with arguments of all used components, by alias and name."""
-    return {(use.alias, function.result.name): function for use in component.uses for function in use.functions}
+def world_name(value: ValuePlan) -> str:
+    """Return the name in the world, which is the same for the XABSL engine."""
+    return python_attribute_name(value.xabsl_name or value.name)
 
 
 def format_number(value: float) -> str:

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 from vicode.generators.plan import FunctionPlan, InterfacePlan, ProjectPlan, ValuePlan
 from vicode.generators.python.expression_doc import format_statement
-from vicode.generators.python.expression_printer import PythonExpressionPrinter
+from vicode.generators.python.expression_printer import PythonExpressionPrinter, world_name
 from vicode.generators.python.imports import Import, format_imports
 from vicode.generators.python.methods import BODY_INDENT
 from vicode.generators.python.names import component_class_name
@@ -82,13 +82,13 @@ class _InterfaceWriter:
 
     def _getter(self, value: ValuePlan) -> Iterator[MethodView]:
         signature = f"    @property\n    def {value.name}(self) -> {type_name(value.type, self.expression_printer)}:"
-        yield MethodView(signature=signature, body=self._return_body(value, f"self.world.{_world_name(value)}"))
+        yield MethodView(signature=signature, body=self._return_body(value, f"self.world.{world_name(value)}"))
 
     def _setter(self, value: ValuePlan) -> MethodView:
         type_ = type_name(value.type, self.expression_printer)
         argument = "value" if self._is_plain(value) else "value.value"
         signature = f"    @{value.name}.setter\n    def {value.name}(self, value: {type_}) -> None:"
-        return MethodView(signature=signature, body=f"{_MARGIN}self.world.{_world_name(value)} = {argument}")
+        return MethodView(signature=signature, body=f"{_MARGIN}self.world.{world_name(value)} = {argument}")
 
     def _function(self, function: FunctionPlan) -> MethodView:
         result = function.result
@@ -96,27 +96,22 @@ class _InterfaceWriter:
             result.name, function.arguments, type_name(result.type, self.expression_printer), self.expression_printer
         )
         arguments: list[Doc] = [
-            concat(f"{_world_name(value)}={value.name}" + ("" if self._is_plain(value) else ".value"))
+            concat(f"{world_name(value)}={value.name}" + ("" if self._is_plain(value) else ".value"))
             for value in function.arguments
         ]
-        call = "\n".join(render_doc(call_doc(f"self.world.{_world_name(result)}", arguments), BODY_INDENT)).strip()
+        call = "\n".join(render_doc(call_doc(f"self.world.{world_name(result)}", arguments), BODY_INDENT)).strip()
         return MethodView(signature=signature, body=self._return_body(result, call))
 
     def _return_body(self, value: ValuePlan, source: str) -> str:
-        text = source if self._is_plain(value) else f"{type_name(value.type, self.expression_printer)}({source})"
         doc = declaration_description(value.doc, value.unit, value.range)
         lines = [docstring(doc, BODY_INDENT)] if doc else []
-        if value.type == BOOL:
-            text = f"bool({text})"
-        elif value.type in (FLOAT, INT):
-            text = f"{value.type}({text})"
-        return "\n".join([*lines, f"{_MARGIN}return {text}"])
+        return "\n".join([*lines, f"{_MARGIN}return {type_name(value.type, self.expression_printer)}({source})"])
 
     def _work_method(self) -> Iterator[MethodView]:
         if not self.plan.is_behavior:
             return
         arguments: list[Doc] = [
-            f"{_world_name(value)}=self.{value.name}" + ("" if self._is_plain(value) else ".value")
+            f"{world_name(value)}=self.{value.name}" + ("" if self._is_plain(value) else ".value")
             for value in self.plan.parameters
         ]
         function = python_attribute_name(self.plan.xabsl_name or snake_case(self.plan.component))
@@ -126,11 +121,6 @@ class _InterfaceWriter:
     def _is_plain(self, value: ValuePlan) -> bool:
         """Whether the world uses the same value; elements of enumerations are strings there."""
         return value.type in (BOOL, INT, FLOAT)
-
-
-def _world_name(value: ValuePlan) -> str:
-    """Return the name in the world, which is the same for the XABSL engine."""
-    return python_attribute_name(value.xabsl_name or value.name)
 
 
 _EMPTY_WORK = MethodView(

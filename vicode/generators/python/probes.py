@@ -13,7 +13,7 @@ from vicode.generators.plan import (
     TimerCondition,
 )
 from vicode.generators.python.expression_doc import ExpressionDoc
-from vicode.generators.python.expression_printer import PythonExpressionPrinter, functions_by_output
+from vicode.generators.python.expression_printer import PythonExpressionPrinter
 from vicode.generators.python.imports import Import, format_imports
 from vicode.generators.python.names import assign_global_names
 from vicode.generators.python.pretty_printer import render_doc
@@ -35,13 +35,7 @@ def generate_probes(plan: ProjectPlan, component: ComponentPlan) -> OutputFile:
     The keys are the ids of the decisions; decisions without an id are omitted.
     """
     names = assign_global_names(plan)
-    printer = PythonExpressionPrinter(
-        names=names,
-        nonzero_constants=plan.nonzero_constants,
-        time_unit=component.time_unit,
-        uses_xabsl_arithmetic=component.arithmetic == "xabsl",
-        functions=functions_by_output(component),
-    )
+    printer = PythonExpressionPrinter.of_component(plan, component, names)
     sources = [(COMMON, component.common_decisions), *((state.name, state.decisions) for state in component.states)]
     declared = [*(item.name for item in plan.enumerations), *(item.name for item in plan.constants)]
     imports = format_imports([Import(module="vicode.bica", name="arithmetic")])
