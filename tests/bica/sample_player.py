@@ -1,4 +1,4 @@
-"""A component in exactly the shape that is generated, with all that a design can say; the runtime's tests step it."""
+"""A component as the generator writes it, with most features of a design; used by the tests of the runtime."""
 
 from __future__ import annotations
 
@@ -12,14 +12,14 @@ if TYPE_CHECKING:
 
 
 class Side(Enum):
-    """Where to look first."""
+    """The side to look at first."""
 
     left = "left"
     right = "right"
 
 
 class Perception(Component):
-    """Hand-written: what the robot sees."""
+    """Hand-written component that reads sensor values from the world."""
 
     def __init__(self, root: Root) -> None:
         super().__init__(root)
@@ -34,7 +34,7 @@ class Perception(Component):
 
 
 class Search(Component):
-    """Hand-written: turns the head at a speed."""
+    """Hand-written component that turns the head."""
 
     frequency_hz = 20
 
@@ -52,7 +52,7 @@ class Search(Component):
 
 
 class Player(Component):
-    """Forward player, much shortened."""
+    """A short version of the forward player."""
 
     design_file = "designs/player.yaml"
     frequency_hz = 10
@@ -78,18 +78,18 @@ class Player(Component):
         )
 
     def modulate(self, *, side: Side = Side.left) -> None:
-        """Take the side to look at first."""
+        """Set the parameters."""
         self.side = side
 
     def _decide_common(self) -> bool:
-        """Test what is tested before the guards of every state; true if that ended the decision."""
+        """Test the common transitions; return whether one of them ended the decision."""
         if self.perception.fallen:
             self._change_to("GetUp", "falls")
             return True
         return False
 
     def _act_common(self) -> None:
-        """Act as in every state."""
+        """Run the common actions."""
         self.world.log.append("act")
 
     def _in_look_for_ball(self, decide: bool = True) -> None:
@@ -131,7 +131,7 @@ class Player(Component):
         self.world.log.append("leave FollowBall")
 
     def _when_ball_lost(self) -> bool:
-        """Tell whether the ball is out of sight for long."""
+        """Return whether the ball has been lost for more than a second."""
         return self.state_time > 1.0
 
     def _do_walk(self) -> None:

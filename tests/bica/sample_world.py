@@ -1,4 +1,4 @@
-"""A world for the runtime's command: a ball that comes nearer, seen with noise from a seed."""
+"""A world for the tests of the run command: an approaching ball, observed with noise from a seed."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import random
 
 
 class World:
-    """Finished when the ball has long passed."""
+    """The run ends some time after the ball has passed."""
 
     def __init__(self, *, seed: int) -> None:
         self._random = random.Random(seed)
