@@ -14,8 +14,8 @@ for (const section of document.querySelectorAll(".state")) {
   }
 }
 
-// One that is little wider than its place is shown a little smaller. A wide one gets the tools of a drawing, and begins
-// in its own size; a finger moves it as it moves the page.
+// A slightly too wide tree is scaled down. A wider tree gets the controls of a diagram and is shown at its natural
+// size; on touch screens it scrolls with the page.
 const hasPointer = matchMedia("(pointer: fine)").matches;
 const trees = [...document.querySelectorAll(".tree")].map((tree) => ({ tree, room: tree.clientWidth, width: tree.scrollWidth }));
 for (const { tree, room, width } of trees) {

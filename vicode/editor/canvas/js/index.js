@@ -1,2 +1,2 @@
-// The door of the canvas: everything else is reached from here by relative imports.
+// Entry point of the canvas: imports all other modules by relative paths.
 export { mountCanvas } from "./canvas.js";

@@ -1,4 +1,4 @@
-// A browser's own slider: keys and screen readers know it. While a hand moves it, what the server last knew does not move it back.
+// A native slider, which supports keys and screen readers. While the user moves it, values from the server are ignored.
 const OWN_MS = 500;
 
 export default {
