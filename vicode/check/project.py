@@ -99,7 +99,7 @@ def find_duplicate_components(project: Project) -> Iterator[Finding]:
             )
     designs = Counter(design.component for design in project.designs)
     for name, count in designs.items():
-        thing = FindingSubject(component=name, path=("component",))
+        subject = FindingSubject(component=name, path=("component",))
         notes: tuple[Note, ...] = ()
         if name in written:
             message = f"'{name}' is also the name of a hand-written component"
@@ -108,7 +108,7 @@ def find_duplicate_components(project: Project) -> Iterator[Finding]:
             message = f"{count} designs have the name '{name}'"
         else:
             continue
-        yield Finding(rule=get_rule("P201"), message=message, fix="rename one of them", subject=thing, notes=notes)
+        yield Finding(rule=get_rule("P201"), message=message, fix="rename one of them", subject=subject, notes=notes)
 
 
 def find_bad_implementations(project: Project) -> Iterator[Finding]:

@@ -47,23 +47,23 @@ def find_bad_names(project: Project) -> Iterator[Finding]:
     if LANGUAGE not in project.languages:
         return
     known: dict[tuple[str, str], _XabslName] = {}
-    for each in _iter_names(project):
-        is_of_project = not each.subject.component and (
-            each.is_explicit or is_valid_state_name(str(each.subject.path[-1]))
+    for entry in _iter_names(project):
+        is_of_project = not entry.subject.component and (
+            entry.is_explicit or is_valid_state_name(str(entry.subject.path[-1]))
         )
-        problem = validate_xabsl_name(each.name, is_explicit=each.is_explicit) if is_of_project else ""
+        problem = validate_xabsl_name(entry.name, is_explicit=entry.is_explicit) if is_of_project else ""
         notes: tuple[Note, ...] = ()
-        first = known.setdefault((each.namespace, each.name), each) if each.namespace else each
-        if not problem and first is not each:
-            problem = f"two {each.namespace.partition(' ')[0]} would have the name '{each.name}' in XABSL"
+        first = known.setdefault((entry.namespace, entry.name), entry) if entry.namespace else entry
+        if not problem and first is not entry:
+            problem = f"two {entry.namespace.partition(' ')[0]} would have the name '{entry.name}' in XABSL"
             notes = (Note(message="first declared here", subject=first.subject),)
         if problem:
-            fix = f"set another name, such as xabsl_name: my_{each.name}"
+            fix = f"set another name, such as xabsl_name: my_{entry.name}"
             yield Finding(
                 rule=get_rule("L703"),
                 message=problem,
                 fix=fix,
-                subject=each.subject,
+                subject=entry.subject,
                 notes=notes,
                 languages=(LANGUAGE,),
             )

@@ -101,11 +101,12 @@ def _command(opened: LoadedProject, class_path: str, folder: str, args: argparse
 
 def _warn_of_missing_world(opened: LoadedProject) -> None:
     """Warn if components need a world but the project has none."""
-    asking = [each.component for each in opened.open_project.project.components if each.implementation == "world"]
-    if asking:
-        more = f" and {len(asking) - 1} more" if len(asking) > 1 else ""
+    components = opened.open_project.project.components
+    names = [each.component for each in components if each.implementation == "world"]
+    if names:
+        more = f" and {len(names) - 1} more need" if len(names) > 1 else " needs"
         fix = "set world: module:Class to a class that provides them"
-        print(f"vicode: project.yaml has no world, which {asking[0]}{more} needs; {fix}", file=sys.stderr)
+        print(f"vicode: project.yaml has no world, which {names[0]}{more}; {fix}", file=sys.stderr)
 
 
 def _run_process(command: list[str], *, is_plain: bool) -> int:

@@ -256,43 +256,47 @@ class _TreeRenderer:
         )
         return ShapeGroup(title=node.title, css_class=node.kind, shapes=(shape, label), href=node.href, key=node.key)
 
-    def _edge(self, way: _OpenEdge, node: _TreeNode) -> ShapeGroup:
+    def _edge(self, open_edge: _OpenEdge, node: _TreeNode) -> ShapeGroup:
         pal = self.palette
-        points = list(self._points(way, node))
+        points = list(self._points(open_edge, node))
         tip, before = points[-1], points[-2]
-        dash = (2.0, 5.0) if way.node.is_disabled or node.is_disabled else ()
+        dash = (2.0, 5.0) if open_edge.node.is_disabled or node.is_disabled else ()
         shaft = PathShape(commands=polyline_path(points), stroke=pal.edge, width=1.4, dash=dash)
         head = PathShape(commands=_arrowhead(before, tip), fill=pal.edge)
         shapes: list[PathShape | TextShape] = [shaft, head]
-        if way.node.kind and way.node.kind != "folded":
+        if open_edge.node.kind and open_edge.node.kind != "folded":
             x, y = points[0]
-            word = "yes" if way.is_yes else "else"
-            position = (x + 8, y - 8) if way.is_yes else (x + 6, y + 8)
+            word = "yes" if open_edge.is_yes else "else"
+            position = (x + 8, y - 8) if open_edge.is_yes else (x + 6, y + 8)
             shapes.append(TextShape(x=position[0], y=position[1], text=word, fill=pal.muted, font=SMALL_FONT))
         # Screen readers get the same information from the boxes.
-        said = f"{'when' if way.is_yes else 'when not'} {way.node.title}" if way.node.kind else ""
-        if way.node.kind == "folded":
-            said = f"after {way.node.label}"
+        title = f"{'when' if open_edge.is_yes else 'when not'} {open_edge.node.title}" if open_edge.node.kind else ""
+        if open_edge.node.kind == "folded":
+            title = f"after {open_edge.node.label}"
         return ShapeGroup(
-            title=said, css_class="way", shapes=tuple(shapes), href=node.href if said else "", is_decorative=bool(said)
+            title=title,
+            css_class="way",
+            shapes=tuple(shapes),
+            href=node.href if title else "",
+            is_decorative=bool(title),
         )
 
-    def _points(self, way: _OpenEdge, node: _TreeNode) -> Iterator[Point]:
+    def _points(self, open_edge: _OpenEdge, node: _TreeNode) -> Iterator[Point]:
         x, y = self._centre(node)
         top = y - _BOX_HEIGHT / 2
-        if not way.node.kind:
+        if not open_edge.node.kind:
             yield from ((self._spine_x(node), top - 20), (self._spine_x(node), top))
             return
-        from_x, from_y = self._centre(way.node)
-        if way.is_yes:
-            yield from ((from_x + way.node.width / 2, from_y), (x - node.width / 2, y))
+        from_x, from_y = self._centre(open_edge.node)
+        if open_edge.is_yes:
+            yield from ((from_x + open_edge.node.width / 2, from_y), (x - node.width / 2, y))
             return
-        down, spine = from_y + _BOX_HEIGHT / 2, self._spine_x(way.node)
+        down, spine = from_y + _BOX_HEIGHT / 2, self._spine_x(open_edge.node)
         yield (spine, down)
-        if node.column != way.node.column:
+        if node.column != open_edge.node.column:
             # Back to an earlier column next to the boxes, entering just above the next test.
             above = top - (_ROW_HEIGHT - _BOX_HEIGHT - _TURN_OFFSET)
-            gutter = self.column_lefts[way.node.column] - _GUTTER_WIDTH
+            gutter = self.column_lefts[open_edge.node.column] - _GUTTER_WIDTH
             yield from ((spine, down + _TURN_OFFSET), (gutter, down + _TURN_OFFSET), (gutter, above))
             yield (self._spine_x(node), above)
         yield (self._spine_x(node), top)

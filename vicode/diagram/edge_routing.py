@@ -57,10 +57,10 @@ class EdgeRoute:
 def route_edges(diagram: Diagram) -> tuple[EdgeRoute, ...]:
     """A route for every edge, in the order of the diagram."""
     router = _EdgeRouter(diagram)
-    ways = [way for pair in router.edge_pairs() for way in router.route_pair(pair)]
+    curves = [route for pair in router.edge_pairs() for route in router.route_pair(pair)]
     # Pairs with the fewest choices first.
-    ways.sort(key=lambda way: curve_length(way[1]))
-    routes = {edge.key: router.place_label(edge, curve, label) for edge, curve, label in ways}
+    curves.sort(key=lambda route: curve_length(route[1]))
+    routes = {edge.key: router.place_label(edge, curve, label) for edge, curve, label in curves}
     for key in router.overlapping:
         router.resolve_overlap(key, routes)
     return tuple(routes[edge.key] for edge in diagram.edges)

@@ -49,14 +49,14 @@ def _data_attributes(group: ShapeGroup) -> str:
 
 
 def _path_element(path: PathShape) -> str:
-    way = "".join(letter + " ".join(map(_number, numbers)) for letter, numbers in path.commands)
+    data = "".join(letter + " ".join(map(_number, numbers)) for letter, numbers in path.commands)
     paint = f' fill="{path.fill or "none"}"'
     if path.stroke:
         paint += f' stroke="{path.stroke}" stroke-width="{_number(path.width)}" stroke-linejoin="round"'
         paint += ' stroke-linecap="round"' if not path.dash or path.dash[0] < path.width else ""
     if path.dash:
         paint += f' stroke-dasharray="{" ".join(map(_number, path.dash))}"'
-    return f'<path d="{way}"{paint}/>'
+    return f'<path d="{data}"{paint}/>'
 
 
 def _text_element(text: TextShape) -> str:

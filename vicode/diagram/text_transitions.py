@@ -23,26 +23,26 @@ class TextTransition:
 def list_transitions(design: Design, only: Collection[str] | None = None) -> Iterator[TextTransition]:
     """Every transition whose source and target exist; numbered if a state has several."""
     names = {state.name for state in design.states if only is None or state.name in only}
-    located = [each for each in iter_transitions(design) if each.source == COMMON or each.source in names]
-    counts = Counter(each.source for each in located)
+    located = [item for item in iter_transitions(design) if item.source == COMMON or item.source in names]
+    counts = Counter(item.source for item in located)
     orders: Counter[str] = Counter()
-    for each in located:
-        assert isinstance(each.decision, Transition)
-        orders[each.source] += 1
-        if each.decision.to not in names:
+    for item in located:
+        assert isinstance(item.decision, Transition)
+        orders[item.source] += 1
+        if item.decision.to not in names:
             continue
-        number = f"{orders[each.source]}. " if counts[each.source] > 1 else ""
-        label = number + transition_label(each, design.time_unit, spell_out=True)
-        yield TextTransition(source=each.source, target=each.decision.to, label=label.strip())
+        number = f"{orders[item.source]}. " if counts[item.source] > 1 else ""
+        label = number + transition_label(item, design.time_unit, spell_out=True)
+        yield TextTransition(source=item.source, target=item.decision.to, label=label.strip())
 
 
 def describe_dangling_transitions(design: Design, only: Collection[str] | None = None) -> Iterator[str]:
     """A comment for every transition to a missing state, which cannot be drawn."""
     names = {state.name for state in design.states}
-    for each in iter_transitions(design):
-        assert isinstance(each.decision, Transition)
-        is_wanted = only is None or each.source in only or each.source == COMMON
-        if is_wanted and each.decision.to not in names:
-            source = EVERY_STATE if each.source == COMMON else each.source
-            words = f"not drawn: {source} to {each.decision.to}, because there is no such state"
+    for located in iter_transitions(design):
+        assert isinstance(located.decision, Transition)
+        is_wanted = only is None or located.source in only or located.source == COMMON
+        if is_wanted and located.decision.to not in names:
+            source = EVERY_STATE if located.source == COMMON else located.source
+            words = f"not drawn: {source} to {located.decision.to}, because there is no such state"
             yield "".join(letter if letter.isprintable() else "\ufffd" for letter in " ".join(words.split()))

@@ -32,8 +32,8 @@ def _outline(diagram: Diagram, title: str, palette: ColorPalette) -> VectorImage
     positions = {node.key: node.center for node in diagram.nodes}
     # With more states, only boxes are recognizable.
     shown = diagram.edges if len(diagram.edges) <= _MAX_EDGES else ()
-    ways = sorted({tuple(sorted((positions[edge.source], positions[edge.target]))) for edge in shown})
-    lines = tuple(step for way in ways for step in polyline_path(way))
+    segments = sorted({tuple(sorted((positions[edge.source], positions[edge.target]))) for edge in shown})
+    lines = tuple(step for segment in segments for step in polyline_path(segment))
     shapes: list[PathShape] = [PathShape(commands=lines, stroke=palette.edge, width=pen)] if lines else []
     for node in diagram.nodes:
         fill, stroke = {"common": (palette.common_fill, palette.common)}.get(

@@ -44,13 +44,13 @@ class CodeFiles:
     Code is generated on first access: this takes longer than the rest of a page.
     """
 
-    def __init__(self, subject: SiteInput, unsaid: GenerationErrors, memory: BuildCache) -> None:
+    def __init__(self, subject: SiteInput, generation_errors: GenerationErrors, memory: BuildCache) -> None:
         project = subject.project
         self._site_input, self._cache = subject, memory
         self._interfaces_digest = compute_digest(strip_to_interfaces(project))
         self._sources = {name: source.path for name, source in subject.sources.items() if name}
         self._components_with_errors = {
-            language: find_components_with_errors(subject, language, unsaid) for language in GENERATORS
+            language: find_components_with_errors(subject, language, generation_errors) for language in GENERATORS
         }
         self._generators = {language: component_generator(project, language, self._sources) for language in GENERATORS}
         self._loaded: dict[str, tuple[CodeFile, ...]] = {}

@@ -37,16 +37,16 @@ def used_columns(rows: Iterable[DeclarationRow]) -> frozenset[str]:
 
 
 def declaration_rows(declarations: Iterable[Declaration], linker: NameLinker, prefix: str) -> Iterator[DeclarationRow]:
-    for each in declarations:
+    for declaration in declarations:
         yield DeclarationRow(
-            anchor=prefix + slug(each.name),
-            name=each.name,
-            arguments=tuple(_argument(argument, linker) for argument in each.arguments or ()),
-            type=linker.declared_type(each),
-            initial=linker.expression(each.initial),
-            unit=each.unit,
-            range=f"{each.range[0]:g} … {each.range[1]:g}" if each.range else "",
-            doc_html=render_inline_doc(each.doc),
+            anchor=prefix + slug(declaration.name),
+            name=declaration.name,
+            arguments=tuple(_argument(argument, linker) for argument in declaration.arguments or ()),
+            type=linker.declared_type(declaration),
+            initial=linker.expression(declaration.initial),
+            unit=declaration.unit,
+            range=f"{declaration.range[0]:g} … {declaration.range[1]:g}" if declaration.range else "",
+            doc_html=render_inline_doc(declaration.doc),
         )
 
 

@@ -51,18 +51,21 @@ def interface_views(known: InterfaceInputs) -> Iterator[InterfaceView]:
     """One page per component without a design, by name."""
     project, addresses = known.project, known.urls
     linker = NameLinker(project, addresses)
-    for each in _sorted_interfaces(project):
-        tables = (_add_references_to_table(table, each.component, known) for table in declaration_tables(each, linker))
+    for interface in _sorted_interfaces(project):
+        tables = (
+            _add_references_to_table(table, interface.component, known)
+            for table in declaration_tables(interface, linker)
+        )
         yield InterfaceView(
-            file=addresses.component(each.component),
-            name=each.component,
-            kind=BASIC_BEHAVIOR if is_basic_behavior(each) else "interface",
-            title=each.title,
-            doc_html=render_doc(each.doc),
-            facts=tuple(_facts(each)),
+            file=addresses.component(interface.component),
+            name=interface.component,
+            kind=BASIC_BEHAVIOR if is_basic_behavior(interface) else "interface",
+            title=interface.title,
+            doc_html=render_doc(interface.doc),
+            facts=tuple(_facts(interface)),
             tables=tuple(tables),
-            used_by=tuple(user_rows(project, each.component, addresses)),
-            findings=finding_rows(known.site_input, addresses, each.component),
+            used_by=tuple(user_rows(project, interface.component, addresses)),
+            findings=finding_rows(known.site_input, addresses, interface.component),
         )
 
 
@@ -70,8 +73,8 @@ def interface_rows(known: InterfaceInputs) -> tuple[tuple[InterfaceRow, ...], tu
     """The rows of basic behaviors, and those of other components."""
     behaviors: list[InterfaceRow] = []
     others: list[InterfaceRow] = []
-    for each in _sorted_interfaces(known.project):
-        (behaviors if is_basic_behavior(each) else others).append(_row(each, known))
+    for interface in _sorted_interfaces(known.project):
+        (behaviors if is_basic_behavior(interface) else others).append(_row(interface, known))
     return tuple(behaviors), tuple(others)
 
 
@@ -101,16 +104,18 @@ def symbol_count(project: Project) -> int:
 
 def enumeration_views(known: InterfaceInputs) -> Iterator[EnumerationView]:
     """The enumerations with the declarations of their type."""
-    for each in known.project.enumerations:
-        anchor = f"enum-{slug(each.name)}"
+    for enumeration in known.project.enumerations:
+        anchor = f"enum-{slug(enumeration.name)}"
         yield EnumerationView(
             anchor=anchor,
-            name=each.name,
-            doc_html=render_doc(each.doc, parent_level=2),
-            elements=tuple((f"{anchor}-{slug(name)}", name, render_inline_doc(doc)) for name, doc in each.elements),
-            facts=tuple(_facts_of_type(each)),
-            declarations=join_spans(_declarations_of_type(each.name, known)),
-            used_by=user_links(known.references.users(READ, "", each.name), known),
+            name=enumeration.name,
+            doc_html=render_doc(enumeration.doc, parent_level=2),
+            elements=tuple(
+                (f"{anchor}-{slug(name)}", name, render_inline_doc(doc)) for name, doc in enumeration.elements
+            ),
+            facts=tuple(_facts_of_type(enumeration)),
+            declarations=join_spans(_declarations_of_type(enumeration.name, known)),
+            used_by=user_links(known.references.users(READ, "", enumeration.name), known),
         )
 
 
@@ -193,10 +198,12 @@ def _declarations_of_type(enumeration: str, known: InterfaceInputs) -> Iterator[
     owners: list[Interface | Design] = [*_sorted_interfaces(known.project), *sorted_designs(known.project)]
     for owner in owners:
         for section in ("parameters", "outputs", "variables"):
-            for each in getattr(owner, section):
-                if each.type == enumeration:
-                    href = known.urls.member(owner.component, section, each.name)
-                    yield TextSpan(text=f"{owner.component}.{each.name}", href=href, title=summarize(each.doc))
+            for declaration in getattr(owner, section):
+                if declaration.type == enumeration:
+                    href = known.urls.member(owner.component, section, declaration.name)
+                    yield TextSpan(
+                        text=f"{owner.component}.{declaration.name}", href=href, title=summarize(declaration.doc)
+                    )
 
 
 def _facts_of_type(enumeration: Enumeration) -> Iterator[RichText]:

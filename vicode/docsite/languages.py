@@ -25,30 +25,36 @@ def find_generation_errors(subject: SiteInput) -> GenerationErrors:
         # The findings of the project omit rules for languages that are not enabled.
         everywhere = replace(subject.project, languages=tuple(GENERATORS))
         found += [each for each in check_project(everywhere) if each.languages and not chosen & set(each.languages)]
-    unsaid: dict[str, dict[str, list[Finding]]] = {language: defaultdict(list) for language in GENERATORS}
+    generation_errors: dict[str, dict[str, list[Finding]]] = {language: defaultdict(list) for language in GENERATORS}
     for finding in found:
         if finding.severity is Severity.ERROR:
             for language in GENERATORS:
                 if finding.applies_to(language):
-                    unsaid[language][finding.subject.component if finding.subject else ""].append(finding)
+                    generation_errors[language][finding.subject.component if finding.subject else ""].append(finding)
     return {
         language: {component: tuple(findings) for component, findings in by_component.items()}
-        for language, by_component in unsaid.items()
+        for language, by_component in generation_errors.items()
     }
 
 
-def find_components_with_errors(subject: SiteInput, language: str, unsaid: GenerationErrors) -> frozenset[str]:
+def find_components_with_errors(
+    subject: SiteInput, language: str, generation_errors: GenerationErrors
+) -> frozenset[str]:
     """The components without code in a language; errors in project.yaml affect all components."""
-    guilty = subject.components_with_errors.get(language, frozenset()) | frozenset(unsaid[language])
-    return frozenset(design.component for design in subject.project.designs) if "" in guilty else guilty
+    faulty = subject.components_with_errors.get(language, frozenset()) | frozenset(generation_errors[language])
+    return frozenset(design.component for design in subject.project.designs) if "" in faulty else faulty
 
 
 def language_views(
-    subject: SiteInput, component: str, written: Mapping[str, str], unsaid: GenerationErrors, addresses: SiteUrls
+    subject: SiteInput,
+    component: str,
+    written: Mapping[str, str],
+    generation_errors: GenerationErrors,
+    addresses: SiteUrls,
 ) -> Iterator[LanguageView]:
     """One row per language; `written` contains the paths of generated files by language."""
     for language in GENERATORS:
-        reasons = (*unsaid[language].get(component, ()), *unsaid[language].get("", ()))
+        reasons = (*generation_errors[language].get(component, ()), *generation_errors[language].get("", ()))
         rows = (
             finding_row(
                 ComponentFinding(component=component if each.subject else "", line=0, finding=each), subject, addresses

@@ -230,8 +230,8 @@ class _SitePlanner:
 
 
 def _make_planner(subject: SiteInput, memory: BuildCache) -> _SitePlanner:
-    project, unsaid = subject.project, find_generation_errors(subject)
-    addresses, texts = SiteUrls(project), CodeFiles(subject, unsaid, memory)
+    project, generation_errors = subject.project, find_generation_errors(subject)
+    addresses, texts = SiteUrls(project), CodeFiles(subject, generation_errors, memory)
     menu, machines = (
         tuple(_menu(project, addresses, has_file="" in texts.component_names)),
         tuple(_state_machine_links(project, addresses)),
@@ -240,7 +240,7 @@ def _make_planner(subject: SiteInput, memory: BuildCache) -> _SitePlanner:
         site_input=subject,
         urls=addresses,
         code_files=texts,
-        generation_errors=unsaid,
+        generation_errors=generation_errors,
         menu=menu,
         state_machines=machines,
         shared_digest=compute_digest(subject.name, project.doc, menu, machines, addresses.key),

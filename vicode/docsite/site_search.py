@@ -33,14 +33,14 @@ def search_script(entries: Iterable[SiteEntry]) -> str:
     """
     kinds, places, pages, pieces = _StringTable(), _StringTable(), _StringTable(), _StringTable()
     rows = []
-    for each in entries:
-        page, _hash, anchor = each.href.partition("#")
-        anchor_part = 0 if anchor == f"{each.kind}-{each.name}" else anchor
-        words = [pieces.add(piece) for piece in dict.fromkeys(each.search_text.split("\n")) if piece]
+    for entry in entries:
+        page, _hash, anchor = entry.href.partition("#")
+        anchor_part = 0 if anchor == f"{entry.kind}-{entry.name}" else anchor
+        words = [pieces.add(piece) for piece in dict.fromkeys(entry.search_text.split("\n")) if piece]
         # A summary of the description is not a parent.
-        place = "" if each.context in each.doc else each.context
-        row = [each.name, kinds.add(each.kind), places.add(place), pages.add(page)]
-        row += [anchor_part, " ".join(each.doc.split()), words]
+        place = "" if entry.context in entry.doc else entry.context
+        row = [entry.name, kinds.add(entry.kind), places.add(place), pages.add(page)]
+        row += [anchor_part, " ".join(entry.doc.split()), words]
         empties: tuple[object, ...] = ([], "", 0)
         for empty in empties:
             # An empty string is the anchor of the page itself, unlike the number 0.

@@ -41,9 +41,9 @@ class RunHost:
                 on_error=lambda _error: None,
                 observer=observer,
             )
-        self._stubs = [each for each in self._root.components if isinstance(each, StubComponent)]
-        for each in self._stubs:
-            each.set_initial_values(self._enumerations)
+        self._stubs = [stub for stub in self._root.components if isinstance(stub, StubComponent)]
+        for stub in self._stubs:
+            stub.set_initial_values(self._enumerations)
         self._watch = GuardEvaluator(self._root.main, probes, setup.functions)
 
     @property
@@ -52,8 +52,8 @@ class RunHost:
 
     def set_inputs(self, inputs: Inputs) -> None:
         """Set the outputs of stubs and the parameters of the root component."""
-        for stand_in in self._stubs:
-            stand_in.set_outputs(inputs.get(stand_in.stub.component, {}))
+        for stub in self._stubs:
+            stub.set_outputs(inputs.get(stub.stub.component, {}))
         types = dict(self._setup.parameter_types)
         given = {name: value for name, value in inputs.get("", {}).items() if name in types}
         if given:
@@ -68,9 +68,9 @@ class RunHost:
     def step(self) -> IterationResult:
         """Run one iteration and advance the clock."""
         self._watch.begin_iteration()
-        for each in self._stubs:
+        for stub in self._stubs:
             # Calls made while guards were inspected do not belong to the iteration.
-            each.drain_calls()
+            stub.drain_calls()
         world = self._root.world
         advance = getattr(world, "advance", None)
         if advance is not None:
@@ -98,5 +98,5 @@ class RunHost:
             guards=self._watch.evaluate(),
             prints=lines,
             omitted_lines=left_out,
-            calls=[call for each in self._stubs for call in each.drain_calls()],
+            calls=[call for stub in self._stubs for call in stub.drain_calls()],
         )

@@ -204,14 +204,14 @@ def decode_setup(line: bytes) -> Setup:
     """
     plain = _parse(line)
     try:
-        stand_ins = tuple(
+        stubs = tuple(
             Stub(component=each["component"], outputs=tuple(StubOutput(**output) for output in each["outputs"]))
             for each in plain.pop("stubs")
         )
         functions = tuple((alias, tuple(names)) for alias, names in plain.pop("functions"))
         types = tuple((name, type_) for name, type_ in plain.pop("parameter_types"))
         path = tuple(plain.pop("path"))
-        return Setup(stubs=stand_ins, functions=functions, parameter_types=types, path=path, **plain)
+        return Setup(stubs=stubs, functions=functions, parameter_types=types, path=path, **plain)
     except (KeyError, TypeError, ValueError) as error:
         raise ProtocolError(f"not a setup: {error}") from error
 

@@ -94,12 +94,12 @@ class _StubFunction:
         return value
 
 
-def install_stub_module(stand_ins: tuple[Stub, ...]) -> None:
+def install_stub_module(stubs: tuple[Stub, ...]) -> None:
     """Create a module with a class for each stub, from which generated code imports them."""
     module = ModuleType(STUB_MODULE)
-    for stand_in in stand_ins:
-        attributes = {"stub": stand_in, "__module__": STUB_MODULE}
-        setattr(module, stand_in.component, type(stand_in.component, (StubComponent,), attributes))
+    for stub in stubs:
+        attributes = {"stub": stub, "__module__": STUB_MODULE}
+        setattr(module, stub.component, type(stub.component, (StubComponent,), attributes))
     sys.modules[STUB_MODULE] = module
 
 

@@ -62,19 +62,19 @@ class CanvasController:
 
     def commands(self, known: tuple[Command, ...]) -> tuple[Command, ...]:
         """Return the canvas commands that are not among `known`. The canvas itself handles their keys."""
-        self.page_commands = {each.name: each.handler for each in known if each.name in _PAGE_COMMAND_NAMES}
-        names = {each.name for each in known}
+        self.page_commands = {command.name: command.handler for command in known if command.name in _PAGE_COMMAND_NAMES}
+        names = {command.name for command in known}
         return tuple(
             Command(
-                each.name,
-                each.label,
-                partial(self.run_command, each.name),
-                _MENU_GROUPS.get(each.group, MenuGroup.EDIT),
-                keys=each.keys,
+                command.name,
+                command.label,
+                partial(self.run_command, command.name),
+                _MENU_GROUPS.get(command.group, MenuGroup.EDIT),
+                keys=command.keys,
                 on_canvas=True,
             )
-            for each in CANVAS_COMMANDS
-            if each.name not in names and not each.keys_label
+            for command in CANVAS_COMMANDS
+            if command.name not in names and not command.keys_label
         )
 
     def run_command(self, command: str) -> None:
@@ -106,8 +106,7 @@ class CanvasController:
         self.canvas.scroll_to_initial(cast("Any", item.kind), item.id)
 
     def _draw(self) -> Scene:
-        desk = self.context
-        return desk.document.shared.scene(desk.workspace.project)
+        return self.context.document.shared.scene(self.context.workspace.project)
 
     def exists(self, item: ItemRef) -> bool:
         """Whether an item is on the canvas."""

@@ -74,7 +74,7 @@ class PageCommands:
 
     def toggle_disabled(self) -> None:
         """Disable the selected states and transitions, or enable them if all are disabled."""
-        items = [{"of": thing.kind, "id": thing.id} for thing in self.context.selected]
+        items = [{"of": item.kind, "id": item.id} for item in self.context.selected]
         outcome = apply_gesture(self.context.document, {"kind": "disable", "items": items})
         if outcome.error:
             self.context.show_toast(outcome.error, "warning")

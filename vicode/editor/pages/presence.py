@@ -63,7 +63,7 @@ class PresenceSync:
 
 
 def _other_user(presence: Presence) -> RemoteUser:
-    items = [{"of": thing.kind, "id": thing.id} for thing in presence.selected if thing.kind != "design"]
+    items = [{"of": item.kind, "id": item.id} for item in presence.selected if item.kind != "design"]
     point = presence.pointer
     return {
         "name": presence.user.name,

@@ -107,7 +107,7 @@ class Inspector:
         """Change the form id if another item is selected, but not if the same item was renamed or moved."""
         before, now = self.last_seen, (self.context.selected, self.context.design)
         self.last_seen = now
-        if tuple(rebase_selection(thing, before[1], now[1]) for thing in before[0]) != now[0]:
+        if tuple(rebase_selection(item, before[1], now[1]) for item in before[0]) != now[0]:
             self.form_id += 1
 
     def _refresh_fields(self) -> None:

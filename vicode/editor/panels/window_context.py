@@ -73,9 +73,9 @@ class WindowContext:
         """Apply an edit to the design, for all windows."""
         self.document.edit(label, change, coalesce_key=coalesce_key)
 
-    def select(self, *things: ItemRef) -> None:
-        if self.selected != things:
-            self.selected = things
+    def select(self, *items: ItemRef) -> None:
+        if self.selected != items:
+            self.selected = items
             self.notify_subscribers()
 
     def notify_subscribers(self) -> None:

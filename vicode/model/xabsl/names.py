@@ -23,9 +23,9 @@ class SymbolName:
     path: DesignPath
 
 
-def unqualified_name(thing: Declaration | State | Enumeration | Agent) -> str:
+def unqualified_name(item: Declaration | State | Enumeration | Agent) -> str:
     """Return the explicit XABSL name, else the name."""
-    return thing.xabsl_name or thing.name
+    return item.xabsl_name or item.name
 
 
 def component_name(component: Design | Interface) -> str:

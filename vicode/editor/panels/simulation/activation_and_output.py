@@ -58,12 +58,12 @@ class ConsoleOutput:
         with self.body:
             if not lines:
                 ui.label("Output and errors of your code appear here.").classes("empty")
-            for kind, text, thing in lines[-_MAX_LINES:]:
+            for kind, text, item in lines[-_MAX_LINES:]:
                 if kind == "error":
                     with ui.element("button").classes("output-line error").props('type="button"') as row:
                         ui.icon("error").props('aria-hidden="true"')
                         ui.label(text).classes("mono")
-                    row.on("click", self._opener(thing))
+                    row.on("click", self._opener(item))
                 else:
                     ui.label(text).classes("output-line mono")
 
@@ -89,11 +89,11 @@ class ConsoleOutput:
             lines.append(("error", found.text if found else failure.message, found.item if found else None))
         return lines
 
-    def _opener(self, thing: ItemRef | None) -> Callable[[], None]:
+    def _opener(self, item: ItemRef | None) -> Callable[[], None]:
         def select() -> None:
-            if thing is not None:
-                self.controller.context.select(thing)
-                self.controller.context.page.reveal(thing)
+            if item is not None:
+                self.controller.context.select(item)
+                self.controller.context.page.reveal(item)
 
         return select
 

@@ -64,10 +64,10 @@ async def _run_to(simulator: "SimulationController") -> None:
 
 
 def _toggle_breakpoint(simulator: "SimulationController") -> None:
-    things = [
-        ItemRef(kind=thing.kind, id=thing.id) for thing in simulator.context.selected if thing.kind in _BREAKPOINT_KINDS
+    items = [
+        ItemRef(kind=item.kind, id=item.id) for item in simulator.context.selected if item.kind in _BREAKPOINT_KINDS
     ]
-    if not things:
+    if not items:
         simulator.context.show_toast("Select states or transitions for breakpoints", "info")
         return
-    simulator.toggle_breakpoints(*things)
+    simulator.toggle_breakpoints(*items)

@@ -110,8 +110,8 @@ class SimulationController:
             self.simulation.pause()
         self._notify()
 
-    def set_config(self, wish: RunConfig) -> None:
-        self.config = wish
+    def set_config(self, config: RunConfig) -> None:
+        self.config = config
         self.is_stale = self.simulation is not None
         self._notify()
 
@@ -131,8 +131,8 @@ class SimulationController:
         self.is_stale = self.simulation is not None
         self._notify()
 
-    def toggle_breakpoints(self, *things: ItemRef) -> None:
-        self.breakpoints = self.breakpoints.toggled(*things)
+    def toggle_breakpoints(self, *items: ItemRef) -> None:
+        self.breakpoints = self.breakpoints.toggled(*items)
         self._show_breakpoints()
         self._notify()
 
@@ -249,11 +249,10 @@ class SimulationController:
         self._notify()
 
     async def _prepare(self) -> PreparedRun | None:
-        desk = self.context
-        workspace, design, wish = desk.workspace, desk.design, self.config
+        workspace, design, config = self.context.workspace, self.context.design, self.config
         try:
             return await run.io_bound(
-                prepare_run, workspace.project, design, wish, workspace.source_paths, workspace.folder
+                prepare_run, workspace.project, design, config, workspace.source_paths, workspace.folder
             )
         except (NotReadyError, UnsoundDesignError, TraceError) as error:
             self.start_error = str(error)
@@ -280,5 +279,5 @@ class SimulationController:
         self.canvas.set_breakpoints(cast("list[SceneItem]", items))
 
 
-def _order(thing: ItemRef) -> tuple[str, str]:
-    return (thing.kind, thing.id)
+def _order(item: ItemRef) -> tuple[str, str]:
+    return (item.kind, item.id)

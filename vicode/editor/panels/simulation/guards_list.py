@@ -56,11 +56,11 @@ class GuardsList:
             self._shown = [self._row(row) for row in rows]
 
     def _row(self, row: GuardRow) -> tuple[GuardRow, Any, Any, Any]:
-        thing = ItemRef(kind="transitions", id=row.key)
-        is_stop = thing in self.controller.breakpoints.items
+        item = ItemRef(kind="transitions", id=row.key)
+        is_stop = item in self.controller.breakpoints.items
         with ui.element("div").classes("guard-row").style(f"padding-left: {12 * row.depth}px"):
-            self._gutter(row, thing, is_stop=is_stop)
-            with ui.element("button").classes("guard").props('type="button"').on("click", self._opener(thing)):
+            self._gutter(row, item, is_stop=is_stop)
+            with ui.element("button").classes("guard").props('type="button"').on("click", self._opener(item)):
                 icon = ui.icon("help").props('aria-hidden="true"').classes("guard-icon")
                 word = ui.label().classes("guard-truth")
                 ui.label(row.outcome + (" (common)" if row.is_common else "")).classes("guard-outcome")
@@ -68,7 +68,7 @@ class GuardsList:
                 reads = ui.label().classes("guard-reads mono")
         return row, icon, word, reads
 
-    def _gutter(self, row: GuardRow, thing: ItemRef, *, is_stop: bool) -> None:
+    def _gutter(self, row: GuardRow, item: ItemRef, *, is_stop: bool) -> None:
         """A button that toggles a breakpoint on the transition."""
         if not row.can_have_breakpoint:
             ui.element("span").classes("gutter")
@@ -77,12 +77,12 @@ class GuardsList:
         gutter = ui.element("button").classes("gutter" + (" has-breakpoint" if is_stop else ""))
         gutter.props(f'type="button" aria-pressed="{str(is_stop).lower()}"')
         gutter.props["aria-label"] = words
-        gutter.on("click", lambda: self.controller.toggle_breakpoints(thing))
+        gutter.on("click", lambda: self.controller.toggle_breakpoints(item))
 
-    def _opener(self, thing: ItemRef) -> Callable[[], None]:
+    def _opener(self, item: ItemRef) -> Callable[[], None]:
         def select() -> None:
-            self.controller.context.select(thing)
-            self.controller.context.page.reveal(thing)
+            self.controller.context.select(item)
+            self.controller.context.page.reveal(item)
 
         return select
 

@@ -65,9 +65,9 @@ class InputSourceForm:
         self.hint.set_visibility(self.source in (_FROM_TRACE, _REPLAY) and not has_trace)
         if not has_trace:
             self.pick.set_text(_PICK)
-        desk = self.controller.context
-        used = used_components(desk.workspace.project, desk.design)
-        self._stubbed = stubbed_components(desk.workspace.project, desk.design, self.controller.config)
+        context = self.controller.context
+        used = used_components(context.workspace.project, context.design)
+        self._stubbed = stubbed_components(context.workspace.project, context.design, self.controller.config)
         listed = (used, self._stubbed)
         if listed == self._listed:
             return
@@ -86,14 +86,14 @@ class InputSourceForm:
         box.on_value_change(lambda event: self._set_stubbed(name, flag=bool(event.value)))
 
     def _set_stubbed(self, name: str, *, flag: bool) -> None:
-        stood_in = self._stubbed | {name} if flag else self._stubbed - {name}
-        self.controller.set_config(replace(self.controller.config, stubbed=stood_in))
+        stubbed = self._stubbed | {name} if flag else self._stubbed - {name}
+        self.controller.set_config(replace(self.controller.config, stubbed=stubbed))
 
     def _choose(self) -> None:
         self.source = str(self.choice.value)
         self.controller.clear_trace()
-        stood_in: frozenset[str] | None = frozenset() if self.source == _ALL_COMPONENTS else None
-        self.controller.set_config(replace(self.controller.config, stubbed=stood_in))
+        stubbed: frozenset[str] | None = frozenset() if self.source == _ALL_COMPONENTS else None
+        self.controller.set_config(replace(self.controller.config, stubbed=stubbed))
 
     def _set_numbers(self) -> None:
         seed, tick = self.seed.value, self.tick.value

@@ -58,11 +58,15 @@ class InputsForm:
             rows += [self._row(each, simulation) for each in group]
         return rows
 
-    def _row(self, each: SimulationInput, simulation: Simulation) -> "_InputRow":
+    def _row(self, input_: SimulationInput, simulation: Simulation) -> "_InputRow":
         def set_value(value: Any) -> None:
-            self.controller.context.run_in_background(simulation.set_input(each.key, value), "set input")
+            self.controller.context.run_in_background(simulation.set_input(input_.key, value), "set input")
 
-        return _FunctionRow(each, set_value, simulation) if each.arguments is not None else _InputRow(each, set_value)
+        return (
+            _FunctionRow(input_, set_value, simulation)
+            if input_.arguments is not None
+            else _InputRow(input_, set_value)
+        )
 
     def _names_read(self, simulation: Simulation) -> set[tuple[str, str]]:
         """The outputs that the guards of the active state read, by component."""
@@ -78,17 +82,17 @@ class InputsForm:
 
 
 class _InputRow:
-    def __init__(self, each: SimulationInput, set_value: Callable[[Any], None]) -> None:
-        self.input = each
+    def __init__(self, input_: SimulationInput, set_value: Callable[[Any], None]) -> None:
+        self.input = input_
         self._set = set_value
-        self._shown: Any = each.initial
-        label = "done" if each.name == DONE else each.name
-        tip = " ".join(part for part in (each.doc, f"in {each.unit}" if each.unit else "") if part)
+        self._shown: Any = input_.initial
+        label = "done" if input_.name == DONE else input_.name
+        tip = " ".join(part for part in (input_.doc, f"in {input_.unit}" if input_.unit else "") if part)
         with ui.element("div").classes("input-row") as self.element:
             with ui.label(label).classes("input-name mono"):
                 if tip:
                     ui.tooltip(tip)
-            self.controls = _controls(each, f"{each.component or 'Parameter'} {label}", self._changed)
+            self.controls = _controls(input_, f"{input_.component or 'Parameter'} {label}", self._changed)
 
     def show(self, value: Any) -> None:
         """Show a value without an event, rounded unless the user typed it."""
@@ -120,8 +124,8 @@ class _InputRow:
 class _FunctionRow(_InputRow):
     """An output with arguments: a value for all arguments, and one for each combination it was called with."""
 
-    def __init__(self, each: SimulationInput, set_value: Callable[[Any], None], simulation: Simulation) -> None:
-        super().__init__(each, set_value)
+    def __init__(self, input_: SimulationInput, set_value: Callable[[Any], None], simulation: Simulation) -> None:
+        super().__init__(input_, set_value)
         self._simulation = simulation
         self._table: list[list[Any]] = []
         self._called_arguments: list[dict[str, Any]] = []
@@ -164,21 +168,21 @@ class _FunctionRow(_InputRow):
         self._set({"value": self._shown, "table": self._table})
 
 
-def _controls(each: SimulationInput, name: str, changed: Callable[[Any], None]) -> list[Any]:
+def _controls(input_: SimulationInput, name: str, changed: Callable[[Any], None]) -> list[Any]:
     """Build the controls of an input: a switch, a select, or a number field with a slider if the input has a range."""
-    if each.type == "bool":
-        switch = ui.switch(value=each.initial, on_change=lambda event: changed(event.value))
+    if input_.type == "bool":
+        switch = ui.switch(value=input_.initial, on_change=lambda event: changed(event.value))
         return [_with_aria_label(switch.props("dense"), name)]
-    if each.options:
-        options = {option: option.rpartition(".")[2] for option in each.options}
-        choice = ui.select(options, value=each.initial, on_change=lambda event: changed(event.value))
+    if input_.options:
+        options = {option: option.rpartition(".")[2] for option in input_.options}
+        choice = ui.select(options, value=input_.initial, on_change=lambda event: changed(event.value))
         return [_with_aria_label(choice.props("dense outlined options-dense").classes("input-choice"), name)]
     controls: list[Any] = []
-    if each.range is not None and each.range[0] < each.range[1]:
-        low, high = each.range
-        slider = RangeInput(name, low=low, high=high, step=_step(each), value=each.initial, on_move=changed)
+    if input_.range is not None and input_.range[0] < input_.range[1]:
+        low, high = input_.range
+        slider = RangeInput(name, low=low, high=high, step=_step(input_), value=input_.initial, on_move=changed)
         controls.append(slider.classes("input-slider"))
-    number = ui.number(value=each.initial, step=_step(each), suffix=each.unit or None)
+    number = ui.number(value=input_.initial, step=_step(input_), suffix=input_.unit or None)
     number.on_value_change(lambda event: changed(event.value))
     number.props("dense outlined debounce=150").classes("input-number mono")
     return [*controls, _with_aria_label(number, f"{name}, number" if controls else name)]
@@ -196,11 +200,11 @@ def _with_aria_label(control: Any, name: str) -> Any:
     return control
 
 
-def _step(each: SimulationInput) -> float:
+def _step(input_: SimulationInput) -> float:
     """A hundredth of the range, rounded."""
-    if each.type == "int":
+    if input_.type == "int":
         return 1
-    if each.range is None:
+    if input_.range is None:
         return 0.1
-    width = (each.range[1] - each.range[0]) / 100
+    width = (input_.range[1] - input_.range[0]) / 100
     return next((step for step in (0.001, 0.01, 0.1, 0.5, 1, 5, 10, 50) if step >= width / 2), 100)

@@ -16,9 +16,9 @@ class Breakpoints:
 
     items: frozenset[ItemRef] = field(default_factory=frozenset)
 
-    def toggled(self, *things: ItemRef) -> "Breakpoints":
+    def toggled(self, *items: ItemRef) -> "Breakpoints":
         """Add breakpoints to these items, or remove the breakpoints if all items have one."""
-        able = {ItemRef(kind=each.kind, id=each.id) for each in things if each.kind in _KINDS}
+        able = {ItemRef(kind=each.kind, id=each.id) for each in items if each.kind in _KINDS}
         return Breakpoints(items=self.items - able if able <= self.items else self.items | able)
 
     def existing_in(self, design: Design) -> "Breakpoints":
