@@ -173,7 +173,7 @@ DECISION: RecordSchema = RecordSchema(
             constant=True,
         ),
         KeySchema("when", EXPRESSION, "condition", field="guard.when"),
-        KeySchema("after", EXPRESSION, "minimum seconds in the state", field="guard.after"),
+        KeySchema("after", EXPRESSION, "minimum time in the state, in seconds or in `time_unit`", field="guard.after"),
         _DOC,
         _ID,
         KeySchema(
@@ -186,7 +186,7 @@ DECISION: RecordSchema = RecordSchema(
         ),
         KeySchema("then", DECISIONS, "group: tested in order if the guard holds", keeps_empty=True),
         KeySchema("else", DECISIONS, "of a group: tested in order if the guard does not hold", field="otherwise"),
-        KeySchema("disabled", FLAG, "keeps the transition without effect", default=False),
+        KeySchema("disabled", FLAG, "the transition has no effect but stays in the design", default=False),
     ),
 )
 _ACTIONS_KEYS = (
@@ -224,7 +224,7 @@ STATE = RecordSchema(
         KeySchema(
             "synchronized", COUNT, "minimum number of robots of a team that enter the state together", keeps_empty=True
         ),
-        KeySchema("disabled", FLAG, "keeps the state without effect", default=False),
+        KeySchema("disabled", FLAG, "the state has no effect but stays in the design", default=False),
         _ID,
         _XABSL_NAME,
         KeySchema("requires", NAMES, "used components stepped before the state runs"),
@@ -316,12 +316,12 @@ ENUMERATION = RecordSchema(
             "elements as a list, or as a mapping to descriptions",
             required=True,
         ),
-        KeySchema("internal", FLAG, "XABSL: the engine numbers the elements, not the robot program", default=False),
+        KeySchema("internal", FLAG, "XABSL: the engine, not the robot program, numbers the elements", default=False),
         _XABSL_NAME,
         KeySchema(
             "xabsl_elements",
             MapSchema(description="a mapping of elements to names", value_schema=TEXT, flow_width=FLOW_WIDTH),
-            "names of elements in XABSL that differ",
+            "XABSL names of the elements, where they differ",
         ),
     ),
 )
@@ -387,7 +387,7 @@ PROJECT = RecordSchema(
         KeySchema(
             "agents",
             MapSchema(description="a mapping of names to root components", value_schema=AGENT, name_field="name"),
-            "root components with which the project can run",
+            "entry points of the project",
         ),
     ),
 )

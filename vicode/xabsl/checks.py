@@ -81,7 +81,7 @@ def _check_option_cycles(
                 if callee in path:
                     cycle = " → ".join((*path[path.index(callee) :], callee))
                     message = f"option {callee} calls itself: {cycle}"
-                    fix = "no engine runs it; remove a call of the cycle"
+                    fix = "engines cannot run it; remove one call from the cycle"
                     report.add_finding(tokens_by_option[name], call.name.first_token, "X636", message, fix)
                 elif callee in calls:
                     callees |= {callee} | visit(callee, path)

@@ -193,7 +193,7 @@ class _OptionCompiler:
         name = goto.state.text
         state = self.definition.states.get(name)
         if state is None:
-            fix = did_you_mean(name, self.definition.states, f"option {self.option.name.text} has no such state")
+            fix = did_you_mean(name, self.definition.states, f"use a state of option {self.option.name.text}")
             self.expressions.add_finding(goto.state.first_token, "X621", f"unknown state {name}", fix)
         else:
             self.report.references.append((self.tokens, goto.state.first_token, state))

@@ -288,4 +288,4 @@ class ExpressionCompiler:
 
 
 def _list_parameters(owner: Definition) -> str:
-    return f"it has {', '.join(owner.parameters)}" if owner.parameters else "it has none"
+    return f"use one of {', '.join(owner.parameters)}" if owner.parameters else "remove the argument"
