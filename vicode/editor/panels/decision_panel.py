@@ -31,7 +31,8 @@ def decision_panel(context: WindowContext, key: str) -> list[Field]:
     panel_title(_kind(decision), source, _select_source(context, located.source))
     fields = _target_field(context, path, decision)
     fields.append(expression_field(context, _guard_binding(path, "When", "when")))
-    fields.append(text_field(context, _guard_binding(path, "After (seconds in this state)", "after"), monospace=True))
+    unit = "milliseconds" if context.design.time_unit == "ms" else "seconds"
+    fields.append(text_field(context, _guard_binding(path, f"After ({unit} in this state)", "after"), monospace=True))
     fields += _code(context, path, decision.guard)
     fields.append(text_field(context, _decision_binding(path, "Description", "doc"), multiline=True))
     fields.append(checkbox_field(context, _decision_binding(path, "Disabled (never tested)", "disabled")))

@@ -7,7 +7,7 @@ export const COLUMNS = [
   { name: "final", title: "Final", kind: "flag" },
   { name: "disabled", title: "Disabled", kind: "flag" },
   { name: "when", title: "When", kind: "text", mono: true, hint: "always" },
-  { name: "after", title: "After, s", kind: "text", mono: true },
+  { name: "after", title: "After", kind: "text", mono: true },
   { name: "requires", title: "Requires", kind: "text", mono: true, from: "uses" },
   { name: "modulates", title: "Modulates", kind: "text", mono: true, from: "uses" },
   { name: "code", title: "Code", kind: "marks" },
