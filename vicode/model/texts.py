@@ -87,7 +87,7 @@ def _rewrite(value: Any, path: DesignPath, rewrite: Rewrite) -> Any:
     key, rest = path[0], path[1:]
     match value:
         case tuple():
-            return tuple(_rewrite_item(item, at, path, rewrite) for at, item in enumerate(value))
+            return tuple(_rewrite_item(item, index, path, rewrite) for index, item in enumerate(value))
         case Code(texts=texts):
             return replace(value, texts=tuple((name, rewrite(text) if name == key else text) for name, text in texts))
         case Transition() | Stay() | DecisionGroup() if key in _GUARD_KEYS:

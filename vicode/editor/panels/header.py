@@ -40,9 +40,9 @@ class Header:
         key, here = self.context.workspace.key, self.context.design.component
         with ui.element("nav").classes("crumbs").props('aria-label="Breadcrumb"'):
             ui.link(self.context.workspace.project.name, f"/#{key}").classes("crumb")
-            for at, name in enumerate(trail):
+            for index, name in enumerate(trail):
                 _separator()
-                ui.link(name, design_url(key, name, trail=trail[:at])).classes("crumb")
+                ui.link(name, design_url(key, name, trail=trail[:index])).classes("crumb")
             _separator()
             ui.label(here).classes("crumb here").props('role="heading" aria-level="1"')
 

@@ -58,7 +58,7 @@ def write_fixed_text(file: Path, text: str, original: str) -> None:
 def _line_starts(text: str) -> list[int]:
     """The offset of each line; only newline characters end a line, as in the YAML reader."""
     starts = [0]
-    starts += [at + 1 for at, char in enumerate(text) if char == "\n"]
+    starts += [index + 1 for index, char in enumerate(text) if char == "\n"]
     return starts
 
 

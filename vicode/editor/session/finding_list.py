@@ -12,8 +12,8 @@ FindingsOfSeverity = tuple[Severity, tuple[Finding, ...]]
 def sort_findings(findings: Collection[Finding]) -> tuple[Finding, ...]:
     """Sort by severity, grouping the findings of one item, otherwise stable."""
     firsts: dict[tuple[Severity, ItemRef | None], int] = {}
-    for at, finding in enumerate(findings):
-        firsts.setdefault(_key(finding), at)
+    for index, finding in enumerate(findings):
+        firsts.setdefault(_key(finding), index)
     ranks = list(Severity)
     return tuple(sorted(findings, key=lambda finding: (ranks.index(finding.severity), firsts[_key(finding)])))
 

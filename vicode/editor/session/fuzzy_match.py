@@ -49,13 +49,13 @@ def _row(
     """For each position: the best score of a match ending there, and the best score up to there."""
     end, best = [], []
     running = -math.inf
-    for at, found in enumerate(low):
+    for index, char in enumerate(low):
         score = -math.inf
-        if found == letter:
+        if char == letter:
             if above is None:
-                score = at * _GAP_LEADING + bonus[at]
-            elif at:
-                score = max(above[1][at - 1] + bonus[at], above[0][at - 1] + _MATCH_CONSECUTIVE)
+                score = index * _GAP_LEADING + bonus[index]
+            elif index:
+                score = max(above[1][index - 1] + bonus[index], above[0][index - 1] + _MATCH_CONSECUTIVE)
         running = max(score, running + gap)
         end.append(score)
         best.append(running)
@@ -65,15 +65,15 @@ def _row(
 def _trace_positions(ends: list[list[float]], bests: list[list[float]]) -> tuple[int, ...]:
     """Trace the best alignment backwards from the last letter."""
     positions: list[int] = []
-    at = len(ends[0]) - 1
+    position = len(ends[0]) - 1
     must = False
     for row in range(len(ends) - 1, -1, -1):
-        while not (ends[row][at] > -math.inf and (must or ends[row][at] == bests[row][at])):
-            at -= 1
+        while not (ends[row][position] > -math.inf and (must or ends[row][position] == bests[row][position])):
+            position -= 1
         # Whether the previous letter must be directly before this one.
-        must = row > 0 and at > 0 and bests[row][at] == ends[row - 1][at - 1] + _MATCH_CONSECUTIVE
-        positions.append(at)
-        at -= 1
+        must = row > 0 and position > 0 and bests[row][position] == ends[row - 1][position - 1] + _MATCH_CONSECUTIVE
+        positions.append(position)
+        position -= 1
     return tuple(reversed(positions))
 
 

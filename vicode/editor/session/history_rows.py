@@ -20,10 +20,10 @@ def list_history_rows(history: UndoHistory, limit: int) -> tuple[HistoryRow, ...
     newest_child = {entry.parent: entry.id for _id, entry in sorted(history.entries.items())}
     before = {entry.id for entry in history.path}
     ahead: list[int] = []
-    at = history.current_id
-    while at in newest_child:
-        at = newest_child[at]
-        ahead.append(at)
+    entry_id = history.current_id
+    while entry_id in newest_child:
+        entry_id = newest_child[entry_id]
+        ahead.append(entry_id)
     main = before | set(ahead)
     depths: dict[int, int] = {}
     for id_, entry in sorted(history.entries.items()):

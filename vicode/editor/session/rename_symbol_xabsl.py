@@ -111,25 +111,25 @@ def _in_text(text: str, role: str, own: _Names, renames: XabslRenames) -> str:
         return text
     tokens, _findings = tokenize(text, "")
     pieces, end = [], 0
-    for at, new in _renamed_tokens(tokens, own, renames):
-        pieces += [text[end : tokens.starts[at]], new]
-        end = tokens.starts[at] + len(tokens.texts[at])
+    for index, new in _renamed_tokens(tokens, own, renames):
+        pieces += [text[end : tokens.starts[index]], new]
+        end = tokens.starts[index] + len(tokens.texts[index])
     return "".join([*pieces, text[end:]])
 
 
 def _renamed_tokens(tokens: Tokens, own: _Names, renames: XabslRenames) -> Iterator[tuple[int, str]]:
     """The indices of renamed tokens with their new texts."""
     kinds, calls = tokens.kinds, list[str]()
-    for at, (kind, text) in enumerate(zip(kinds, tokens.texts, strict=True)):
+    for index, (kind, text) in enumerate(zip(kinds, tokens.texts, strict=True)):
         if kind == "(":
-            calls.append(tokens.texts[at - 1] if at and kinds[at - 1] == NAME else "")
+            calls.append(tokens.texts[index - 1] if index and kinds[index - 1] == NAME else "")
         elif kind == ")" and calls:
             calls.pop()
         if kind != NAME:
             continue
-        is_given = bool(calls) and kinds[at + 1] == "=" and kinds[at - 1] in ("(", ",")
+        is_given = bool(calls) and kinds[index + 1] == "=" and kinds[index - 1] in ("(", ",")
         names: _Names = (
             renames.call_parameters.get(calls[-1], {}) if is_given else {**renames.elements, **renames.shared, **own}
         )
         if text in names:
-            yield at, names[text]
+            yield index, names[text]

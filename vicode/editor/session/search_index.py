@@ -133,11 +133,11 @@ def _quick_score(
     """A quick score, None if the item does not match; runs for every item at every keystroke."""
     score = _WEIGHTS.get(item.kind, 0.0) - len(item.title) * _LENGTH_PENALTY
     for word, letters in patterns:
-        at = item.title_lower.find(word)
-        if at == 0:
+        position = item.title_lower.find(word)
+        if position == 0:
             score += _WHOLE if len(word) == len(item.title_lower) else _AT_START
-        elif at > 0:
-            is_word = not item.title_lower[at - 1].isalnum() or item.title[at : at + 1].isupper()
+        elif position > 0:
+            is_word = not item.title_lower[position - 1].isalnum() or item.title[position : position + 1].isupper()
             score += _AT_WORD if is_word else _INSIDE
         elif (context := _context_score(word, item, is_spread=letters.match(item.title_lower) is not None)) is not None:
             score += context

@@ -73,9 +73,9 @@ def _is_same_state(old: State, new: State) -> bool:
 
 def _match_by(key: Callable[[Any], Hashable], old: Sequence[Any], new: Sequence[Any]) -> Matches:
     """Match the n-th items with equal keys. Items with an empty key are not matched."""
-    new_indices = {entry: at for at, entry in enumerate(_numbered(key, new)) if entry is not None}
+    new_indices = {entry: index for index, entry in enumerate(_numbered(key, new)) if entry is not None}
     numbered = enumerate(_numbered(key, old))
-    return {at: new_indices[entry] for at, entry in numbered if entry is not None and entry in new_indices}
+    return {index: new_indices[entry] for index, entry in numbered if entry is not None and entry in new_indices}
 
 
 def _numbered(key: Callable[[Any], Hashable], items: Sequence[Any]) -> list[tuple[Hashable, int] | None]:
@@ -100,10 +100,10 @@ def _match_equal(old: Sequence[Any], new: Sequence[Any], matches: Matches) -> Ma
             if block.a + step not in matched and block.b + step not in taken:
                 matched[block.a + step] = block.b + step
                 taken.add(block.b + step)
-    for at, item in enumerate(old):
+    for index, item in enumerate(old):
         target = next((to for to, candidate in enumerate(new) if to not in taken and candidate == item), None)
-        if at not in matched and target is not None:
-            matched[at] = target
+        if index not in matched and target is not None:
+            matched[index] = target
             taken.add(target)
     return matched
 
@@ -114,15 +114,15 @@ def _match_neighbours(
     """Match similar items whose previous or next item is matched."""
     matched, taken = dict(matches), set(matches.values())
 
-    def match(at: int, to: int) -> None:
-        if at not in matched and to not in taken and 0 <= to < len(new) and is_same(old[at], new[to]):
-            matched[at] = to
+    def match(index: int, to: int) -> None:
+        if index not in matched and to not in taken and 0 <= to < len(new) and is_same(old[index], new[to]):
+            matched[index] = to
             taken.add(to)
 
-    for at in range(len(old)):
-        match(at, matched.get(at - 1, -2) + 1 if at else 0)
-    for at in reversed(range(len(old))):
-        match(at, matched.get(at + 1, -1) - 1 if at < len(old) - 1 else len(new) - 1)
+    for index in range(len(old)):
+        match(index, matched.get(index - 1, -2) + 1 if index else 0)
+    for index in reversed(range(len(old))):
+        match(index, matched.get(index + 1, -1) - 1 if index < len(old) - 1 else len(new) - 1)
     return matched
 
 

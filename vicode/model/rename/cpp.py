@@ -50,7 +50,7 @@ def has_reference_in_cpp(text: str, role: str, rename: ReferenceRename) -> bool:
 def declares_in_cpp(text: str, name: str) -> bool:
     """Return whether code declares a type or namespace with this name."""
     tokens = list(_tokens(text)) if name in text else []
-    return any(token.text == name and _is_declared(tokens, at) for at, token in enumerate(tokens))
+    return any(token.text == name and _is_declared(tokens, index) for index, token in enumerate(tokens))
 
 
 def count_identifier_in_cpp(text: str, name: str) -> int:
@@ -68,18 +68,18 @@ def _find_references(tokens: list[_Token], role: str, rename: ReferenceRename) -
     owner = rename.owner or rename.old
     is_shared = rename.kind in (ReferenceKind.ENUMERATION, ReferenceKind.ELEMENT)
     has_types = any(token.text in _TYPE_KEYWORDS for token in tokens)
-    if is_shared and any(token.text == owner and _is_declared(tokens, at) for at, token in enumerate(tokens)):
+    if is_shared and any(token.text == owner and _is_declared(tokens, index) for index, token in enumerate(tokens)):
         return
     # In code that declares a type, `this` may refer to another object.
     if not is_shared and (role == "module" or has_types):
         return
-    for at, token in enumerate(tokens):
-        if token.is_word and token.text == rename.old and _is_reference(tokens, at, rename):
+    for index, token in enumerate(tokens):
+        if token.is_word and token.text == rename.old and _is_reference(tokens, index, rename):
             yield token
 
 
-def _is_reference(tokens: list[_Token], at: int, rename: ReferenceRename) -> bool:
-    before = [_text_at(tokens, at - step) for step in (1, 2, 3, 4)]
+def _is_reference(tokens: list[_Token], index: int, rename: ReferenceRename) -> bool:
+    before = [_text_at(tokens, index - step) for step in (1, 2, 3, 4)]
     match rename.kind:
         case ReferenceKind.OWN | ReferenceKind.ALIAS:
             return before[:2] == ["->", "this"]
@@ -88,19 +88,19 @@ def _is_reference(tokens: list[_Token], at: int, rename: ReferenceRename) -> boo
         case ReferenceKind.ELEMENT:
             return before[:2] == ["::", rename.owner] and before[2] not in ("::", ".", "->")
         case ReferenceKind.ENUMERATION:
-            return _text_at(tokens, at + 1) == "::" and before[0] not in ("::", ".", "->")
+            return _text_at(tokens, index + 1) == "::" and before[0] not in ("::", ".", "->")
         case _:
             return False
 
 
-def _is_declared(tokens: list[_Token], at: int) -> bool:
+def _is_declared(tokens: list[_Token], index: int) -> bool:
     """Return whether a declaring keyword precedes a name."""
-    while at > 0 and tokens[at - 1].text not in _DECLARATION_STARTS:
-        at -= 1
-        if tokens[at].text in _DECLARING_KEYWORDS:
+    while index > 0 and tokens[index - 1].text not in _DECLARATION_STARTS:
+        index -= 1
+        if tokens[index].text in _DECLARING_KEYWORDS:
             return True
     return False
 
 
-def _text_at(tokens: list[_Token], at: int) -> str:
-    return tokens[at].text if 0 <= at < len(tokens) else ""
+def _text_at(tokens: list[_Token], index: int) -> str:
+    return tokens[index].text if 0 <= index < len(tokens) else ""

@@ -51,26 +51,26 @@ def _is_reference(word: _Identifier, rename: ReferenceRename) -> bool:
 def _iter_identifiers(text: str) -> Iterator[_Identifier]:
     tokens = list(_TOKEN.finditer(text))
     calls: list[str] = []
-    for at, token in enumerate(tokens):
+    for index, token in enumerate(tokens):
         sign = token.group()
         if sign == "(":
-            calls.append(_callee(tokens, at))
+            calls.append(_callee(tokens, index))
         elif sign == ")" and calls:
             calls.pop()
         if token["word"]:
-            is_behind_dot = _text_at(tokens, at - 1) == "."
-            before = _text_at(tokens, at - 2) if is_behind_dot and _text_at(tokens, at - 3) != "." else ""
+            is_behind_dot = _text_at(tokens, index - 1) == "."
+            before = _text_at(tokens, index - 2) if is_behind_dot and _text_at(tokens, index - 3) != "." else ""
             inside = calls[-1] if calls else ""
-            yield _Identifier(token.start(), sign, before, _text_at(tokens, at + 1), inside, is_behind_dot)
+            yield _Identifier(token.start(), sign, before, _text_at(tokens, index + 1), inside, is_behind_dot)
 
 
-def _callee(tokens: list[re.Match[str]], at: int) -> str:
+def _callee(tokens: list[re.Match[str]], index: int) -> str:
     """Return the function called at an opening parenthesis, such as `alias.function`; empty if there is none."""
-    if at == 0 or not tokens[at - 1]["word"]:
+    if index == 0 or not tokens[index - 1]["word"]:
         return ""
-    name = _text_at(tokens, at - 1)
-    return f"{_text_at(tokens, at - 3)}.{name}" if _text_at(tokens, at - 2) == "." else name
+    name = _text_at(tokens, index - 1)
+    return f"{_text_at(tokens, index - 3)}.{name}" if _text_at(tokens, index - 2) == "." else name
 
 
-def _text_at(tokens: list[re.Match[str]], at: int) -> str:
-    return tokens[at].group() if 0 <= at < len(tokens) else ""
+def _text_at(tokens: list[re.Match[str]], index: int) -> str:
+    return tokens[index].group() if 0 <= index < len(tokens) else ""

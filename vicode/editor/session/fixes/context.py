@@ -35,7 +35,7 @@ class FixContext:
 
     def decision(self) -> LocatedDecision | None:
         """The innermost decision on the path."""
-        indices = [at for at, part in enumerate(self.path) if isinstance(part, int)]
+        indices = [index for index, part in enumerate(self.path) if isinstance(part, int)]
         is_below = self.path[:2] == ("common", "transitions") or self.path[2:3] == ("transitions",)
         return find_decision(self.design, self.path[: indices[-1] + 1]) if indices and is_below else None
 
