@@ -72,7 +72,6 @@ class DocsBuilder:
         return built
 
     def close(self) -> None:
-        """Stop the layout processes."""
         for builder in self._builders.values():
             builder.close()
 
@@ -119,7 +118,6 @@ def _merge_results(one: DocsBuildResult, other: DocsBuildResult) -> DocsBuildRes
 
 
 def describe_build(built: DocsBuildResult, readings: Sequence[LoadedSiteInput], out: Path) -> str:
-    """Summarize a build in one line."""
     findings = [each.finding for reading in readings if reading.site_input for each in reading.site_input.findings]
     counts = f"{len(built.files)} files, {len(built.changed)} changed, {count_findings(findings)}"
     home = "index.md" if "index.md" in built.files else "index.html"

@@ -76,12 +76,10 @@ class SiteUrls:
         return name in self._stems
 
     def design_path(self, component: str, path: DesignPath) -> str:
-        """The description of a node of a design."""
         anchor = path_anchor(path)
         return self.component(component) + (f"#{anchor}" if anchor else "")
 
     def member(self, component: str, section: str, name: str) -> str:
-        """The description of a parameter, output or variable."""
         page = self.component(component)
         return f"{page}#{_SINGULAR[section]}-{slug(name)}" if page else ""
 

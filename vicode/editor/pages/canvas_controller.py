@@ -102,7 +102,6 @@ class CanvasController:
             self.canvas.centre(cast("Any", item.kind), item.id)
 
     def scroll_to_initial(self, item: ItemRef) -> None:
-        """Scroll to the item that the URL of the page selects."""
         self.canvas.scroll_to_initial(cast("Any", item.kind), item.id)
 
     def _draw(self) -> Scene:

@@ -39,8 +39,6 @@ def ask_to_resolve_conflict(context: WindowContext) -> None:
 
 @dataclass(frozen=True, slots=True)
 class _ConflictPrompt:
-    """An open dialog, with the conflict that it shows."""
-
     context: WindowContext
     dialog: ui.dialog
     disk_version: DiskVersion

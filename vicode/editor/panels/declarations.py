@@ -161,7 +161,6 @@ def add_argument(output: Declaration) -> Declaration:
 
 
 def remove_arguments(output: Declaration) -> Declaration:
-    """Turn an output with arguments into a value."""
     return replace(output, arguments=None)
 
 

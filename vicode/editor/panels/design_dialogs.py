@@ -99,7 +99,6 @@ class DesignDialogs:
             _buttons(dialog, "Rename everywhere", rename, name)
 
     def ask_move_to_trash(self, workspace: Workspace, component: str) -> None:
-        """Ask for confirmation, and move a design to the trash."""
         error = trash.validate_move_to_trash(workspace, component)
         if error:
             self.show_toast(texts.sentence(error), "warning")

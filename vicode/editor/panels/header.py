@@ -36,7 +36,6 @@ class Header:
         primary_button(generate.label, generate.handler, icon=generate.icon)
 
     def _build_breadcrumbs(self, trail: Sequence[str]) -> None:
-        """Build links to the project and to the components on the path to this design."""
         key, here = self.context.workspace.key, self.context.design.component
         with ui.element("nav").classes("crumbs").props('aria-label="Breadcrumb"'):
             ui.link(self.context.workspace.project.name, f"/#{key}").classes("crumb")

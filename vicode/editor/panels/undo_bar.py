@@ -20,7 +20,6 @@ class UndoBar:
         self._hide()
 
     def show(self, text: str, undo: Callable[[], object]) -> None:
-        """Show a message; the button calls `undo`."""
         self._undo_action = undo
         self._label.set_text(text)
         self._bar.set_visibility(True)

@@ -52,7 +52,6 @@ def _hand_written(context: WindowContext, use: Use, fields: list[Field]) -> None
 
 
 def _designed(context: WindowContext, use: Use, interface: Interface) -> None:
-    """Show the interface of a component that has a design."""
     alias = use.alias
     if interface.title:
         ui.label(interface.title).classes("interface-title")

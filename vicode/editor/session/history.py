@@ -140,14 +140,12 @@ class UndoHistory:
         return replace(self._appended(redone), redo_stacks=redo_stacks)
 
     def next_undo(self, user_id: str) -> HistoryEntry | None:
-        """The entry that undo would revert for a user."""
         path = self.path[1:]
         undone = {entry.undone_id for entry in path}
         own = (entry for entry in reversed(path) if entry.user_id == user_id and not entry.undone_id)
         return next((entry for entry in own if entry.id not in undone), None)
 
     def next_redo(self, user_id: str) -> HistoryEntry | None:
-        """The entry that redo would restore for a user."""
         path = self.path
         undone = {entry.undone_id for entry in path}
         done = {entry.id for entry in path} - undone

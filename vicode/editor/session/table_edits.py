@@ -222,7 +222,6 @@ def _remove(document: DocumentSession, payload: Payload) -> EditResult:
 
 
 def _move(document: DocumentSession, payload: Payload) -> EditResult:
-    """Move a row up or down in its list."""
     item, by = parse_row_id(str(payload["row"])), 1 if int(payload["by"]) > 0 else -1
     design = document.design
     if item.kind == "states" and design.state(item.id):

@@ -112,7 +112,6 @@ class Workspace:
 
     @property
     def unsaved_components(self) -> tuple[str, ...]:
-        """The components whose designs have unsaved edits."""
         return tuple(name for name, document in self._documents.items() if not document.is_saved)
 
     def findings_if_open(self, component: str) -> tuple[Finding, ...] | None:
@@ -122,7 +121,6 @@ class Workspace:
 
     @property
     def project_findings(self) -> tuple[Finding, ...]:
-        """The findings about the declarations in project.yaml."""
         if self._checked is None or self._checked[0] is not self.project:
             self._checked = (self.project, check_project(self.project, ()))
         return self._checked[1]

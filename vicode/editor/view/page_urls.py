@@ -29,7 +29,6 @@ def broken_file_url(key: str, file: str) -> str:
 
 
 def docs_url(key: str, file: str, anchor: str = "") -> str:
-    """The URL of a page of the documentation preview."""
     return f"/docs/{quote(key, safe='')}/{quote(file)}" + (f"#{quote(anchor)}" if anchor else "")
 
 

@@ -213,7 +213,6 @@ def _region(body: CodePlan, indent: int) -> str:
 
 
 def method_code(component: ComponentPlan) -> Iterator[CodePlan]:
-    """Yield the hand-written code of all methods."""
     steps = [component.common_actions, *(part for state in component.states for part in _state_steps(state))]
     yield from (step.code for part in steps for step in part if isinstance(step, CodeStep))
     for decisions in (component.common_decisions, *(state.decisions for state in component.states)):

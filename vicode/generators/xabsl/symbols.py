@@ -61,7 +61,6 @@ class SymbolsWriter:
         return tree.FileNode(body=[tree.NamespaceNode(tree.NameNode(namespace), "Basic behaviors", declarations)])
 
     def interface_file(self, interface: Interface, namespace: str) -> tree.FileNode:
-        """Build the symbols of a component without a design."""
         declarations = [self._symbol(interface.component, item, output_role(interface)) for item in interface.outputs]
         declarations += [
             self._symbol(interface.component, item, variable_role(interface)) for item in interface.variables

@@ -269,7 +269,6 @@ def is_assignable(type_: str, expected: str) -> bool:
 
 
 def common_type(left: str, right: str) -> str | None:
-    """Return the common type of two types, None if there is none."""
     if right in (left, UNKNOWN):
         return left
     if left == UNKNOWN:

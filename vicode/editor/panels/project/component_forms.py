@@ -69,8 +69,6 @@ def _adder(context: WindowContext, node_path: ProjectNodePath, section: str) -> 
 
 
 def _declaration(context: WindowContext, node_path: ProjectNodePath, fields: list[Field]) -> None:
-    """Build a declaration as a collapsible section."""
-
     def show() -> None:
         node = node_path.get(context.workspace.project)
         for section in sections if node is not None else ():

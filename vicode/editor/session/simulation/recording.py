@@ -60,7 +60,6 @@ class Recording:
         return iteration
 
     def changes_before(self, number: int) -> Inputs:
-        """The inputs that were set just before an iteration."""
         return self._changes.get(number, {})
 
     def input_segments(self, end: int) -> Iterator[tuple[Inputs, int]]:

@@ -146,11 +146,9 @@ class Simulation:
         self._pause_requested = True
 
     def step_back(self, count: int = 1) -> None:
-        """Show an earlier iteration."""
         self.go_to(self.cursor - count)
 
     def go_to(self, number: int) -> None:
-        """Show a recorded iteration."""
         self.cursor = min(max(0, number), len(self.recording))
         self.guards = iteration.guards if (iteration := self.shown_iteration) else self._initial_guards
         self.stop_reason = ""
