@@ -26,8 +26,7 @@ from pathlib import Path
 
 from vicode.cli.docs_build import DocsBuilder
 from vicode.cli.docs_inputs import load_site_inputs
-from vicode.diagram.export import export_design
-from vicode.diagram.export_formats import ExportFormat
+from vicode.diagram.export_formats import EXPORT_FORMATS, ExportOptions
 from vicode.model.design import Design, Guard, State, Transition
 
 # Draws each text of a list that it reads, in one process, as most people would let it be drawn.
@@ -121,13 +120,15 @@ def export_dot_texts(agents: Path) -> list[str]:
     """The state machines as texts for Graphviz."""
     (reading,) = load_site_inputs([agents])
     assert reading.site_input is not None
-    return [export_design(design, ExportFormat.DOT).decode() for design in reading.site_input.project.designs]
+    return [
+        EXPORT_FORMATS["dot"].write(design, ExportOptions()).decode() for design in reading.site_input.project.designs
+    ]
 
 
 def measure_export() -> float:
     design = ring(STATES)
     begun = time.process_time()
-    export_design(design, ExportFormat.SVG)
+    EXPORT_FORMATS["svg"].write(design, ExportOptions())
     return time.process_time() - begun
 
 

@@ -14,7 +14,7 @@ import sys
 import threading
 import time
 
-from vicode.diagram import complete_layout
+from vicode.diagram.layered_layout import complete_layout
 from vicode.diagram.layout import LayoutService
 from vicode.model.design import Design, Guard, State, Transition
 from vicode.model.traversal import iter_transitions

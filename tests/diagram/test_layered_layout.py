@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.diagram.diagram_designs import find_overlaps, list_boxes, ring_design, shipped_designs
-from vicode.diagram import complete_layout
+from vicode.diagram.layered_layout import complete_layout
 from vicode.diagram.layout_fit import screens_needed
 from vicode.model.design import CommonSection, Design, Point, State, Transition, Use
 

@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 from tests.diagram.diagram_designs import HOSTILE_NAMES, find_overlaps, list_boxes, ring_design, shipped_designs
-from vicode.diagram import complete_layout
+from vicode.diagram.layered_layout import complete_layout
 from vicode.diagram.layout import WORKER_COMMAND, LayoutMethod, LayoutResult, LayoutService, compute_layout
 from vicode.diagram.layout_fit import screens_needed
 from vicode.model.design import Design, State, Transition

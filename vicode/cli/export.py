@@ -6,16 +6,17 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from vicode.cli.console import print_findings
+from vicode.diagram.export_formats import EXPORT_FORMATS, ExportFormat, ExportOptions
 
 if TYPE_CHECKING:
     from vicode.model.design import Design
 
-_FORMATS = ("svg", "pdf", "png", "mermaid", "plantuml", "dot")
-
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("file", metavar="FILE", help="design file")
-    parser.add_argument("--format", choices=_FORMATS, help="output format (default: by the suffix of OUT, else svg)")
+    parser.add_argument(
+        "--format", choices=EXPORT_FORMATS, help="output format (default: by the suffix of OUT, else svg)"
+    )
     parser.add_argument("-o", "--out", metavar="OUT", help="output file, or - for stdout (default: next to the design)")
     parser.add_argument("--states", metavar="A,B", help="export only these states and the components they use")
     parser.add_argument("--no-links", action="store_true", help="omit used components")
@@ -30,9 +31,6 @@ def run(args: argparse.Namespace) -> int:
     design = _read(Path(args.file))
     if design is None:
         return 1
-    # Deferred: these imports load the writers of Graphviz and PDF.
-    from vicode.diagram.export import export_design
-    from vicode.diagram.export_formats import ExportFormat, ExportOptions
     from vicode.output import write_atomically
 
     only = _states(args.states)
@@ -40,13 +38,13 @@ def run(args: argparse.Namespace) -> int:
     if unknown:
         print(f"vicode: {args.file} has no state {unknown[0]}", file=sys.stderr)
         return 1
-    form = ExportFormat(args.format or _format_from_suffix(args.out))
+    form = EXPORT_FORMATS[args.format] if args.format else _format_from_suffix(args.out)
     wish = ExportOptions(only=only, links=not args.no_links, dark=args.dark, scale=min(max(args.scale, 0.1), 16.0))
-    content = export_design(design, form, wish)
+    content = form.write(design, wish)
     if args.out == "-":
         sys.stdout.buffer.write(content)
         return 0
-    out = Path(args.out) if args.out else Path(args.file).with_suffix(form.suffix)
+    out = Path(args.out) if args.out else Path(args.file).with_suffix(form.suffixes[0])
     write_atomically(out, content)
     print(f"wrote {out.as_posix()}")
     return 0
@@ -65,8 +63,6 @@ def _states(text: str | None) -> frozenset[str] | None:
     return frozenset(name.strip() for name in text.split(",") if name.strip()) if text is not None else None
 
 
-def _format_from_suffix(out: str | None) -> str:
-    suffix = Path(out or "").suffix.lower().lstrip(".")
-    names = {"mmd": "mermaid", "puml": "plantuml", "gv": "dot"}
-    found = names.get(suffix, suffix)
-    return found if found in _FORMATS else "svg"
+def _format_from_suffix(out: str | None) -> ExportFormat:
+    suffix = Path(out or "").suffix.lower()
+    return next((each for each in EXPORT_FORMATS.values() if suffix in each.suffixes), EXPORT_FORMATS["svg"])

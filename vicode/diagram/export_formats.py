@@ -1,32 +1,14 @@
-"""Formats and options of exported diagrams."""
+"""The formats of exported diagrams: one record each, with a function that imports its writer when it is called."""
 
-from dataclasses import dataclass, field
-from enum import StrEnum
+from __future__ import annotations
 
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
-class ExportFormat(StrEnum):
-    """A format that a diagram can be exported as."""
-
-    SVG = "svg"
-    PDF = "pdf"
-    PNG = "png"
-    MERMAID = "mermaid"
-    PLANTUML = "plantuml"
-    DOT = "dot"
-
-    @property
-    def label(self) -> str:
-        """The name shown to users."""
-        return {ExportFormat.MERMAID: "Mermaid", ExportFormat.PLANTUML: "PlantUML"}.get(self, self.upper())
-
-    @property
-    def suffix(self) -> str:
-        return {ExportFormat.MERMAID: ".mmd", ExportFormat.PLANTUML: ".puml"}.get(self, f".{self}")
-
-    @property
-    def media_type(self) -> str:
-        types = {ExportFormat.SVG: "image/svg+xml", ExportFormat.PDF: "application/pdf", ExportFormat.PNG: "image/png"}
-        return types.get(self, "text/plain; charset=utf-8")
+if TYPE_CHECKING:
+    from vicode.diagram.primitives import VectorImage
+    from vicode.model.design import Design
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -36,4 +18,94 @@ class ExportOptions:
     only: frozenset[str] | None = None
     links: bool = True
     dark: bool = False
-    scale: float = field(default=2.0)
+    scale: float = 2.0
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ExportFormat:
+    """A format of exported diagrams.
+
+    Attributes:
+        name: The name on the command line.
+        title: The name shown to users, with the purpose in parentheses.
+        suffixes: File name suffixes; new files get the first.
+        write: Returns the content of the file; the same design gives the same bytes. PNG depends on installed fonts.
+    """
+
+    name: str
+    title: str
+    suffixes: tuple[str, ...]
+    write: Callable[[Design, ExportOptions], bytes]
+    media_type: str = "text/plain; charset=utf-8"
+
+    @property
+    def label(self) -> str:
+        """The title without the purpose."""
+        return self.title.partition(" (")[0]
+
+    @property
+    def is_text(self) -> bool:
+        """Whether the format describes the behavior as text instead of a picture."""
+        return self.media_type.startswith("text/")
+
+
+def _svg(design: Design, options: ExportOptions) -> bytes:
+    from vicode.diagram.svg import write_svg
+
+    return write_svg(_picture(design, options)).encode()
+
+
+def _pdf(design: Design, options: ExportOptions) -> bytes:
+    from vicode.diagram.pdf import write_pdf
+
+    return write_pdf(_picture(design, options))
+
+
+def _png(design: Design, options: ExportOptions) -> bytes:
+    from vicode.diagram.png import write_png
+
+    return write_png(_picture(design, options), scale=options.scale)
+
+
+def _mermaid(design: Design, options: ExportOptions) -> bytes:
+    from vicode.diagram.mermaid import write_mermaid
+
+    return write_mermaid(_behavior(design), only=options.only).encode()
+
+
+def _plantuml(design: Design, options: ExportOptions) -> bytes:
+    from vicode.diagram.plantuml import write_plantuml
+
+    return write_plantuml(_behavior(design), only=options.only).encode()
+
+
+def _dot(design: Design, options: ExportOptions) -> bytes:
+    from vicode.diagram.graphviz_text import write_graphviz
+
+    return write_graphviz(_behavior(design), only=options.only, links=options.links).encode()
+
+
+def _picture(design: Design, options: ExportOptions) -> VectorImage:
+    from vicode.diagram.palettes import DARK, LIGHT
+    from vicode.diagram.render import render_design
+
+    return render_design(design, only=options.only, links=options.links, palette=DARK if options.dark else LIGHT)
+
+
+def _behavior(design: Design) -> Design:
+    """The design without disabled elements, which only pictures show."""
+    from vicode.model.disabled import strip_disabled
+
+    return strip_disabled(design)
+
+
+_FORMATS = (
+    ExportFormat(name="svg", title="SVG (scalable)", suffixes=(".svg",), media_type="image/svg+xml", write=_svg),
+    ExportFormat(name="pdf", title="PDF (one page)", suffixes=(".pdf",), media_type="application/pdf", write=_pdf),
+    ExportFormat(name="png", title="PNG (for slides)", suffixes=(".png",), media_type="image/png", write=_png),
+    ExportFormat(name="mermaid", title="Mermaid (for READMEs)", suffixes=(".mmd", ".mermaid"), write=_mermaid),
+    ExportFormat(name="plantuml", title="PlantUML", suffixes=(".puml", ".plantuml"), write=_plantuml),
+    ExportFormat(name="dot", title="DOT (Graphviz)", suffixes=(".dot", ".gv"), write=_dot),
+)
+EXPORT_FORMATS = {each.name: each for each in _FORMATS}
+"""The formats by name."""

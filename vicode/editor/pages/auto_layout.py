@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from nicegui import run, ui
 from nicegui.events import ClickEventArguments, Handler
 
-from vicode.diagram import NodeLayout
+from vicode.diagram.layered_layout import NodeLayout
 from vicode.diagram.layout import LayoutMethod, LayoutService
 from vicode.editor.canvas.protocol import NodePosition
 from vicode.editor.pages import texts

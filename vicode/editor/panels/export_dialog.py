@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 from nicegui import run, ui
 
-from vicode.diagram.export_formats import ExportFormat, ExportOptions
+from vicode.diagram.export_formats import EXPORT_FORMATS, ExportFormat, ExportOptions
 from vicode.editor.panels import texts
 from vicode.editor.panels.command import Command, MenuGroup
 from vicode.editor.panels.dialogs import titled_dialog
@@ -14,15 +14,8 @@ from vicode.editor.panels.widgets import primary_button
 from vicode.editor.panels.window_context import WindowContext
 from vicode.model.names import snake_case
 
-_TITLES = {
-    ExportFormat.SVG: "SVG (scalable)",
-    ExportFormat.PDF: "PDF (one page)",
-    ExportFormat.PNG: "PNG (for slides)",
-    ExportFormat.MERMAID: "Mermaid (for READMEs)",
-    ExportFormat.PLANTUML: "PlantUML",
-    ExportFormat.DOT: "DOT (Graphviz)",
-}
-_TEXTS = (ExportFormat.MERMAID, ExportFormat.PLANTUML, ExportFormat.DOT)
+_TITLES = {each.name: each.title for each in EXPORT_FORMATS.values()}
+_SVG = EXPORT_FORMATS["svg"]
 _ALL, _SELECTED = "Whole diagram", "Selection"
 # Also works on pages without HTTPS, which lack the clipboard API.
 _WRITE = "return Quasar.copyToClipboard(%s).then(() => true, () => false)"
@@ -47,13 +40,14 @@ class ExportDialog:
         """Return the command of the dialog, and a copy command for each text format."""
         copies = tuple(
             Command(
-                f"copy-{form}",
+                f"copy-{form.name}",
                 f"Copy as {form.label}",
                 _copier(self._context, form),
                 MenuGroup.DESIGN,
                 icon="content_copy",
             )
-            for form in _TEXTS
+            for form in EXPORT_FORMATS.values()
+            if form.is_text
         )
         keys = ("Ctrl+Shift+E",)
         ask = Command(
@@ -65,12 +59,15 @@ class ExportDialog:
         selected = _selected_states(self._context)
         with titled_dialog(f"Export {self._context.design.component}") as dialog:
             with ui.element("div").classes("export-choices"):
-                form = ui.select(_TITLES, value=ExportFormat.SVG, label="Format").props("outlined dense options-dense")
+                name = ui.select(_TITLES, value=_SVG.name, label="Format").props("outlined dense options-dense")
                 scopes = [_ALL, _SELECTED] if selected else [_ALL]
                 scope = ui.select(scopes, value=scopes[-1], label="Scope").props("outlined dense options-dense")
                 links = ui.switch("Used components", value=self._links_shown())
                 dark = ui.switch("Dark theme", value=False)
             preview = ui.element("div").classes("export-preview").props("tabindex=0 role=group aria-label=Preview")
+
+            def form() -> ExportFormat:
+                return EXPORT_FORMATS[name.value]
 
             def options() -> ExportOptions:
                 only = selected if scope.value == _SELECTED else None
@@ -79,17 +76,17 @@ class ExportDialog:
             def show() -> None:
                 preview.clear()
                 with preview:
-                    _show_preview(self._context, form.value, options())
+                    _show_preview(self._context, form(), options())
 
-            for choice in (form, scope, links, dark):
+            for choice in (name, scope, links, dark):
                 choice.on_value_change(show)
             show()
             with ui.row().classes("dialog-buttons"):
                 ui.button("Cancel", on_click=dialog.close).props("flat no-caps")
-                ui.button("Copy text", on_click=lambda: _copy(self._context, form.value, options())).props(
+                ui.button("Copy text", on_click=lambda: _copy(self._context, form(), options())).props(
                     "flat no-caps"
-                ).bind_enabled_from(form, "value", lambda chosen: chosen in (*_TEXTS, ExportFormat.SVG))
-                primary_button("Download", lambda: _download(self._context, form.value, options()), icon="download")
+                ).bind_enabled_from(name, "value", lambda _name: form().is_text or form() is _SVG)
+                primary_button("Download", lambda: _download(self._context, form(), options()), icon="download")
         dialog.on("hide", dialog.delete)
 
 
@@ -104,13 +101,13 @@ def _show_preview(context: WindowContext, form: ExportFormat, options: ExportOpt
         return
 
     async def draw() -> None:
-        content = await run.io_bound(_exported, context, form if form in _TEXTS else ExportFormat.SVG, options)
+        content = await run.io_bound((form if form.is_text else _SVG).write, context.design, options)
         # The user may have chosen other options or closed the dialog.
         if content is None or container.is_deleted:
             return
         container.clear()
         with container:
-            if form in _TEXTS:
+            if form.is_text:
                 ui.label(content.decode()).classes("mono export-text")
             else:
                 image = ui.element("img").props('alt="Preview of the exported diagram"')
@@ -127,7 +124,7 @@ def _copier(context: WindowContext, form: ExportFormat) -> Callable[[], None]:
 
 
 def _copy(context: WindowContext, form: ExportFormat, options: ExportOptions) -> None:
-    text = json.dumps(_exported(context, form, options).decode())
+    text = json.dumps(form.write(context.design, options).decode())
 
     async def write() -> None:
         try:
@@ -145,14 +142,8 @@ def _copy(context: WindowContext, form: ExportFormat, options: ExportOptions) ->
 def _download(context: WindowContext, form: ExportFormat, options: ExportOptions) -> None:
     async def paint() -> None:
         # Large images take seconds.
-        content = await run.io_bound(_exported, context, form, options)
+        content = await run.io_bound(form.write, context.design, options)
         if content is not None:
-            ui.download(content, f"{snake_case(context.design.component)}{form.suffix}", form.media_type)
+            ui.download(content, f"{snake_case(context.design.component)}{form.suffixes[0]}", form.media_type)
 
     context.run_in_background(paint(), "export")
-
-
-def _exported(context: WindowContext, form: ExportFormat, options: ExportOptions) -> bytes:
-    from vicode.diagram.export import export_design  # noqa: PLC0415 - loads all renderers, which the first page does not need
-
-    return export_design(context.design, form, options)

@@ -8,7 +8,7 @@ from collections.abc import Collection, Iterable, Mapping
 from dataclasses import replace
 from typing import Any
 
-from vicode.diagram import complete_layout
+from vicode.diagram.layered_layout import complete_layout
 from vicode.editor.session import texts
 from vicode.editor.session.document import DocumentSession
 from vicode.editor.session.gestures import EditResult, parse_point

@@ -8,7 +8,7 @@ from collections.abc import Callable, Collection, Iterable, Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
-from vicode.diagram import NodeLayout
+from vicode.diagram.layered_layout import NodeLayout
 from vicode.editor.session import texts
 from vicode.editor.session.document import DocumentSession
 from vicode.editor.view import ItemRef, parse_transition_key, transition_key

@@ -4,7 +4,7 @@ from collections import Counter, defaultdict
 from collections.abc import Iterable
 from typing import Any
 
-from vicode.diagram import complete_layout
+from vicode.diagram.layered_layout import complete_layout
 from vicode.diagram.transition_labels import guard_kind, short_transition_label, transition_label
 from vicode.editor.view.selection import ItemRef, item_at_path, transition_key
 from vicode.findings import Finding, Severity, worst_severity
