@@ -86,7 +86,6 @@ def _facts(design: Design) -> Iterator[RichText]:
 
 
 def _state(design: Design, state: State, linker: NameLinker, made: ComponentInputs) -> StateView:
-    sources = dict.fromkeys(each.source for each in iter_transitions(design) if _leads(each.decision, state.name))
     words = []
     if state.name == design.initial:
         words.append("initial")
@@ -104,17 +103,22 @@ def _state(design: Design, state: State, linker: NameLinker, made: ComponentInpu
         name=state.name,
         badges=tuple(words),
         doc_html=render_doc(state.doc, parent_level=3),
-        requires=join_spans(linker.alias(alias) for alias in state.requires),
+        facts=tuple((title, parts) for title, parts in _state_facts(design, state, linker) if parts),
         phases=tuple(phase for phase in phases if phase.actions),
         pseudocode=pseudocode_lines(state.transitions, linker, ("states", state.name, "transitions"), made.code_links),
-        predecessors=join_spans(
-            TextSpan(text="every state", href="#common") if source == COMMON else linker.state(source)
-            for source in sources
-        ),
         code_links=made.code_links.get(("states", state.name), ()),
         tree_svg=tree_svg,
         is_folded=is_folded,
     )
+
+
+def _state_facts(design: Design, state: State, linker: NameLinker) -> Iterator[tuple[str, RichText]]:
+    common = TextSpan(text="every state", href="#common")
+    sources = dict.fromkeys(each.source for each in iter_transitions(design) if _leads(each.decision, state.name))
+    yield "Entered from", join_spans(common if source == COMMON else linker.state(source) for source in sources)
+    if design.common.transitions:
+        yield "Tested first", (TextSpan(text="common transitions", href="#common"),)
+    yield "Requires", join_spans(linker.alias(alias) for alias in state.requires)
 
 
 def _common(design: Design, linker: NameLinker, made: ComponentInputs) -> StateView:
@@ -125,12 +129,11 @@ def _common(design: Design, linker: NameLinker, made: ComponentInputs) -> StateV
         name="Every state",
         badges=("common",),
         doc_html=render_doc(design.common.doc, parent_level=3),
-        requires=(),
+        facts=(),
         phases=(ActionPhaseView(title="In each iteration, before the state's actions", actions=actions),)
         if actions
         else (),
         pseudocode=pseudocode_lines(design.common.transitions, linker, ("common", "transitions"), made.code_links),
-        predecessors=(),
         code_links=made.code_links.get(("common",), ()),
         tree_svg=tree_svg,
         is_folded=is_folded,

@@ -99,7 +99,7 @@ class ActionPhaseView:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class StateView:
-    """A state or the common section; `predecessors` are the states with transitions to it.
+    """A state or the common section; `facts` are pairs of a title and its text.
 
     If `is_folded`, the tree shows only a part of the decisions.
     """
@@ -108,10 +108,9 @@ class StateView:
     name: str
     badges: tuple[str, ...]
     doc_html: str
-    requires: RichText
+    facts: tuple[tuple[str, RichText], ...]
     phases: tuple[ActionPhaseView, ...]
     pseudocode: tuple[PseudocodeLine, ...]
-    predecessors: RichText
     code_links: tuple[TextSpan, ...]
     tree_svg: str = ""
     is_folded: bool = False
