@@ -35,10 +35,10 @@ class DesignView:
         return (
             *self.auto_layout.commands(),
             Command(
-                name="table",
-                label="Switch between diagram and table",
-                handler=self.toggle,
-                menu_group=MenuGroup.VIEW,
+                "table",
+                "Switch between diagram and table",
+                self.toggle,
+                MenuGroup.VIEW,
                 icon="table_rows",
                 keys=("F4",),
                 while_typing=True,

@@ -50,13 +50,7 @@ class HomePage:
                 keys=("Ctrl+K",),
                 while_typing=True,
             ),
-            Command(
-                "theme",
-                "Theme",
-                lambda: show_toast(theme.toggle(), "info"),
-                MenuGroup.VIEW,
-                icon="contrast",
-            ),
+            Command("theme", "Theme", lambda: show_toast(theme.toggle(), "info"), MenuGroup.VIEW, icon="contrast"),
         )
         self.palette = palette
         with ui.element("div").classes("home"):

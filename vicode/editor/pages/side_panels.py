@@ -63,10 +63,10 @@ class SidePanels:
         return (
             *simulation_commands(self._simulate, lambda: self.dock.show(_SIMULATE)),
             Command(
-                name="search",
-                label="Search and replace in all texts",
-                handler=self._open_search,
-                menu_group=MenuGroup.EDIT,
+                "search",
+                "Search and replace in all texts",
+                self._open_search,
+                MenuGroup.EDIT,
                 icon="search",
                 keys=("Ctrl+Shift+F",),
                 while_typing=True,
