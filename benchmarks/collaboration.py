@@ -119,7 +119,7 @@ class Client:
         """Make the state that this window moves, and name it."""
         await self._gesture({"kind": "create", "x": 0, "y": 0})
         await asyncio.wait_for(self.renames.wait(), 60)
-        await self._gesture({"kind": "rename", "of": "states", "id": self.created_state, "name": self.name})
+        await self._gesture({"kind": "rename", "item": {"of": "states", "id": self.created_state}, "name": self.name})
 
     async def move_state_repeatedly(self, until_s: float) -> None:
         """Move the own state now and then."""
@@ -152,7 +152,7 @@ class Client:
             return
         code, now_s = str(data.get("code", "")), time.perf_counter()
         self.log.last_event_s = now_s
-        if "showPresence" in code:
+        if "presence.show" in code:
             await self._emit("presencePainted", {})
         if "renameInPlace" in code:
             self.created_state = re.findall(r"State\d*", code)[-1]

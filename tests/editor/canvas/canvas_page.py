@@ -10,9 +10,18 @@ from pathlib import Path
 from typing import Any
 
 from nicegui import app, ui
+from nicegui.events import GenericEventArguments
 
 from vicode.editor.canvas import Canvas
-from vicode.editor.canvas.protocol import Gesture, gesture_payload
+from vicode.editor.session.decoding import decode
+from vicode.editor.session.gestures import NodePosition
+from vicode.editor.view import ItemRef
+
+ARGUMENT_TYPES: dict[str, Any] = {
+    "select": tuple[ItemRef, ...],
+    "set_breakpoints": tuple[ItemRef, ...],
+    "show_preview": tuple[NodePosition, ...],
+}
 
 
 def main(port: int, scene_file: Path, theme: str) -> None:
@@ -31,24 +40,23 @@ def main(port: int, scene_file: Path, theme: str) -> None:
     @app.post("/call/{method}")
     def call(method: str, arguments: list[Any]) -> None:
         with canvases[-1]:
-            getattr(canvases[-1], method)(*arguments)
+            getattr(canvases[-1], method)(*decode_arguments(method, arguments))
 
     @ui.page("/")
     def page() -> None:
         ui.dark_mode({"dark": True, "light": False}.get(theme))
         ui.context.client.content.style("padding: 0")
 
-        def on_gesture(event: Gesture) -> None:
-            gesture = gesture_payload(event)
-            gestures.append(gesture)
-            changes = changes_after(gesture, canvas._scene or {})
-            if changes:
-                canvas.apply({"rev": gesture["rev"] + 1, **changes})
+        def record(event: GenericEventArguments) -> None:
+            gestures.append(event.args)
+            if changes := changes_after(event.args, canvas._scene or {}):
+                canvas.apply({"rev": event.args["rev"] + 1, **changes})
 
-        def on_malformed(reason: str) -> None:
-            gestures.append({"kind": "malformed", "reason": reason})
-
-        canvas = Canvas(on_gesture, on_malformed=on_malformed)
+        canvas = Canvas(
+            lambda _gesture, _rev: None,
+            on_malformed=lambda reason: gestures.append({"kind": "malformed", "reason": reason}),
+        )
+        canvas.on("gesture", record)
         canvas.style("width: 100vw; height: 100vh")
         canvases.append(canvas)
         canvas.load(json.loads(scene_file.read_text(encoding="utf-8")))
@@ -67,6 +75,13 @@ def main(port: int, scene_file: Path, theme: str) -> None:
     )
 
 
+def decode_arguments(method: str, arguments: list[Any]) -> list[Any]:
+    """Decode the arguments of a method of the canvas, which takes items and positions."""
+    if method not in ARGUMENT_TYPES:
+        return arguments
+    return [decode(arguments[0], ARGUMENT_TYPES[method], method)]
+
+
 def changes_after(gesture: dict[str, Any], scene: dict[str, Any]) -> dict[str, Any]:
     """Return the scene changes that an editor would make after a gesture."""
     if gesture["kind"] == "move":
@@ -83,7 +98,8 @@ def changes_after(gesture: dict[str, Any], scene: dict[str, Any]) -> dict[str, A
             removed.setdefault(item["of"], []).append(item["id"])
         return {"remove": removed}
     if gesture["kind"] == "rename":
-        return {"upsert": {gesture["of"]: [{**scene[gesture["of"]][gesture["id"]], "name": gesture["name"]}]}}
+        of, identity = gesture["item"]["of"], gesture["item"]["id"]
+        return {"upsert": {of: [{**scene[of][identity], "name": gesture["name"]}]}}
     return {}
 
 

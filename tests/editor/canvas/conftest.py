@@ -46,8 +46,8 @@ class CanvasDriver:
         """Delete the received gestures; a marker gesture makes sure that no earlier one is still on its way."""
         canvas = "getElement(document.querySelector('.vicode-canvas').id.slice(1))"
         self._request("/clear", b"")
-        self.page.evaluate(f"{canvas}.$emit('gesture', {{kind: 'redo', rev: 0}})")
-        self.wait_for_gesture("redo")
+        self.page.evaluate(f"{canvas}.$emit('gesture', {{kind: 'command', name: 'marker', rev: 0}})")
+        self.wait_for_gesture("command", name="marker")
         self._request("/clear", b"")
 
     def at(self, of: str, identity: str, right: float = 0, down: float = 0) -> Point:

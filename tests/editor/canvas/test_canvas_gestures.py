@@ -50,7 +50,7 @@ def test_escape_puts_a_dragged_state_back(canvas: CanvasDriver) -> None:
     canvas.page.mouse.up()
     assert canvas.position("states/GiveUp") == (80, 330)
     canvas.press("Control+z")
-    assert canvas.wait_for_gesture("undo") == {}
+    canvas.wait_for_gesture("command", name="undo")
     assert not canvas.gestures("move")
 
 
@@ -71,7 +71,7 @@ def test_dragging_from_a_handle_to_the_same_node_adds_a_self_loop(canvas: Canvas
 def test_releasing_next_to_the_source_node_connects_nothing(canvas: CanvasDriver) -> None:
     canvas.drag_handle("states", "GiveUp", canvas.at("states", "GiveUp", 10, 58))
     canvas.press("Control+z")
-    canvas.wait_for_gesture("undo")
+    canvas.wait_for_gesture("command", name="undo")
     assert not canvas.gestures("connect")
 
 
@@ -109,7 +109,10 @@ def test_double_click_renames_a_state_in_place(canvas: CanvasDriver) -> None:
     expect(field).to_have_value("GiveUp")
     field.fill("Resign")
     field.press("Enter")
-    assert canvas.wait_for_gesture("rename") == {"of": "states", "id": "GiveUp", "name": "Resign"}
+    assert canvas.wait_for_gesture("rename") == {
+        "item": {"of": "states", "id": "GiveUp"},
+        "name": "Resign",
+    }
     expect(canvas.group("state", "GiveUp").locator(".name")).to_have_text("Resign")
 
 
@@ -118,7 +121,7 @@ def test_escape_cancels_renaming(canvas: CanvasDriver) -> None:
     canvas.press("F2")
     canvas.page.locator("input.rename").fill("Resign")
     canvas.press("Escape", "Control+z")
-    canvas.wait_for_gesture("undo")
+    canvas.wait_for_gesture("command", name="undo")
     assert not canvas.gestures("rename")
 
 
@@ -126,7 +129,7 @@ def test_double_click_creates_states_and_opens_components(canvas: CanvasDriver) 
     canvas.click(canvas.at("states", "KickLeft", -160, 10), double=True)
     assert set(canvas.wait_for_gesture("create")) == {"x", "y"}
     canvas.click(canvas.at("components", "search_ball"), double=True)
-    assert canvas.wait_for_gesture("open") == {"of": "components", "id": "search_ball"}
+    assert canvas.wait_for_gesture("open") == {"item": {"of": "components", "id": "search_ball"}}
 
 
 def test_delete_reports_the_selection(canvas: CanvasDriver) -> None:

@@ -5,7 +5,10 @@ from typing import Any
 
 import pytest
 
-from vicode.editor.session import DocumentSession, Library, SharedDocument, Workspace
+from vicode.editor.session import DocumentSession, EditResult, Library, SharedDocument, Workspace, apply_edit
+from vicode.editor.session.decoding import MalformedEventError, decode_event
+from vicode.editor.session.gestures import EDIT_GESTURES
+from vicode.editor.session.table_edits import TABLE_EDITS
 from vicode.model.design import Design
 
 
@@ -14,6 +17,24 @@ def open_design(design: Design, **options: Any) -> DocumentSession:
     return DocumentSession(
         SharedDocument(file=Path("player.yaml"), disk_text="", saved=design, check=lambda _design: (), **options)
     )
+
+
+def apply_gesture(document: DocumentSession, payload: dict[str, Any]) -> EditResult:
+    """Decode a gesture of the canvas and apply it."""
+    return _apply_event(document, payload, EDIT_GESTURES)
+
+
+def apply_table_edit(document: DocumentSession, payload: dict[str, Any]) -> EditResult:
+    """Decode an edit of the table and apply it."""
+    return _apply_event(document, payload, TABLE_EDITS)
+
+
+def _apply_event(document: DocumentSession, payload: dict[str, Any], types: Any) -> EditResult:
+    try:
+        edit = decode_event(payload, {event.kind: event for event in types})
+    except MalformedEventError as error:
+        return EditResult(error=str(error))
+    return apply_edit(document, edit)
 
 
 @pytest.fixture

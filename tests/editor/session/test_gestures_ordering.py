@@ -4,7 +4,8 @@ from typing import Any
 
 import pytest
 
-from vicode.editor.session import DocumentSession, EditResult, apply_gesture
+from tests.editor.session.conftest import apply_gesture
+from vicode.editor.session import DocumentSession, EditResult
 from vicode.editor.view import ItemRef
 from vicode.model.design import DecisionGroup, Design, Guard, State, Stay, Transition
 

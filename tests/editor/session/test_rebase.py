@@ -5,6 +5,15 @@ from hypothesis import given
 
 from tests.strategies.designs import designs
 from vicode.editor.session import rebase_gesture, rebase_selection
+from vicode.editor.session.gestures import (
+    ConnectGesture,
+    DeleteGesture,
+    LabelGesture,
+    LinkGesture,
+    MoveGesture,
+    NodePosition,
+    ReconnectGesture,
+)
 from vicode.editor.view import ItemRef, transition_key
 from vicode.model.design import DecisionGroup, Design, Guard, State, Stay, Transition, Use
 from vicode.model.edits import remove_decisions, remove_states, rename_state, rename_use, reorder_decision
@@ -54,16 +63,25 @@ def test_rebase_never_raises(old: Design, new: Design) -> None:
 
 def test_a_late_gesture_applies_to_its_original_item() -> None:
     new = remove_decisions(rename_state(OLD, "A", "Z"), [("states", "Z", "transitions", 0)])
-    items = [{"of": "transitions", "id": "A/2"}, {"of": "transitions", "id": "A/0"}, {"of": "states", "id": "A"}]
-    assert rebase_gesture({"kind": "delete", "items": items}, OLD, new) == {
-        "kind": "delete",
-        "items": [{"of": "transitions", "id": "Z/1"}, {"of": "states", "id": "Z"}],
-    }
-    late = rebase_gesture({"kind": "reconnect", "id": "A/1", "end": "target", "state": "A"}, OLD, new)
-    assert late == {"kind": "reconnect", "id": "Z/0", "end": "target", "state": "Z"}
-    assert rebase_gesture({"kind": "reconnect", "id": "A/0", "end": "target", "state": "B"}, OLD, new) is None
-    assert rebase_gesture({"kind": "connect", "source": "A", "target": None}, OLD, new) == {
-        "kind": "connect",
-        "source": "Z",
-        "target": None,
-    }
+    items = (
+        ItemRef(kind="transitions", id="A/2"),
+        ItemRef(kind="transitions", id="A/0"),
+        ItemRef(kind="states", id="A"),
+    )
+    assert rebase_gesture(DeleteGesture(items=items), OLD, new) == DeleteGesture(
+        items=(ItemRef(kind="transitions", id="Z/1"), ItemRef(kind="states", id="Z"))
+    )
+    late = rebase_gesture(ReconnectGesture(id="A/1", end="target", state="A"), OLD, new)
+    assert late == ReconnectGesture(id="Z/0", end="target", state="Z")
+    assert rebase_gesture(ReconnectGesture(id="A/0", end="target", state="B"), OLD, new) is None
+    assert rebase_gesture(ConnectGesture(source="A"), OLD, new) == ConnectGesture(source="Z")
+    assert rebase_gesture(ConnectGesture(source="@common", target="A"), OLD, new) == ConnectGesture(
+        source="@common", target="Z"
+    )
+    label = LabelGesture(id="A/2", at=(0.5, 7))
+    assert rebase_gesture(label, OLD, new) == LabelGesture(id="Z/1", at=(0.5, 7))
+    move = MoveGesture(items=(NodePosition(kind="states", id="A", x=1, y=2),))
+    assert rebase_gesture(move, OLD, new) == MoveGesture(items=(NodePosition(kind="states", id="Z", x=1, y=2),))
+    link = LinkGesture(kind_of_link="requires", state="A", component="head")
+    renamed = rename_use(rename_state(OLD, "A", "Z"), "head", "neck")
+    assert rebase_gesture(link, OLD, renamed) == LinkGesture(kind_of_link="requires", state="Z", component="neck")

@@ -6,10 +6,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tests.editor.session.conftest import open_design
+from tests.editor.session.conftest import apply_table_edit, open_design
 from tests.strategies.designs import designs
 from vicode.editor.session import DocumentSession, EditResult
-from vicode.editor.session.table_edits import MAX_CELL_LENGTH, apply_table_edit
+from vicode.editor.session.table_edits import MAX_CELL_LENGTH
 from vicode.editor.view import ItemRef, diff_tables, make_table
 from vicode.model.design import COMMON, Call, CommonSection, DecisionGroup, Design, Guard, State, Transition, Use
 from vicode.store import read_design, save_design
@@ -112,8 +112,9 @@ def test_renaming_a_state_keeps_its_position(document: DocumentSession) -> None:
         ("states/A", "requires", "nobody", "this design uses no component 'nobody'"),
         ("transitions/A/0", "name", "C", "no state 'C'"),
         ("transitions/A/1", "name", "B", "only a transition"),
-        ("states/A", "code", "pass", "cannot be changed"),
-        ("states/A", "final", "yes", "cannot be changed"),
+        ("states/A", "when", "x", "cannot be changed"),
+        ("states/A", "code", "pass", "expected one of name, when"),
+        ("states/A", "final", "yes", "expected one of name, when"),
         ("states/A", "doc", "x" * (MAX_CELL_LENGTH + 1), "too long"),
         ("common/@common", "name", "all", "inspector"),
     ],
@@ -188,6 +189,7 @@ def test_arbitrary_payloads_neither_raise_nor_break_a_design(
     kind: str, row: object, column: object, value: object, base: object, by: object
 ) -> None:
     document = open_design(DESIGN)
-    payload = {"kind": kind, "row": row, "column": column, "value": value, "base": base, "by": by}
-    apply_table_edit(document, payload)
+    fields = {"row": row, "column": column, "value": value, "base": base, "by": by}
+    for names in (("row",), ("row", "by"), ("row", "column"), ("row", "column", "value", "base")):
+        apply_table_edit(document, {"kind": kind, **{name: fields[name] for name in names}})
     assert read_design(save_design(document.design, ""), "player.yaml").design is not None

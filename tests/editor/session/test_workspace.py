@@ -5,7 +5,9 @@ from pathlib import Path
 
 import pytest
 
-from vicode.editor.session import DISK_USER, DiskConflictError, DocumentSession, Library, Workspace, apply_gesture
+from vicode.editor.session import DISK_USER, DiskConflictError, DocumentSession, Library, Workspace, apply_edit
+from vicode.editor.session.gestures import RenameGesture
+from vicode.editor.view import ItemRef
 from vicode.model.design import Declaration, Guard, Transition
 from vicode.model.edits import replace_decision
 from vicode.store import read_design, save_design
@@ -40,7 +42,7 @@ def test_an_unedited_save_writes_nothing(workspace: Workspace) -> None:
 def test_an_edit_changes_its_own_lines(workspace: Workspace) -> None:
     document = opened(workspace, "Player")
     before = document.file.read_text().splitlines()
-    apply_gesture(document, {"kind": "rename", "of": "states", "id": "WatchBall", "name": "Rest"})
+    apply_edit(document, RenameGesture(item=ItemRef(kind="states", id="WatchBall"), name="Rest"))
     assert not document.is_saved
     workspace.save(document)
     assert document.is_saved

@@ -9,20 +9,20 @@ from nicegui import json, ui
 from nicegui.events import GenericEventArguments
 
 from vicode.editor.canvas.commands import commands_json
-from vicode.editor.canvas.decoding import MalformedEventError
 from vicode.editor.canvas.protocol import (
-    ElementKind,
-    NodePosition,
     OnGesture,
     OnPointer,
     RemoteUser,
     Scene,
     SceneChanges,
-    SceneItem,
     SelectGesture,
     decode_gesture,
+    item_json,
 )
 from vicode.editor.js_modules import CANVAS_JS
+from vicode.editor.session.decoding import MalformedEventError
+from vicode.editor.session.gestures import NodePosition
+from vicode.editor.view import ItemRef
 
 _KINDS = ("states", "transitions", "components", "links")
 
@@ -31,7 +31,7 @@ class Canvas(ui.element, component=CANVAS_JS / "vicode_canvas.js"):
     """Interactive diagram of a state machine.
 
     Args:
-        on_gesture: called with every gesture (see `vicode.editor.canvas.protocol`); may be a coroutine function.
+        on_gesture: called with every gesture and the revision of its scene; may be a coroutine function.
         on_pointer: called with the pointer position (None: outside the canvas) while other users are shown.
         on_malformed: called with the reason when the browser sent a malformed gesture, which is ignored.
     """
@@ -50,17 +50,17 @@ class Canvas(ui.element, component=CANVAS_JS / "vicode_canvas.js"):
         self._presence: list[RemoteUser] = []
         self._presence_painted = self._presence_pending = True
         self._scene: dict[str, Any] | None = None
-        self._selected: list[SceneItem] = []
+        self._selected: list[ItemRef] = []
         self._acked_seq = 0
         self._links_shown = True
-        self._initial_target: tuple[ElementKind, str] | None = None
+        self._initial_target: tuple[str, str] | None = None
         self._pending_rename = ""
         self._is_mounted = False
         self._embedded_rev: int | None = None
         self._embedded_script = ""
         self.on_ready: Callable[[], None] = lambda: None
         self._active: tuple[list[str], int, list[str]] = ([], -1, [])
-        self._breakpoints: list[SceneItem] = []
+        self._breakpoints: list[dict[str, str]] = []
         self._acknowledged = -1
         self._sent = -1
         # NiceGUI remounts an element when handlers are added after its first rendering.
@@ -90,20 +90,20 @@ class Canvas(ui.element, component=CANVAS_JS / "vicode_canvas.js"):
             self._scene["common"] = changes["common"]
         self._call("apply", dict(changes))
 
-    def select(self, items: Iterable[SceneItem]) -> None:
+    def select(self, items: Iterable[ItemRef]) -> None:
         """Set the selection; no gesture is reported for it."""
-        selected = list(items)
+        selected = [item for item in items if item.kind != "design"]
         if selected == self._selected:
             # The browser may already have a newer selection: do not echo the one that it reported.
             return
         self._selected = selected
-        self._call("select", self._selected, self._acked_seq)
+        self._send_selection()
 
-    def centre(self, of: ElementKind, identity: str) -> None:
+    def centre(self, of: str, identity: str) -> None:
         """Center one element at a readable zoom."""
         self._call("centre", of, identity)
 
-    def scroll_to_initial(self, of: ElementKind, identity: str) -> None:
+    def scroll_to_initial(self, of: str, identity: str) -> None:
         """Center one element when the page is mounted, or only scroll to it if the browser restores an earlier view."""
         self._initial_target = (of, identity)
         self._call("scrollToInitial", of, identity)
@@ -119,26 +119,27 @@ class Canvas(ui.element, component=CANVAS_JS / "vicode_canvas.js"):
 
     def state_renamed(self, old: str, new: str) -> None:
         """Report that another user renamed a state, so that an open rename field stays open."""
-        self._call("stateRenamed", old, new)
+        self._call("rename.stateRenamed", old, new)
 
     def run_command(self, command: str) -> None:
         """Run a canvas command, as if its shortcut had been pressed."""
-        self._call("runCommand", command)
+        self._call("commands.run", command)
 
     def focus(self) -> None:
         self._call("focus")
 
     def write_clipboard(self, text: str | None) -> None:
         """Answer a copy gesture with its text; None if there is nothing to copy."""
-        self._call("writeClipboard", text)
+        self._call("clipboard.resolveCopy", text)
 
-    def show_tooltip(self, of: str, identity: str, sections: Sequence[Mapping[str, str]]) -> None:
+    def show_tooltip(self, item: ItemRef, sections: Sequence[Mapping[str, str]]) -> None:
         """Answer a tooltip gesture with sections of a name and a text; ignored if the tooltip was closed."""
-        self._call("showTooltip", {"of": of, "id": identity, "sections": list(sections)})
+        self._call("tooltip.addSections", {**item_json(item), "sections": list(sections)})
 
     def show_preview(self, positions: Sequence[NodePosition]) -> None:
         """Preview node positions; Enter and Escape are reported. An empty sequence ends the preview."""
-        self._call("showPreview", list(positions), False)
+        items = [{"of": node.kind, "id": node.id, "x": node.x, "y": node.y} for node in positions]
+        self._call("showPreview", items, False)
 
     def end_preview(self) -> None:
         """End a preview whose positions were applied; the view stays."""
@@ -160,8 +161,8 @@ class Canvas(ui.element, component=CANVAS_JS / "vicode_canvas.js"):
         if self._sent == self._acknowledged:
             self._send_active()
 
-    def set_breakpoints(self, items: Iterable[SceneItem]) -> None:
-        self._breakpoints = list(items)
+    def set_breakpoints(self, items: Iterable[ItemRef]) -> None:
+        self._breakpoints = [item_json(item) for item in items]
         self._call("setBreakpoints", self._breakpoints)
 
     def show_presence(self, others: Sequence[RemoteUser]) -> None:
@@ -177,7 +178,7 @@ class Canvas(ui.element, component=CANVAS_JS / "vicode_canvas.js"):
     def _call(self, method: str, *arguments: object) -> None:
         # A call before mounting would be lost; `_handle_ready` sends everything.
         if self._is_mounted:
-            self.run_method(method, *arguments)
+            self.run_method("call", method, *arguments)
 
     def _embed_scene(self) -> None:
         """Embed the scene in the page, so that it is drawn before the page's socket is open.
@@ -205,6 +206,9 @@ class Canvas(ui.element, component=CANVAS_JS / "vicode_canvas.js"):
         assert self._scene is not None
         return {**self._scene, **{kind: list(self._scene[kind].values()) for kind in _KINDS}}
 
+    def _send_selection(self) -> None:
+        self._call("select", [item_json(item) for item in self._selected], self._acked_seq)
+
     def _send_active(self) -> None:
         ids, self._sent, taken = self._active
         self._call("highlightActive", ids, self._sent, taken)
@@ -217,7 +221,7 @@ class Canvas(ui.element, component=CANVAS_JS / "vicode_canvas.js"):
     def _send_presence(self) -> None:
         if self._is_mounted:
             self._presence_painted = self._presence_pending = False
-            self._call("showPresence", self._presence)
+            self._call("presence.show", self._presence)
 
     def _handle_pointer(self, event: GenericEventArguments) -> None:
         position = event.args["at"]
@@ -232,13 +236,13 @@ class Canvas(ui.element, component=CANVAS_JS / "vicode_canvas.js"):
 
     async def _handle_gesture(self, event: GenericEventArguments) -> None:
         try:
-            gesture = decode_gesture(event.args)
+            gesture, rev = decode_gesture(event.args)
         except MalformedEventError as error:
             self._on_malformed(str(error))
             return
         if isinstance(gesture, SelectGesture):
             self._selected, self._acked_seq = list(gesture.items), gesture.client_seq
-        answer = self._on_gesture(gesture)
+        answer = self._on_gesture(gesture, rev)
         if isawaitable(answer):
             await answer
 
@@ -253,7 +257,7 @@ class Canvas(ui.element, component=CANVAS_JS / "vicode_canvas.js"):
             self._call("showLinks", self._links_shown)
         self._acked_seq = 0
         if not is_new or self._selected:
-            self._call("select", self._selected, self._acked_seq)
+            self._send_selection()
         if self._initial_target:
             self._call("scrollToInitial", *self._initial_target)
             self._initial_target = None

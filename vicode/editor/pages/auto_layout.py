@@ -8,7 +8,6 @@ from nicegui.events import ClickEventArguments, Handler
 
 from vicode.diagram.layered_layout import NodeLayout
 from vicode.diagram.layout import LayoutMethod, LayoutService
-from vicode.editor.canvas.protocol import NodePosition
 from vicode.editor.pages import texts
 from vicode.editor.pages.canvas_controller import CanvasController
 from vicode.editor.pages.shortcuts import ESCAPE_ATTRIBUTE
@@ -16,6 +15,7 @@ from vicode.editor.panels.command import Command, MenuGroup
 from vicode.editor.panels.widgets import primary_button
 from vicode.editor.panels.window_context import WindowContext
 from vicode.editor.session import apply_layout
+from vicode.editor.session.gestures import NodePosition
 from vicode.model.design import Design
 
 # Graphviz needs longer for more states than this.
@@ -48,15 +48,7 @@ class AutoLayout:
         self.canvas_controller.on_preview = self.finish_preview
 
     def commands(self) -> tuple[Command, ...]:
-        return (
-            Command(
-                "lay-out",
-                "Auto layout",
-                self.start,
-                MenuGroup.EDIT,
-                icon="auto_awesome_mosaic",
-            ),
-        )
+        return (Command("lay-out", "Auto layout", self.start, MenuGroup.EDIT, icon="auto_awesome_mosaic"),)
 
     def start(self) -> None:
         """Compute a layout for the selected states, or for the whole diagram, and preview it."""
@@ -140,10 +132,10 @@ def _format_count(states: int) -> str:
 def _node_positions(design: Design, layout: NodeLayout, only: Collection[str] | None) -> Iterator[NodePosition]:
     for name, (x, y) in layout.states.items():
         if only is None or name in only:
-            yield {"of": "states", "id": name, "x": x, "y": y}
+            yield NodePosition(kind="states", id=name, x=x, y=y)
     if only is not None:
         return
     for alias, (x, y) in layout.uses.items():
-        yield {"of": "components", "id": alias, "x": x, "y": y}
+        yield NodePosition(kind="components", id=alias, x=x, y=y)
     if design.common.transitions or design.common.actions:
-        yield {"of": "common", "id": "@common", "x": layout.common[0], "y": layout.common[1]}
+        yield NodePosition(kind="common", id="@common", x=layout.common[0], y=layout.common[1])

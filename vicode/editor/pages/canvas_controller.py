@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Mapping
 from functools import partial
-from typing import Any, cast
+from typing import TypeVar
 
 from nicegui import ui
 
@@ -13,20 +13,20 @@ from vicode.editor.canvas.protocol import (
     CopyGesture,
     Gesture,
     OpenGesture,
+    PasteGesture,
     PreviewGesture,
-    SceneItem,
     SelectGesture,
     StateRenamedGesture,
     TooltipGesture,
     UseGesture,
-    gesture_payload,
 )
 from vicode.editor.pages import texts
 from vicode.editor.panels.command import Command, MenuGroup
+from vicode.editor.panels.texts import invalid_event
 from vicode.editor.panels.use_dialog import ask_for_component
 from vicode.editor.panels.window_context import WindowContext
-from vicode.editor.session import apply_gesture, clipboard, rebase_gesture, rebase_selection
-from vicode.editor.session.gestures import parse_point
+from vicode.editor.session import EditResult, apply_edit, clipboard, rebase_gesture, rebase_selection
+from vicode.editor.session.edits import RequestedEdit, canvas_point
 from vicode.editor.view import ItemRef, Scene, tooltip_sections
 from vicode.editor.view.page_urls import design_url
 from vicode.model.design import Point
@@ -44,7 +44,9 @@ _FOCUS_GUARD = """
 
 _MENU_GROUPS = {CommandGroup.VIEW: MenuGroup.VIEW, CommandGroup.NAVIGATE: MenuGroup.VIEW}
 # Commands of the page that the menu and the keys of the canvas trigger.
-_PAGE_COMMAND_NAMES = ("lay-out", "links", "help", "breakpoint", "simulate-here")
+_PAGE_COMMAND_NAMES = ("undo", "redo", "lay-out", "links", "help", "breakpoint", "simulate-here")
+
+_G = TypeVar("_G")
 
 
 class CanvasController:
@@ -68,7 +70,7 @@ class CanvasController:
             Command(
                 command.name,
                 command.label,
-                partial(self.run_command, command.name),
+                partial(self.canvas.run_command, command.name),
                 _MENU_GROUPS.get(command.group, MenuGroup.EDIT),
                 keys=command.keys,
                 on_canvas=True,
@@ -76,9 +78,6 @@ class CanvasController:
             for command in CANVAS_COMMANDS
             if command.name not in names and not command.keys_label
         )
-
-    def run_command(self, command: str) -> None:
-        self.canvas.run_command(command)
 
     def update(self) -> None:
         """Draw the changes of the design, and remove deleted items from the selection."""
@@ -93,16 +92,15 @@ class CanvasController:
         self.context.selected = tuple(item for item in rebased if item is not None and self.exists(item))
 
     def show_selection(self) -> None:
-        items = [{"of": item.kind, "id": item.id} for item in self.context.selected if item.kind != "design"]
-        self.canvas.select(cast("list[SceneItem]", items))
+        self.canvas.select(self.context.selected)
 
     def center_on(self, item: ItemRef) -> None:
         """Scroll an item to the middle of the canvas, if it is drawn."""
         if any(node["id"] == item.id for node in self.scene.get(item.kind, ()) or () if isinstance(node, dict)):
-            self.canvas.centre(cast("Any", item.kind), item.id)
+            self.canvas.centre(item.kind, item.id)
 
     def scroll_to_initial(self, item: ItemRef) -> None:
-        self.canvas.scroll_to_initial(cast("Any", item.kind), item.id)
+        self.canvas.scroll_to_initial(item.kind, item.id)
 
     def _draw(self) -> Scene:
         return self.context.document.shared.scene(self.context.workspace.project)
@@ -115,69 +113,60 @@ class CanvasController:
             item.kind == "transitions" and self.context.document.has_decision(item.id)
         )
 
-    def _on_gesture(self, gesture: Gesture) -> None:
+    def _on_gesture(self, gesture: Gesture, rev: int) -> None:
         match gesture:
             case SelectGesture():
                 # The click may have committed a name that was being typed: the item may have a new name.
-                items = (self._rebase(gesture) or {}).get("items", ())
-                self.context.select(*(ItemRef(kind=item["of"], id=item["id"]) for item in items))
+                rebased = self._rebase(gesture, rev)
+                self.context.select(*(rebased.items if rebased else ()))
             case OpenGesture():
-                self._open(gesture.of, gesture.id)
+                self._open(gesture.item)
             case CommandGesture():
                 self.page_commands.get(gesture.name, lambda: None)()
             case CopyGesture():
                 self.canvas.write_clipboard(clipboard.copy_as_text(self.context.design, gesture.items))
+            case PasteGesture():
+                self._paste(gesture)
             case UseGesture():
                 self._use(gesture)
             case StateRenamedGesture():
-                self.context.show_toast(texts.renamed_while_typing(gesture.name, gesture.id), "info")
+                self.context.show_toast(texts.renamed_while_typing(gesture.old, gesture.new), "info")
             case TooltipGesture():
-                self._show_tooltip(gesture.of, gesture.id)
+                self._show_tooltip(gesture.item)
             case PreviewGesture():
                 self.on_preview(accepted=gesture.accepted)
             case _:
-                self._edit(gesture)
+                self._edit(gesture, rev)
 
     def _on_malformed(self, reason: str) -> None:
-        self.context.show_toast(texts.invalid_gesture(reason), "warning")
+        self.context.show_toast(invalid_event(reason), "warning")
 
-    def _show_tooltip(self, of: str, identity: str) -> None:
-        languages = self.context.workspace.project.languages
-        try:
-            sections = tooltip_sections(self.context.design, ItemRef(kind=of, id=identity), languages)
-        except ValueError:
-            # A key that no page of ours sends.
-            return
-        self.canvas.show_tooltip(of, identity, sections)
+    def _show_tooltip(self, item: ItemRef) -> None:
+        sections = tooltip_sections(self.context.design, item, self.context.workspace.project.languages)
+        self.canvas.show_tooltip(item, sections)
 
-    def _edit(self, gesture: Gesture) -> None:
-        payload = self._rebase(gesture)
-        if payload is None:
-            self.context.show_toast(texts.ITEM_MISSING, "warning")
+    def _edit(self, gesture: RequestedEdit, rev: int) -> None:
+        rebased = self._rebase(gesture, rev)
+        missing = EditResult(error=texts.ITEM_MISSING)
+        self._show_result(apply_edit(self.context.document, rebased) if rebased else missing)
+
+    def _paste(self, gesture: PasteGesture) -> None:
+        known, at = self.context.workspace.project.interfaces(), canvas_point(gesture.x, gesture.y)
+        self._show_result(clipboard.paste(self.context.document, gesture.text, at, known, self.context.selected))
+
+    def _show_result(self, result: EditResult) -> None:
+        if result.error:
+            self.context.show_toast(result.error, "warning")
             self.canvas.load(self.scene)
-            return
-        known, selected = self.context.workspace.project.interfaces(), self.context.selected
-        handlers = {
-            "duplicate": clipboard.duplicate_items,
-            "paste": lambda document, payload: clipboard.paste(document, payload, known, selected),
-        }
-        outcome = apply_gesture(self.context.document, payload, handlers)
-        if outcome.error:
-            self.context.show_toast(outcome.error, "warning")
-            self.canvas.load(self.scene)
-        if outcome.note:
-            self.context.show_toast(outcome.note, "info")
-        if outcome.new_selection is not None:
-            self.context.select(*outcome.new_selection)
-        if outcome.state_to_rename:
-            self.canvas.rename_in_place(outcome.state_to_rename)
+        if result.note:
+            self.context.show_toast(result.note, "info")
+        if result.new_selection is not None:
+            self.context.select(*result.new_selection)
+        if result.state_to_rename:
+            self.canvas.rename_in_place(result.state_to_rename)
 
     def _use(self, gesture: UseGesture) -> None:
-        project = self.context.workspace.project
-        try:
-            at = parse_point({"x": gesture.x, "y": gesture.y})
-        except ValueError:
-            return
+        project, at = self.context.workspace.project, canvas_point(gesture.x, gesture.y)
         usable = [each for name, each in sorted(project.interfaces().items()) if name != self.context.design.component]
         if gesture.address is None:
             ask_for_component(usable, lambda component: self._add_use(component, at))
@@ -204,20 +193,19 @@ class CanvasController:
         self.context.select(ItemRef(kind="components", id=alias))
         self.canvas.focus()
 
-    def _rebase(self, gesture: Gesture) -> Mapping[str, Any] | None:
+    def _rebase(self, gesture: _G, rev: int) -> _G | None:
         """Rebase a gesture on the current design; None if its item no longer exists."""
         document = self.context.document
-        shown = document.shared.design_at(gesture.rev)
-        return rebase_gesture(gesture_payload(gesture), shown, document.design)
+        return rebase_gesture(gesture, document.shared.design_at(rev), document.design)
 
     def _share_pointer(self, at: Point | None) -> None:
         self.context.presence.update(self.context.window, pointer=at)
 
-    def _open(self, of: str, identity: str) -> None:
-        if of in ("transitions", "common"):
-            self.context.select(ItemRef(kind=of, id=identity))
+    def _open(self, item: ItemRef) -> None:
+        if item.kind in ("transitions", "common"):
+            self.context.select(item)
             ui.run_javascript(_FOCUS_GUARD)
             return
-        use = self.context.design.use(identity) if of == "components" else None
+        use = self.context.design.use(item.id) if item.kind == "components" else None
         if use is not None:
             self.context.page.open_component(use.component)

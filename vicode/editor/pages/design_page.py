@@ -89,7 +89,7 @@ class DesignPage:
         self.view.canvas_controller.center_on(item)
 
     def run_canvas_command(self, command: str) -> None:
-        self.view.canvas_controller.run_command(command)
+        self.view.canvas_controller.canvas.run_command(command)
 
     def open_component(self, component: str) -> None:
         self.navigator.open_component(component)

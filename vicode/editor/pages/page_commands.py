@@ -13,8 +13,9 @@ from vicode.editor.panels.command import Command, MenuGroup
 from vicode.editor.panels.conflict_dialog import ask_to_resolve_conflict
 from vicode.editor.panels.texts import SAVED, not_saved
 from vicode.editor.panels.window_context import WindowContext
-from vicode.editor.session import DiskConflictError, DocumentSession, apply_gesture
+from vicode.editor.session import DiskConflictError, DocumentSession, apply_edit
 from vicode.editor.session.descriptions import error_reason
+from vicode.editor.session.gestures import DisableGesture
 
 T = TypeVar("T")
 
@@ -33,14 +34,7 @@ class PageCommands:
             Command("generate", "Generate", self.generate_code, design, icon="bolt"),
             Command("undo", "Undo", self.undo, edit, icon="undo", keys=("Ctrl+Z",)),
             Command("redo", "Redo", self.redo, edit, icon="redo", keys=("Ctrl+Shift+Z", "Ctrl+Y")),
-            Command(
-                "disable",
-                "Disable or enable",
-                self.toggle_disabled,
-                edit,
-                icon="block",
-                keys=("D",),
-            ),
+            Command("disable", "Disable or enable", self.toggle_disabled, edit, icon="block", keys=("D",)),
             Command("links", "Show or hide links to components", self.toggle_links, view, icon="hub"),
             Command("theme", "Theme", self.toggle_theme, view, icon="contrast"),
         )
@@ -74,10 +68,7 @@ class PageCommands:
 
     def toggle_disabled(self) -> None:
         """Disable the selected states and transitions, or enable them if all are disabled."""
-        items = [{"of": item.kind, "id": item.id} for item in self.context.selected]
-        outcome = apply_gesture(self.context.document, {"kind": "disable", "items": items})
-        if outcome.error:
-            self.context.show_toast(outcome.error, "warning")
+        self._show_error(apply_edit(self.context.document, DisableGesture(items=self.context.selected)).error)
 
     def toggle_links(self) -> None:
         self.links_shown = not self.links_shown

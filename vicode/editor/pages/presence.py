@@ -1,11 +1,9 @@
 """Presence of one window: announces it while it is connected, and shows the other users."""
 
-from typing import cast
-
 from nicegui import core, ui
 
 from vicode.editor.canvas import Canvas
-from vicode.editor.canvas.protocol import RemoteUser, SceneItem
+from vicode.editor.canvas.protocol import RemoteUser, item_json
 from vicode.editor.pages.user_identity import store_name
 from vicode.editor.panels.presence_bar import PresenceBar
 from vicode.editor.panels.window_context import WindowContext
@@ -63,11 +61,10 @@ class PresenceSync:
 
 
 def _other_user(presence: Presence) -> RemoteUser:
-    items = [{"of": item.kind, "id": item.id} for item in presence.selected if item.kind != "design"]
     point = presence.pointer
     return {
         "name": presence.user.name,
         "colour": presence.user.colour,
-        "items": cast("list[SceneItem]", items),
+        "items": [item_json(item) for item in presence.selected if item.kind != "design"],
         "pointer": {"x": point[0], "y": point[1]} if point else None,
     }

@@ -60,10 +60,6 @@ def already_used(component: str, alias: str) -> str:
     return f"{component} is already used as {alias}"
 
 
-def invalid_gesture(reason: str) -> str:
-    return f"The page sent an invalid gesture ({reason}). Reload the page."
-
-
 def renamed_while_typing(old: str, new: str) -> str:
     return f"{old} was renamed to {new} by another user; your text will rename it again"
 

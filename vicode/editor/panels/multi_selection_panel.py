@@ -36,7 +36,7 @@ _EDIT = (
 
 
 def multi_selection_panel(context: WindowContext) -> None:
-    counts = Counter(item.kind for item in context.selected)
+    counts: Counter[str] = Counter(item.kind for item in context.selected)
     parts = [f"{counts[kind]} {nouns[counts[kind] > 1]}" for kind, nouns in _NOUNS.items() if counts[kind]]
     panel_title(", ".join(parts) + " selected")
     node_count = sum(counts[kind] for kind in ("states", "components", "common"))

@@ -12,8 +12,9 @@ from vicode.editor.panels.fields import Field, FieldBinding
 from vicode.editor.panels.text_input import TextInput
 from vicode.editor.panels.widgets import primary_button
 from vicode.editor.panels.window_context import WindowContext
-from vicode.editor.session import apply_gesture
+from vicode.editor.session import apply_edit
 from vicode.editor.session.descriptions import error_reason
+from vicode.editor.session.gestures import RenameGesture
 from vicode.editor.session.rename_symbol import (
     RenameEdit,
     SymbolRenamePlan,
@@ -64,7 +65,7 @@ def rename_declaration(context: WindowContext, item: SymbolRef, new: str) -> str
 def rename_node(context: WindowContext, item: ItemRef, new: str) -> str:
     """Rename a state or an alias as on the canvas; return an error message, or "" on success."""
     is_shown = item in context.selected
-    outcome = apply_gesture(context.document, {"kind": "rename", "of": item.kind, "id": item.id, "name": new})
+    outcome = apply_edit(context.document, RenameGesture(item=item, name=new))
     if outcome.new_selection and is_shown:
         context.select(*outcome.new_selection)
     return outcome.error

@@ -197,3 +197,7 @@ def not_recovered(reason: str) -> str:
 
 def discarded(component: str) -> str:
     return f"Discarded the changes to {component}"
+
+
+def invalid_event(reason: str) -> str:
+    return f"The page sent an invalid event ({reason}). Reload the page."

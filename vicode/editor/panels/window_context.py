@@ -21,11 +21,9 @@ class PageServices(Protocol):
     def reveal(self, item: ItemRef) -> None:
         """Scroll the canvas to an item."""
 
-    def run_canvas_command(self, command: str) -> None:
-        """Run a command of the canvas by its name."""
+    def run_canvas_command(self, command: str) -> None: ...
 
-    def open_component(self, component: str) -> None:
-        """Open the design of another component."""
+    def open_component(self, component: str) -> None: ...
 
     def offer_undo(self, text: str, undo: Callable[[], object]) -> None:
         """Show a message about a change of files, with an undo button."""

@@ -1,7 +1,8 @@
 """Open designs: undo history, gestures, saving and code generation, independent of NiceGUI."""
 
 from vicode.editor.session.document import DocumentSession, SharedDocument
-from vicode.editor.session.gestures import EditResult, apply_gesture, apply_layout
+from vicode.editor.session.edits import EditResult, apply_edit
+from vicode.editor.session.gestures import apply_layout
 from vicode.editor.session.history import HistoryEntry, UndoHistory
 from vicode.editor.session.library import Library
 from vicode.editor.session.presence import DISK_USER, Presence, PresenceRoom, User, UserDirectory
@@ -22,7 +23,7 @@ __all__ = [
     "User",
     "UserDirectory",
     "Workspace",
-    "apply_gesture",
+    "apply_edit",
     "apply_layout",
     "rebase_gesture",
     "rebase_selection",

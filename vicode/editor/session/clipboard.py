@@ -4,14 +4,14 @@ The system clipboard holds them as the text of a design file that contains only 
 """
 
 import re
-from collections.abc import Collection, Iterable, Mapping
-from dataclasses import replace
-from typing import Any
+from collections.abc import Collection, Iterable
+from dataclasses import dataclass, replace
+from typing import ClassVar
 
 from vicode.diagram.layered_layout import complete_layout
 from vicode.editor.session import texts
 from vicode.editor.session.document import DocumentSession
-from vicode.editor.session.gestures import EditResult, parse_point
+from vicode.editor.session.edits import EditResult
 from vicode.editor.view import ItemRef, parse_transition_key, transition_key
 from vicode.findings import Severity
 from vicode.model.design import Design, Point
@@ -34,7 +34,39 @@ _PASTE_OFFSET = (40, 90)
 _GRID = 10
 
 
-def copy_as_text(design: Design, items: Iterable[Mapping[str, Any]]) -> str | None:
+@dataclass(frozen=True, slots=True, kw_only=True)
+class DuplicateGesture:
+    """Duplicate states at a small offset, or else transitions."""
+
+    kind: ClassVar = "duplicate"
+    items: tuple[ItemRef, ...]
+
+    def apply(self, document: DocumentSession) -> EditResult:
+        design = document.design
+        wanted = _parse_selection(self.items)
+        part = _with_positions(extract_fragment(design, replace(wanted, common=False, aliases=())), design)
+        if part.states:
+            joined = insert_fragment(design, part, available=(), offset=_free_offset(design, part, _PASTE_OFFSET))
+            document.edit(texts.insert_states("duplicate", joined.states), lambda _design: joined.design)
+            return _select_inserted(joined)
+        paths = sorted((path for path in wanted.decisions if find_decision(design, path)), key=str, reverse=True)
+        if not paths:
+            return EditResult(error=texts.SELECT_TO_DUPLICATE)
+
+        def change(old: Design) -> Design:
+            for path in paths:
+                old = duplicate_decision(old, path)
+            return old
+
+        document.edit(texts.duplicate_transitions(len(paths)), change)
+        if len(paths) > 1:
+            return EditResult()
+        return EditResult(
+            new_selection=(ItemRef(kind="transitions", id=transition_key((*paths[0][:-1], int(paths[0][-1]) + 1))),)
+        )
+
+
+def copy_as_text(design: Design, items: Iterable[ItemRef]) -> str | None:
     """The selected items as text; None if none of them can be copied."""
     part = _with_positions(extract_fragment(design, _parse_selection(items)), design)
     if not part.states and not part.common.transitions:
@@ -46,44 +78,19 @@ def copy_as_text(design: Design, items: Iterable[Mapping[str, Any]]) -> str | No
         return None
 
 
-def duplicate_items(document: DocumentSession, payload: Mapping[str, Any]) -> EditResult:
-    """Duplicate the selected states at an offset, or else the selected transitions."""
-    design = document.design
-    wanted = _parse_selection(payload["items"])
-    part = _with_positions(extract_fragment(design, replace(wanted, common=False, aliases=())), design)
-    if part.states:
-        joined = insert_fragment(design, part, available=(), offset=_free_offset(design, part, _PASTE_OFFSET))
-        document.edit(texts.insert_states("duplicate", joined.states), lambda _design: joined.design)
-        return _select_inserted(joined)
-    paths = sorted((path for path in wanted.decisions if find_decision(design, path)), key=str, reverse=True)
-    if not paths:
-        return EditResult(error=texts.SELECT_TO_DUPLICATE)
-
-    def change(old: Design) -> Design:
-        for path in paths:
-            old = duplicate_decision(old, path)
-        return old
-
-    document.edit(texts.duplicate_transitions(len(paths)), change)
-    if len(paths) > 1:
-        return EditResult()
-    return EditResult(
-        new_selection=(ItemRef(kind="transitions", id=transition_key((*paths[0][:-1], int(paths[0][-1]) + 1))),)
-    )
-
-
 def paste(
-    document: DocumentSession, payload: Mapping[str, Any], known_components: Collection[str], targets: Iterable[ItemRef]
+    document: DocumentSession, text: str, at: Point, known_components: Collection[str], targets: Iterable[ItemRef]
 ) -> EditResult:
     """Insert a text from the clipboard, centered at the pointer.
 
     Args:
         document: The target.
-        payload: The text, and the position of the pointer.
+        text: The text.
+        at: The position of the pointer.
         known_components: The components of the project.
         targets: The selection; transitions copied without their state are added to the selected states.
     """
-    part = _read_part(payload["text"])
+    part = _read_part(text)
     if isinstance(part, str):
         return EditResult(error=part)
     design = document.design
@@ -93,8 +100,7 @@ def paste(
         )
     positioned = _with_positions(part, part)
     middle = _middle([state.at for state in positioned.states if state.at is not None])
-    x, y = parse_point(payload)
-    by = (_to_grid(x - middle[0]), _to_grid(y - middle[1]))
+    by = (_to_grid(at[0] - middle[0]), _to_grid(at[1] - middle[1]))
     joined = insert_fragment(
         design, positioned, available=known_components, offset=_free_offset(design, positioned, by)
     )
@@ -111,9 +117,9 @@ def _paste_decisions(document: DocumentSession, part: Design, known: Collection[
     return replace(_select_inserted(joined), new_selection=None)
 
 
-def _read_part(text: object) -> Design | str:
+def _read_part(text: str) -> Design | str:
     """The design in a text, or the error message."""
-    if not isinstance(text, str) or len(text) > MAX_CHARACTERS or not _SECTION.search(text):
+    if len(text) > MAX_CHARACTERS or not _SECTION.search(text):
         return texts.NOTHING_TO_PASTE
     read = read_design(text if re.search(r"^vicode *:", text, re.MULTILINE) else _HEAD + text, "clipboard")
     errors = [finding for finding in read.findings if finding.severity is Severity.ERROR]
@@ -127,10 +133,10 @@ def _read_part(text: object) -> Design | str:
     return design if design.states or design.common.transitions else texts.NOTHING_TO_PASTE
 
 
-def _parse_selection(items: Iterable[Mapping[str, Any]]) -> FragmentSelection:
+def _parse_selection(items: Iterable[ItemRef]) -> FragmentSelection:
     named: dict[str, list[str]] = {"states": [], "transitions": [], "components": [], "links": [], "common": []}
     for item in items:
-        named[item["of"]].append(str(item["id"]))
+        named.setdefault(item.kind, []).append(item.id)
     return FragmentSelection(
         states=named["states"],
         decisions=[parse_transition_key(key) for key in named["transitions"]],

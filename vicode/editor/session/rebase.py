@@ -1,12 +1,16 @@
 """Rebases selections and gestures onto a newer design in which others renamed, moved or removed items."""
 
-from collections.abc import Mapping
-from typing import Any
+from dataclasses import fields, replace
+from functools import cache
+from typing import Annotated, Any, TypeVar, cast, get_args, get_origin, get_type_hints
 
-from vicode.editor.view import ItemRef, parse_transition_key, transition_key
+from vicode.editor.session.gestures import NodePosition
+from vicode.editor.view import ItemKind, ItemRef, parse_transition_key, transition_key
 from vicode.findings import DesignPath
 from vicode.model.design import COMMON, Decision, DecisionGroup, Design
 from vicode.model.merge import find_renamed_states, find_renamed_uses, match_items
+
+_G = TypeVar("_G")
 
 
 def rebase_selection(item: ItemRef, old: Design, new: Design) -> ItemRef | None:
@@ -31,29 +35,43 @@ def rebase_selection(item: ItemRef, old: Design, new: Design) -> ItemRef | None:
             return item
 
 
-def rebase_gesture(payload: Mapping[str, Any], old: Design, new: Design) -> dict[str, Any] | None:
-    """A gesture made on an older design, adapted to a newer one; None if its item no longer exists."""
-    rebased = dict(payload)
-    kind = {"reconnect": "transitions"}.get(str(payload.get("kind")), str(payload.get("of", "")))
-    if "id" in rebased and kind:
-        found = rebase_selection(ItemRef(kind=kind, id=str(rebased["id"])), old, new)
-        if found is None:
+def rebase_gesture(gesture: _G, old: Design, new: Design) -> _G | None:
+    """A gesture made on an older design, adapted to a newer one; None if its item no longer exists.
+
+    Missing items of a tuple are left out.
+    """
+    changes: dict[str, Any] = {}
+    gesture_type: Any = type(gesture)
+    for name, kind in _item_kinds(gesture_type).items():
+        before = getattr(gesture, name)
+        changes[name] = _rebase_value(before, kind, old, new)
+        if changes[name] is None and before is not None:
             return None
-        rebased["id"] = found.id
-    if isinstance(rebased.get("items"), list):
-        items = (_item(item, old, new) for item in rebased["items"])
-        rebased["items"] = [item for item in items if item is not None]
-    for name in ("source", "target", "state"):
-        if isinstance(rebased.get(name), str) and rebased[name] != COMMON:
-            rebased[name] = _state(rebased[name], old, new)
+    rebased: _G = replace(cast("Any", gesture), **changes)
     return rebased
 
 
-def _item(item: Any, old: Design, new: Design) -> Any:
-    if not isinstance(item, Mapping):
-        return item
-    found = rebase_selection(ItemRef(kind=str(item.get("of")), id=str(item.get("id"))), old, new)
-    return None if found is None else {**item, "id": found.id}
+@cache
+def _item_kinds(gesture_type: type) -> dict[str, ItemKind | None]:
+    """The fields of a gesture, and the kinds of the items whose ids they contain (see `edits.StateName`)."""
+    hints = get_type_hints(gesture_type, include_extras=True)
+    kinds: dict[str, ItemKind | None] = {}
+    for field in fields(gesture_type):
+        annotated = (hints[field.name], *get_args(hints[field.name]))
+        kinds[field.name] = next((hint.__metadata__[0] for hint in annotated if get_origin(hint) is Annotated), None)
+    return kinds
+
+
+def _rebase_value(value: Any, kind: ItemKind | None, old: Design, new: Design) -> Any:
+    if isinstance(value, tuple):
+        return tuple(item for item in (_rebase_value(each, kind, old, new) for each in value) if item is not None)
+    if isinstance(value, ItemRef | NodePosition):
+        found = rebase_selection(ItemRef(kind=value.kind, id=value.id), old, new)
+        return None if found is None else replace(value, id=found.id)
+    if kind is None or value in (None, COMMON):
+        return value
+    found = rebase_selection(ItemRef(kind=kind, id=value), old, new)
+    return None if found is None else found.id
 
 
 def _state(name: str, old: Design, new: Design) -> str:

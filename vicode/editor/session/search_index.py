@@ -9,7 +9,7 @@ from re import Pattern
 from vicode.editor.session.fuzzy_match import Alignment, align, subsequence_pattern
 from vicode.editor.session.library import Library
 from vicode.editor.session.workspace import Workspace
-from vicode.editor.view import ItemRef, transition_key, transition_label
+from vicode.editor.view import ItemKind, ItemRef, transition_key, transition_label
 from vicode.model.design import COMMON, Declaration, Design, Transition
 from vicode.model.traversal import iter_transitions
 
@@ -194,7 +194,7 @@ def _design_items(key: str, design: Design, suffix: str) -> Iterator[SearchItem]
     component = design.component
     location = component + suffix
 
-    def make_target(of: str = "", id_: str = "") -> SearchTarget:
+    def make_target(of: ItemKind | None = None, id_: str = "") -> SearchTarget:
         return SearchTarget(project=key, component=component, selected=ItemRef(kind=of, id=id_) if of else None)
 
     yield SearchItem(SearchKind.COMPONENT, component, design.doc, suffix.removeprefix(" · "), make_target())

@@ -1,15 +1,15 @@
-"""Applies edits in the table: cells, new and removed rows, the order of rows.
+"""Edits in the table: cells, new and removed rows, the order of rows.
 
-The payloads come from a browser and are untrusted.
+`row` is the id of a row (see `vicode.editor.view.table`).
 """
 
-from collections.abc import Callable, Mapping
-from dataclasses import replace
-from typing import Any
+from dataclasses import dataclass, replace
+from typing import ClassVar, Literal
 
 from vicode.editor.session import texts
 from vicode.editor.session.document import DocumentSession
-from vicode.editor.session.gestures import EditResult, apply_gesture
+from vicode.editor.session.edits import EditError, EditResult, RequestedEdit
+from vicode.editor.session.gestures import RenameGesture
 from vicode.editor.view import ItemRef, make_table, parse_row_id, parse_transition_key, transition_key
 from vicode.findings import DesignPath
 from vicode.model.design import COMMON, Call, Decision, Design, State, Transition
@@ -28,72 +28,173 @@ from vicode.model.edits import (
 )
 from vicode.model.traversal import find_decision
 
-Payload = Mapping[str, Any]
 MAX_CELL_LENGTH = 20_000
-_TEXTS = frozenset({"name", "when", "after", "requires", "modulates", "doc"})
+TextColumn = Literal["name", "when", "after", "requires", "modulates", "doc"]
+FlagColumn = Literal["initial", "final", "disabled"]
 
 
-class TableEditError(Exception):
-    """An invalid edit, with a message for the user."""
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SetCell:
+    """Change the text of a cell from `base` to `value`."""
+
+    kind: ClassVar = "set"
+    row: str
+    column: TextColumn
+    value: str
+    base: str
+
+    def apply(self, document: DocumentSession) -> EditResult:
+        item = parse_row_id(self.row)
+        now = _cell(document, item, self.column)
+        if len(self.value) > MAX_CELL_LENGTH:
+            raise EditError(texts.CELL_TOO_LONG)
+        if self.value == now:
+            return EditResult()
+        if now != self.base:
+            raise EditError(texts.cell_changed(now))
+        if item.kind == "states":
+            return _set_in_state(document, item.id, self.column, self.value)
+        if item.kind == "common":
+            raise EditError(texts.CELL_IN_INSPECTOR)
+        return _set_in_decision(document, item.id, self.column, self.value)
 
 
-def apply_table_edit(document: DocumentSession, payload: Payload) -> EditResult:
-    """Apply an edit; a malformed payload changes nothing."""
-    handlers: dict[str, Callable[[DocumentSession, Payload], EditResult]] = {
-        "set": _set,
-        "toggle": _toggle,
-        "add-state": _add_state,
-        "add-transition": _add_transition,
-        "remove": _remove,
-        "move": _move,
-    }
-    handler = handlers.get(str(payload.get("kind")))
-    if handler is None:
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ToggleFlag:
+    """Toggle a flag."""
+
+    kind: ClassVar = "toggle"
+    row: str
+    column: FlagColumn
+
+    def apply(self, document: DocumentSession) -> EditResult:
+        item, label = parse_row_id(self.row), texts.edit_cell(self.column)
+        is_set = _cell(document, item, self.column) == "True"
+        if self.column == "disabled":
+            _set_disabled(document, item, disabled=not is_set)
+        elif self.column == "final":
+            document.edit(
+                label, lambda design: update_state(design, item.id, lambda state: replace(state, final=not is_set))
+            )
+        elif is_set:
+            raise EditError(texts.INITIAL_REQUIRED)
+        else:
+            document.edit(label, lambda design: replace(design, initial=item.id))
         return EditResult()
-    try:
-        return handler(document, payload)
-    except TableEditError as error:
-        return EditResult(error=str(error))
-    except (KeyError, TypeError, ValueError, AttributeError):
-        # Only a malformed payload raises these: from an outdated page or another script.
-        return EditResult(error=texts.INVALID_REQUEST)
 
 
-def _set(document: DocumentSession, payload: Payload) -> EditResult:
-    column, value, base = (str(payload[name]) for name in ("column", "value", "base"))
-    item = parse_row_id(str(payload["row"]))
-    now = _cell(document, item, column)
-    if column not in _TEXTS or len(value) > MAX_CELL_LENGTH:
-        raise TableEditError(texts.CELL_TOO_LONG if column in _TEXTS else texts.CELL_READ_ONLY)
-    if value == now:
+@dataclass(frozen=True, slots=True, kw_only=True)
+class AddState:
+    """Add a state below the state of the row."""
+
+    kind: ClassVar = "add-state"
+    row: str = ""
+
+    def apply(self, document: DocumentSession) -> EditResult:
+        names = [state.name for state in document.design.states]
+        name, above = unique_name("State", set(names)), _source_of_row(self.row)
+        index = names.index(above) + 1 if above in names else len(names)
+        document.edit(
+            texts.add_state(name), lambda design: reorder_state(add_state(design, State(name=name)), name, index)
+        )
+        return EditResult(new_selection=(ItemRef(kind="states", id=name),), state_to_rename=name)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class AddTransition:
+    """Add a transition below the row, or at the end of its state."""
+
+    kind: ClassVar = "add-transition"
+    row: str
+
+    def apply(self, document: DocumentSession) -> EditResult:
+        source, design = _source_of_row(self.row), document.design
+        state = design.state(source)
+        if source != COMMON and state is None:
+            raise EditError(texts.ROW_GONE)
+        target = next((state.name for state in design.states if state.name != source), source)
+        if target == COMMON:
+            raise EditError(texts.NO_STATE_TO_CONNECT)
+        item = parse_row_id(self.row)
+        where = decisions_path(design, source)
+        path = parse_transition_key(item.id) if item.kind == "transitions" else ()
+        index = last = len(state.transitions if state else design.common.transitions)
+        if path[:-1] == where and isinstance(path[-1], int):
+            index = path[-1] + 1
+
+        def change(old: Design) -> Design:
+            return reorder_decision(add_transition(old, source, target), (*where, last), index)
+
+        document.edit(texts.connect(source, target), change)
+        return EditResult(new_selection=(ItemRef(kind="transitions", id=transition_key((*where, index))),))
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RemoveRow:
+    """Remove a state or a decision."""
+
+    kind: ClassVar = "remove"
+    row: str
+
+    def apply(self, document: DocumentSession) -> EditResult:
+        item = parse_row_id(self.row)
+        if item.kind == "states" and document.design.state(item.id):
+            document.edit(texts.remove(item.id), lambda design: remove_states(design, [item.id]))
+        elif item.kind == "transitions" and document.has_decision(item.id):
+            path = parse_transition_key(item.id)
+            document.edit(texts.REMOVE_TRANSITION, lambda design: remove_decisions(design, [path]))
+        else:
+            raise EditError(texts.ROW_NOT_REMOVABLE)
         return EditResult()
-    if now != base:
-        raise TableEditError(texts.cell_changed(now))
-    if item.kind == "states":
-        return _set_in_state(document, item.id, column, value)
-    if item.kind == "common":
-        raise TableEditError(texts.CELL_IN_INSPECTOR)
-    return _set_in_decision(document, item.id, column, value)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class MoveRow:
+    """Move a row up (-1) or down (1) in its list."""
+
+    kind: ClassVar = "move"
+    row: str
+    by: int
+
+    def apply(self, document: DocumentSession) -> EditResult:
+        item, by, design = parse_row_id(self.row), 1 if self.by > 0 else -1, document.design
+        if item.kind == "states" and design.state(item.id):
+            index = [state.name for state in design.states].index(item.id) + by
+            document.edit(texts.REORDER_STATES, lambda old: reorder_state(old, item.id, index))
+            return EditResult(new_selection=(item,))
+        located = find_decision(design, parse_transition_key(item.id)) if item.kind == "transitions" else None
+        if located is None:
+            raise EditError(texts.ROW_NOT_MOVABLE)
+        path: DesignPath = located.path
+        moved = (*path[:-1], int(path[-1]) + by)
+        if find_decision(design, moved) is None:
+            return EditResult()
+        document.edit(texts.REORDER_TRANSITIONS, lambda old: reorder_decision(old, path, int(moved[-1])))
+        return EditResult(new_selection=(ItemRef(kind="transitions", id=transition_key(moved)),))
+
+
+TABLE_EDITS: tuple[type[RequestedEdit], ...] = (SetCell, ToggleFlag, AddState, AddTransition, RemoveRow, MoveRow)
+"""The edits that the table requests."""
 
 
 def _cell(document: DocumentSession, item: ItemRef, column: str) -> str:
     """The current content of a cell.
 
     Raises:
-        TableEditError: There is no such cell.
+        EditError: There is no such cell.
     """
     rows = make_table(document.design, ())["rows"]
     cells = next((row["cells"] for row in rows if parse_row_id(row["id"]) == item), None)
     if cells is None:
-        raise TableEditError(texts.ROW_GONE)
+        raise EditError(texts.ROW_GONE)
     if column not in cells:
-        raise TableEditError(texts.CELL_READ_ONLY)
+        raise EditError(texts.CELL_READ_ONLY)
     return str(cells[column])
 
 
 def _set_in_state(document: DocumentSession, name: str, column: str, value: str) -> EditResult:
     if column == "name":
-        return apply_gesture(document, {"kind": "rename", "of": "states", "id": name, "name": value})
+        return RenameGesture(item=ItemRef(kind="states", id=name), name=value).apply(document)
     if column == "doc":
         document.edit(
             texts.edit_cell(column),
@@ -116,12 +217,12 @@ def _aliases(design: Design, text: str) -> tuple[str, ...]:
     """The aliases in a text, separated by commas or spaces.
 
     Raises:
-        TableEditError: The design does not use one of them.
+        EditError: The design does not use one of them.
     """
     aliases = tuple(dict.fromkeys(text.replace(",", " ").split()))
     for alias in aliases:
         if design.use(alias) is None:
-            raise TableEditError(texts.unknown_alias(alias, [use.alias for use in design.uses]))
+            raise EditError(texts.unknown_alias(alias, [use.alias for use in design.uses]))
     return aliases
 
 
@@ -132,9 +233,9 @@ def _set_in_decision(document: DocumentSession, key: str, column: str, value: st
     changed: Decision
     if column == "name":
         if not isinstance(decision, Transition):
-            raise TableEditError(texts.NO_TARGET)
+            raise EditError(texts.NO_TARGET)
         if document.design.state(value) is None:
-            raise TableEditError(texts.unknown_state(value))
+            raise EditError(texts.unknown_state(value))
         changed = replace(decision, to=value)
     elif column == "doc":
         changed = replace(decision, doc=value)
@@ -146,97 +247,11 @@ def _set_in_decision(document: DocumentSession, key: str, column: str, value: st
     return EditResult()
 
 
-def _toggle(document: DocumentSession, payload: Payload) -> EditResult:
-    item, column = parse_row_id(str(payload["row"])), str(payload["column"])
-    _cell(document, item, column)
-    if column == "disabled":
-        _toggle_disabled(document, item)
-    elif column == "final":
-        document.edit(texts.edit_cell(column), lambda design: update_state(design, item.id, _flip_final))
-    elif column == "initial":
-        if document.design.initial == item.id:
-            raise TableEditError(texts.INITIAL_REQUIRED)
-        document.edit(texts.edit_cell(column), lambda design: replace(design, initial=item.id))
-    return EditResult()
-
-
-def _toggle_disabled(document: DocumentSession, item: ItemRef) -> None:
+def _set_disabled(document: DocumentSession, item: ItemRef, *, disabled: bool) -> None:
     states = [item.id] if item.kind == "states" else []
     paths = [parse_transition_key(item.id)] if item.kind == "transitions" else []
-    flag = _cell(document, item, "disabled") == "False"
-    label = texts.set_disabled(states, len(paths), disabled=flag)
-    document.edit(label, lambda design: set_disabled(design, states, paths, disabled=flag))
-
-
-def _flip_final(state: State) -> State:
-    return replace(state, final=not state.final)
-
-
-def _add_state(document: DocumentSession, payload: Payload) -> EditResult:
-    """Add a state below the state of the row."""
-    name = unique_name("State", {state.name for state in document.design.states})
-    above = _source_of_row(str(payload.get("row") or ""))
-    names = [state.name for state in document.design.states]
-    index = names.index(above) + 1 if above in names else len(names)
-    document.edit(texts.add_state(name), lambda design: reorder_state(add_state(design, State(name=name)), name, index))
-    return EditResult(new_selection=(ItemRef(kind="states", id=name),), state_to_rename=name)
-
-
-def _add_transition(document: DocumentSession, payload: Payload) -> EditResult:
-    """Add a transition below the row, or at the end of its state."""
-    row = str(payload["row"])
-    source, design = _source_of_row(row), document.design
-    if source != COMMON and design.state(source) is None:
-        raise TableEditError(texts.ROW_GONE)
-    target = next((state.name for state in design.states if state.name != source), source)
-    if target == COMMON:
-        raise TableEditError(texts.NO_STATE_TO_CONNECT)
-    item = parse_row_id(row)
-    where = decisions_path(design, source)
-    path = parse_transition_key(item.id) if item.kind == "transitions" else None
-    is_flat = path is not None and path[:-1] == where
-    last = _count(design, source)
-    index = int(path[-1]) + 1 if path is not None and is_flat else last
-
-    def change(old: Design) -> Design:
-        return reorder_decision(add_transition(old, source, target), (*where, last), index)
-
-    document.edit(texts.connect(source, target), change)
-    return EditResult(new_selection=(ItemRef(kind="transitions", id=transition_key((*where, index))),))
-
-
-def _count(design: Design, source: str) -> int:
-    state = design.state(source)
-    return len(state.transitions if state else design.common.transitions)
-
-
-def _remove(document: DocumentSession, payload: Payload) -> EditResult:
-    item = parse_row_id(str(payload["row"]))
-    if item.kind == "states" and document.design.state(item.id):
-        document.edit(texts.remove(item.id), lambda design: remove_states(design, [item.id]))
-    elif item.kind == "transitions" and document.has_decision(item.id):
-        document.edit(texts.REMOVE_TRANSITION, lambda design: remove_decisions(design, [parse_transition_key(item.id)]))
-    else:
-        raise TableEditError(texts.ROW_NOT_REMOVABLE)
-    return EditResult()
-
-
-def _move(document: DocumentSession, payload: Payload) -> EditResult:
-    item, by = parse_row_id(str(payload["row"])), 1 if int(payload["by"]) > 0 else -1
-    design = document.design
-    if item.kind == "states" and design.state(item.id):
-        index = [state.name for state in design.states].index(item.id) + by
-        document.edit(texts.REORDER_STATES, lambda old: reorder_state(old, item.id, index))
-        return EditResult(new_selection=(item,))
-    located = find_decision(design, parse_transition_key(item.id)) if item.kind == "transitions" else None
-    if located is None:
-        raise TableEditError(texts.ROW_NOT_MOVABLE)
-    path: DesignPath = located.path
-    moved = (*path[:-1], int(path[-1]) + by)
-    if find_decision(design, moved) is None:
-        return EditResult()
-    document.edit(texts.REORDER_TRANSITIONS, lambda old: reorder_decision(old, path, int(moved[-1])))
-    return EditResult(new_selection=(ItemRef(kind="transitions", id=transition_key(moved)),))
+    label = texts.set_disabled(states, len(paths), disabled=disabled)
+    document.edit(label, lambda design: set_disabled(design, states, paths, disabled=disabled))
 
 
 def _source_of_row(row: str) -> str:

@@ -7,8 +7,10 @@ from nicegui import ui
 from nicegui.events import GenericEventArguments
 
 from vicode.editor.js_modules import TABLE_JS
-
-Payload = Mapping[str, Any]
+from vicode.editor.session.decoding import MalformedEventError, decode_event
+from vicode.editor.session.edits import RequestedEdit
+from vicode.editor.session.table_edits import SetCell
+from vicode.editor.table.protocol import TABLE_EVENTS, SelectRow
 
 
 class TableGrid(ui.element, component=TABLE_JS / "vicode_table.js"):
@@ -17,18 +19,23 @@ class TableGrid(ui.element, component=TABLE_JS / "vicode_table.js"):
     Args:
         on_edit: called with every edit that the user requests (see `vicode.editor.session.table_edits`).
         on_select: called with the id of the current row.
+        on_malformed: called with the reason when the browser sent a malformed event, which is ignored.
     """
 
-    def __init__(self, on_edit: Callable[[Payload], None], on_select: Callable[[str], None]) -> None:
+    def __init__(
+        self,
+        on_edit: Callable[[RequestedEdit], None],
+        on_select: Callable[[str], None],
+        on_malformed: Callable[[str], None],
+    ) -> None:
         super().__init__()
-        self._on_edit, self._on_select = on_edit, on_select
+        self._on_edit, self._on_select, self._on_malformed = on_edit, on_select, on_malformed
         self._table: dict[str, Any] = {"rows": [], "states": [], "uses": []}
         self._selected: list[str] = []
         self._is_mounted = False
         self._is_focus_pending = False
         # NiceGUI remounts an element when handlers are added after its first rendering.
-        self.on("edit", self._on_edit_event)
-        self.on("select", self._on_select_event)
+        self.on("event", self._on_event)
         self.on("ready", self._on_ready)
 
     def load(self, table: Mapping[str, Any]) -> None:
@@ -52,9 +59,9 @@ class TableGrid(ui.element, component=TABLE_JS / "vicode_table.js"):
     def edit_cell(self, row: str, column: str) -> None:
         self._call("editCell", row, column)
 
-    def show_error(self, payload: Payload, message: str) -> None:
+    def show_error(self, edit: SetCell, message: str) -> None:
         """Show why an edit was refused; the cell is opened again with the typed text."""
-        self._call("showError", dict(payload), message)
+        self._call("showError", {"row": edit.row, "column": edit.column, "value": edit.value}, message)
 
     def focus_grid(self) -> None:
         self._is_focus_pending = not self._is_mounted
@@ -63,15 +70,19 @@ class TableGrid(ui.element, component=TABLE_JS / "vicode_table.js"):
     def _call(self, method: str, *arguments: object) -> None:
         # A call before mounting would be lost; `_on_ready` sends everything.
         if self._is_mounted:
-            self.run_method(method, *arguments)
+            self.run_method("call", method, *arguments)
 
-    def _on_edit_event(self, event: GenericEventArguments) -> None:
-        if isinstance(event.args, dict):
-            self._on_edit(event.args)
-
-    def _on_select_event(self, event: GenericEventArguments) -> None:
-        self._selected = [str(event.args)]
-        self._on_select(str(event.args))
+    def _on_event(self, event: GenericEventArguments) -> None:
+        try:
+            decoded = decode_event(event.args, TABLE_EVENTS)
+        except MalformedEventError as error:
+            self._on_malformed(str(error))
+            return
+        if isinstance(decoded, SelectRow):
+            self._selected = [decoded.row]
+            self._on_select(decoded.row)
+        else:
+            self._on_edit(decoded)
 
     def _on_ready(self) -> None:
         self._is_mounted = True

@@ -1,9 +1,10 @@
 """The URLs of the editor's pages, with the selection and the navigation trail."""
 
 from collections.abc import Collection, Iterable, Sequence
+from typing import cast
 from urllib.parse import quote, urlencode
 
-from vicode.editor.view.selection import ItemRef
+from vicode.editor.view.selection import ItemKind, ItemRef
 
 # Names cannot contain these characters.
 _KIND_SEPARATOR, _TRAIL_SEPARATOR = ":", ","
@@ -43,7 +44,7 @@ def parse_selection(text: str) -> ItemRef | None:
     """The item in a URL, None if the text is invalid; the item need not exist."""
     kind, separator, rest = text.partition(_KIND_SEPARATOR)
     if separator:
-        return ItemRef(kind=kind, id=rest) if kind in _KINDS else None
+        return ItemRef(kind=cast("ItemKind", kind), id=rest) if kind in _KINDS else None
     if not text:
         return None
     if text == "@common":

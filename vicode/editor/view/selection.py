@@ -1,15 +1,18 @@
 """Items: the parts of a design that can be selected, their ids, and the item at a path."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from typing import Literal
 
 from vicode.findings import DesignPath
+
+ItemKind = Literal["states", "transitions", "components", "links", "common", "design"]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ItemRef:
-    """A selectable item; `kind` is states, transitions, components, links, common or design."""
+    """A selectable item."""
 
-    kind: str
+    kind: ItemKind = field(metadata={"json": "of"})
     id: str = ""
 
 

@@ -2,9 +2,9 @@
 
 from collections import defaultdict
 from collections.abc import Iterable
-from typing import Any
+from typing import Any, cast, get_args
 
-from vicode.editor.view.selection import ItemRef, item_at_path, transition_key
+from vicode.editor.view.selection import ItemKind, ItemRef, item_at_path, transition_key
 from vicode.findings import DesignPath, Finding, worst_severity
 from vicode.model.design import COMMON, Code, CommonSection, Decision, DecisionGroup, Design, State, Transition
 from vicode.model.traversal import LocatedDecision, iter_decisions
@@ -61,7 +61,7 @@ def item_row_id(item: ItemRef) -> str:
 
 def parse_row_id(row: str) -> ItemRef:
     kind, _slash, id_ = row.partition("/")
-    return ItemRef(kind=kind, id=id_)
+    return ItemRef(kind=cast("ItemKind", kind) if kind in get_args(ItemKind) else "design", id=id_)
 
 
 def _row(item: ItemRef, kind: str, cells: dict[str, Any], found: dict[ItemRef, list[Finding]]) -> RowData:

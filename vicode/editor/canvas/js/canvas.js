@@ -145,6 +145,10 @@ class Canvas {
     this.#sceneChanged();
   }
 
+  focus() {
+    this.stage.focus({ preventScroll: true });
+  }
+
   renameInPlace(id) {
     this.rename.start(keyOf("states", id));
   }

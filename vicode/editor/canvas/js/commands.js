@@ -55,7 +55,7 @@ function modifyHandlers(canvas) {
   const { selection, scene, gestures } = canvas;
   const single = () => scene.find(selection.single());
   const is = (...kinds) => () => kinds.includes(single()?.of);
-  const open = () => canvas.report("open", { of: single().of, id: single().id });
+  const open = () => canvas.report("open", { item: { of: single().of, id: single().id } });
   const reorder = (by) => canvas.report("reorder", { id: single().id, by });
   const mark = (name) => canvas.report("mark", { mark: name, id: single().id });
   return {
@@ -78,8 +78,8 @@ function editHandlers(canvas) {
   const { selection, scene } = canvas;
   const some = () => selection.keys.size > 0;
   return {
-    undo: { run: () => canvas.report("undo", {}) },
-    redo: { run: () => canvas.report("redo", {}) },
+    undo: { run: () => canvas.report("command", { name: "undo" }) },
+    redo: { run: () => canvas.report("command", { name: "redo" }) },
     cut: { can: some, run: () => canvas.clipboard.copy({ cut: true }) },
     copy: { can: some, run: () => canvas.clipboard.copy() },
     // With a shortcut the browser's paste event carries the text; reading the clipboard would require a permission.

@@ -208,7 +208,7 @@ export class PointerGestures {
     const { canvas } = this;
     const element = hit.key && canvas.scene.find(hit.key);
     if (element?.of === "states") canvas.rename.start(hit.key);
-    else if (element) canvas.report("open", { of: element.of, id: element.id });
+    else if (element) canvas.report("open", { item: { of: element.of, id: element.id } });
     else {
       const { x, y } = this.#where(event).world;
       canvas.report("create", { x: snap(x), y: snap(y) });

@@ -30,7 +30,7 @@ export class InlineRename {
     if (!this.key || this.key !== keyOf("states", old)) return;
     this.key = keyOf("states", name);
     this.isRenamePending = true;
-    this.canvas.report("state-renamed", { of: "states", id: name, name: old });
+    this.canvas.report("state-renamed", { old, new: name });
   }
 
   /** Keeps the field over its node; closes it if the node was removed. */
@@ -72,7 +72,7 @@ export class InlineRename {
     const name = this.input.value.trim();
     this.key = null;
     this.input.hidden = true;
-    if (keep && node && name && name !== nameOf(node)) this.canvas.report("rename", { of: node.of, id: node.id, name });
+    if (keep && node && name && name !== nameOf(node)) this.canvas.report("rename", { item: { of: node.of, id: node.id }, name });
   }
 }
 

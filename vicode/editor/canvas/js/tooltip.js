@@ -55,7 +55,7 @@ export class Tooltip {
     this.#place(element);
     this.described = canvas.root.activeElement?.closest("[data-key]");
     this.described?.setAttribute("aria-describedby", "tooltip");
-    canvas.report("tooltip", { of: element.of, id: element.id });
+    canvas.report("tooltip", { item: { of: element.of, id: element.id } });
   }
 
   #linesOf(element) {

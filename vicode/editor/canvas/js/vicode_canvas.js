@@ -16,56 +16,11 @@ export default {
     this.canvas.dispose();
   },
   methods: {
-    load(view) {
-      this.canvas.load(view);
-    },
-    apply(changes) {
-      this.canvas.apply(changes);
-    },
-    select(items, seq) {
-      this.canvas.select(items, seq);
-    },
-    centre(of, id) {
-      this.canvas.centre(of, id);
-    },
-    scrollToInitial(of, id) {
-      this.canvas.scrollToInitial(of, id);
-    },
-    fit() {
-      this.canvas.fit();
-    },
-    highlightActive(ids, seq, taken) {
-      this.canvas.highlightActive(ids, seq, taken);
-    },
-    setBreakpoints(items) {
-      this.canvas.setBreakpoints(items);
-    },
-    showLinks(flag) {
-      this.canvas.showLinks(flag);
-    },
-    showTooltip(answer) {
-      this.canvas.tooltip.addSections(answer);
-    },
-    showPreview(items, stay) {
-      this.canvas.showPreview(items, stay);
-    },
-    showPresence(others) {
-      this.canvas.presence.show(others);
-    },
-    renameInPlace(id) {
-      this.canvas.renameInPlace(id);
-    },
-    stateRenamed(old, name) {
-      this.canvas.rename.stateRenamed(old, name);
-    },
-    focus() {
-      this.canvas.stage.focus({ preventScroll: true });
-    },
-    runCommand(name) {
-      this.canvas.commands.run(name);
-    },
-    writeClipboard(text) {
-      this.canvas.clipboard.resolveCopy(text);
+    /** Calls a method of the canvas, or of one of its parts: `call("presence.show", others)`. */
+    call(path, ...args) {
+      const [method, part] = path.split(".").reverse();
+      const target = part ? this.canvas[part] : this.canvas;
+      target[method](...args);
     },
   },
 };

@@ -3,12 +3,10 @@
 import asyncio
 import time
 from collections.abc import Callable
-from typing import cast
 
 from nicegui import run
 
 from vicode.editor.canvas import Canvas
-from vicode.editor.canvas.protocol import SceneItem
 from vicode.editor.panels.window_context import WindowContext
 from vicode.editor.session.simulation import (
     Breakpoints,
@@ -275,8 +273,7 @@ class SimulationController:
         self.canvas.highlight_active(active, self._seq, taken)
 
     def _show_breakpoints(self) -> None:
-        items = [{"of": thing.kind, "id": thing.id} for thing in sorted(self.breakpoints.items, key=_order)]
-        self.canvas.set_breakpoints(cast("list[SceneItem]", items))
+        self.canvas.set_breakpoints(sorted(self.breakpoints.items, key=_order))
 
 
 def _order(item: ItemRef) -> tuple[str, str]:

@@ -42,7 +42,7 @@ export class CellEditor {
     field.parentElement?.classList.remove("is-edited");
     field.remove();
     this.errorBox.hidden = true;
-    if (keep && field.value !== base) this.table.emit("edit", { kind: "set", row, column: column.name, value: field.value, base });
+    if (keep && field.value !== base) this.table.report("set", { row, column: column.name, value: field.value, base });
   }
 
   #build(row, column, text) {

@@ -38,24 +38,24 @@ function findHandler(table, event) {
 
 function findAltHandler(table, event, row) {
   const by = { ArrowUp: -1, ArrowDown: 1 }[event.key];
-  return by && (() => table.sendEdit({ kind: "move", row: row.id, by }));
+  return by && (() => table.report("move", { row: row.id, by }));
 }
 
 function findCtrlHandler(table, event, row) {
   const jobs = {
     Home: () => table.go(-MAX_STEPS, -MAX_STEPS),
     End: () => table.go(MAX_STEPS, MAX_STEPS),
-    Enter: () => table.sendEdit({ kind: event.shiftKey ? "add-state" : "add-transition", row: row.id }),
-    Delete: () => table.sendEdit({ kind: "remove", row: row.id }),
-    Backspace: () => table.sendEdit({ kind: "remove", row: row.id }),
+    Enter: () => (event.shiftKey ? table.report("add-state", { row: row.id }) : table.report("add-transition", { row: row.id })),
+    Delete: () => table.report("remove", { row: row.id }),
+    Backspace: () => table.report("remove", { row: row.id }),
   };
   return jobs[event.key];
 }
 
 /** Deletes the row if its first cell is current; otherwise clears the cell. */
 function clearCell(table, row, column) {
-  if (column.name === "name") return table.sendEdit({ kind: "remove", row: row.id });
+  if (column.name === "name") return table.report("remove", { row: row.id });
   const base = row.cells[column.name];
   if (typeof base !== "string" || !base || column.kind === "marks") return;
-  table.sendEdit({ kind: "set", row: row.id, column: column.name, value: "", base });
+  table.report("set", { row: row.id, column: column.name, value: "", base });
 }

@@ -67,7 +67,7 @@ class Table {
 
   /** An edit was refused: opens the cell with the typed text and the reason. */
   showError({ row, column, value }, message) {
-    if (value !== undefined && this.rows.has(row)) this.editCell(row, column, { text: value, error: message });
+    if (this.rows.has(row)) this.editCell(row, column, { text: value, error: message });
   }
 
   focusGrid() {
@@ -106,14 +106,14 @@ class Table {
   editOrToggle(options = {}) {
     const { row, column } = this.current;
     if (!row || !isEditable(row, column)) return;
-    if (column.kind === "flag") this.sendEdit({ kind: "toggle", row: row.id, column: column.name });
+    if (column.kind === "flag") this.report("toggle", { row: row.id, column: column.name });
     else this.editor.open(row, column, options);
   }
 
-  /** Reports an edit to Python. */
-  sendEdit(payload) {
+  /** Reports an event to Python, after a pending selection. */
+  report(kind, fields) {
     this.#reportSelection();
-    this.emit("edit", payload);
+    this.emit("event", { kind, ...fields });
   }
 
   cellAt(id, column) {
@@ -198,7 +198,7 @@ class Table {
     this.reportTimer = null;
     if (!this.rows.has(this.at.row)) return;
     this.#markSelected([this.at.row]);
-    this.emit("select", this.at.row);
+    this.report("select", { row: this.at.row });
   }
 
   #markSelected(ids) {

@@ -11,23 +11,9 @@ export default {
     this.table.dispose();
   },
   methods: {
-    load(table) {
-      this.table.load(table);
-    },
-    apply(changes) {
-      this.table.apply(changes);
-    },
-    select(rows) {
-      this.table.select(rows);
-    },
-    editCell(row, column) {
-      this.table.editCell(row, column);
-    },
-    showError(payload, message) {
-      this.table.showError(payload, message);
-    },
-    focusGrid() {
-      this.table.focusGrid();
+    /** Calls a method of the table. */
+    call(method, ...args) {
+      this.table[method](...args);
     },
   },
 };

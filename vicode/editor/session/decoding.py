@@ -1,6 +1,7 @@
-"""Decodes JSON values from the browser into the types of their declaration."""
+"""Decodes JSON values and events from the browser into the types of their declaration."""
 
 import math
+from collections.abc import Mapping
 from dataclasses import MISSING, fields, is_dataclass
 from functools import cache
 from types import UnionType
@@ -13,8 +14,24 @@ class MalformedEventError(ValueError):
     """An event from the browser does not match its declaration."""
 
 
+def decode_event(payload: object, kinds: Mapping[str, type[_T]]) -> _T:
+    """Decode an event, an object with the field `kind` and the fields of its type.
+
+    Raises:
+        MalformedEventError: The kind is unknown, or the fields do not match its declaration.
+    """
+    if not isinstance(payload, dict):
+        raise MalformedEventError("an event must be an object")
+    kind = payload.get("kind")
+    if not isinstance(kind, str) or kind not in kinds:
+        raise MalformedEventError(f"unknown kind of event: {kind!r:.40}")
+    return decode({name: value for name, value in payload.items() if name != "kind"}, kinds[kind], kind)
+
+
 def decode(value: object, expected: type[_T], name: str) -> _T:
     """Decode a value; `expected` is a dataclass, a TypedDict, a tuple, a union, a literal or a JSON type.
+
+    A field of a dataclass may have another name in JSON: `metadata={"json": name}`.
 
     Args:
         value: the JSON value.
@@ -45,9 +62,11 @@ def _decode(value: Any, expected: Any, name: str) -> Any:
 
 
 def _decode_dataclass(value: Any, expected: Any, name: str) -> Any:
-    required = {field.name for field in fields(expected) if field.default is MISSING}
-    hints = {field.name: _type_hints(expected)[field.name] for field in fields(expected)}
-    return expected(**_decode_fields(value, hints, required, name))
+    declared = {field.metadata.get("json", field.name): field for field in fields(expected)}
+    required = {key for key, field in declared.items() if field.default is MISSING}
+    hints = {key: _type_hints(expected)[field.name] for key, field in declared.items()}
+    decoded = _decode_fields(value, hints, required, name)
+    return expected(**{declared[key].name: item for key, item in decoded.items()})
 
 
 def _decode_fields(value: Any, hints: dict[str, Any], required: set[str], name: str) -> dict[str, Any]:
