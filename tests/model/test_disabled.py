@@ -6,7 +6,8 @@ from hypothesis import given
 
 from tests.strategies.designs import designs
 from vicode.model.design import CommonSection, DecisionGroup, Design, Guard, State, Stay, Transition
-from vicode.model.disabled import set_disabled, strip_disabled
+from vicode.model.disabled import strip_disabled
+from vicode.model.edits import set_disabled
 from vicode.model.traversal import iter_decisions
 
 DESIGN = Design(

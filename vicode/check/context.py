@@ -5,11 +5,11 @@ from dataclasses import dataclass, replace
 
 from vicode.check.graphs import ComponentGraphs, StepSite, build_graphs, iter_steps
 from vicode.check.identifiers_in_text import find_identifiers
-from vicode.check.typed_expressions import TypedExpression, build_expression_parser, parse_expressions
+from vicode.check.typed_expressions import TypedExpression, parse_expressions
 from vicode.findings import DesignPath, Finding, FindingSubject, Note, Span, get_rule
 from vicode.model.design import Design
 from vicode.model.disabled import disabled_states
-from vicode.model.expressions import Scope
+from vicode.model.expressions import Scope, build_scope
 from vicode.model.project import Project
 from vicode.model.traversal import LocatedAction, LocatedCode, LocatedDecision, iter_actions, iter_code, iter_decisions
 
@@ -60,17 +60,17 @@ def build_context(project: Project, design: Design) -> RuleContext:
 
 
 def build_context_with_graphs(project: Project, design: Design, graphs: ComponentGraphs) -> RuleContext:
-    parser = build_expression_parser(project, design)
+    scope = build_scope(project, design)
     decisions, actions, codes = tuple(iter_decisions(design)), tuple(iter_actions(design)), tuple(iter_code(design))
     return RuleContext(
         project=project,
         design=design,
-        scope=parser.scope,
+        scope=scope,
         graphs=graphs,
         decisions=decisions,
         actions=actions,
         code_blocks=codes,
-        expressions=tuple(parse_expressions(design, parser, decisions, actions)),
+        expressions=tuple(parse_expressions(design, scope, decisions, actions)),
         steps=tuple(iter_steps(design)),
         disabled_states=disabled_states(design),
         code_identifiers=find_identifiers("\n".join(text for placed in codes for _language, text in placed.code.texts)),

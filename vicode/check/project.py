@@ -17,10 +17,7 @@ from vicode.check.identifiers import (
     with_article,
 )
 from vicode.check.typed_expressions import (
-    ExpressionParser,
     TypedExpression,
-    build_expression_parser,
-    build_uncached_parser,
     literal_value,
     parse_initial_values,
 )
@@ -169,11 +166,11 @@ def find_bad_frequencies(project: Project) -> Iterator[Finding]:
 
 def find_bad_declarations(project: Project) -> Iterator[Finding]:
     """P205, P206, D427, E3: types, ranges and initial values of declarations in the project file."""
-    for declaration, path, parser in _declarations(project):
-        for code, here, message, fix in validate_declaration(declaration, path, parser.scope):
+    for declaration, path, scope in _declarations(project):
+        for code, here, message, fix in validate_declaration(declaration, path, scope):
             yield _make_finding(code, here, message, fix)
-        for expression in parse_initial_values(declaration, path, parser):
-            yield from _find_bad_initial_value(expression, parser.scope)
+        for expression in parse_initial_values(declaration, path, scope):
+            yield from _find_bad_initial_value(expression, scope)
 
 
 def _find_bad_initial_value(expression: TypedExpression, scope: Scope) -> Iterator[Finding]:
@@ -194,16 +191,16 @@ def _find_bad_initial_value(expression: TypedExpression, scope: Scope) -> Iterat
         )
 
 
-def _declarations(project: Project) -> Iterator[tuple[Declaration, DesignPath, ExpressionParser]]:
-    """Yield each declaration with its parser. A constant can use only the constants before it."""
+def _declarations(project: Project) -> Iterator[tuple[Declaration, DesignPath, Scope]]:
+    """Yield each declaration with its scope. A constant can use only the constants before it."""
     for index, constant in enumerate(project.constants):
         preceding = replace(project, constants=project.constants[:index])
-        yield constant, ("constants", constant.name), build_uncached_parser(build_scope(preceding, None))
-    parser = build_expression_parser(project, None)
+        yield constant, ("constants", constant.name), build_scope(preceding, None)
+    scope = build_scope(project, None)
     for interface in project.components:
         for section in ("parameters", "outputs", "variables"):
             for declaration in getattr(interface, section):
-                yield declaration, ("components", interface.component, section, declaration.name), parser
+                yield declaration, ("components", interface.component, section, declaration.name), scope
 
 
 def _make_finding(

@@ -1,13 +1,13 @@
 """The expressions of a design or project file, parsed with their expected types."""
 
-from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass, replace
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
 from enum import StrEnum
 from functools import lru_cache
 
 from vicode.check.identifiers_in_text import find_identifiers
 from vicode.findings import DesignPath
-from vicode.model.design import Assign, Call, Declaration, Design, Use
+from vicode.model.design import Assign, Call, Declaration, Design
 from vicode.model.expressions import (
     BOOL,
     FLOAT,
@@ -19,11 +19,10 @@ from vicode.model.expressions import (
     OutputRef,
     Scope,
     Variable,
-    build_scope,
     parse_expression,
     walk,
 )
-from vicode.model.project import Interface, Project
+from vicode.model.project import Interface
 from vicode.model.traversal import LocatedAction, LocatedDecision
 
 
@@ -67,53 +66,7 @@ class ExpressionAnalysis:
     aliases: frozenset[str]
 
 
-ParseFunction = Callable[[str, str | None], ExpressionAnalysis]
-"""Parses a text with an expected type."""
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class ExpressionParser:
-    """A scope and a parse function that may cache its results."""
-
-    scope: Scope
-    parse: ParseFunction
-
-
-def build_expression_parser(project: Project, design: Design | None) -> ExpressionParser:
-    """Return a parser for expressions of a design, or of the project file if `design` is None."""
-    if design is None:
-        return _build_cached_parser(
-            replace(_EMPTY_PROJECT, constants=project.constants, enumerations=project.enumerations), None
-        )
-    interfaces = (project.interface(use.component) for use in design.uses)
-    used = tuple(dict.fromkeys(interface for interface in interfaces if interface is not None))
-    vocabulary = replace(
-        _EMPTY_PROJECT, constants=project.constants, enumerations=project.enumerations, components=used
-    )
-    names = Design(
-        component="",
-        uses=tuple(Use(alias=use.alias, component=use.component) for use in design.uses),
-        parameters=design.parameters,
-        outputs=design.outputs,
-        variables=design.variables,
-    )
-    return _build_cached_parser(vocabulary, names)
-
-
-_EMPTY_PROJECT = Project(name="")
-
-
-# The editor checks after every edit, but the names of a design rarely change.
-@lru_cache(maxsize=64)
-def _build_cached_parser(vocabulary: Project, names: Design | None) -> ExpressionParser:
-    parser = build_uncached_parser(build_scope(vocabulary, names))
-    return replace(parser, parse=lru_cache(maxsize=20_000)(parser.parse))
-
-
-def build_uncached_parser(scope: Scope) -> ExpressionParser:
-    return ExpressionParser(scope=scope, parse=lambda text, expected: analyze_expression(text, scope, expected))
-
-
+@lru_cache(maxsize=1 << 16)
 def analyze_expression(text: str, scope: Scope, expected: str | None) -> ExpressionAnalysis:
     """Parse a text and collect the names that it reads."""
     parsed = parse_expression(text, scope, expected)
@@ -127,30 +80,28 @@ def analyze_expression(text: str, scope: Scope, expected: str | None) -> Express
 
 
 def parse_expressions(
-    design: Design, parser: ExpressionParser, decisions: Iterable[LocatedDecision], actions: Iterable[LocatedAction]
+    design: Design, scope: Scope, decisions: Iterable[LocatedDecision], actions: Iterable[LocatedAction]
 ) -> Iterator[TypedExpression]:
     """Yield the expressions of a design, in file order."""
     for section, declaration in design.declarations():
-        yield from parse_initial_values(declaration, (section, declaration.name), parser)
+        yield from parse_initial_values(declaration, (section, declaration.name), scope)
     for located in decisions:
         guard = located.decision.guard
         if guard.when:
-            yield _parse(ExpressionSite.GUARD, (*located.path, "when"), guard.when, parser, expected=BOOL)
+            yield _parse(ExpressionSite.GUARD, (*located.path, "when"), guard.when, scope, expected=BOOL)
         if guard.after:
-            yield _parse(ExpressionSite.AFTER, (*located.path, "after"), guard.after, parser, expected=FLOAT)
+            yield _parse(ExpressionSite.AFTER, (*located.path, "after"), guard.after, scope, expected=FLOAT)
     for placed in actions:
-        yield from _parse_action(placed, parser)
+        yield from _parse_action(placed, scope)
 
 
-def parse_initial_values(
-    declaration: Declaration, path: DesignPath, parser: ExpressionParser
-) -> Iterator[TypedExpression]:
+def parse_initial_values(declaration: Declaration, path: DesignPath, scope: Scope) -> Iterator[TypedExpression]:
     """Yield the initial value of a declaration and the defaults of its arguments."""
     if declaration.initial:
         key = {"parameters": "default", "constants": "value", "arguments": "default"}.get(str(path[-2]), "initial")
-        yield _parse(ExpressionSite.INITIAL_VALUE, (*path, key), declaration.initial, parser, receiver=declaration)
+        yield _parse(ExpressionSite.INITIAL_VALUE, (*path, key), declaration.initial, scope, receiver=declaration)
     for argument in declaration.arguments or ():
-        yield from parse_initial_values(argument, (*path, "arguments", argument.name), parser)
+        yield from parse_initial_values(argument, (*path, "arguments", argument.name), scope)
 
 
 def literal_value(tree: Expr | None, scope: Scope) -> float | None:
@@ -174,32 +125,30 @@ def _parse_number(text: str) -> float | None:
         return None
 
 
-def _parse_action(placed: LocatedAction, parser: ExpressionParser) -> Iterator[TypedExpression]:
+def _parse_action(placed: LocatedAction, scope: Scope) -> Iterator[TypedExpression]:
     match placed.action:
         case Assign(values=values):
             for name, text in values:
                 path = (*placed.path, "set", name)
-                yield _parse(
-                    ExpressionSite.ASSIGNED_VALUE, path, text, parser, receiver=parser.scope.find_assignable(name)
-                )
+                yield _parse(ExpressionSite.ASSIGNED_VALUE, path, text, scope, receiver=scope.find_assignable(name))
         case Call(alias=alias, arguments=arguments):
-            interface: Interface | None = parser.scope.uses.get(alias)
+            interface: Interface | None = scope.uses.get(alias)
             middle = () if placed.phase == "modulates" else ("with",)
             for name, text in arguments:
                 parameter = interface.parameter(name) if interface else None
-                yield _parse(ExpressionSite.ARGUMENT, (*placed.path, *middle, name), text, parser, receiver=parameter)
+                yield _parse(ExpressionSite.ARGUMENT, (*placed.path, *middle, name), text, scope, receiver=parameter)
 
 
 def _parse(
     site: ExpressionSite,
     path: DesignPath,
     text: str,
-    parser: ExpressionParser,
+    scope: Scope,
     *,
     expected: str | None = None,
     receiver: Declaration | None = None,
 ) -> TypedExpression:
     if receiver is not None:
-        expected = parser.scope.type_of(receiver)
-    parsed = parser.parse(text, expected)
+        expected = scope.type_of(receiver)
+    parsed = analyze_expression(text, scope, expected)
     return TypedExpression(site=site, path=path, text=text, analysis=parsed, receiver=receiver)

@@ -3,10 +3,8 @@
 from collections.abc import Collection, Iterable
 from dataclasses import replace
 
-from vicode.findings import DesignPath
 from vicode.model.design import Decision, DecisionGroup, Design, Transition
-from vicode.model.edits import replace_decision
-from vicode.model.traversal import LocatedDecision, find_decision
+from vicode.model.traversal import LocatedDecision
 
 
 def disabled_states(design: Design) -> frozenset[str]:
@@ -54,19 +52,6 @@ def is_enabled(located: LocatedDecision, disabled: Collection[str]) -> bool:
         and located.source not in disabled
         and strip_disabled_decision(located.decision, disabled) is not None
     )
-
-
-def set_disabled(design: Design, states: Collection[str], paths: Collection[DesignPath], *, disabled: bool) -> Design:
-    """Disable states and decisions (`disabled`), or enable them again."""
-    updated_states = tuple(
-        replace(state, disabled=disabled) if state.name in states else state for state in design.states
-    )
-    changed = replace(design, states=updated_states)
-    for path in paths:
-        located = find_decision(changed, path)
-        if located is not None:
-            changed = replace_decision(changed, path, replace(located.decision, disabled=disabled))
-    return changed
 
 
 def _strip_disabled_items(items: Iterable[Decision], disabled: Collection[str]) -> tuple[Decision, ...]:

@@ -20,7 +20,7 @@ from vicode.model.design import (
 )
 from vicode.model.names import snake_case
 from vicode.model.rename import rename_alias
-from vicode.model.traversal import has_code, iter_decisions
+from vicode.model.traversal import find_decision, has_code, iter_decisions
 
 
 def unique_name(wanted: str, taken: Collection[str]) -> str:
@@ -184,6 +184,19 @@ def _update_nested(
         return replace(item, otherwise=_update_nested(item.otherwise, rest, change))
 
     return tuple(inside(item) if at == index else item for at, item in enumerate(items))
+
+
+def set_disabled(design: Design, states: Collection[str], paths: Collection[DesignPath], *, disabled: bool) -> Design:
+    """Disable states and decisions (`disabled`), or enable them again."""
+    updated_states = tuple(
+        replace(state, disabled=disabled) if state.name in states else state for state in design.states
+    )
+    changed = replace(design, states=updated_states)
+    for path in paths:
+        located = find_decision(changed, path)
+        if located is not None:
+            changed = replace_decision(changed, path, replace(located.decision, disabled=disabled))
+    return changed
 
 
 def update_actions(

@@ -5,6 +5,7 @@ at once raises "SystemError: AST constructor recursion depth mismatch".
 """
 
 import ast
+import re
 import warnings
 from collections.abc import Callable
 from functools import wraps
@@ -13,6 +14,8 @@ from typing import Any
 
 # Reentrant: finalizers run by the garbage collector may also parse.
 _PARSER_LOCK = RLock()
+# The tokenizer warns about unknown escapes and about numbers that touch a word, such as `1if`.
+_MAY_WARN = re.compile(r"\\|[\d.][A-Za-z_]")
 
 
 def parse_module(source: str) -> ast.Module:
@@ -28,6 +31,9 @@ def parse_module(source: str) -> ast.Module:
 
 def parse_single_expression(source: str) -> ast.expr:
     """Parse one expression. Raises the same exceptions as `parse_module`."""
+    if not _MAY_WARN.search(source):
+        with _PARSER_LOCK:
+            return ast.parse(source, mode="eval").body
     with _PARSER_LOCK, warnings.catch_warnings():
         warnings.simplefilter("ignore")
         return ast.parse(source, mode="eval").body

@@ -11,8 +11,7 @@ from vicode.editor.view import (
 )
 from vicode.findings import Finding, FindingSubject, get_rule
 from vicode.model.design import Code, CommonSection, DecisionGroup, Design, Guard, RunCode, State, Stay, Transition, Use
-from vicode.model.disabled import set_disabled
-from vicode.model.edits import move_nodes, rename_state
+from vicode.model.edits import move_nodes, rename_state, set_disabled
 from vicode.model.project import Project
 
 DESIGN = Design(

@@ -21,7 +21,6 @@ from vicode.editor.session.edits import (
 from vicode.editor.session.transition_gestures import ConnectGesture, LabelGesture, ReconnectGesture, ReorderGesture
 from vicode.editor.view import ItemKind, ItemRef, parse_transition_key
 from vicode.model.design import Design, Point
-from vicode.model.disabled import set_disabled
 from vicode.model.edits import (
     add_modulation,
     add_requirement,
@@ -32,6 +31,7 @@ from vicode.model.edits import (
     remove_uses,
     rename_state,
     rename_use,
+    set_disabled,
     update_state,
 )
 from vicode.model.names import is_valid_name, is_valid_state_name

@@ -13,7 +13,6 @@ from vicode.editor.session.gestures import RenameGesture
 from vicode.editor.view import ItemRef, make_table, parse_row_id, parse_transition_key, transition_key
 from vicode.findings import DesignPath
 from vicode.model.design import COMMON, Call, Decision, Design, State, Transition
-from vicode.model.disabled import set_disabled
 from vicode.model.edits import (
     add_state,
     add_transition,
@@ -23,6 +22,7 @@ from vicode.model.edits import (
     reorder_decision,
     reorder_state,
     replace_decision,
+    set_disabled,
     unique_name,
     update_state,
 )

@@ -24,6 +24,7 @@ from vicode.model.expressions import (
     Scope,
     Ternary,
     parse_expression,
+    walk,
 )
 from vicode.model.expressions.functions import NUMBER
 
@@ -44,7 +45,8 @@ def typed_tree(text: str, scope: Scope, expected: str) -> Expr:
     if parsed.tree is None or parsed.diagnostics:
         reason = parsed.diagnostics[0].message if parsed.diagnostics else "no tree"
         raise UnsoundDesignError(f"{text!r}: {reason}")
-    return as_type(_with_conversions(parsed.tree, scope), expected)
+    has_conversions = any(isinstance(node, Ternary | FunctionCall | OutputRef) for node in walk(parsed.tree))
+    return as_type(_with_conversions(parsed.tree, scope) if has_conversions else parsed.tree, expected)
 
 
 def as_type(node: Expr, expected: str) -> Expr:

@@ -35,6 +35,7 @@ class ParsedExpression:
     diagnostics: tuple[ExpressionDiagnostic, ...] = ()
 
 
+@lru_cache(maxsize=1 << 16)
 def parse_expression(text: str, scope: Scope, expected: str | None = None) -> ParsedExpression:
     """Parse a text against a scope.
 

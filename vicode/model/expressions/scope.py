@@ -4,10 +4,11 @@ import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from enum import StrEnum
+from functools import lru_cache
 
 from vicode.model.design import Declaration, Design
 from vicode.model.expressions.tree import BOOL, FLOAT, INT, UNKNOWN
-from vicode.model.project import Interface, Project
+from vicode.model.project import Enumeration, Interface, Project
 
 
 class ScopeSymbolKind(StrEnum):
@@ -28,9 +29,12 @@ class ScopeSymbol:
     declaration: Declaration
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, eq=False, slots=True, kw_only=True)
 class Scope:
-    """The readable names: symbols, used components by alias (None: unknown component), and enumerations."""
+    """The readable names: symbols, used components by alias (None: unknown component), and enumerations.
+
+    Scopes are compared by identity, so that they are keys of caches.
+    """
 
     symbols: Mapping[str, ScopeSymbol] = field(default_factory=dict)
     uses: Mapping[str, Interface | None] = field(default_factory=dict)
@@ -51,23 +55,33 @@ class Scope:
 
 
 def build_scope(project: Project, design: Design | None) -> Scope:
-    """Build the scope of a design. Without a design it contains only constants and enumerations."""
-    enumerations = {enumeration.name: enumeration.element_names for enumeration in project.enumerations}
-    symbols: dict[str, ScopeSymbol] = {}
-
-    def add(kind: ScopeSymbolKind, declarations: tuple[Declaration, ...]) -> None:
-        for declaration in declarations:
-            type_ = infer_declaration_type(declaration, enumerations)
-            symbols[declaration.name] = ScopeSymbol(kind=kind, type=type_, declaration=declaration)
-
-    add(ScopeSymbolKind.CONSTANT, project.constants)
+    """Return the scope of a design. Without a design it contains only constants and enumerations."""
     if design is None:
-        return Scope(symbols=symbols, enumerations=enumerations)
-    add(ScopeSymbolKind.VARIABLE, design.variables)
-    add(ScopeSymbolKind.OUTPUT, design.outputs)
-    add(ScopeSymbolKind.PARAMETER, design.parameters)
-    uses = {use.alias: project.interface(use.component) for use in design.uses}
-    return Scope(symbols=symbols, uses=uses, enumerations=enumerations)
+        return _build_scope(project.enumerations, project.constants)
+    uses = tuple((use.alias, project.interface(use.component)) for use in design.uses)
+    return _build_scope(
+        project.enumerations, project.constants, uses, design.variables, design.outputs, design.parameters
+    )
+
+
+# The names of a design rarely change, and one scope lets check and generators share parsed expressions.
+@lru_cache(maxsize=512)
+def _build_scope(
+    enumerations: tuple[Enumeration, ...],
+    constants: tuple[Declaration, ...],
+    uses: tuple[tuple[str, Interface | None], ...] = (),
+    *own: tuple[Declaration, ...],
+) -> Scope:
+    elements = {enumeration.name: enumeration.element_names for enumeration in enumerations}
+    kinds = (ScopeSymbolKind.CONSTANT, ScopeSymbolKind.VARIABLE, ScopeSymbolKind.OUTPUT, ScopeSymbolKind.PARAMETER)
+    symbols = {
+        declaration.name: ScopeSymbol(
+            kind=kind, type=infer_declaration_type(declaration, elements), declaration=declaration
+        )
+        for kind, declarations in zip(kinds, (constants, *own), strict=False)
+        for declaration in declarations
+    }
+    return Scope(symbols=symbols, uses=dict(uses), enumerations=elements)
 
 
 _LITERAL_TYPES = (
