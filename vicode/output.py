@@ -1,7 +1,6 @@
 """Output files: compares them with a folder and writes them atomically."""
 
 import os
-import secrets
 import shutil
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
@@ -106,7 +105,7 @@ def write_atomically(path: Path, content: str | bytes, *, is_durable: bool = Tru
         OSError: The file cannot be written; the error names `path`, which is unchanged.
     """
     target = path.resolve()
-    temporary = target.with_name(f".{target.name}.{secrets.token_hex(4)}.tmp")
+    temporary = target.with_name(f".{target.name}.{os.urandom(4).hex()}.tmp")
     try:
         _write_new(temporary, content.encode("utf-8") if isinstance(content, str) else content, is_durable=is_durable)
         if target.exists():

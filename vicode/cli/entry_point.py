@@ -5,30 +5,22 @@ import gc
 import os
 import sys
 from collections.abc import Sequence
+from importlib import import_module
 
 from vicode import __version__
-from vicode.cli import check, docs, edit, export, gen, import_command, run, schema, xabsl
 from vicode.cli.console import describe_os_error
 
-COMMANDS = {
-    "edit": edit,
-    "gen": gen,
-    "check": check,
-    "docs": docs,
-    "run": run,
-    "export": export,
-    "import": import_command,
-    "schema": schema,
-    "xabsl": xabsl,
-}
-_BATCH_RUNS = (gen.run, check.run)
+COMMANDS = ("edit", "gen", "check", "docs", "run", "export", "import", "schema", "xabsl")
+_BATCH_COMMANDS = ("gen", "check")
 EXIT_OK, EXIT_FINDINGS, EXIT_FAILED, EXIT_INTERRUPTED = 0, 1, 2, 130
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run one command and return its exit code."""
-    parsed = _make_parser().parse_args(arguments)
-    if arguments is None and parsed.run in _BATCH_RUNS:
+    words = sys.argv[1:] if arguments is None else arguments
+    # A command is parsed without the modules of the others, which are slow to import.
+    parsed = _make_parser(words[:1] if words and words[0] in COMMANDS else COMMANDS).parse_args(words)
+    if arguments is None and words[0] in _BATCH_COMMANDS:
         # The process ends after one pass over the designs; collections would only scan the live trees repeatedly.
         gc.disable()
     try:
@@ -48,7 +40,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     return code
 
 
-def _make_parser() -> argparse.ArgumentParser:
+def _make_parser(names: Sequence[str]) -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         prog="vicode",
         description="Edit, check, and run state machines for robots, and generate code from them.",
@@ -56,7 +48,8 @@ def _make_parser() -> argparse.ArgumentParser:
     )
     parser.add_argument("--version", action="version", version=f"vicode {__version__}")
     commands = parser.add_subparsers(title="commands", metavar="COMMAND", required=True)
-    for name, module in COMMANDS.items():
+    for name in names:
+        module = import_module("vicode.cli." + {"import": "import_command"}.get(name, name))
         summary = (module.__doc__ or "").strip().split("\n")[0]
         command = commands.add_parser(name, help=summary, description=summary)
         module.add_arguments(command)
