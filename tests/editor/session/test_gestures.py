@@ -88,6 +88,13 @@ def test_reconnect_moves_an_end(document: DocumentSession) -> None:
     assert arrows(document) == [("A", "A"), ("B", "A")]
 
 
+def test_a_transition_becomes_common(document: DocumentSession) -> None:
+    outcome = apply_gesture(document, {"kind": "reconnect", "id": "A/0", "end": "source", "state": COMMON})
+    assert outcome.new_selection == (ItemRef(kind="transitions", id="@common/0"),)
+    assert arrows(document) == [(COMMON, "B"), ("A", "A")]
+    assert apply_gesture(document, {"kind": "reconnect", "id": "@common/0", "end": "target", "state": COMMON}).error
+
+
 def test_a_new_source_keeps_the_transitions_of_all_states(document: DocumentSession) -> None:
     moved = Transition(to="B", guard=Guard(when="x"), doc="moved", id="m")
     states = (

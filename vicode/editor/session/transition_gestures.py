@@ -34,9 +34,7 @@ class ConnectGesture:
     y: float | None = None
 
     def apply(self, document: DocumentSession) -> EditResult:
-        source, target = self.source, self.target
-        if source != COMMON:
-            require_state(document, source)
+        source, target = _require_source(document, self.source), self.target
         if target is None:
             return create_state(document, canvas_point(self.x or 0, self.y or 0), source)
         require_state(document, target)
@@ -54,14 +52,16 @@ class ReconnectGesture:
     state: StateName
 
     def apply(self, document: DocumentSession) -> EditResult:
-        state = require_state(document, self.state).name
+        state = self.state
         transition, located = _require_transition(document, self.id)
         if self.end == "target":
+            require_state(document, state)
             changed = replace(transition, to=state)
             document.edit(texts.change_target(state), lambda design: replace_decision(design, located.path, changed))
             return EditResult()
         if located.groups:
             raise EditError(texts.TREE_SOURCE)
+        _require_source(document, state)
         document.edit(texts.change_source(state), lambda design: _with_source(design, located.path, transition, state))
         return _select_last_transition(document, state)
 
@@ -113,6 +113,10 @@ class LabelGesture:
             coalesce_key=f"label {self.id}" if self.by == "nudge" else "",
         )
         return EditResult()
+
+
+def _require_source(document: DocumentSession, name: str) -> str:
+    return name if name == COMMON else require_state(document, name).name
 
 
 def _require_decision(document: DocumentSession, key: str) -> LocatedDecision:
