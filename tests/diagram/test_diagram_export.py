@@ -14,7 +14,8 @@ from vicode.diagram.diagram_model import build_diagram
 from vicode.diagram.edge_routing import route_edges
 from vicode.diagram.export_formats import EXPORT_FORMATS, ExportOptions
 from vicode.diagram.palettes import DARK, LIGHT, ColorPalette
-from vicode.diagram.primitives import ShapeGroup, TextShape, VectorImage
+from vicode.diagram.pdf import write_pdf
+from vicode.diagram.primitives import PathShape, ShapeGroup, TextShape, VectorImage
 from vicode.diagram.spatial_index import Rect
 from vicode.diagram.svg import write_svg
 from vicode.diagram.text_metrics import Font
@@ -135,6 +136,33 @@ def test_pdf_shows_characters_missing_in_helvetica() -> None:
     design = Design(component="Greek", initial="A", states=(state, State(name="B")))
     text = PdfReader(BytesIO(export_design(design, "pdf"))).pages[0].extract_text()
     assert "α" in text
+
+
+def test_pdf_draws_a_path_with_its_pen_at_its_place() -> None:
+    path = PathShape(commands=(("M", (10, 20)), ("L", (30, 50))), stroke="#ff0000", width=2.5, dash=(1, 4))
+    group = ShapeGroup(title="", css_class="", shapes=(path,))
+    image = VectorImage(title="", doc="", left=5, top=10, width=100, height=80, background="#ffffff", groups=(group,))
+    page = PdfReader(BytesIO(write_pdf(image))).pages[0]
+    assert (page.mediabox.width, page.mediabox.height) == (75, 60)
+    *_before, color, width, join, cap, dash, _new, start, end, stroke = page.get_contents().operations
+    assert color == ([1, 0, 0], b"RG")
+    assert (width, join, cap, dash) == (([2.5], b"w"), ([1], b"j"), ([1], b"J"), ([[1, 4], 0], b"d"))
+    assert (start, end, stroke) == (([5, 70], b"m"), ([25, 40], b"l"), ([], b"S"))
+
+
+def test_pdf_centers_a_text_and_strikes_it_through() -> None:
+    text = TextShape(
+        x=40, y=30, text="off", fill="#0000ff", font=Font(size=10), is_centered=True, is_struck_through=True
+    )
+    group = ShapeGroup(title="", css_class="", shapes=(text,))
+    image = VectorImage(title="", doc="", left=0, top=0, width=80, height=60, background="#ffffff", groups=(group,))
+    operations = PdfReader(BytesIO(write_pdf(image))).pages[0].get_contents().operations
+    (position,) = (numbers for numbers, name in operations if name == b"Tm")
+    (start,), (end,) = ([numbers for numbers, name in operations if name == kind] for kind in (b"m", b"l"))
+    assert (start[0] + end[0]) / 2 == pytest.approx(40, abs=0.01)
+    assert start[0] == pytest.approx(position[4], abs=0.01)
+    assert 60 - 30 - 5 < position[5] < start[1] == end[1] < 60 - 30 + 5
+    assert ([0, 0, 1], b"rg") in operations
 
 
 @pytest.mark.nightly

@@ -13,8 +13,8 @@ import pytest
 from tests.diagram.diagram_designs import HOSTILE_NAMES, find_overlaps, list_boxes, ring_design, shipped_designs
 from vicode.diagram.layered_layout import complete_layout
 from vicode.diagram.layout import WORKER_COMMAND, LayoutMethod, LayoutResult, LayoutService, compute_layout
-from vicode.diagram.layout_fit import screens_needed
-from vicode.model.design import Design, State, Transition
+from vicode.diagram.layout_fit import fit_layout, layered_positions, screens_needed
+from vicode.model.design import CommonSection, Design, State, Transition
 
 PATIENCE_S = 60.0
 
@@ -35,6 +35,14 @@ def test_layers_are_used_if_graphviz_needs_far_more_space() -> None:
     assert "times as large; used a layered layout instead" in layout.note
     assert screens_needed(layout.layout.states.values()) < 6
     _assert_sound(design, layout)
+
+
+def test_layers_place_the_common_decisions_beside_the_states() -> None:
+    common = CommonSection(transitions=(Transition(to="State1"),), at=(9000, 9000))
+    design = replace(ring_design(4), common=common)
+    layout = fit_layout(design, layered_positions(design, None), None)
+    assert max(layout.common) < 2000
+    assert screens_needed([*layout.states.values(), layout.common]) < 2
 
 
 def test_the_layout_of_the_player_fits_a_screen() -> None:

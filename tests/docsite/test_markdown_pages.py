@@ -16,7 +16,15 @@ from markdown_it.token import Token
 from tests.editor.hostile_project import PAYLOADS, write_hostile_project
 from vicode.cli import main
 from vicode.docsite.doc_text import render_doc
-from vicode.docsite.markdown_text import escape_text, fence, inline_code, markdown_from_html, markdown_href
+from vicode.docsite.markdown_text import (
+    escape_text,
+    fence,
+    inline_code,
+    inline_expression,
+    markdown_from_html,
+    markdown_href,
+)
+from vicode.docsite.views import TextSpan
 from vicode.templating import template_files
 
 ROOT = Path(__file__).parents[2]
@@ -169,6 +177,11 @@ def test_words_stay_words(text: str) -> None:
 def test_code_stays_code(text: str) -> None:
     html = READER.renderInline(inline_code(text))
     assert unescape(re.sub("</?code>", "", html)) == " ".join(text.split())
+
+
+def test_spaces_between_code_and_a_link_stay() -> None:
+    parts = (TextSpan(text="1 + "), TextSpan(text="eye.x", href="eye.html"), TextSpan(text=" > "), TextSpan(text="n"))
+    assert inline_expression(parts) == "`1 +` [`eye.x`](eye.md) `> n`"
 
 
 @given(st.lists(LINES.filter(lambda each: each.isprintable())))

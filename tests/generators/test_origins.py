@@ -11,6 +11,7 @@ from vicode.generators import Origin, generate, list_origins
 from vicode.model.design import Design, Transition
 from vicode.model.project import Project
 from vicode.model.traversal import find_decision
+from vicode.regions import find_regions
 from vicode.store import open_project
 
 ROOT = Path(__file__).parents[2]
@@ -76,6 +77,15 @@ def test_player() -> None:
 @given(sound_designs())
 def test_random_designs(design: Design) -> None:
     assert_lines_say_it(project_of(design), design.component)
+
+
+@pytest.mark.parametrize("component", [design.component for design in FORWARD.designs])
+def test_a_region_belongs_to_one_element_with_both_marks(component: str) -> None:
+    text = text_of(FORWARD, component)
+    origins = list_origins(FORWARD, component, "python", text)
+    for region in find_regions(text).regions:
+        innermost = [origin for origin in origins if origin.first <= region.line <= origin.last][-1]
+        assert innermost.last >= region.end_line, region.id
 
 
 def test_other_texts_have_no_origins() -> None:

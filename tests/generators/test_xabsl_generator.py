@@ -117,6 +117,11 @@ def test_groups_that_fall_through_are_flattened() -> None:
     assert "decision { if (a && b && c) goto X; else if (a && !b && d) goto Y; else if (e) goto Z; else stay; }" in text
 
 
+def test_the_description_of_a_flattened_group_stays() -> None:
+    group = DecisionGroup(guard=Guard(when="a"), then=(to("X", "b"), to("Y", "c")), doc="Only with a.")
+    assert "decision { /** Only with a. */ if (a && b)" in option_of((group, to("Z", "e")))
+
+
 def test_groups_that_always_end_stay_nested() -> None:
     group = DecisionGroup(guard=Guard(when="a"), then=(to("X", "b"), Stay()), otherwise=(to("Y", "c"),))
     text = option_of((group, to("Z")))

@@ -26,6 +26,7 @@ from vicode.model.design import (
 from vicode.model.project import Project
 from vicode.model.rename import ReferenceKind, ReferenceRename, SymbolRef, is_declared, rename_symbol, sibling_names
 from vicode.model.rename.cpp import rename_in_cpp
+from vicode.model.rename.designs import rename_in_design
 from vicode.model.rename.expressions import rename_in_expression
 from vicode.model.rename.python import rename_in_python
 
@@ -273,3 +274,11 @@ def test_variables_of_a_design_are_private() -> None:
     renamed = rename_symbol(TEAM, SymbolRef(component="Player", section="variables", name="near"), "close")
     assert renamed.designs[0] == FOLLOW
     assert renamed.designs[1].common.transitions[0].guard.when == "follow.near and close"
+
+
+@pytest.mark.parametrize(("module", "wanted"), [("y = Side.left", "Half.left"), ("class Side: left = 1", "Side.left")])
+def test_a_name_that_the_module_redefines_is_kept_in_code(module: str, wanted: str) -> None:
+    run = RunCode(code=Code(texts=(("python", "x = Side.left"),)))
+    design = Design(component="A", module=Code(texts=(("python", module),)), states=(State(name="S", actions=(run,)),))
+    (action,) = rename_in_design(design, SHARED).states[0].actions
+    assert action == RunCode(code=Code(texts=(("python", f"x = {wanted}"),)))

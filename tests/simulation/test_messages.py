@@ -1,7 +1,7 @@
 """The protocol round-trips, and malformed lines are rejected without a traceback."""
 
 import json
-from dataclasses import replace
+from dataclasses import asdict, replace
 
 import pytest
 from hypothesis import given
@@ -100,6 +100,12 @@ def test_malformed_lines_are_rejected(line: bytes) -> None:
     for decode in (decode_response, decode_request, decode_setup):
         with pytest.raises(ProtocolError):
             decode(line)
+
+
+@pytest.mark.parametrize("name", sorted(asdict(MOMENT).keys() - {"kind", "world"}))
+def test_a_value_of_another_type_is_rejected(name: str) -> None:
+    with pytest.raises(ProtocolError, match=f"type: {name}"):
+        decode_response(json.dumps({**asdict(MOMENT), name: 1.5}).encode())
 
 
 _JSON = st.recursive(

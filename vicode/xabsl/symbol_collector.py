@@ -23,7 +23,7 @@ class CompileReport:
         self, tokens: Tokens, token: int, code: str, message: str, fix: str = "", *, note: Note | None = None
     ) -> None:
         notes = (note,) if note else ()
-        location = tokens.location(max(token, 0))
+        location = tokens.location(token)
         self.findings.append(Finding(rule=get_rule(code), message=message, fix=fix, location=location, notes=notes))
 
 

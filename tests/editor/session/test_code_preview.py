@@ -70,3 +70,5 @@ def test_regions_edited_on_disk_are_listed(tmp_path: Path) -> None:
     assert shown.edited_regions == ("module",)
     lines = shown.text.split("\n")
     assert {lines[at - 1] for at in shown.edited_lines()} >= {"import logging"}
+    file.write_text("import math\n" + file.read_text())
+    assert preview_code(PROJECT, PLAYER, {}, tmp_path).files[0].edited_regions == ()

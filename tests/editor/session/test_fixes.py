@@ -88,6 +88,11 @@ STAY = "initial: S\nstates: {S: {final: true, transitions: [{stay: true, when: %
         ("initial: S\nstates: {S: {actions: [{set: {n: 1 + 1}}]}}", "E303", "Declare the variable n: 0"),
         (STAY % "perception.ball", "E303", "Use the component Perception as perception"),
         ("initial: S\nstates: {S: {requires: [perception]}}", "D403", "Use the component Perception as perception"),
+        (
+            "uses: {eye: Perception}\ninitial: S\nstates: {S: {enter: [{code: pass}, {call: eye}]}}",
+            "D410",
+            "Call eye in the actions of S",
+        ),
         ("initial: S\nstates: {S: {transitions: [{to: S, after: 1}]}}", "D430", "Replace it with a stay"),
     ],
 )

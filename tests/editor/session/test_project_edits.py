@@ -271,3 +271,12 @@ def test_an_element_moves_up(workspace: Workspace) -> None:
     assert elements() == ("front", "lateral", "diagonal")
     # The first one stays.
     assert edit_project_file(workspace, spots[0].move_up, spots[0]).edit is None
+
+
+def test_a_removed_element_takes_its_xabsl_name(workspace: Workspace) -> None:
+    (kick,) = (each for each in workspace.project.enumerations if each.name == "Kick")
+    named = replace(kick, xabsl_elements=(("front", "ahead"), ("lateral", "aside")))
+    project = Project(name="One", enumerations=(named,))
+    (left,) = ProjectNodePath.top_level("enumerations", 0).child("elements", 0).remove(project).enumerations
+    assert left.element_names == ("diagonal", "lateral")
+    assert left.xabsl_elements == (("lateral", "aside"),)

@@ -90,6 +90,30 @@ def test_an_exit_of_the_process_is_reported(tmp_path: Path, code: str, words: st
     simulate(prepare_lamp(folder), folder, act)
 
 
+@pytest.mark.parametrize(
+    ("code", "words"),
+    [
+        ("while True: pass", "did not end within 0.05 s"),
+        ("raise SystemExit(0)", "ended the program with SystemExit: 0"),
+    ],
+)
+def test_a_world_that_does_not_return_is_reported(tmp_path: Path, code: str, words: str) -> None:
+    folder = write_lamps(tmp_path / "lamps")
+    project = folder / "project.yaml"
+    project.write_text(project.read_text().replace("project: Lamps", "project: Lamps\nworld: hands:World"))
+    with (folder / "hands.py").open("a") as hands:
+        hands.write(f"\nclass World:\n    def advance(self, now_ns):\n        {code}\n")
+
+    async def act(simulation: Simulation) -> None:
+        assert await simulation.step() == ""
+        assert simulation.status is RunStatus.FAILED
+        failure = failure_words(simulation)
+        assert failure.startswith(f"code outside of all components {words}")
+        assert "[hands.py:24]" in failure
+
+    simulate(prepare_lamp(folder, stubbed=frozenset(), limit_s=0.05), folder, act)
+
+
 def test_an_exception_is_reported_and_the_run_continues(tmp_path: Path) -> None:
     folder = lamp(tmp_path, "1 / 0")
 

@@ -139,7 +139,16 @@ def test_a_dangling_reference_within_one_side_is_no_conflict() -> None:
 def test_items_with_one_name_added_by_both_sides(name: str) -> None:
     ours, theirs = (add_state(BASE, State(name=each, doc=each)) for each in ("D", name))
     assert paths(ours, theirs) == []
-    assert paths(ours, add_state(BASE, State(name="D", doc="another"))) == [("states", "D")]
+    theirs = add_state(add_state(BASE, State(name="D", doc="another")), State(name="F"))
+    result = merge_designs(BASE, ours, theirs)
+    assert [conflict.path for conflict in result.conflicts] == [("states", "D")]
+    assert [state.name for state in result.design.states] == ["A", "B", "C", "D", "F"]
+
+
+def test_a_removal_and_a_move_are_merged_with_an_edit() -> None:
+    theirs = replace(remove_states(BASE, ["C"]), states=(BASE.states[1], BASE.states[0]))
+    both = merged(with_doc(BASE, "B", "mine"), theirs)
+    assert [(state.name, state.doc) for state in both.states] == [("B", "mine"), ("A", "first")]
 
 
 def test_moved_decisions_are_matched() -> None:
@@ -196,10 +205,10 @@ def test_assignments_and_declarations_are_merged() -> None:
 
 def test_a_name_used_for_two_items_stays_with_ours() -> None:
     ours = replace(BASE, variables=(Declaration(name="k", type="int"), Declaration(name="m")))
-    theirs = replace(BASE, variables=(*BASE.variables, Declaration(name="k", doc="another")))
+    theirs = replace(BASE, variables=(*BASE.variables, Declaration(name="k", doc="another"), Declaration(name="z")))
     result = merge_designs(BASE, ours, theirs)
     assert [conflict.path for conflict in result.conflicts] == [("variables", "k")]
-    assert [each.name for each in result.design.variables] == ["k", "m"]
+    assert [each.name for each in result.design.variables] == ["k", "m", "z"]
 
 
 @given(designs, designs)

@@ -1,6 +1,6 @@
 """Items of two versions are matched by id, even if nothing else is equal."""
 
-from vicode.model.design import Assign, Code, Design, Guard, RunCode, State, Transition
+from vicode.model.design import Assign, Call, Code, Design, Guard, RunCode, State, Transition
 from vicode.model.merge import find_renamed_states, match_items, merge_designs
 
 
@@ -22,6 +22,12 @@ def test_actions_with_equal_ids_match() -> None:
         RunCode(code=Code(texts=(("python", "c()"),)), id="x"),
     )
     assert match_items(old, new, is_keyed=False) == {0: 2, 1: 0}
+
+
+def test_a_changed_item_matches_beside_an_unchanged_one() -> None:
+    first, changed, added = Assign(values=(("n", "1"),)), Assign(values=(("m", "2"),)), Call(alias="legs")
+    assert match_items((first, Assign(values=())), (first, changed, added), is_keyed=False) == {0: 0, 1: 1}
+    assert match_items((Assign(values=()), first), (added, changed, first), is_keyed=False) == {0: 1, 1: 2}
 
 
 def test_empty_ids_do_not_match() -> None:
