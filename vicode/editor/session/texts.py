@@ -86,7 +86,7 @@ def change_target(state: str) -> str:
 
 
 def change_source(state: str) -> str:
-    return f"change source to {state}"
+    return f"change source to {state.lstrip('@')}"
 
 
 def set_initial(state: str) -> str:
