@@ -8,8 +8,9 @@ from hypothesis import strategies as st
 
 from tests.docsite.random_edits import EDITS, FORWARD, Edit
 from vicode.check import PROJECT_RULES, check_design, check_project
+from vicode.languages import GENERATED_LANGUAGES
 from vicode.model.design import Design, State, Use
-from vicode.model.project import LANGUAGES, Project
+from vicode.model.project import Project
 
 STEPS = st.lists(st.tuples(st.sampled_from(EDITS), st.integers(0, 99)), min_size=1, max_size=8)
 
@@ -20,7 +21,7 @@ def test_incremental_findings_equal_separate_findings(steps: list[tuple[Edit, in
     for edit, seed in steps:
         project = edit(project, random.Random(seed))
         if has_all_languages:
-            project = replace(project, languages=LANGUAGES)
+            project = replace(project, languages=GENERATED_LANGUAGES)
         expected = [finding for rule in PROJECT_RULES for finding in rule(project)]
         for design in project.designs:
             expected += check_design(project, design)

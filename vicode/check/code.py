@@ -8,7 +8,7 @@ from functools import lru_cache
 from vicode import regions
 from vicode.check.context import RuleContext
 from vicode.findings import Finding, Span, did_you_mean
-from vicode.model.project import CODE_LANGUAGES, LANGUAGES
+from vicode.languages import GENERATED_LANGUAGES, LANGUAGES
 from vicode.model.python_parser import check_compiles, parse_module
 from vicode.model.snippets import PythonSnippet
 
@@ -27,9 +27,8 @@ def find_missing_languages(context: RuleContext) -> Iterator[Finding]:
     """D414: an action or predicate without code in a target language."""
     for placed in context.code_blocks:
         written = [language for language, _text in placed.code.texts]
-        missing = [
-            language for language in context.project.languages if language in LANGUAGES and language not in written
-        ]
+        wanted = [language for language in context.project.languages if language in GENERATED_LANGUAGES]
+        missing = [language for language in wanted if language not in written]
         if missing and placed.role in ("action", "predicate"):
             names = " and ".join(missing)
             message, fix = f"this code is missing in {names}", f"add the code in {names}"
@@ -40,8 +39,8 @@ def find_unknown_languages(context: RuleContext) -> Iterator[Finding]:
     """P204: code in an unknown language."""
     for placed in context.code_blocks:
         for language, _text in placed.code.texts:
-            if language not in CODE_LANGUAGES:
-                fix = did_you_mean(language, CODE_LANGUAGES, f"use one of {', '.join(CODE_LANGUAGES)}")
+            if language not in LANGUAGES:
+                fix = did_you_mean(language, LANGUAGES, f"use one of {', '.join(LANGUAGES)}")
                 path = (*placed.path, language)
                 yield context.make_finding("P204", path, f"unknown language '{language}'", fix, is_key=True)
 
@@ -98,8 +97,7 @@ def _format_syntax_error(message: str) -> str:
 
 
 def _strip_comments(text: str, language: str) -> str:
-    pattern = r"#.*" if language == "python" else r"//.*|/\*(?s:.*?)\*/"
-    return re.sub(pattern, "", text)
+    return re.sub(LANGUAGES.get(language, LANGUAGES["cpp"]).comment, "", text)
 
 
 RULES = (find_unparsable_code, find_missing_languages, find_unknown_languages, find_empty_predicates)

@@ -4,8 +4,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from vicode.bica import RESERVED_NAMES
-from vicode.check.keywords import KEYWORDS, LANGUAGE_TITLES
 from vicode.findings import DesignPath
+from vicode.languages import LANGUAGES
 from vicode.model.design import Declaration, Design
 from vicode.model.expressions import FUNCTIONS
 from vicode.model.names import is_valid_name, is_valid_state_name
@@ -120,15 +120,14 @@ def _validate_not_reserved(identifier: Identifier) -> IdentifierProblem | None:
 
 def keyword_languages(identifier: Identifier, languages: tuple[str, ...]) -> tuple[str, ...]:
     # Generated Python contains state names only in strings or after a prefix; no generated code contains agent names.
-    exempt = {"state": {"python"}, "agent": set(KEYWORDS)}.get(identifier.kind, set())
-    return tuple(
-        language for language in languages if language not in exempt and identifier.name in KEYWORDS.get(language, ())
-    )
+    exempt = {"state": {"python"}, "agent": set(LANGUAGES)}.get(identifier.kind, set())
+    tested = [language for language in languages if language in LANGUAGES.keys() - exempt]
+    return tuple(language for language in tested if identifier.name in LANGUAGES[language].keywords)
 
 
 def _validate_not_keyword(identifier: Identifier, languages: tuple[str, ...]) -> IdentifierProblem | None:
     keyword_of = keyword_languages(identifier, languages)
     if not keyword_of:
         return None
-    titles = " and ".join(LANGUAGE_TITLES[language] for language in keyword_of)
+    titles = " and ".join(LANGUAGES[language].title for language in keyword_of)
     return "D406", f"'{identifier.name}' is a keyword in {titles}", f"choose another name, such as my_{identifier.name}"

@@ -22,10 +22,11 @@ from vicode.check.typed_expressions import (
     parse_initial_values,
 )
 from vicode.findings import DesignPath, Finding, FindingSubject, Note, Span, did_you_mean, get_rule
+from vicode.languages import GENERATED_LANGUAGES
 from vicode.model.design import Declaration
 from vicode.model.expressions import Scope, build_scope
 from vicode.model.names import snake_case
-from vicode.model.project import LANGUAGES, Project
+from vicode.model.project import Project
 
 _CLASS_IN_MODULE = re.compile(r"[A-Za-z_]\w*(\.[A-Za-z_]\w*)*:[A-Za-z_]\w*\Z", re.ASCII)
 
@@ -126,8 +127,8 @@ def find_bad_implementations(project: Project) -> Iterator[Finding]:
 def find_unknown_languages(project: Project) -> Iterator[Finding]:
     """P204: a language without a generator."""
     for index, language in enumerate(project.languages):
-        if language not in LANGUAGES:
-            fix = did_you_mean(language, LANGUAGES, f"use one of {', '.join(LANGUAGES)}")
+        if language not in GENERATED_LANGUAGES:
+            fix = did_you_mean(language, GENERATED_LANGUAGES, f"use one of {', '.join(GENERATED_LANGUAGES)}")
             yield _make_finding("P204", ("languages", index), f"vicode does not generate '{language}'", fix)
 
 

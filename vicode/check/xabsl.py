@@ -6,9 +6,9 @@ from collections.abc import Iterator
 from functools import partial
 
 from vicode.check.context import RuleContext
-from vicode.check.keywords import KEYWORDS
 from vicode.check.typed_expressions import ExpressionSite, TypedExpression
 from vicode.findings import DesignPath, Finding
+from vicode.languages import LANGUAGES
 from vicode.model.constant_folding import evaluate_constants
 from vicode.model.design import COMMON
 from vicode.model.disabled import is_enabled
@@ -135,7 +135,7 @@ def validate_xabsl_name(name: str, *, is_explicit: bool) -> str:
         return f"'{name}' is not a valid XABSL name: use letters, digits, '_' and '.', starting with a letter or '_'"
     if len(name) > _MAX_NAME_LENGTH:
         return f"XABSL engines truncate names to {_MAX_NAME_LENGTH} characters"
-    return f"'{name}' is an XABSL keyword" if is_explicit and name in KEYWORDS[LANGUAGE] else ""
+    return f"'{name}' is an XABSL keyword" if is_explicit and name in LANGUAGES[LANGUAGE].keywords else ""
 
 
 def _is_xabsl_project(context: RuleContext) -> bool:

@@ -8,11 +8,12 @@ from vicode.docsite.build_cache import BuildCache, compute_digest
 from vicode.docsite.languages import GenerationErrors, find_components_with_errors
 from vicode.docsite.page_inputs import strip_to_interfaces
 from vicode.docsite.site_input import SiteInput
-from vicode.docsite.syntax_highlighting import LANGUAGE_TITLES, code_row, highlight_lines
+from vicode.docsite.syntax_highlighting import code_row, highlight_lines
 from vicode.docsite.urls import SiteUrls
 from vicode.docsite.views import CodeView, TextSpan
 from vicode.findings import DesignPath
 from vicode.generators import GENERATORS, ComponentCode, Origin, component_generator
+from vicode.languages import language_title
 from vicode.model.design import Design
 
 _LINKED_SECTIONS = ("states", "common", "parameters", "outputs", "variables")
@@ -35,7 +36,7 @@ class CodeFile:
     @property
     def title(self) -> str:
         """The text of links to this file."""
-        return "Source" if self.variant == "source" else LANGUAGE_TITLES.get(self.variant, self.variant)
+        return "Source" if self.variant == "source" else language_title(self.variant)
 
 
 class CodeFiles:

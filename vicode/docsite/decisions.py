@@ -6,10 +6,11 @@ from dataclasses import replace
 
 from vicode.docsite.doc_text import render_inline_doc, summarize
 from vicode.docsite.name_linker import NameLinker
-from vicode.docsite.syntax_highlighting import LANGUAGE_TITLES, highlight_block
+from vicode.docsite.syntax_highlighting import highlight_block
 from vicode.docsite.urls import SiteUrls, path_anchor
 from vicode.docsite.views import CodeBlock, PseudocodeLine, RichText, TextSpan, TransitionRow
 from vicode.findings import DesignPath
+from vicode.languages import language_title
 from vicode.model.design import COMMON, Code, Decision, DecisionGroup, Design, Guard, Transition
 from vicode.model.disabled import disabled_states, is_enabled
 from vicode.model.traversal import LocatedDecision, is_exhaustive, iter_decisions
@@ -23,7 +24,7 @@ _AND = TextSpan(text=" and ", css_class="k")
 def code_blocks(code: Code) -> tuple[CodeBlock, ...]:
     """One block of code per language."""
     return tuple(
-        CodeBlock(language=LANGUAGE_TITLES.get(language, language), html=highlight_block(text, language))
+        CodeBlock(language=language_title(language), html=highlight_block(text, language))
         for language, text in code.texts
     )
 

@@ -7,11 +7,11 @@ from dataclasses import replace
 from vicode.check import check_project
 from vicode.docsite.findings import finding_row
 from vicode.docsite.site_input import ComponentFinding, SiteInput
-from vicode.docsite.syntax_highlighting import LANGUAGE_TITLES
 from vicode.docsite.urls import SiteUrls
 from vicode.docsite.views import LanguageView
 from vicode.findings import Finding, Severity
 from vicode.generators import GENERATORS
+from vicode.languages import language_title
 
 GenerationErrors = Mapping[str, Mapping[str, tuple[Finding, ...]]]
 """The errors that prevent generation, by language and component ("" for the project)."""
@@ -62,7 +62,7 @@ def language_views(
             for each in dict.fromkeys(reasons)
         )
         yield LanguageView(
-            title=LANGUAGE_TITLES.get(language, language),
+            title=language_title(language),
             href=addresses.code(component, language) if language in written else "",
             path=written.get(language, ""),
             is_enabled=language in subject.project.languages,

@@ -10,12 +10,13 @@ from vicode.docsite import markdown_text
 from vicode.docsite.markdown_text import escape_text, fence, link, strip_tags
 from vicode.docsite.views import CodeBlock, CodeView, TextSpan
 from vicode.docsite.views import PageHead as Head
+from vicode.languages import LANGUAGES
 from vicode.output import OutputFile
 from vicode.templating import render
 
 _COLOUR = re.compile(r'(?<= )(fill|stroke)="var\(--drawn-([a-z-]+)\)"')
 _LINK = re.compile(r'<a ([^>]*?) href="[^"]*">')
-_LANGUAGES = {"Python": "python", "C++": "cpp", "XABSL": "", "YAML": "yaml"}
+_FENCES = {each.title: each.fence for each in LANGUAGES.values()}
 _SECTIONS = {
     "agent": "Agents",
     "component": "State machines",
@@ -77,7 +78,7 @@ class MarkdownFormatter:
         return " ".join(markdown_text.markdown_from_html(html).split())
 
     def code_block(self, block: CodeBlock) -> str:
-        return fence(strip_tags(block.html), _LANGUAGES.get(block.language, ""))
+        return fence(strip_tags(block.html), _FENCES.get(block.language, ""))
 
     def listing(self, view: CodeView) -> str:
         return fence("\n".join(map(strip_tags, view.lines_html)))

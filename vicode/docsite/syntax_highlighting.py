@@ -1,18 +1,16 @@
 """Syntax highlighting as HTML, line by line."""
 
-import keyword
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from html import escape
 
 from pygments.lexers import CppLexer, YamlLexer
 from pygments.token import Comment, Keyword, Name, Number, Operator, String
 
-from vicode.xabsl.tokens import KEYWORDS
+from vicode.languages import LANGUAGES
 
 # Longer texts are not highlighted: it would take minutes.
 _MAX_HIGHLIGHTED_CHARS = 400_000
-LANGUAGE_TITLES = {"python": "Python", "cpp": "C++", "xabsl": "XABSL", "yaml": "YAML"}
 
 # Classes of the style sheet: keywords, strings, numbers (m), comments, definitions (f).
 _CLASSES = (
@@ -22,8 +20,8 @@ _CLASSES = (
 )
 
 
-def _one_of(words: Sequence[str]) -> str:
-    return "|".join(map(re.escape, sorted(words)))
+def _keywords(language: str) -> str:
+    return "|".join(sorted(LANGUAGES[language].keywords))
 
 
 # One regular expression per language is many times faster than the lexers of Pygments. Text
@@ -31,7 +29,7 @@ def _one_of(words: Sequence[str]) -> str:
 _PYTHON = re.compile(
     r"(?P<c>#[^\n]*)"
     r"|(?P<s>\b(?i:[rbfu]|[rbf]{2})?(?:\"\"\"(?s:\\.|.)*?\"\"\"|'''(?s:\\.|.)*?'''|\"(?:\\.|[^\"\\\n])*\"|'(?:\\.|[^'\\\n])*'))"
-    rf"|(?P<k>\b(?:{_one_of(keyword.kwlist)})\b)"
+    rf"|(?P<k>\b(?:{_keywords('python')})\b)"
     r"|(?P<f>(?<=\bdef )[^\W\d]\w*|(?<=\bclass )[^\W\d]\w*)"
     r"|[^\W\d]\w*"
     r"|(?P<m>\d(?:[\w.]|(?<=[eE])[-+])*)"
@@ -39,7 +37,7 @@ _PYTHON = re.compile(
 _XABSL = re.compile(
     r"(?P<c>//[^\n]*|/\*(?s:.*?)(?:\*/|\Z))"
     r'|(?P<s>"[^"]*")'
-    rf"|(?P<k>\b(?:{_one_of(tuple(KEYWORDS))})(?![\w.]))"
+    rf"|(?P<k>\b(?:{_keywords('xabsl')})(?![\w.]))"
     r"|@?[A-Za-z_][\w.]*"
     r"|(?P<m>\d+(?:\.\d+)?)"
 )

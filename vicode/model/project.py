@@ -5,10 +5,6 @@ from dataclasses import dataclass, field
 
 from vicode.model.design import Declaration, Design
 
-LANGUAGES = ("python", "xabsl")
-"""The languages that vicode generates."""
-CODE_LANGUAGES = ("python", "cpp", "xabsl")
-"""The languages that code in a design may be written in."""
 WORLD, INTERNAL = "world", "internal"
 """Generated implementations: WORLD delegates to the world, INTERNAL stores shared variables."""
 

@@ -4,6 +4,7 @@ The reader, the writer, the conversion from and to the model, the JSON Schema an
 are derived from these schemas.
 """
 
+from vicode.languages import LANGUAGES
 from vicode.model.design import (
     Assign,
     Call,
@@ -19,7 +20,7 @@ from vicode.model.design import (
     Transition,
     Use,
 )
-from vicode.model.project import CODE_LANGUAGES, Agent, Enumeration, Interface, Project
+from vicode.model.project import Agent, Enumeration, Interface, Project
 from vicode.store.schema_types import (
     KeySchema,
     ListSchema,
@@ -51,7 +52,7 @@ CODE = MapSchema(
     description="code, or a mapping of languages to code",
     value_schema=TEXT,
     shorthand_key="python",
-    allowed_keys=CODE_LANGUAGES,
+    allowed_keys=tuple(LANGUAGES),
     wrapper=Code,
 )
 

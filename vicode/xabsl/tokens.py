@@ -2,15 +2,9 @@
 
 import re
 
-KEYWORDS = frozenset(
-    (
-        *("true", "false", "option", "action", "initial", "target", "state", "common", "decision", "goto", "stay"),
-        *("if", "else", "state_time", "option_time", "action_done", "agent", "function", "enum", "input", "output"),
-        *("internal", "bool", "float", "const", "namespace", "behavior", "include", "capacity", "synchronized"),
-        "conflict",
-    )
-)
-"""`function` is reserved and has no meaning."""
+from vicode.languages import LANGUAGES
+
+KEYWORDS = LANGUAGES["xabsl"].keywords
 
 OPERATORS = ("<=", ">=", "==", "!=", "&&", "||")
 PUNCTUATION = "%!<>{}();|+-*/=,?:"

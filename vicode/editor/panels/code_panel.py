@@ -4,16 +4,13 @@ The code of the selected item is highlighted; a click in the code selects the it
 """
 
 from nicegui import run, ui
-from nicegui.elements.codemirror.constants import SUPPORTED_LANGUAGES
 
 from vicode.editor.code import CodeAssist
 from vicode.editor.panels.window_context import WindowContext
 from vicode.editor.session import code_preview
 from vicode.editor.session.code_preview import CodePreview, PreviewFile
 from vicode.editor.view import ItemRef
-
-_SHOWN_LANGUAGE: dict[str, SUPPORTED_LANGUAGES] = {"python": "Python", "cpp": "C++", "xabsl": "C"}
-"""Highlighting per language; C is the closest to XABSL that the editor supports."""
+from vicode.languages import LANGUAGES
 
 
 class CodePanel:
@@ -79,8 +76,8 @@ class CodePanel:
         edited = ", ".join(file.edited_regions) if file else ""
         self.note.set_text(f"Edited by hand on disk: {edited}" if edited else self.preview.note)
         self.note.set_visibility(bool(self.note.text))
-        if file is not None and file.language in _SHOWN_LANGUAGE:
-            self.editor.set_language(_SHOWN_LANGUAGE[file.language])
+        if file is not None and file.language in LANGUAGES:
+            self.editor.set_language(LANGUAGES[file.language].editor_mode)
         self.editor.set_value(file.text if file else "")
         self.code_assist.set_line_styles((line, "is-edited") for line in (file.edited_lines() if file else ()))
         self.highlighted = None
