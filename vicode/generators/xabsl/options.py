@@ -21,7 +21,7 @@ from vicode.generators.xabsl.expressions import XabslExpressionBuilder
 from vicode.generators.xabsl.name_map import XabslNameMap
 from vicode.generators.xabsl.option_printer import AttachedComment, attach_comment, wrap_description
 from vicode.generators.xabsl.symbols import format_range
-from vicode.model.design import COMMON
+from vicode.model.design import COMMON, Declaration
 from vicode.model.xabsl.names import component_name, unqualified_name
 from vicode.model.xabsl.unsupported import find_unsupported_in_design, is_done_expressible
 from vicode.xabsl import tree
@@ -86,11 +86,11 @@ class _OptionBuilder:
         states = [self._state(planned[state.name], has_common=common is not None) for state in self.design.states]
         option = tree.OptionNode(
             tree.NameNode(component_name(self.design)),
-            [self._parameter(index) for index in range(len(self.design.parameters))],
+            [self._parameter(declared) for declared in self.design.parameters],
             states,
             common,
             actions,
-            wrap_description(self.design.doc, 0),
+            wrap_description(plan.doc, 0),
         )
         self._add_comment(common or actions or states[0], self.design.common.doc)
         comments = [
@@ -99,8 +99,7 @@ class _OptionBuilder:
         ]
         return GeneratedOption(option, tuple(comments), (*self.node_paths, *self.decisions.node_paths))
 
-    def _parameter(self, index: int) -> tree.ParameterNode:
-        declared = self.design.parameters[index]
+    def _parameter(self, declared: Declaration) -> tree.ParameterNode:
         type_ = self.name_map.type_of(declared)
         is_number = type_.text == "float"
         return tree.ParameterNode(
@@ -112,13 +111,11 @@ class _OptionBuilder:
         )
 
     def _state(self, plan: StatePlan, *, has_common: bool) -> tree.StateNode:
-        design = self.design.state(plan.name)
-        assert design is not None
         state = tree.StateNode(
             tree.NameNode(self.state_names[plan.name]),
             tree.ActionBlockNode([]),
             self._decision(plan, has_common=has_common),
-            is_initial=plan.name == self.design.initial,
+            is_initial=plan is self.plan.states[0],
             is_target=plan.final,
         )
         if plan.capacity is not None:
