@@ -10,6 +10,9 @@ PARALLEL := -n 3 --dist loadfile --max-worker-restart 1
 PYTHON = $(shell for name in python3 python3.14 python3.13 python3.12 python3.11; do \
 	$$name -c 'import sys, ensurepip, venv; sys.exit(sys.version_info < (3, 11))' 2>/dev/null && echo $$name && break; done)
 
+# Without bytecode, every process rewrites all tests and compiles all modules anew.
+unexport PYTHONDONTWRITEBYTECODE
+
 .DEFAULT_GOAL := help
 .PHONY: help edit test fast check nightly bench gen clean chromium
 

@@ -5,6 +5,7 @@ import re
 import subprocess
 import sys
 from collections.abc import Iterator
+from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 
@@ -79,6 +80,27 @@ NESTING_STATEMENTS = (
 )
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FunctionDescription:
+    """What the tests ask about a function."""
+
+    place: str
+    lines: int
+    nesting: int
+    positional: int
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ModuleDescription:
+    """What the tests ask about a module."""
+
+    docstring: str
+    functions: tuple[FunctionDescription, ...]
+    public_classes: tuple[str, ...]
+    libraries: frozenset[str]
+    running_calls: tuple[str, ...]
+
+
 def _list_files() -> tuple[str, ...]:
     """Return all tracked and untracked files that are not ignored, as POSIX paths relative to the root."""
     command = ["git", "-c", "safe.directory=*", "ls-files", "-z", "--cached", "--others", "--exclude-standard"]
@@ -114,7 +136,7 @@ def test_module_names_are_specific() -> None:
 
 
 def test_modules_have_docstrings() -> None:
-    offenders = [path for path in PYTHON if not _has_short_docstring(path)]
+    offenders = [path for path in PYTHON if not 1 <= _first_paragraph_lines(path) <= 3]
     offenders += [path for path in JAVASCRIPT if not _read(path).lstrip().startswith(("//", "/*"))]
     _assert_none(
         offenders, "start with a docstring (JavaScript: a comment) whose first paragraph has one to three lines"
@@ -122,29 +144,39 @@ def test_modules_have_docstrings() -> None:
 
 
 def test_functions_are_short() -> None:
-    sizes = {_describe_function(path, node): _count_lines(node) for path in PYTHON for node in _functions(path)}
-    offenders = [f"{place}: {size} lines" for place, size in sizes.items() if size > FUNCTION_LINES]
+    offenders = [
+        f"{each.place}: {each.lines} lines"
+        for path in PYTHON
+        for each in _describe_module(path).functions
+        if each.lines > FUNCTION_LINES
+    ]
     _assert_none(offenders, f"extract functions (at most {FUNCTION_LINES} lines)")
 
 
 def test_functions_are_flat() -> None:
-    depths = {
-        _describe_function(path, node): _measure_nesting(node.body) for path in PYTHON for node in _functions(path)
-    }
-    offenders = [f"{place}: {depth} levels" for place, depth in depths.items() if depth > NESTING]
+    offenders = [
+        f"{each.place}: {each.nesting} levels"
+        for path in PYTHON
+        for each in _describe_module(path).functions
+        if each.nesting > NESTING
+    ]
     _assert_none(offenders, f"return early, or extract a function (at most {NESTING} levels)")
 
 
 def test_functions_take_few_positional_parameters() -> None:
-    counts = {_describe_function(path, node): _count_positional(node) for path in PACKAGE for node in _functions(path)}
-    offenders = [f"{place}: {count} parameters" for place, count in counts.items() if count > POSITIONAL_PARAMETERS]
+    offenders = [
+        f"{each.place}: {each.positional} parameters"
+        for path in PACKAGE
+        for each in _describe_module(path).functions
+        if each.positional > POSITIONAL_PARAMETERS
+    ]
     _assert_none(offenders, f"make the others keyword-only (at most {POSITIONAL_PARAMETERS} positional)")
 
 
 def test_public_class_names_are_unique() -> None:
     modules: dict[str, list[str]] = {}
     for path in PACKAGE:
-        for name in _public_classes(path):
+        for name in _describe_module(path).public_classes:
             modules.setdefault(name, []).append(path)
     repeated = {name: paths for name, paths in modules.items() if len(paths) > 1}
     offenders = [f"{name}: {', '.join(paths)}" for name, paths in repeated.items() if name not in REPEATED_CLASS_NAMES]
@@ -166,11 +198,8 @@ def test_no_forbidden_text(pattern: str, fix: str, kind: str) -> None:
 
 
 def test_no_text_is_run_as_code() -> None:
-    calls = [(path, node) for path in PACKAGE for node in ast.walk(_parse(path)) if isinstance(node, ast.Call)]
     offenders = [
-        f"{path}:{node.lineno}: {ast.unparse(node.func)}()"
-        for path, node in calls
-        if isinstance(node.func, ast.Name) and node.func.id in RUNNING_CALLS and path not in RUNNING_ALLOWED
+        call for path in PACKAGE if path not in RUNNING_ALLOWED for call in _describe_module(path).running_calls
     ]
     offenders += [f"{path}: eval()" for path in JAVASCRIPT if re.search(r"(?<![\w.])eva[l]\(", _read(path))]
     _assert_none(offenders, "the editor never runs text from users")
@@ -189,14 +218,15 @@ def test_only_one_package_imports_a_library(library: str) -> None:
     offenders = [
         f"{path} imports {library}"
         for path in PACKAGE
-        if library in _imported_libraries(path) and not path.startswith((f"vicode/{package}/", f"vicode/{package}.py"))
+        if library in _describe_module(path).libraries
+        and not path.startswith((f"vicode/{package}/", f"vicode/{package}.py"))
     ]
     _assert_none(offenders, f"only vicode/{package} may import {library}")
 
 
 def test_the_runtime_has_no_dependencies() -> None:
     runtime = [path for path in PACKAGE if path.startswith("vicode/bica/")]
-    foreign = {path: _imported_libraries(path) - set(sys.stdlib_module_names) for path in runtime}
+    foreign = {path: _describe_module(path).libraries - set(sys.stdlib_module_names) for path in runtime}
     offenders = [f"{path} imports {', '.join(sorted(names))}" for path, names in foreign.items() if names]
     _assert_none(offenders, "vicode/bica is deployed alone: use only the standard library and relative imports")
 
@@ -218,8 +248,22 @@ def _read(path: str) -> str:
     return (ROOT / path).read_text(encoding="utf-8")
 
 
-def _parse(path: str) -> ast.Module:
-    return ast.parse(_read(path), filename=path)
+@cache
+def _describe_module(path: str) -> ModuleDescription:
+    """Parse a module once for all tests. Its tree is not kept: the trees of all modules take 100 MB."""
+    module = ast.parse(_read(path), filename=path)
+    nodes = list(ast.walk(module))
+    imported = {alias.name for node in nodes if isinstance(node, ast.Import) for alias in node.names}
+    imported |= {node.module or "" for node in nodes if isinstance(node, ast.ImportFrom) and node.level == 0}
+    classes = (node.name for node in module.body if isinstance(node, ast.ClassDef))
+    calls = (node.func for node in nodes if isinstance(node, ast.Call) and isinstance(node.func, ast.Name))
+    return ModuleDescription(
+        docstring=ast.get_docstring(module) or "",
+        functions=tuple(_describe_function(path, node) for node in nodes if isinstance(node, FunctionNode)),
+        public_classes=tuple(name for name in classes if not name.startswith("_")),
+        libraries=frozenset(name.split(".")[0] for name in imported),
+        running_calls=tuple(f"{path}:{call.lineno}: {call.id}()" for call in calls if call.id in RUNNING_CALLS),
+    )
 
 
 def _text_files() -> tuple[str, ...]:
@@ -238,26 +282,17 @@ def _is_utf8(content: bytes) -> bool:
     return b"\0" not in content
 
 
-def _has_short_docstring(path: str) -> bool:
-    docstring = ast.get_docstring(_parse(path)) or ""
-    return 1 <= len(docstring.split("\n\n")[0].splitlines()) <= 3
+def _first_paragraph_lines(path: str) -> int:
+    return len(_describe_module(path).docstring.split("\n\n")[0].splitlines())
 
 
-def _public_classes(path: str) -> Iterator[str]:
-    classes = (node.name for node in _parse(path).body if isinstance(node, ast.ClassDef))
-    return (name for name in classes if not name.startswith("_"))
-
-
-def _functions(path: str) -> Iterator[FunctionNode]:
-    return (node for node in ast.walk(_parse(path)) if isinstance(node, FunctionNode))
-
-
-def _describe_function(path: str, node: FunctionNode) -> str:
-    return f"{path}:{node.lineno}: {node.name}"
-
-
-def _count_lines(node: FunctionNode) -> int:
-    return (node.end_lineno or node.lineno) - node.lineno + 1
+def _describe_function(path: str, node: FunctionNode) -> FunctionDescription:
+    return FunctionDescription(
+        place=f"{path}:{node.lineno}: {node.name}",
+        lines=(node.end_lineno or node.lineno) - node.lineno + 1,
+        nesting=_measure_nesting(node.body),
+        positional=_count_positional(node),
+    )
 
 
 def _count_positional(node: FunctionNode) -> int:
@@ -287,14 +322,6 @@ def _blocks(statement: ast.stmt) -> Iterator[list[ast.stmt]]:
     yield getattr(statement, "finalbody", [])
     for part in (*getattr(statement, "handlers", []), *getattr(statement, "cases", [])):
         yield part.body
-
-
-@cache
-def _imported_libraries(path: str) -> set[str]:
-    nodes = list(ast.walk(_parse(path)))
-    names = {alias.name for node in nodes if isinstance(node, ast.Import) for alias in node.names}
-    names |= {node.module or "" for node in nodes if isinstance(node, ast.ImportFrom) and node.level == 0}
-    return {name.split(".")[0] for name in names}
 
 
 def _generator_packages() -> set[str]:
