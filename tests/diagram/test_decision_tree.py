@@ -7,8 +7,8 @@ from hypothesis import strategies as st
 
 from vicode.diagram.decision_tree import MAX_NODES, TreeLinks, render_decision_tree
 from vicode.diagram.palettes import LIGHT
+from vicode.diagram.primitives import PathShape, VectorImage
 from vicode.diagram.primitives import ShapeGroup as Shapes
-from vicode.diagram.primitives import VectorImage
 from vicode.findings import DesignPath
 from vicode.model.design import Decision, DecisionGroup, Guard, Stay, Transition
 
@@ -103,6 +103,15 @@ def runs_through(start: tuple[float, float], end: tuple[float, float], box: Rect
 
 def test_no_decisions_give_no_tree() -> None:
     assert draw(()) is None
+
+
+def test_a_disabled_transition_is_dashed() -> None:
+    drawing = draw((Transition(to="B", guard=Guard(when="a"), disabled=True), Transition(to="C")))
+    assert drawing is not None
+    dashes = {
+        group.title: group.shapes[0].dash for group in boxes_in(drawing) if isinstance(group.shapes[0], PathShape)
+    }
+    assert {title for title, dash in dashes.items() if dash} == {"a", "go to B"}
 
 
 def nested(depth: int, wide: int) -> tuple[Decision, ...]:

@@ -249,6 +249,8 @@ def test_dot_is_drawn_by_graphviz() -> None:
     assert {"LookForBall", "perception", "every state"} <= labels
     # A used component is linked, and every transition has an edge.
     assert len(graph.edges()) == len(re.findall("->", export_design(DESIGNS["Player"], "dot").decode()))
+    styles = {(edge.attr["style"], edge.attr["arrowhead"]) for edge in graph.edges() if not edge.attr["label"]}
+    assert {("dashed", "empty"), ("dotted", "")} <= styles
     plain = pygraphviz.AGraph(string=export_design(DESIGNS["Player"], "dot", ExportOptions(links=False)).decode())
     assert "perception" not in {node.attr["label"] for node in plain.nodes()}
 

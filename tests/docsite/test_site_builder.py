@@ -174,7 +174,12 @@ def test_a_state_says_what_it_does(forward: tuple[OutputFile, ...]) -> None:
         "if not kicker.busy and after 0.5 s kicked go to WatchBall else stay",
     ):
         assert expected in words
-    for address in ("interface-Kicker.html#output-busy", "source-Player.html#L", "python-Player.html#L"):
+    for address in (
+        "interface-Kicker.html#output-busy",
+        "interface-Kicker.html#parameter-kick",
+        "source-Player.html#L",
+        "python-Player.html#L",
+    ):
         assert f'href="{address}' in section
 
 

@@ -132,5 +132,6 @@ def test_move_and_names() -> None:
     moved = move_nodes(DESIGN, {"A": (1, 2)}, {"head": (3, 4)}, (5, 6))
     assert (moved.states[0].at, moved.uses[0].at, moved.common.at) == ((1, 2), (3, 4), (5, 6))
     assert move_nodes(DESIGN, {"Nowhere": (1, 2)}) == DESIGN
+    assert move_nodes(moved, {"A": (7, 8)}).common.at == (5, 6)
     assert add_state(Design(component="C"), State(name="S")).initial == "S"
     assert unique_name("State", {"State", "State2"}) == "State3"

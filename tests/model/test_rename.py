@@ -138,8 +138,8 @@ SHARED = ReferenceRename(kind=ReferenceKind.ENUMERATION, old="Side", new="Half")
         (
             "action",
             replace(OWN, kind=ReferenceKind.PARAMETER, owner="legs"),
-            "self.legs.modulate(tries=2); self._call(self.legs, tries=3); f(tries=4)",
-            "self.legs.modulate(attempts=2); self._call(self.legs, attempts=3); f(tries=4)",
+            "self.legs.modulate(tries=2); self._call(self.legs, tries=3); self.arms.modulate(tries=5)",
+            "self.legs.modulate(attempts=2); self._call(self.legs, attempts=3); self.arms.modulate(tries=5)",
         ),
     ],
 )

@@ -51,6 +51,8 @@ def _underlined(path: ThingPath, span: tuple[int, int] | None = None, *, of_key:
         (("states", "Kick", "transitions", 0), None, "Kick"),
         (("states", "Look", "enter", 0, "code"), (8, 14), "second"),
         (("states", "Look", "enter", 0, "code"), (0, 5), "first"),
+        (("component",), (0, 1), "P"),
+        (("component",), (2, 2), "a"),
         ((*WHEN, 0, "when"), (6, 9), "and"),
         ((*WHEN, 0, "when"), (10, 13), "\\x41ha"),
         ((*WHEN, 1, "when"), (0, 4), "seen"),

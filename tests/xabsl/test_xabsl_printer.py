@@ -76,6 +76,15 @@ def test_a_long_condition_is_broken_before_its_operators() -> None:
     assert sum(line.strip().startswith("&&") for line in lines) == 7
 
 
+def test_a_long_conditional_is_broken_in_its_condition_too() -> None:
+    condition = " && ".join(f"some.symbol.number{number} > {number}" for number in range(8))
+    text = (
+        f"option o {{ initial state s {{ decision {{ if ({condition} ? a : b) stay; else stay; }} action {{ }} }} }}\n"
+    )
+    assert_printing_is_stable(text)
+    assert max(map(len, print_file(parse(text).file).split("\n"))) < 60
+
+
 def test_windows_line_endings_are_not_part_of_texts() -> None:
     text = "/** two\r\nlines */\r\noption o {\r\n  initial state s {\r\n    action { /* a\r\nb */ }\r\n  }\r\n}\r\n"
     assert "\r" not in print_file(parse(text).file)

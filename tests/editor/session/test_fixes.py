@@ -93,6 +93,11 @@ STAY = "initial: S\nstates: {S: {final: true, transitions: [{stay: true, when: %
             "D410",
             "Call eye in the actions of S",
         ),
+        (
+            "initial: S\nstates: {S: {transitions: [{to: T}, {to: T, after: 1}]}, T: {final: true}}",
+            "D423",
+            "Remove the shadowed transition",
+        ),
         ("initial: S\nstates: {S: {transitions: [{to: S, after: 1}]}}", "D430", "Replace it with a stay"),
     ],
 )

@@ -55,6 +55,9 @@ def test_evaluating_guards_runs_no_user_code(lamps: Path) -> None:
         assert simulation.guards["Lit/0"]["parts"] == [True, False]
         assert simulation.shown_iteration is not None
         assert simulation.shown_iteration.tree[0]["values"]["asked"] == 1
+        await simulation.set_input(SEEN, True)
+        await simulation.step()
+        assert simulation.guards["Lit/0"]["parts"] == [False, None]
 
     simulate(prepare_lamp(lamps), lamps, act)
 
