@@ -14,11 +14,20 @@ from importlib import import_module
 from pathlib import Path
 from typing import Any
 
+# What an editor imports when it starts and with its first page.
+LATE = (
+    "networkx",
+    "uvicorn.lifespan.on",
+    "uvicorn.loops.auto",
+    "uvicorn.protocols.http.auto",
+    "uvicorn.protocols.websockets.auto",
+)
+
 
 def main() -> None:
     """Load, then split off editors until nobody asks any more."""
-    import_module("uvicorn.protocols.http.auto")
-    import_module("uvicorn.protocols.websockets.auto")
+    for name in LATE:
+        import_module(name)
     package = import_module("vicode.editor")
     for module in pkgutil.walk_packages(package.__path__, "vicode.editor."):
         import_module(module.name)
