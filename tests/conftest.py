@@ -3,7 +3,9 @@
 import gc
 import os
 import shutil
+from collections import Counter
 from collections.abc import Generator, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -45,16 +47,22 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 
 @pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Mark what needs Chromium, before `-m` selects, so that nobody can forget the mark.
+    """Mark what needs Chromium, before `-m` selects, so that nobody can forget the mark; and run it last.
+
+    While Playwright's synchronous API is open, no other test of the process may call asyncio.run. Among the files with
+    browser tests, those with most tests start first, so that the workers end at about the same time.
 
     A person tries again when the machine was asleep for a second; so do we, once, and it is told. The nightly run,
     which asks whether a test ever fails, gives no second try.
     """
+    sizes: Counter[Path] = Counter()
     for item in items:
         if "chromium" in getattr(item, "fixturenames", ()):
+            sizes[item.path] += 1
             item.add_marker(pytest.mark.browser)
             if "VICODE_ONE_TRY" not in os.environ:
                 item.add_marker(pytest.mark.flaky(reruns=1))
+    items.sort(key=lambda item: (item.path in sizes, -sizes[item.path]))
 
 
 @pytest.hookimpl(trylast=True)
@@ -80,8 +88,7 @@ def accept(request: pytest.FixtureRequest) -> bool:
     return bool(request.config.getoption("--accept"))
 
 
-# A module at a time: while Playwright's synchronous API is open, no other test of the process may call asyncio.run.
-@pytest.fixture(scope="module")
+@pytest.fixture(scope="session")
 def chromium() -> Iterator[Browser]:
     """A headless Chromium; one that is missing fails the test, since a test left out proves nothing."""
     with sync_playwright() as playwright:
@@ -112,7 +119,14 @@ def console_errors() -> list[str]:
 
 @pytest.fixture(scope="module")
 def stays_open(chromium: Browser) -> Iterator[Page]:
-    """A page of this machine that stays open while others come and go.
+    """A page that stays open while others of the same person come and go."""
+    with page_that_stays_open(chromium) as page:
+        yield page
+
+
+@contextmanager
+def page_that_stays_open(chromium: Browser) -> Iterator[Page]:
+    """The page of a new person.
 
     What it opens runs in the process that is there, which has read the scripts of the editor before: that takes half
     of the time. To the browser all ports of 127.0.0.1 are one site.
@@ -130,20 +144,25 @@ def stays_open(chromium: Browser) -> Iterator[Page]:
 
 @pytest.fixture
 def page(stays_open: Page, console_errors: list[str]) -> Iterator[Page]:
-    """A fresh page without storage; errors in its console fail the test at the end.
-
-    Each editor has a port of its own, and so an origin and a storage; only cookies are common to all ports.
-    """
+    """A fresh page without storage; errors in its console fail the test at the end."""
     page = opened_beside(stays_open)
     _collect_errors(page, console_errors)
     yield page
-    context = stays_open.context
+    close_all_but(stays_open)
+    assert not console_errors, "the browser reported errors:\n" + "\n".join(console_errors)
+
+
+def close_all_but(page: Page) -> None:
+    """Close the other pages of the same person, and forget cookies and permissions.
+
+    Each editor has a port of its own, and so an origin and a storage; only cookies are common to all ports.
+    """
+    context = page.context
     for other in context.pages:
-        if other is not stays_open:
+        if other is not page:
             other.close()
     context.clear_cookies()
     context.clear_permissions()
-    assert not console_errors, "the browser reported errors:\n" + "\n".join(console_errors)
 
 
 def opened_beside(page: Page) -> Page:

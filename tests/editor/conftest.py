@@ -14,9 +14,9 @@ from functools import cache
 from pathlib import Path
 
 import pytest
-from playwright.sync_api import Page
+from playwright.sync_api import Browser, Page
 
-from tests.conftest import opened_beside
+from tests.conftest import close_all_but, opened_beside, page_that_stays_open
 from tests.editor.slow_connection import SlowConnection
 
 ROOT = Path(__file__).parents[2]
@@ -49,14 +49,19 @@ def second_window(page: Page) -> Page:
     return opened_beside(page)
 
 
+@pytest.fixture(scope="module")
+def first_page_of_other(chromium: Browser) -> Iterator[Page]:
+    with page_that_stays_open(chromium) as page:
+        yield page
+
+
 @pytest.fixture
-def other(page: Page) -> Iterator[Page]:
+def other(first_page_of_other: Page) -> Iterator[Page]:
     """The page of another person."""
-    browser = page.context.browser
-    assert browser is not None
-    context = browser.new_context(viewport={"width": 1366, "height": 768})
-    yield context.new_page()
-    context.close()
+    page = opened_beside(first_page_of_other)
+    page.set_viewport_size({"width": 1366, "height": 768})
+    yield page
+    close_all_but(first_page_of_other)
 
 
 @contextmanager
