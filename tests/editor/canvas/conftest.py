@@ -149,14 +149,13 @@ def canvas_address(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
         process.wait()
 
 
-@pytest.fixture(scope="module")
-def canvas_page(chromium: Browser, canvas_address: str) -> Iterator[Page]:
-    """One page for all tests of a module: opening one for each test would take most of the time."""
+@pytest.fixture(scope="session")
+def canvas_page(chromium: Browser, canvas_address: str) -> Page:
+    """One page for all tests: opening one for each test would take most of the time."""
     page = chromium.new_page(viewport={"width": 1366, "height": 768})
     page.goto(canvas_address)
     page.wait_for_selector(".vicode-canvas[data-ready]")
-    yield page
-    page.close()
+    return page
 
 
 @pytest.fixture

@@ -3,11 +3,10 @@
 import json
 import shutil
 from collections.abc import Iterator
-from contextlib import contextmanager
 from typing import Any
 
 import pytest
-from playwright.sync_api import Browser, BrowserContext, FloatRect, Locator, Page, StorageState, expect
+from playwright.sync_api import Browser, FloatRect, Locator, Page, expect
 
 from tests.editor.conftest import ROOT, started_editor
 
@@ -206,32 +205,12 @@ def sketches(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
 
 
 @pytest.fixture(scope="session")
-def person() -> StorageState:
-    """Cookies that identify the same user in all modules, as only the same user can undo earlier edits."""
-    return {"cookies": []}
-
-
-@pytest.fixture(scope="module")
-def window(chromium: Browser, person: StorageState) -> Iterator[BrowserContext]:
-    """A window with clipboard access; opening it for each test would take most of the time."""
+def first_page(chromium: Browser) -> Page:
+    """A page with clipboard access, for all tests: opening one for each would take most of the time."""
     clipboard = ["clipboard-read", "clipboard-write"]
-    with opened_window(chromium, person, viewport={"width": 1366, "height": 768}, permissions=clipboard) as context:
-        yield context
-
-
-@contextmanager
-def opened_window(chromium: Browser, person: StorageState, **how: Any) -> Iterator[BrowserContext]:
-    """A window of the common user."""
-    context = chromium.new_context(storage_state=person, **how)
+    context = chromium.new_context(viewport={"width": 1366, "height": 768}, permissions=clipboard)
     context.set_default_timeout(WAIT_MS)
-    yield context
-    person["cookies"] = context.storage_state()["cookies"]
-    context.close()
-
-
-@pytest.fixture(scope="module")
-def first_page(window: BrowserContext) -> Page:
-    return window.new_page()
+    return context.new_page()
 
 
 @pytest.fixture

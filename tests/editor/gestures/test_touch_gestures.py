@@ -3,9 +3,9 @@
 from collections.abc import Iterator
 
 import pytest
-from playwright.sync_api import Browser, BrowserContext, CDPSession, Page, StorageState, expect
+from playwright.sync_api import Browser, CDPSession, Page, expect
 
-from tests.editor.gestures.conftest import EditorDriver, Point, box_of, middle, opened_window
+from tests.editor.gestures.conftest import WAIT_MS, EditorDriver, Point, box_of, middle
 
 
 class TouchInput:
@@ -30,9 +30,13 @@ class TouchInput:
 
 
 @pytest.fixture(scope="module")
-def window(chromium: Browser, person: StorageState) -> Iterator[BrowserContext]:
-    with opened_window(chromium, person, viewport={"width": 1180, "height": 820}, has_touch=True) as context:
-        yield context
+def first_page(chromium: Browser, first_page: Page) -> Iterator[Page]:
+    """A touch screen of the user of the other modules, as only the same user can undo edits of a failed test."""
+    user = first_page.context.storage_state()
+    context = chromium.new_context(storage_state=user, viewport={"width": 1180, "height": 820}, has_touch=True)
+    context.set_default_timeout(WAIT_MS)
+    yield context.new_page()
+    context.close()
 
 
 @pytest.fixture
