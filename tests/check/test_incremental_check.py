@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.docsite.random_edits import EDITS, FORWARD, Edit
-from vicode.check import PROJECT_RULES, check_design, check_project
+from vicode.check import check_design, check_file, check_project
 from vicode.languages import GENERATED_LANGUAGES
 from vicode.model.design import Design, State, Use
 from vicode.model.project import Project
@@ -22,7 +22,7 @@ def test_incremental_findings_equal_separate_findings(steps: list[tuple[Edit, in
         project = edit(project, random.Random(seed))
         if has_all_languages:
             project = replace(project, languages=GENERATED_LANGUAGES)
-        expected = [finding for rule in PROJECT_RULES for finding in rule(project)]
+        expected = list(check_file(project))
         for design in project.designs:
             expected += check_design(project, design)
         assert check_project(project) == tuple(dict.fromkeys(expected))

@@ -3,7 +3,7 @@
 Rules never raise, and never run or import code of a project.
 """
 
-from collections.abc import Callable, Collection
+from collections.abc import Callable, Collection, Iterator
 from functools import lru_cache
 
 from vicode.check import (
@@ -12,13 +12,11 @@ from vicode.check import (
     declarations,
     expressions,
     names,
-    project,
     states,
     steps,
     uses,
-    xabsl,
-    xabsl_project,
 )
+from vicode.check import project as project_rules
 from vicode.check.context import RuleContext, build_context, build_context_with_graphs
 from vicode.check.dependency_view import make_dependency_view
 from vicode.check.graphs import build_graphs
@@ -26,10 +24,10 @@ from vicode.findings import Finding
 from vicode.model.design import Design
 from vicode.model.project import Project
 
-__all__ = ["DESIGN_RULES", "PROJECT_RULES", "RuleContext", "check_design", "check_project"]
+__all__ = ["RuleContext", "check_design", "check_file", "check_project"]
 
-PROJECT_RULES = (*project.RULES, *xabsl_project.RULES)
-DESIGN_RULES = (
+DesignRule = Callable[[RuleContext], Iterator[Finding]]
+DESIGN_RULES: tuple[DesignRule, ...] = (
     *names.RULES,
     *declarations.RULES,
     *uses.RULES,
@@ -38,18 +36,23 @@ DESIGN_RULES = (
     *expressions.RULES,
     *steps.RULES,
     *code.RULES,
-    *xabsl.RULES,
 )
 
 
 def check_project(project: Project, components: Collection[str] | None = None) -> tuple[Finding, ...]:
     """Check a project file and its designs, or only the designs of `components`."""
-    findings = [finding for rule in PROJECT_RULES for finding in rule(project)]
+    findings = list(check_file(project))
     check = _cached_checker(make_dependency_view(project))
     for design in project.designs:
         if components is None or design.component in components:
             findings += check(design)
     return tuple(dict.fromkeys(findings))
+
+
+def check_file(project: Project) -> Iterator[Finding]:
+    """Check a project file."""
+    rules = (*project_rules.RULES, *(_xabsl_rules()[0] if "xabsl" in project.languages else ()))
+    return (finding for rule in rules for finding in rule(project))
 
 
 def check_design(project: Project, design: Design) -> tuple[Finding, ...]:
@@ -71,4 +74,12 @@ def _cached_checker(dependency_view: Project) -> Callable[[Design], tuple[Findin
 
 
 def _run_rules(context: RuleContext) -> tuple[Finding, ...]:
-    return tuple(finding for rule in DESIGN_RULES for finding in rule(context))
+    rules = (*DESIGN_RULES, *(_xabsl_rules()[1] if "xabsl" in context.project.languages else ()))
+    return tuple(finding for rule in rules for finding in rule(context))
+
+
+def _xabsl_rules() -> tuple[tuple[Callable[[Project], Iterator[Finding]], ...], tuple[DesignRule, ...]]:
+    # Most projects have no XABSL code.
+    from vicode.check import xabsl, xabsl_project  # noqa: PLC0415
+
+    return xabsl_project.RULES, xabsl.RULES

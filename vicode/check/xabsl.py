@@ -28,8 +28,6 @@ _MAX_NAME_LENGTH = 99
 
 def find_unsupported_features(context: RuleContext) -> Iterator[Finding]:
     """L701: features of a design that options do not support."""
-    if not _is_xabsl_project(context):
-        return
     for limit in (
         *find_unsupported_in_design(context.project, context.design),
         *find_unsupported_in_root(context.project, context.design),
@@ -41,8 +39,6 @@ def find_unsupported_features(context: RuleContext) -> Iterator[Finding]:
 
 def find_unsupported_expressions(context: RuleContext) -> Iterator[Finding]:
     """L701, L702: expressions that XABSL does not support or evaluates differently."""
-    if not _is_xabsl_project(context):
-        return
     constants, is_xabsl = evaluate_constants(context.project), context.design.arithmetic == LANGUAGE
     can_express_done = partial(is_done_expressible, context.project, context.design)
     for expression, state in _generated_expressions(context):
@@ -61,8 +57,6 @@ def find_unsupported_expressions(context: RuleContext) -> Iterator[Finding]:
 
 def find_too_deep_decisions(context: RuleContext) -> Iterator[Finding]:
     """L701: decisions nested too deeply for XABSL parsers, which read each one in the `else` of the previous one."""
-    if not _is_xabsl_project(context):
-        return
     counts = Counter(located.source for located in context.decisions)
     guards = {
         expression.path[:-1]: expanded_depth(expression.tree)
@@ -92,8 +86,6 @@ def _enclosing_group_paths(path: DesignPath, count: int) -> Iterator[DesignPath]
 
 def find_bad_names(context: RuleContext) -> Iterator[Finding]:
     """L703: names that are invalid in XABSL, and duplicate names of states or parameters."""
-    if not _is_xabsl_project(context):
-        return
     known: dict[tuple[str, str], DesignPath] = {}
     for kind, name, path, is_given in _iter_names(context):
         if path and not is_given and not is_valid_state_name(str(path[-1])):
@@ -112,8 +104,6 @@ def find_bad_names(context: RuleContext) -> Iterator[Finding]:
 
 def find_unreadable_code(context: RuleContext) -> Iterator[Finding]:
     """L704: invalid XABSL code."""
-    if not _is_xabsl_project(context):
-        return
     # The XABSL parser is slow to import, and most projects have no XABSL code.
     from vicode.xabsl.embedded_code import parse_embedded_actions, parse_embedded_expression  # noqa: PLC0415
 
@@ -136,10 +126,6 @@ def validate_xabsl_name(name: str, *, is_explicit: bool) -> str:
     if len(name) > _MAX_NAME_LENGTH:
         return f"XABSL engines truncate names to {_MAX_NAME_LENGTH} characters"
     return f"'{name}' is an XABSL keyword" if is_explicit and name in LANGUAGES[LANGUAGE].keywords else ""
-
-
-def _is_xabsl_project(context: RuleContext) -> bool:
-    return LANGUAGE in context.project.languages
 
 
 def _never(_alias: str) -> bool:

@@ -33,8 +33,6 @@ class _XabslName:
 
 def find_unsupported_features(project: Project) -> Iterator[Finding]:
     """L701: features of a project that XABSL does not support."""
-    if LANGUAGE not in project.languages:
-        return
     for limit in find_unsupported_in_project(project):
         subject = FindingSubject(path=limit.path, is_key=limit.is_key)
         yield Finding(
@@ -44,8 +42,6 @@ def find_unsupported_features(project: Project) -> Iterator[Finding]:
 
 def find_bad_names(project: Project) -> Iterator[Finding]:
     """L703: names that are invalid or not unique in XABSL."""
-    if LANGUAGE not in project.languages:
-        return
     known: dict[tuple[str, str], _XabslName] = {}
     for entry in _iter_names(project):
         is_of_project = not entry.subject.component and (

@@ -1,13 +1,18 @@
 """Reads designs and projects from YAML with all errors at once, and patches the text when a design is saved."""
 
-from vicode.store.comments import add_comments
+from importlib import import_module
+from typing import TYPE_CHECKING
+
 from vicode.store.documents import DesignReadResult, ProjectReadResult, read_design, read_project_file
 from vicode.store.durable_write import is_read_only, write_text
-from vicode.store.json_schema import design_schema, project_schema
 from vicode.store.locations import find_faulty_components, find_location, iter_owning_components, locate_findings
 from vicode.store.projects import OpenProject, find_design_files, find_project_file, find_projects, open_project
-from vicode.store.save import save_design, save_project_file
 from vicode.store.source_map import SourceMap
+
+if TYPE_CHECKING:
+    from vicode.store.comments import add_comments
+    from vicode.store.json_schema import design_schema, project_schema
+    from vicode.store.save import save_design, save_project_file
 
 __all__ = [
     "DesignReadResult",
@@ -32,3 +37,18 @@ __all__ = [
     "save_project_file",
     "write_text",
 ]
+
+_LAZY_MODULES = {
+    "add_comments": "comments",
+    "design_schema": "json_schema",
+    "project_schema": "json_schema",
+    "save_design": "save",
+    "save_project_file": "save",
+}
+
+
+def __getattr__(name: str) -> object:
+    """Import what writes on first use: it is half of the package, and most commands only read."""
+    if name not in _LAZY_MODULES:
+        raise AttributeError(name)
+    return getattr(import_module(f"vicode.store.{_LAZY_MODULES[name]}"), name)
