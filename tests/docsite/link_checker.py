@@ -2,6 +2,7 @@
 
 from collections import Counter
 from dataclasses import dataclass, field
+from functools import cache
 from html.parser import HTMLParser
 from urllib.parse import unquote, urlsplit
 
@@ -27,6 +28,7 @@ class _Reader(HTMLParser):
     def __init__(self) -> None:
         super().__init__()
         self.page = ReadPage()
+        self.texts: list[str] = []
 
     def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
         values = {name: value or "" for name, value in attrs}
@@ -43,14 +45,16 @@ class _Reader(HTMLParser):
             self.page.loaded.append(values["src"])
 
     def handle_data(self, data: str) -> None:
-        self.page.text += data
+        self.texts.append(data)
 
 
+@cache
 def read_page(text: str) -> ReadPage:
     """What a page holds."""
     reader = _Reader()
     reader.feed(text)
     reader.close()
+    reader.page.text = "".join(reader.texts)
     return reader.page
 
 
