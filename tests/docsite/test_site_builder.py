@@ -183,6 +183,12 @@ def test_a_state_says_what_it_does(forward: tuple[OutputFile, ...]) -> None:
         assert f'href="{address}' in section
 
 
+def test_a_component_shows_its_own_code_and_links_its_files(forward: tuple[OutputFile, ...]) -> None:
+    text = page(forward, "component-Player.html")
+    assert "getLogger" in read_page(text[text.index(">Custom code</h2>") :]).text
+    assert '<a href="source-Player.html" title="player.yaml">Source</a>' in text
+
+
 def test_lines_of_code_lead_back(forward: tuple[OutputFile, ...]) -> None:
     for path in ("python-Player.html", "source-Player.html"):
         links = read_page(page(forward, path)).links

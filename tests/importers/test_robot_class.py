@@ -58,7 +58,9 @@ def test_texts_stay_inside_comments(tmp_path: Path) -> None:
         files["Symbols/ball.xabsl"].replace("how far", evil.replace("*/", "")).replace('"The ball"', '"a\nimport os"')
     )
     imported, _compiled = import_checked(load_texts(files))
-    robot = create_robot(render_robot_class(imported.project), tmp_path)
+    text = render_robot_class(imported.project)
+    assert "(in mm; 0 to 9000)" in text
+    robot = create_robot(text, tmp_path)
     assert robot.ball_distance == 0
     assert robot.class_ is False
     assert robot.angle(to_x=1) == 0
