@@ -1,7 +1,7 @@
 """Three-way merges of designs and texts."""
 
 from vicode.model.merge.design_merge import Conflict, MergeResult, merge_designs
-from vicode.model.merge.matching import find_renamed_states, find_renamed_uses, match_items
+from vicode.model.merge.matching import find_renamed_states, find_renamed_uses, item_key, match_items
 from vicode.model.merge.text_merge import merge_characters, merge_lines
 
 __all__ = [
@@ -9,6 +9,7 @@ __all__ = [
     "MergeResult",
     "find_renamed_states",
     "find_renamed_uses",
+    "item_key",
     "match_items",
     "merge_characters",
     "merge_designs",
