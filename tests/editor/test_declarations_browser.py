@@ -137,6 +137,20 @@ def test_what_few_need_stands_in_folds(editor: str, page: Page, project: Path) -
     assert "    xabsl_name: strike\n" in state
 
 
+def test_a_field_keeps_focus_and_item_while_others_change_the_list(editor: str, page: Page, other: Page) -> None:
+    open_design(page, editor, "Player")
+    open_design(other, editor, "Player")
+    unit = page.get_by_role("group", name="variable side", exact=True).get_by_label("Unit")
+    unit.focus()
+    page.keyboard.type("le")
+    other.get_by_role("group", name="variable kick", exact=True).get_by_role("button", name="Remove kick").click()
+    expect(page.get_by_role("group", name="variable kick", exact=True)).to_have_count(0)
+    expect(unit).to_be_focused()
+    page.keyboard.type("gs")
+    expect(other.get_by_role("group", name="variable side", exact=True).get_by_label("Unit")).to_have_value("legs")
+    expect(unit).to_be_focused()
+
+
 def test_a_new_assignment_begins_with_a_value_that_can_stand_there(editor: str, page: Page) -> None:
     open_design(page, editor, "Player")
     page.get_by_role("button", name="Add to actions: Set").click()

@@ -1,78 +1,34 @@
-// Preserves input and clicks while the server rebuilds a form; see form_input_preservation.py.
+// Preserves clicks and the focus while the server replaces parts of a form; see form_input_preservation.py.
 {
+  const findPanel = () => document.querySelector("[data-form]");
   let focused = null;
-  const accessibleName = (element) => element.getAttribute("aria-label") ?? element.textContent;
-  const findSimilar = (panel, element) => [...panel.querySelectorAll(element.tagName)].filter((each) => accessibleName(each) === accessibleName(element));
-  const elementId = (element) => Number(element.closest("[id^=c]")?.id.slice(1));
-  const isText = (field) => field.matches("input:not([role], [type=checkbox]), textarea");
-  const acceptsText = (field) => isText(field) || field.isContentEditable || field.matches(".cm-content");
   document.addEventListener("focusin", ({ target }) => {
-    const panel = target.closest("[data-form]");
-    if (target === focused?.field) return;
-    focused = panel && target !== panel ? { field: target, form: panel.dataset.form } : null;
-    if (focused) focused.at = findSimilar(panel, target).indexOf(target);
+    focused = target.closest("[data-form]") ? target : null;
   });
-  const sendDelayedInput = ({ field, number, editor }) => {
-    const text = editor ? editor.state.doc.toString() : isText(field) ? field.value : null;
-    if (text !== null && number) emitEvent("delayed-input", { number, text });
-  };
-  document.addEventListener("focusout", ({ target }) => {
-    const was = focused;
-    // A removed field also fires focusout. In that case, the new form is mounted and the input transferred by the
-    // second microtask; otherwise the text is sent before the next event.
-    if (was?.isTyped && target === was.field)
-      queueMicrotask(() => queueMicrotask(() => was.isTransferred || sendDelayedInput(was)));
-    setTimeout(() => {
-      if (focused?.field.isConnected && document.activeElement === document.body) focused = null;
-    });
-  });
-  document.addEventListener("change", ({ target, isTrusted }) => {
-    // Shortcuts that save or navigate dispatch a change event while the field keeps the focus.
-    if (!isTrusted && focused?.isTyped && target === focused.field) sendDelayedInput(focused);
-  });
-  document.addEventListener("input", ({ target }) => {
-    if (target !== focused?.field || focused.isTyped) return;
-    focused.isTyped = true;
-    focused.number = elementId(target);
-    // The editor outlives its element, which may be removed when the text is needed.
-    if (!isText(target)) focused.editor = getElement(focused.number)?.editor;
-  });
-  const transferInput = (panel, was) => {
-    const { field, at, isTyped } = was;
-    const next = findSimilar(panel, field)[at];
-    // Code editors are mounted later.
-    if (!next) return false;
-    next.focus({ preventScroll: true });
-    if (!isText(field) || !isText(next)) return true;
-    was.isTransferred = true;
-    if (isTyped && next.value !== field.value) {
-      emitEvent("input-transferred", { from: was.number, to: elementId(next) });
-      next.value = field.value;
-      next.dispatchEvent(new Event("input", { bubbles: true }));
+  const isText = (field) => field.matches("input:not([role], [type=checkbox]), textarea, .cm-content") || field.isContentEditable;
+  new MutationObserver((records) => {
+    const nodes = focused && document.activeElement === document.body ? records.flatMap(({ removedNodes }) => [...removedNodes]) : [];
+    if (!nodes.some((node) => node.contains(focused))) return;
+    if (focused.isConnected) {
+      // Moving an element takes the focus away.
+      focused.focus({ preventScroll: true });
+      return;
     }
-    next.setSelectionRange?.(field.selectionStart, field.selectionEnd);
-    return true;
-  };
-  new MutationObserver(() => {
-    if (!focused || focused.field.isConnected) return;
-    const was = focused;
-    focused = null;
-    const panel = document.querySelector("[data-form]");
-    if (!panel || ![document.body, panel].includes(document.activeElement)) return;
-    const isSame = panel.dataset.form === was.form;
-    if ((isSame && transferInput(panel, was)) || !acceptsText(was.field)) return;
-    // Further keys must not run commands, even if the item no longer exists.
+    const panel = findPanel();
+    if (!panel || !isText(focused)) return;
+    // Further keys must not run commands.
     panel.tabIndex = -1;
     panel.focus({ preventScroll: true });
-    if (isSame) focused = was;
   }).observe(document.body, { childList: true, subtree: true });
 
-  // The server ignores clicks on buttons of a replaced form. Each click is announced first, so that the server can detect
+  // The server ignores clicks on buttons of a removed form. Each click is announced first, so that the server can detect
   // that the button no longer exists.
   const BUTTON = "button, [role=button], [role=checkbox], [role=switch]";
   const WAIT_MS = 1000;
   const MAX_REMEMBERED = 20;
   const CLICK_TOLERANCE_PX = 4;
+  const accessibleName = (element) => element.getAttribute("aria-label") ?? element.textContent;
+  const findSimilar = (panel, element) => [...panel.querySelectorAll(element.tagName)].filter((each) => accessibleName(each) === accessibleName(element));
   const presses = new Map();
   let pressed = null;
   const findPress = (target) => {
@@ -81,7 +37,7 @@
     return panel ? { button, at: findSimilar(panel, button).indexOf(button), where: null } : null;
   };
   const reportPress = (was) => {
-    const number = elementId(was.button);
+    const number = Number(was.button.closest("[id^=c]")?.id.slice(1));
     presses.set(number, was);
     if (presses.size > MAX_REMEMBERED) presses.delete(presses.keys().next().value);
     emitEvent("button-pressed", number);
@@ -99,13 +55,15 @@
     true,
   );
   document.addEventListener("pointerup", ({ target, clientX, clientY }) => {
-    // The button was replaced between pointerdown and pointerup, which browsers do not report as a click.
+    // The button was replaced or moved between pointerdown and pointerup, which browsers do not report as a click.
     const was = pressed;
-    if (!was?.where || was.button.isConnected) return;
+    if (!was?.where || was.button.contains(target)) return;
     pressed = null;
-    const next = findPress(target);
+    const next = was.button.isConnected ? null : findPress(target);
     if (next && accessibleName(next.button) === accessibleName(was.button)) repeat(next);
-    else if (Math.hypot(clientX - was.where.x, clientY - was.where.y) < CLICK_TOLERANCE_PX) retryPress(was, performance.now());
+    else if (Math.hypot(clientX - was.where.x, clientY - was.where.y) >= CLICK_TOLERANCE_PX) return;
+    else if (was.button.isConnected) repeat(was);
+    else retryPress(was, performance.now());
   });
   document.addEventListener(
     "click",
@@ -118,7 +76,7 @@
     true,
   );
   const retryPress = (was, sinceMs) => {
-    const panel = document.querySelector("[data-form]");
+    const panel = findPanel();
     const next = panel && !was.button.isConnected && findSimilar(panel, was.button)[was.at];
     if (next) repeat({ button: next, at: was.at });
     else if (performance.now() - sinceMs < WAIT_MS) requestAnimationFrame(() => retryPress(was, sinceMs));

@@ -1,15 +1,9 @@
-"""Preserves input and clicks in a form while the server rebuilds the form.
+"""Preserves clicks and the focus while the server replaces parts of a form.
 
-A form is rebuilt when another item is selected, or when the item is renamed or its parts change. Until the browser has
-received the new form, the user types into fields and clicks buttons that the server has already deleted; their events
-are ignored.
-
-- A focused field transfers its text, cursor and focus to the corresponding field of the new form
-  (`Inspector.transfer_input`), as other users may have changed the same text.
-- A field that lost the focus before the new form arrived sends its text with its element id. The inspector applies it
-  to the corresponding field (`Inspector.apply_delayed_input`).
-- A click is announced with the id of the button before the click itself. If the server no longer has the button, the
-  browser clicks the button with the same name in the new form.
+Until the browser has received the form of a newly selected item, the user clicks buttons that the server has already
+deleted; their events are ignored. Each click is announced with the id of the button before the click itself. If the
+server no longer has the button, the browser clicks the button with the same name in the new form. Text fields of
+removed forms still receive their input (`vicode.editor.panels.form.RemovedTexts`).
 """
 
 from pathlib import Path

@@ -1,51 +1,83 @@
 """The ordered actions of a state: assignments, calls of used components, code."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Hashable
 from dataclasses import replace
 
 from nicegui import ui
 
 from vicode.editor.panels.code_field import code_field, pairs_field
-from vicode.editor.panels.fields import Field, FieldBinding
+from vicode.editor.panels.fields import Attribute, FieldBinding, attribute_binding
+from vicode.editor.panels.form import Form, ItemRows, Rows
 from vicode.editor.panels.widgets import add_button, reorder_buttons
 from vicode.editor.panels.window_context import WindowContext
-from vicode.findings import DesignPath
-from vicode.model.design import Action, Assign, Call, Code, Declaration, Design, RunCode
-from vicode.model.edits import update_actions
+from vicode.editor.session.item_paths import TrackedItem, item_at
+from vicode.model.design import Action, Assign, Call, Code, Declaration, RunCode
 from vicode.model.expressions import build_scope
 
 # Focus a new action: otherwise typed letters would be commands of the canvas.
-_FOCUS_LAST = """
+_FOCUS = """
 (function focus(left) {
-  const field = document.querySelector('[data-adds="LIST"]')?.previousElementSibling?.querySelector(".cm-content");
+  const field = getHtmlElement(%d)?.querySelector(".cm-content");
   if (field) field.focus();
   else if (left > 0) setTimeout(() => focus(left - 1), 50);
 })(100);
 """
 
 
-def actions_panel(
-    context: WindowContext, path: DesignPath, actions: tuple[Action, ...], *, calls: bool = True
-) -> list[Field]:
-    """Build forms for the actions at a path, with buttons to add, move and remove them."""
-    fields: list[Field] = []
-    for index, action in enumerate(actions):
-        with ui.column().classes("card"):
-            with ui.row().classes("card-head"):
-                ui.label(_title(action)).classes("card-title")
-                reorder_buttons(
-                    f"{index + 1} {_title(action)}",
-                    up=None if index == 0 else _mover(context, path, index, -1),
-                    down=None if index == len(actions) - 1 else _mover(context, path, index, 1),
-                    remove=_remover(context, path, index),
-                )
-            fields += _action_fields(context, path, index, action)
-    with ui.row().classes("adders").props(f"data-adds={path[-1]}-{len(actions)}"):
-        _adder(context, path, "Set", "edit_note", lambda: Assign(values=(_first_assignment(context),)))
-        if calls and context.design.uses:
-            _adder(context, path, "Call", "call_made", lambda: Call(alias=context.design.uses[0].alias))
-        _adder(context, path, "Code", "code", lambda: RunCode(code=python_code("pass\n")))
-    return fields
+def actions_panel(form: Form, owner: TrackedItem, section: str, *, calls: bool = True) -> None:
+    """Build forms for a list of actions, with buttons to add, move and remove them."""
+    context = form.context
+
+    def shape(action: Action) -> Hashable:
+        return (type(action), component_parameters(context, action.alias) if isinstance(action, Call) else ())
+
+    def add(label: str, icon: str, make: Callable[[], Action]) -> None:
+        add_button(label, f"Add to {section}: {label}", _adder(rows, owner.child(section), label, make), icon=icon)
+
+    def list_calls() -> list[str]:
+        return ["Call"] if calls and context.design.uses else []
+
+    def make_call() -> Action:
+        return Call(alias=context.design.uses[0].alias)
+
+    rows = ItemRows(form, owner, section, _action, shape)
+    with ui.row().classes("adders"):
+        add("Set", "edit_note", lambda: Assign(values=(_first_assignment(context),)))
+        Rows(form, list_calls, lambda _row, label: add(label, "call_made", make_call))
+        add("Code", "code", lambda: RunCode(code=python_code("pass\n")))
+
+
+def _action(form: Form, item: TrackedItem) -> None:
+    def list_heads() -> list[tuple[str, int, bool]]:
+        path = item.path
+        if path is None:
+            return []
+        index, actions = int(path[-1]), item_at(form.context.design, path[:-1])
+        return [(_title(actions[index]), index, index == len(actions) - 1)]
+
+    def build_head(_row: Form, key: tuple[str, int, bool]) -> None:
+        title, index, is_last = key
+        _head(form, item, title, index, is_last=is_last)
+
+    with ui.column().classes("card"):
+        Rows(form, list_heads, build_head)
+        _action_field(form, item)
+
+
+def _head(form: Form, item: TrackedItem, title: str, index: int, *, is_last: bool) -> None:
+    edit = form.context.edit
+
+    def move(by: int) -> Callable[[], None]:
+        return lambda: edit("move action", lambda design: item.move(design, by))
+
+    with ui.row().classes("card-head"):
+        ui.label(title).classes("card-title")
+        reorder_buttons(
+            f"{index + 1} {title}",
+            up=None if index == 0 else move(-1),
+            down=None if is_last else move(1),
+            remove=lambda: edit("remove action", item.remove),
+        )
 
 
 def python_code(text: str) -> Code:
@@ -81,46 +113,43 @@ def _title(action: Action) -> str:
             return "Code"
 
 
-def _action_fields(context: WindowContext, path: DesignPath, index: int, action: Action) -> list[Field]:
-    here = (*path, index)
-
-    def read(design: Design) -> Action | None:
-        declarations = _actions_at(design, path)
-        return declarations[index] if index < len(declarations) else None
-
-    def write(make: Callable[[Action, str], Action]) -> Callable[[Design, str], Design]:
-        def change(design: Design, value: str) -> Design:
-            return update_actions(
-                design,
-                path,
-                lambda actions: tuple(make(each, value) if at == index else each for at, each in enumerate(actions)),
-            )
-
-        return change
-
-    match action:
+def _action_field(form: Form, item: TrackedItem) -> None:
+    context = form.context
+    match item.get():
         case RunCode():
-            bound = FieldBinding(
-                label="Python", path=(*here, "code"), read=lambda design: _code_of(read(design)), write=write(_set_code)
-            )
-            return [code_field(context, bound)]
+            code_field(form, code_binding(item, "Python", "code"))
         case Assign():
-            bound = FieldBinding(
+            attribute = Attribute(
                 label="name = expression, one per line",
-                path=(*here, "set"),
-                read=lambda design: _values_of(read(design)),
-                write=write(_set_values),
+                name="values",
+                key="set",
+                format=format_assignments,
+                # The last assignment is removed with its action.
+                parse=lambda text: parse_assignments(text) or item.get().values,
             )
-            return [pairs_field(context, bound, lambda: settable_declarations(context))]
-        case Call():
-            bound = FieldBinding(
+            pairs_field(form, attribute_binding(item, attribute), lambda: settable_declarations(context))
+        case Call(alias=alias):
+            attribute = Attribute(
                 label="parameter = expression, one per line",
-                path=(*here, "with"),
-                read=lambda design: _values_of(read(design)),
-                write=write(_set_values),
-                hint=", ".join(each.name for each in component_parameters(context, action.alias)),
+                name="arguments",
+                key="with",
+                format=format_assignments,
+                parse=parse_assignments,
+                hint=", ".join(each.name for each in component_parameters(context, alias)),
             )
-            return [pairs_field(context, bound, lambda: component_parameters(context, action.alias))]
+            binding = attribute_binding(item, attribute)
+            pairs_field(form, binding, lambda: component_parameters(context, item.get().alias))
+
+
+def code_binding(item: TrackedItem, label: str, name: str) -> FieldBinding:
+    """Bind the Python text of an attribute that is code."""
+    attribute = Attribute(
+        label=label,
+        name=name,
+        format=lambda code: (code.in_language("python") if code else "") or "",
+        parse=lambda text: replace_python(getattr(item.get(), name), text),
+    )
+    return attribute_binding(item, attribute)
 
 
 def settable_declarations(context: WindowContext) -> tuple[Declaration, ...]:
@@ -139,41 +168,6 @@ def component_parameters(context: WindowContext, alias: str) -> tuple[Declaratio
     return interface.parameters if interface else ()
 
 
-def _actions_at(design: Design, path: DesignPath) -> tuple[Action, ...]:
-    if path[0] == "common":
-        return design.common.actions
-    state = design.state(str(path[1]))
-    actions: tuple[Action, ...] = getattr(state, str(path[2])) if state else ()
-    return actions
-
-
-def _code_of(action: Action | None) -> str:
-    return (action.code.in_language("python") or "") if isinstance(action, RunCode) else ""
-
-
-def _values_of(action: Action | None) -> str:
-    match action:
-        case Assign(values=pairs) | Call(arguments=pairs):
-            return format_assignments(pairs)
-        case _:
-            return ""
-
-
-def _set_code(action: Action, text: str) -> Action:
-    return replace(action, code=replace_python(action.code, text)) if isinstance(action, RunCode) else action
-
-
-def _set_values(action: Action, text: str) -> Action:
-    pairs = parse_assignments(text)
-    match action:
-        case Assign():
-            return replace(action, values=pairs) if pairs else action
-        case Call():
-            return replace(action, arguments=pairs)
-        case _:
-            return action
-
-
 def _first_assignment(context: WindowContext) -> tuple[str, str]:
     """Return a default assignment: the first settable declaration, and a value of its type."""
     settable = settable_declarations(context)
@@ -186,28 +180,10 @@ def _first_assignment(context: WindowContext) -> tuple[str, str]:
     return (settable[0].name, zero)
 
 
-def _adder(context: WindowContext, path: DesignPath, label: str, icon: str, make: Callable[[], Action]) -> None:
+def _adder(rows: ItemRows, actions: TrackedItem, label: str, make: Callable[[], Action]) -> Callable[[], None]:
     def add() -> None:
-        action, client = make(), ui.context.client
-        context.edit(f"add {label.lower()}", lambda design: update_actions(design, path, lambda old: (*old, action)))
-        # The form with the new action is built later.
-        count = len(_actions_at(context.design, path))
-        client.run_javascript(_FOCUS_LAST.replace("LIST", f"{path[-1]}-{count}"))
+        action, context = make(), rows.form.context
+        context.edit(f"add {label.lower()}", lambda design: actions.update(design, lambda old: (*old, action)))
+        context.client.run_javascript(_FOCUS % rows.container.default_slot.children[-1].id)
 
-    add_button(label, f"Add to {path[-1]}: {label}", add, icon=icon)
-
-
-def _mover(context: WindowContext, path: DesignPath, index: int, by: int) -> Callable[[], None]:
-    def change(actions: tuple[Action, ...]) -> tuple[Action, ...]:
-        moved = list(actions)
-        moved.insert(index + by, moved.pop(index))
-        return tuple(moved)
-
-    return lambda: context.edit("move action", lambda design: update_actions(design, path, change))
-
-
-def _remover(context: WindowContext, path: DesignPath, index: int) -> Callable[[], None]:
-    def change(actions: tuple[Action, ...]) -> tuple[Action, ...]:
-        return actions[:index] + actions[index + 1 :]
-
-    return lambda: context.edit("remove action", lambda design: update_actions(design, path, change))
+    return add

@@ -1,9 +1,7 @@
 """Fields for Python code and expressions, with highlighting, completion and marks at errors."""
 
 from collections.abc import Callable, Iterable, Sequence
-from contextlib import suppress
 from dataclasses import dataclass, field
-from typing import Any
 
 from nicegui import ui
 from nicegui.events import CodeMirrorFocusChangeEventArguments
@@ -11,7 +9,8 @@ from nicegui.events import CodeMirrorFocusChangeEventArguments
 from vicode.editor.code import CodeAssist
 from vicode.editor.panels import texts
 from vicode.editor.panels.dialogs import titled_dialog
-from vicode.editor.panels.fields import Field, FieldBinding
+from vicode.editor.panels.fields import Field, FieldBinding, add_field
+from vicode.editor.panels.form import Form
 from vicode.editor.panels.widgets import icon_button
 from vicode.editor.panels.window_context import WindowContext
 from vicode.editor.session.code_marks import CodeMark, mark_assignments, mark_text
@@ -24,12 +23,6 @@ from vicode.editor.session.completion import (
 from vicode.model.design import Declaration
 
 _SHOWN_MESSAGES = 6
-_SEND_LAST_INPUT = """
-const text = getElement({large})?.editor?.state.doc.toString();
-if (text !== undefined) emitEvent("delayed-input", {{ number: {small}, text }});
-return true;
-"""
-_ANSWER_TIMEOUT_S = 5
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -42,39 +35,45 @@ class CodeFieldSpec:
     is_expression: bool = True
 
 
-def code_field(context: WindowContext, binding: FieldBinding) -> Field:
-    """Build a field for Python code; `binding.path` leads to the texts by language."""
-    path = (*binding.path, "python") if binding.path[-1:] == ("code",) else binding.path
-    lint_path = (*binding.path, "python")
+def code_field(form: Form, binding: FieldBinding) -> Field:
+    """Build a field for Python code; the path of the binding leads to the texts by language."""
+    context = form.context
+
+    def find_marks(text: str) -> Sequence[CodeMark]:
+        path = binding.get_path()
+        text_path = (*path, "python")
+        lints = context.linter.lints_for(text_path, text)
+        return mark_text(text, text_path if path[-1:] == ("code",) else path, context.document.findings, lints)
+
     spec = CodeFieldSpec(
         complete=lambda text, at: complete_python(context.workspace.project, context.design, text, at),
-        find_marks=lambda text: mark_text(
-            text, path, context.document.findings, context.linter.lints_for(lint_path, text)
-        ),
+        find_marks=find_marks,
         css_class="code-field",
         is_expression=False,
     )
-    return _build(context, binding, spec)
+    return add_field(form, _build(context, binding, spec))
 
 
-def expression_field(context: WindowContext, binding: FieldBinding) -> Field:
+def expression_field(form: Form, binding: FieldBinding) -> Field:
     """Build a field for one expression, which may have several lines."""
+    context = form.context
     spec = CodeFieldSpec(
         complete=lambda text, at: complete_expression(context.workspace.project, context.design, text, at),
-        find_marks=lambda text: mark_text(text, binding.path, context.document.findings),
+        find_marks=lambda text: mark_text(text, binding.get_path(), context.document.findings),
         css_class="code-field expression-field",
     )
-    return _build(context, binding, spec)
+    return add_field(form, _build(context, binding, spec))
 
 
-def pairs_field(context: WindowContext, binding: FieldBinding, settable: Callable[[], Iterable[Declaration]]) -> Field:
+def pairs_field(form: Form, binding: FieldBinding, settable: Callable[[], Iterable[Declaration]]) -> Field:
     """Build a field for lines `name = expression`; `settable` returns the allowed names."""
+    context = form.context
     spec = CodeFieldSpec(
         complete=lambda text, at: complete_assignments(context.workspace.project, context.design, settable(), text, at),
-        find_marks=lambda text: mark_assignments(text, binding.path, context.document.findings),
+        find_marks=lambda text: mark_assignments(text, binding.get_path(), context.document.findings),
         css_class="code-field expression-field",
     )
-    return _build(context, binding, spec)
+    return add_field(form, _build(context, binding, spec))
 
 
 def _build(
@@ -113,25 +112,18 @@ def _enlarge(small: Field, spec: CodeFieldSpec) -> None:
         with ui.row().classes("dialog-buttons"):
             ui.button("Close", on_click=dialog.close).props("flat no-caps")
 
+    path = large.path
+
     def unsubscribe() -> None:
         for stop in stops:
             stop()
 
     def follow() -> None:
-        if large.is_path_valid():
+        if large.is_path_valid() and large.path == path:
             large.refresh()
             return
         unsubscribe()
         context.show_toast(texts.CODE_OWNER_CHANGED, "warning")
-        large.is_closing = True
-        # Text typed before belongs to the new path of the code, if it still exists.
-        small.transfer_input_from(large)
-        context.run_in_background(send_last_input(), "last input")
-
-    async def send_last_input() -> None:
-        with suppress(TimeoutError):
-            script = _SEND_LAST_INPUT.format(small=small.element.id, large=large.element.id)
-            await dialog.client.run_javascript(script, timeout=_ANSWER_TIMEOUT_S)
         dialog.close()
 
     def close() -> None:
@@ -153,18 +145,16 @@ class CodeField(Field):
     spec: CodeFieldSpec = field(kw_only=True)
     code_assist: CodeAssist = field(kw_only=True)
     messages: ui.column = field(kw_only=True)
-    is_closing: bool = False
-    """Whether its dialog is about to close; its input is then transferred separately."""
     _shown: object = None
 
     def __post_init__(self) -> None:
         """Subscribe to changes; the editor reports its focus through its own event."""
-        self.element.on_value_change(lambda event: self._on_typed(event.value))
+        self.element.on_value_change(lambda event: self.on_typed(event.value))
         self.refresh()
 
     def refresh(self) -> None:
         super().refresh()
-        if self.element.is_deleted:
+        if self.messages.is_deleted:
             return
         text = str(self.element.value or "")
         marks = tuple(self.spec.find_marks(text))
@@ -172,10 +162,6 @@ class CodeField(Field):
         if (marks, self.error) != self._shown:
             self._shown = (marks, self.error)
             self._show_messages(marks, is_long="\n" in text.rstrip("\n"))
-
-    def _on_typed(self, value: Any) -> None:
-        if not self.is_closing:
-            super()._on_typed(value)
 
     def _show_messages(self, marks: tuple[CodeMark, ...], *, is_long: bool) -> None:
         self.messages.clear()

@@ -4,7 +4,7 @@ from collections.abc import Callable
 
 from nicegui import ui
 
-from vicode.editor.panels.window_context import WindowContext
+from vicode.editor.panels.form import Form
 
 # Scrolls the content of a section that is opened at the lower edge into view. Sections open without animation, so that
 # buttons do not move while the user presses them.
@@ -21,9 +21,10 @@ _SCROLL_INTO_VIEW = """
 
 
 def collapsible_section(
-    context: WindowContext, key: str, title: str, caption: str, build: Callable[[], None]
+    form: Form, key: str, title: Callable[[], str], caption: Callable[[], str], build: Callable[[], object]
 ) -> ui.expansion:
     """Build a section; `caption` summarizes its content, `key` identifies it within the design."""
+    context = form.context
     built: list[bool] = []
 
     def fill() -> None:
@@ -40,13 +41,14 @@ def collapsible_section(
         else:
             context.open_sections.discard(key)
 
-    section = ui.expansion(
-        title,
-        caption=caption,
-        value=key in context.open_sections,
-        on_value_change=lambda event: turn(is_open=event.value),
-    )
+    def show_caption(text: str) -> None:
+        section.props["caption"] = text
+        section.update()
+
+    section = ui.expansion(value=key in context.open_sections, on_value_change=lambda event: turn(is_open=event.value))
     section.classes("section").props("dense duration=0")
+    form.watch(title, section.set_text)
+    form.watch(caption, show_caption)
     if key in context.open_sections:
         fill()
     return section

@@ -1,143 +1,98 @@
 """The form of a transition, stay or group: target and guard."""
 
-from collections.abc import Callable
 from dataclasses import replace
-from typing import Any
 
 from nicegui import ui
 
-from vicode.editor.panels.actions_panel import python_code, replace_python
+from vicode.editor.panels.actions_panel import code_binding, python_code
 from vicode.editor.panels.code_field import code_field, expression_field
-from vicode.editor.panels.decisions_list import decisions_list
-from vicode.editor.panels.fields import Field, FieldBinding, checkbox_field, choice_field, state_names, text_field
+from vicode.editor.panels.decisions_list import decision_source, decisions_list
+from vicode.editor.panels.fields import (
+    DOC,
+    Attribute,
+    FieldBinding,
+    FieldKind,
+    attribute_binding,
+    attribute_field,
+    choice_field,
+    state_names,
+    text_field,
+)
+from vicode.editor.panels.form import Form, Rows
 from vicode.editor.panels.widgets import heading, panel_title
-from vicode.editor.panels.window_context import WindowContext
+from vicode.editor.session.item_paths import TrackedItem
 from vicode.editor.view import ItemRef, parse_transition_key
-from vicode.findings import DesignPath
-from vicode.model.design import COMMON, Decision, DecisionGroup, Design, Guard, Transition
-from vicode.model.edits import assign_id, remove_decisions, replace_decision
-from vicode.model.traversal import find_decision
+from vicode.model.design import COMMON, DecisionGroup, Design, Transition
+from vicode.model.edits import assign_id, remove_decisions
 
 _CODE_HINT = "return self.perception.ball_seen\n"
+_TO = Attribute(label="To", name="to", format=str)
+_WHEN = Attribute(label="When", name="when", hint="always")
+_DISABLED = Attribute(label="Disabled (never tested)", name="disabled", kind=FieldKind.CHECKBOX)
+_PREDICATE = "Predicate (body of a function that returns a bool)"
 
 
-def decision_panel(context: WindowContext, key: str) -> list[Field]:
-    """Build the form of a decision; return no fields if it does not exist."""
-    located = find_decision(context.design, parse_transition_key(key))
-    if located is None:
-        return []
-    path, decision = located.path, located.decision
-    source = "every state" if located.source == COMMON else located.source
-    panel_title(_kind(decision), source, _select_source(context, located.source))
-    fields = _target_field(context, path, decision)
-    fields.append(expression_field(context, _guard_binding(path, "When", "when")))
-    unit = "milliseconds" if context.design.time_unit == "ms" else "seconds"
-    fields.append(text_field(context, _guard_binding(path, f"After ({unit} in this state)", "after"), monospace=True))
-    fields += _code(context, path, decision.guard)
-    fields.append(text_field(context, _decision_binding(path, "Description", "doc"), multiline=True))
-    fields.append(checkbox_field(context, _decision_binding(path, "Disabled (never tested)", "disabled")))
+def decision_panel(form: Form, key: str) -> None:
+    item = form.item(*parse_transition_key(key))
+    guard, decision = item.child("guard"), item.get()
+    _title(form, item)
+    if isinstance(decision, Transition):
+        choice_field(form, attribute_binding(item, _TO), state_names)
+    expression_field(form, _guard_binding(item, attribute_binding(guard, _WHEN)))
+    unit = "milliseconds" if form.context.design.time_unit == "ms" else "seconds"
+    after = Attribute(label=f"After ({unit} in this state)", name="after")
+    text_field(form, _guard_binding(item, attribute_binding(guard, after)), monospace=True)
+    Rows(form, lambda: [item.path is not None and guard.get().code is not None], lambda row, has: _code(row, item, has))
+    attribute_field(form, item, DOC)
+    attribute_field(form, item, _DISABLED)
     if isinstance(decision, DecisionGroup):
-        heading("Then")
-        decisions_list(context, located.source, (*path, "then"), decision.then)
-        heading("Else")
-        decisions_list(context, located.source, (*path, "else"), decision.otherwise)
-    _remove_button(context, path)
-    return fields
+        for section, title in (("then", "Then"), ("else", "Else")):
+            heading(title)
+            decisions_list(form, item, section)
+    _remove_button(form, item)
 
 
-def _kind(decision: Decision) -> str:
-    if isinstance(decision, DecisionGroup):
-        return "Group of"
-    return "Transition from" if isinstance(decision, Transition) else "Stay in"
+def _title(form: Form, item: TrackedItem) -> None:
+    noun = {Transition: "Transition from", DecisionGroup: "Group of"}.get(type(item.get()), "Stay in")
+
+    def build(_row: Form, source: str) -> None:
+        shown = ItemRef(kind="common", id=COMMON) if source == COMMON else ItemRef(kind="states", id=source)
+        name = "every state" if source == COMMON else source
+        panel_title(noun, name, lambda: form.context.select(shown))
+
+    Rows(form, lambda: [decision_source(item)], build)
 
 
-def _target_field(context: WindowContext, path: DesignPath, decision: Decision) -> list[Field]:
-    if not isinstance(decision, Transition):
-        return []
-    return [choice_field(context, _decision_binding(path, "To", "to"), state_names)]
+def _guard_binding(item: TrackedItem, binding: FieldBinding) -> FieldBinding:
+    """Bind an attribute of the guard, which stands among those of the decision in the file."""
+    return replace(binding, get_path=lambda: (*(item.path or ()), binding.get_path()[-1]))
 
 
-def _decision_binding(path: DesignPath, label: str, attribute: str) -> FieldBinding:
-    def read(design: Design) -> Any:
-        located = find_decision(design, path)
-        return getattr(located.decision, attribute, "") if located else ""
-
-    return FieldBinding(
-        label=label,
-        path=(*path, attribute),
-        read=read,
-        write=lambda design, value: _change(design, path, lambda old: replace(old, **{attribute: value})),
-    )
-
-
-def _guard_binding(path: DesignPath, label: str, attribute: str) -> FieldBinding:
-    def read(design: Design) -> str:
-        located = find_decision(design, path)
-        return str(getattr(located.decision.guard, attribute)) if located else ""
-
-    return FieldBinding(
-        label=label,
-        path=(*path, attribute),
-        read=read,
-        write=lambda design, value: _change_guard(design, path, lambda guard: replace(guard, **{attribute: value})),
-        hint="always" if attribute == "when" else "",
-    )
-
-
-def _code(context: WindowContext, path: DesignPath, guard: Guard) -> list[Field]:
+def _code(form: Form, item: TrackedItem, has_code: bool) -> None:
     """Build the field of the code predicate, or a button that adds it."""
+    context, guard = form.context, item.child("guard")
 
-    def set_code(text: str) -> Callable[[Design], Design]:
-        return lambda design: _change_guard(
-            design, path, lambda old: replace(old, code=python_code(text) if text else None)
-        )
+    def set_code(design: Design, text: str) -> Design:
+        code = python_code(text) if text else None
+        changed: Design = guard.update(design, lambda old: replace(old, code=code))
+        return assign_id(changed, item.path or ()) if text else changed
 
-    if guard.code is None:
-        add = set_code(_CODE_HINT)
-        ui.button(
-            "Code predicate",
-            icon="add",
-            on_click=lambda: context.edit("add code", lambda design: assign_id(add(design), path)),
-        ).props("flat dense no-caps size=sm")
-        return []
-
-    def read(design: Design) -> str:
-        located = find_decision(design, path)
-        code = located.decision.guard.code if located else None
-        return (code.in_language("python") or "") if code else ""
-
-    binding = FieldBinding(
-        label="Predicate (body of a function that returns a bool)",
-        path=(*path, "code"),
-        read=read,
-        write=lambda design, value: _change_guard(
-            design, path, lambda old: replace(old, code=replace_python(old.code, value))
-        ),
-    )
-    field = code_field(context, binding)
-    ui.button("Remove code", on_click=lambda: context.edit("remove code", set_code(""))).props(
-        "flat dense no-caps size=sm"
-    )
-    return [field]
+    if has_code:
+        code_field(form, _guard_binding(item, code_binding(guard, _PREDICATE, "code")))
+        button = ui.button("Remove code", on_click=lambda: context.edit("remove code", lambda old: set_code(old, "")))
+    else:
+        button = ui.button("Code predicate", icon="add")
+        button.on_click(lambda: context.edit("add code", lambda old: set_code(old, _CODE_HINT)))
+    button.props("flat dense no-caps size=sm")
 
 
-def _change(design: Design, path: DesignPath, change: Callable[[Decision], Decision]) -> Design:
-    located = find_decision(design, path)
-    return replace_decision(design, path, change(located.decision)) if located else design
+def _remove_button(form: Form, item: TrackedItem) -> None:
+    context = form.context
 
-
-def _change_guard(design: Design, path: DesignPath, change: Callable[[Guard], Guard]) -> Design:
-    return _change(design, path, lambda decision: replace(decision, guard=change(decision.guard)))
-
-
-def _select_source(context: WindowContext, source: str) -> Callable[[], None]:
-    item = ItemRef(kind="common", id=COMMON) if source == COMMON else ItemRef(kind="states", id=source)
-    return lambda: context.select(item)
-
-
-def _remove_button(context: WindowContext, path: DesignPath) -> None:
     def remove() -> None:
-        context.edit("remove transition", lambda design: remove_decisions(design, [path]))
+        path = item.path
+        if path is not None:
+            context.edit("remove transition", lambda design: remove_decisions(design, [path]))
         context.select()
 
     ui.button("Remove", icon="delete", on_click=remove).props("flat dense no-caps color=negative").classes("remove")

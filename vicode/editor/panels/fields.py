@@ -2,18 +2,21 @@
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field, replace
-from typing import Any, cast
+from enum import Enum, auto
+from typing import Any, TypeVar, cast
 
 from nicegui import ui
 from nicegui.elements.mixins.disableable_element import DisableableElement
 from nicegui.elements.mixins.value_element import ValueElement
 
 from vicode.editor.panels import texts
+from vicode.editor.panels.form import Form
 from vicode.editor.panels.text_input import TextInput
 from vicode.editor.panels.window_context import WindowContext
+from vicode.editor.session import number_text
 from vicode.editor.session.descriptions import describe_path
 from vicode.editor.session.field_merge import SentValues
-from vicode.editor.session.form_key import has_same_structure
+from vicode.editor.session.item_paths import TrackedItem
 from vicode.findings import DesignPath, Finding
 from vicode.model.design import Design
 
@@ -27,20 +30,86 @@ ListOptions = Callable[[Design], Sequence[str]]
 class FieldBinding:
     """The value that a field shows and changes.
 
-    `path` is the path of the value, for findings and undo labels; `get_path` computes it where names in the path may
-    change while the field exists. `validate` returns an error message, or "" for a valid value.
+    `get_path` returns its current path, for findings and undo labels. `item` has the value; None if it is always there.
+    `validate` returns an error message, or "" for a valid value.
     """
 
     label: str
     read: ReadValue
     write: WriteValue
-    path: DesignPath = ()
+    get_path: Callable[[], DesignPath] = tuple
     hint: str = ""
     validate: Validate = field(default=lambda _value: "")
-    get_path: Callable[[Design], DesignPath] | None = None
+    item: TrackedItem | None = None
+    commit: Callable[[Any], str] | None = None
+    """Applies a value that is not in the design; returns an error message, or "" on success."""
 
-    def locate(self, design: Design) -> DesignPath:
-        return self.get_path(design) if self.get_path else self.path
+
+FieldT = TypeVar("FieldT", bound="Field")
+
+
+class FieldKind(Enum):
+    """How an attribute is shown."""
+
+    TEXT = auto()
+    LONG_TEXT = auto()
+    CODE = auto()
+    CHECKBOX = auto()
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Attribute:
+    """An attribute that a field shows and changes.
+
+    `format` and `parse` convert the value, `validate` returns an error message or "". `key` is the key in the file if
+    it differs from the name; `help` is shown below the field.
+    """
+
+    label: str
+    name: str
+    kind: FieldKind = FieldKind.CODE
+    key: str = ""
+    hint: str = ""
+    help: str = ""
+    format: Callable[[Any], Any] = lambda value: value
+    parse: Callable[[Any], Any] = lambda value: value
+    validate: Validate = lambda _value: ""
+
+
+DOC = Attribute(label="Description", name="doc", kind=FieldKind.LONG_TEXT)
+FREQUENCY = Attribute(
+    label="Frequency, Hz",
+    name="frequency_hz",
+    key="frequency",
+    hint="every step",
+    format=number_text.format_number,
+    parse=number_text.parse_frequency,
+    validate=number_text.validate_frequency,
+)
+XABSL_NAME = Attribute(label="Name in XABSL", name="xabsl_name", parse=str.strip)
+
+
+def attribute_binding(item: TrackedItem, attribute: Attribute) -> FieldBinding:
+    name, format_ = attribute.name, attribute.format
+
+    def read(design: Design) -> Any:
+        owner = item.get(design)
+        return format_(getattr(owner, name)) if owner is not None else ""
+
+    def write(design: Design, value: Any) -> Design:
+        changes = {name: attribute.parse(value)}
+        changed: Design = item.update(design, lambda owner: replace(owner, **changes))
+        return changed
+
+    return FieldBinding(
+        label=attribute.label,
+        read=read,
+        write=write,
+        get_path=lambda: (*(item.path or ()), attribute.key or name),
+        hint=attribute.hint,
+        validate=attribute.validate,
+        item=item,
+    )
 
 
 @dataclass(eq=False)
@@ -56,28 +125,28 @@ class Field:
     """Why the text of the field is not in the design; "" if it is."""
     _value_at_error: Any = None
     _browser_state: SentValues = field(default_factory=SentValues)
-    _shown_design: Design | None = None
 
     def __post_init__(self) -> None:
         """Subscribe to focus and input, and show the value."""
         self.element.on("focus", lambda: self.focus(has_focus=True))
         self.element.on("blur", lambda: self.focus(has_focus=False))
-        self.element.on_value_change(lambda event: self._on_typed(event.value))
+        self.element.on_value_change(lambda event: self.on_typed(event.value))
         if isinstance(self.element, TextInput):
             self.element.on_browser_text = self._on_browser_text
         self.refresh()
 
     def refresh(self) -> None:
+        if not self.is_path_valid():
+            return
         value = self.binding.read(self.context.design)
         # A rejected text stays until the value in the design changes.
         if self.error and value != self._value_at_error:
             self.error = ""
         if not self.has_focus and not self.error:
-            self._shown_design = self.context.design
             if self.element.value != value:
                 self.element.set_value(value)
             self._record_shown(value)
-        if self.message is not None:
+        if self.message is not None and not self.message.is_deleted:
             self._show_findings(self.message)
 
     def focus(self, *, has_focus: bool) -> None:
@@ -89,27 +158,8 @@ class Field:
 
     @property
     def path(self) -> DesignPath:
-        return self.binding.locate(self.context.design)
-
-    def transfer_input_from(self, old: "Field", sent_text: str = "") -> None:
-        """Merge further input relative to the value that the replaced field showed.
-
-        `sent_text` is recorded in the replaced field, which may still send the same text or more.
-        """
-        self._browser_state.transfer_input_from(old._browser_state)
-        if sent_text and not self.binding.validate(sent_text):
-            old._browser_state.field_merge.record_sent(sent_text, self._normalize(sent_text))
-
-    def apply_delayed_input(self, text: str) -> None:
-        self.element.set_value(text)
-
-    def commit_delayed_input(self, text: str) -> None:
-        """Apply text typed into this field after the form has switched to another item."""
-        current = self.binding.read(self.context.design)
-        if self.is_path_valid() and not self.binding.validate(text) and text != current:
-            new_value = self._browser_state.field_merge.merge_typed(text, current)
-            self._browser_state.field_merge.record_sent(text, self._normalize(text))
-            self.context.edit(f"edit {describe_path(self.path)}", lambda design: self.binding.write(design, new_value))
+        """The path of the value in the current design."""
+        return self.binding.get_path()
 
     def _record_shown(self, value: Any) -> None:
         number = self.element.server_seq if isinstance(self.element, TextInput) else 0
@@ -127,17 +177,14 @@ class Field:
         return self.binding.read(self.binding.write(self.context.design, value))
 
     def is_path_valid(self) -> bool:
-        """Whether the path still leads to the same item: no item before it was added or removed."""
-        before, current = self._shown_design, self.context.design
-        return before is current or (
-            before is not None and has_same_structure(before, current, self.binding.locate(before))
-        )
+        """Whether the item of the value still exists."""
+        return self.binding.item is None or self.binding.item.path is not None
 
     def other_findings(self) -> list[Finding]:
         """Return findings about other files than the design."""
         return []
 
-    def _on_typed(self, value: Any) -> None:
+    def on_typed(self, value: Any) -> None:
         current = self.binding.read(self.context.design)
         self.error, self._value_at_error = self.binding.validate(value), current
         if self.error or value == current:
@@ -146,15 +193,20 @@ class Field:
             self.refresh()
             return
         if not self.is_path_valid():
-            # The edit would change another item.
             self.context.show_toast(texts.ORDER_CHANGED, "warning")
+            return
+        if self.binding.commit is not None:
+            error = self.binding.commit(value)
+            if error:
+                self.context.show_toast(texts.sentence(error), "warning")
+                self.has_focus = False
+                self.refresh()
             return
         new_value = self._browser_state.field_merge.merge_typed(value, current)
         write, key = self.binding.write, "/".join(map(str, self.path)) + self.binding.label
         # Recorded before the edit notifies all fields, including this one.
         self._browser_state.field_merge.record_sent(value, self._normalize(value))
         self.context.edit(f"edit {describe_path(self.path)}", lambda design: write(design, new_value), coalesce_key=key)
-        self._shown_design = self.context.design
 
     def _show_findings(self, message: ui.label) -> None:
         findings = findings_at(self.path, self.context.document.findings)
@@ -181,31 +233,46 @@ def findings_at(path: DesignPath, findings: Iterable[Finding]) -> list[Finding]:
     ]
 
 
-def text_field(
-    context: WindowContext, binding: FieldBinding, *, monospace: bool = False, multiline: bool = False
-) -> Field:
+def attribute_field(form: Form, item: TrackedItem, attribute: Attribute) -> Field:
+    """Build the field of an attribute, with its help below."""
+    binding = attribute_binding(item, attribute)
+    if attribute.kind is FieldKind.CHECKBOX:
+        built = checkbox_field(form, binding)
+    else:
+        is_long, is_code = attribute.kind is FieldKind.LONG_TEXT, attribute.kind is FieldKind.CODE
+        built = text_field(form, binding, monospace=is_code, multiline=is_long)
+    if attribute.help:
+        ui.label(attribute.help).classes("empty")
+    return built
+
+
+def text_field(form: Form, binding: FieldBinding, *, monospace: bool = False, multiline: bool = False) -> Field:
     with ui.column().classes("field"):
         element = TextInput(binding.label, placeholder=binding.hint, multiline=multiline, monospace=monospace)
         element.props("debounce=250")
         message = ui.label().classes("field-finding")
         message.set_visibility(False)
-    return Field(context, binding, element, message)
+    return add_field(form, Field(form.context, binding, element, message))
 
 
-def choice_field(
-    context: WindowContext, binding: FieldBinding, options: ListOptions, *, multiple: bool = False
-) -> Field:
+def add_field(form: Form, built: FieldT) -> FieldT:
+    """Refresh a field with its form."""
+    form.on_refresh(built.refresh)
+    return built
+
+
+def choice_field(form: Form, binding: FieldBinding, options: ListOptions, *, multiple: bool = False) -> Field:
     """Build a select for one or several options. The current value is always an option."""
     if not multiple:
         binding = _none_for_empty(binding)
     with ui.column().classes("field"):
         element = ui.select(
-            list(options(context.design)), label=binding.label, multiple=multiple, value=[] if multiple else None
+            list(options(form.context.design)), label=binding.label, multiple=multiple, value=[] if multiple else None
         )
         element.props("outlined dense options-dense stack-label" + (" use-chips" if multiple else ""))
         message = ui.label().classes("field-finding")
         message.set_visibility(False)
-    return ChoiceField(context, binding, element, message, options=options)
+    return add_field(form, ChoiceField(form.context, binding, element, message, options=options))
 
 
 def _none_for_empty(binding: FieldBinding) -> FieldBinding:
@@ -224,7 +291,7 @@ class ChoiceField(Field):
     options: ListOptions = field(default=lambda _design: ())
 
     def refresh(self) -> None:
-        if self.has_focus:
+        if self.has_focus or not self.is_path_valid():
             super().refresh()
             return
         design, element = self.context.design, cast("ui.select", self.element)
@@ -248,8 +315,8 @@ def state_names(design: Design) -> list[str]:
     return [state.name for state in design.states]
 
 
-def checkbox_field(context: WindowContext, binding: FieldBinding) -> Field:
-    return Field(context, binding, ui.checkbox(binding.label).props("dense"))
+def checkbox_field(form: Form, binding: FieldBinding) -> Field:
+    return add_field(form, Field(form.context, binding, ui.checkbox(binding.label).props("dense")))
 
 
 def set_enabled(element: DisableableElement, *, flag: bool) -> None:

@@ -8,7 +8,8 @@ from nicegui import ui
 
 from vicode.editor.panels import texts
 from vicode.editor.panels.dialogs import titled_dialog
-from vicode.editor.panels.fields import Field, FieldBinding
+from vicode.editor.panels.fields import Field, FieldBinding, add_field
+from vicode.editor.panels.form import Form
 from vicode.editor.panels.text_input import TextInput
 from vicode.editor.panels.widgets import primary_button
 from vicode.editor.panels.window_context import WindowContext
@@ -22,25 +23,20 @@ from vicode.editor.session.rename_symbol import (
     describe_symbol,
     plan_symbol_rename,
 )
-from vicode.editor.view import ItemRef
+from vicode.editor.view import ItemKind, ItemRef
 from vicode.model.rename import SymbolRef
 
 RenameCallback = Callable[[str, str], str]
 """Renames from the old to the new name; returns an error message, or "" on success."""
 
 
-def name_field(
-    context: WindowContext,
-    binding: FieldBinding,
-    rename: RenameCallback,
-    on_name_changed: Callable[[str], None] = lambda _name: None,
-) -> "NameField":
-    """Build a name field; `rename` applies a new name, `on_name_changed` gets each new name of the design."""
+def name_field(form: Form, binding: FieldBinding, rename: RenameCallback) -> "NameField":
+    """Build a name field; `rename` applies a new name."""
     with ui.column().classes("field"):
         element = TextInput(binding.label, monospace=True).props("maxlength=80")
         message = ui.label().classes("field-finding").props('role="status"')
         message.set_visibility(False)
-    return NameField(context, binding, element, message, rename=rename, on_name_changed=on_name_changed)
+    return add_field(form, NameField(form.context, binding, element, message, rename=rename))
 
 
 def rename_declaration(context: WindowContext, item: SymbolRef, new: str) -> str:
@@ -62,13 +58,18 @@ def rename_declaration(context: WindowContext, item: SymbolRef, new: str) -> str
     return ""
 
 
-def rename_node(context: WindowContext, item: ItemRef, new: str) -> str:
-    """Rename a state or an alias as on the canvas; return an error message, or "" on success."""
-    is_shown = item in context.selected
-    outcome = apply_edit(context.document, RenameGesture(item=item, name=new))
-    if outcome.new_selection and is_shown:
-        context.select(*outcome.new_selection)
-    return outcome.error
+def node_renamer(context: WindowContext, kind: ItemKind) -> RenameCallback:
+    """Return a callback that renames a state or an alias as on the canvas."""
+
+    def rename(old: str, new: str) -> str:
+        item = ItemRef(kind=kind, id=old)
+        is_shown = item in context.selected
+        outcome = apply_edit(context.document, RenameGesture(item=item, name=new))
+        if outcome.new_selection and is_shown:
+            context.select(*outcome.new_selection)
+        return outcome.error
+
+    return rename
 
 
 @dataclass(eq=False)
@@ -76,7 +77,6 @@ class NameField(Field):
     """A field whose text is applied when the user commits it. A rejected text stays in the field."""
 
     rename: RenameCallback = field(default=lambda _old, _new: "")
-    on_name_changed: Callable[[str], None] = field(default=lambda _name: None)
     is_optional: bool = False
     """Whether the text may be empty."""
     is_multiline: bool = False
@@ -96,11 +96,9 @@ class NameField(Field):
         if self.has_focus and is_own and current_name not in ("", self._shown_name) and self._shown_name:
             self.error = texts.renamed_by_another_user(current_name)
             self._value_at_error = current_name
-        if current_name != self._shown_name:
-            self.on_name_changed(current_name)
-            if self.has_focus and not is_own:
-                # The user has not typed anything.
-                self.element.set_value(current_name)
+        if current_name != self._shown_name and self.has_focus and not is_own:
+            # The user has not typed anything.
+            self.element.set_value(current_name)
         self._shown_name = current_name
         super().refresh()
 
@@ -110,16 +108,6 @@ class NameField(Field):
             self.commit()
         super().focus(has_focus=has_focus)
 
-    def apply_delayed_input(self, text: str) -> None:
-        """Commit a name that was typed before the form was rebuilt."""
-        super().apply_delayed_input(text)
-        self.commit()
-
-    def commit_delayed_input(self, text: str) -> None:
-        """Commit a name after the form has switched to another item."""
-        if not self.binding.validate(text) and text.strip() not in ("", self._shown_name):
-            self.rename(self._shown_name, text.strip())
-
     def commit(self) -> None:
         old, new = str(self.binding.read(self.context.design) or ""), str(self.element.value or "").strip()
         # The text that the field showed is not input, though the design may have a newer name.
@@ -127,15 +115,12 @@ class NameField(Field):
             self.error = ""
         else:
             self.error, self._value_at_error = self.rename(old, new), self.binding.read(self.context.design)
-            if self.element.is_deleted:
-                # The form was rebuilt for the new name.
-                return
             if not self.error:
                 # The name is applied, or the user must confirm it first.
                 self.element.set_value(str(self.binding.read(self.context.design) or ""))
         self.refresh()
 
-    def _on_typed(self, value: Any) -> None:
+    def on_typed(self, value: Any) -> None:
         """Validate while the user types; all other checks run on commit."""
         current_name = self.binding.read(self.context.design)
         self.error, self._value_at_error = ("" if value == current_name else self.binding.validate(value)), current_name

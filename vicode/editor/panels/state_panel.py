@@ -1,9 +1,6 @@
 """The form of a state."""
 
 from dataclasses import replace
-from typing import Any
-
-from nicegui import ui
 
 from vicode.editor.panels import texts
 from vicode.editor.panels.actions_panel import (
@@ -15,200 +12,139 @@ from vicode.editor.panels.actions_panel import (
 from vicode.editor.panels.code_field import pairs_field
 from vicode.editor.panels.collapsible import collapsible_section
 from vicode.editor.panels.decisions_list import decisions_list
-from vicode.editor.panels.fields import Field, FieldBinding, checkbox_field, choice_field, text_field
-from vicode.editor.panels.name_field import name_field, rename_node
+from vicode.editor.panels.fields import (
+    DOC,
+    XABSL_NAME,
+    Attribute,
+    FieldBinding,
+    FieldKind,
+    attribute_binding,
+    attribute_field,
+    checkbox_field,
+    choice_field,
+)
+from vicode.editor.panels.form import Form, ItemRows
+from vicode.editor.panels.name_field import name_field, node_renamer
 from vicode.editor.panels.widgets import heading, panel_title
-from vicode.editor.panels.window_context import WindowContext
 from vicode.editor.session import number_text
-from vicode.editor.view import ItemRef
+from vicode.editor.session.item_paths import TrackedItem
 from vicode.model.design import Call, Design, State
-from vicode.model.edits import update_state
+
+_NAME = Attribute(label="State", name="name")
+_FLAGS = (
+    Attribute(label="Final (the component is done)", name="final", kind=FieldKind.CHECKBOX),
+    Attribute(label="Disabled (not generated)", name="disabled", kind=FieldKind.CHECKBOX),
+)
 
 
-def state_panel(context: WindowContext, name: str) -> list[Field]:
-    """Build the form of a state; return no fields if it does not exist."""
-    state = context.design.state(name)
-    if state is None:
-        return []
-    path = ("states", name)
+def _count(label: str, name: str, hint: str, help_text: str) -> Attribute:
+    return Attribute(
+        label=label,
+        name=name,
+        hint=hint,
+        help=help_text,
+        format=number_text.format_number,
+        parse=number_text.parse_count,
+        validate=number_text.validate_count,
+    )
+
+
+_TEAM = (
+    _count("Capacity (robots in this state at once)", "capacity", "no limit", texts.CAPACITY_HELP),
+    _count("Synchronized (robots that enter together)", "synchronized", "not synchronized", texts.SYNCHRONIZED_HELP),
+    XABSL_NAME,
+)
+_REQUIRES = Attribute(label="Components", name="requires", format=list, parse=tuple)
+_PHASES = (
+    ("actions", "Actions", "run in order in each iteration"),
+    ("enter", "Enter", "run once on entry"),
+    ("leave", "Leave", "run once on exit"),
+)
+
+
+def state_panel(form: Form, name: str) -> None:
+    item = form.item("states", name)
     # Sighted users read the name in the field.
     panel_title("State", name, is_visually_hidden=True)
-    fields = [
-        _title(context, name),
-        text_field(context, _attribute_binding(name, "Description", "doc"), multiline=True),
-        checkbox_field(context, _initial(name)),
-        checkbox_field(context, _attribute_binding(name, "Final (the component is done)", "final")),
-        checkbox_field(context, _attribute_binding(name, "Disabled (not generated)", "disabled")),
-    ]
-    _team(context, state, fields)
+    name_field(form, attribute_binding(item, _NAME), node_renamer(form.context, "states"))
+    attribute_field(form, item, DOC)
+    _initial(form, item)
+    for attribute in _FLAGS:
+        attribute_field(form, item, attribute)
+
+    def build_team() -> None:
+        for attribute in _TEAM:
+            attribute_field(form, item, attribute)
+
+    collapsible_section(form, f"team {name}", lambda: "Team and XABSL", lambda: _team_caption(item.get()), build_team)
     heading("Requires", hint="updated before this state runs")
-    fields.append(_requires(context, name))
+    choice_field(form, attribute_binding(item, _REQUIRES), _aliases, multiple=True)
     heading("Modulates", hint="controlled by this state")
-    fields += _modulates(context, state)
+    choice_field(form, attribute_binding(item, _modulates(item)), _aliases, multiple=True)
+    ItemRows(
+        form, item, "modulates", _parameters, lambda call: (call.alias, component_parameters(form.context, call.alias))
+    )
     heading("Transitions", hint="the first whose guard holds is taken")
-    decisions_list(context, name, (*path, "transitions"), state.transitions)
-    heading("Actions", hint="run in order in each iteration")
-    fields += actions_panel(context, (*path, "actions"), state.actions)
-    heading("Enter", hint="run once on entry")
-    fields += actions_panel(context, (*path, "enter"), state.enter, calls=False)
-    heading("Leave", hint="run once on exit")
-    fields += actions_panel(context, (*path, "leave"), state.leave, calls=False)
-    return fields
+    decisions_list(form, item, "transitions")
+    for section, title, hint in _PHASES:
+        heading(title, hint=hint)
+        actions_panel(form, item, section, calls=section == "actions")
 
 
 def _aliases(design: Design) -> list[str]:
     return [use.alias for use in design.uses]
 
 
-def _title(context: WindowContext, name: str) -> Field:
-    """Build the name field, committed by Enter or when it loses focus, as a rename updates the design."""
+def _team_caption(state: State | None) -> str:
+    if state is None:
+        return ""
+    parts = [
+        f"{name} {number_text.format_number(count)}"
+        for name, count in (("capacity", state.capacity), ("synchronized", state.synchronized))
+        if count is not None
+    ]
+    parts += [f"{state.xabsl_name} in XABSL"] if state.xabsl_name else []
+    return "; ".join(parts) or "capacity, synchronized, name"
 
-    def rename(old: str, new: str) -> str:
-        return rename_node(context, ItemRef(kind="states", id=old), new)
+
+def _initial(form: Form, item: TrackedItem) -> None:
+    def is_initial(design: Design) -> bool:
+        state = item.get(design)
+        return state is not None and design.initial == state.name
 
     binding = FieldBinding(
-        label="State",
-        read=lambda design: name if design.state(name) else "",
-        write=lambda design, _value: design,
-        path=("states", name, "name"),
-    )
-    return name_field(context, binding, rename)
-
-
-def _attribute_binding(name: str, label: str, attribute: str) -> FieldBinding:
-    def read(design: Design) -> Any:
-        state = design.state(name)
-        return getattr(state, attribute) if state else ("" if attribute in ("doc", "xabsl_name") else False)
-
-    return FieldBinding(
-        label=label,
-        path=("states", name, attribute),
-        read=read,
-        write=lambda design, value: update_state(design, name, lambda state: replace(state, **{attribute: value})),
-    )
-
-
-def _team(context: WindowContext, state: State, fields: list[Field]) -> None:
-    parts = []
-    if state.capacity is not None:
-        parts.append(f"capacity {number_text.format_number(state.capacity)}")
-    if state.synchronized is not None:
-        parts.append(f"synchronized {number_text.format_number(state.synchronized)}")
-    if state.xabsl_name:
-        parts.append(f"{state.xabsl_name} in XABSL")
-
-    def build() -> None:
-        fields.append(
-            text_field(
-                context, _count(state.name, "Capacity (robots in this state at once)", "capacity"), monospace=True
-            )
-        )
-        ui.label(texts.CAPACITY_HELP).classes("empty")
-        label = "Synchronized (robots that enter together)"
-        fields.append(text_field(context, _count(state.name, label, "synchronized"), monospace=True))
-        ui.label(texts.SYNCHRONIZED_HELP).classes("empty")
-        fields.append(
-            text_field(context, _attribute_binding(state.name, "Name in XABSL", "xabsl_name"), monospace=True)
-        )
-
-    collapsible_section(
-        context, f"team {state.name}", "Team and XABSL", "; ".join(parts) or "capacity, synchronized, name", build
-    )
-
-
-def _count(name: str, label: str, attribute: str) -> FieldBinding:
-    def read(design: Design) -> str:
-        state = design.state(name)
-        return number_text.format_number(getattr(state, attribute)) if state else ""
-
-    def write(design: Design, text: str) -> Design:
-        changes: dict[str, Any] = {attribute: number_text.parse_count(text)}
-        return update_state(design, name, lambda state: replace(state, **changes))
-
-    return FieldBinding(
-        label=label,
-        path=("states", name, attribute),
-        read=read,
-        write=write,
-        hint="no limit" if attribute == "capacity" else "not synchronized",
-        validate=number_text.validate_count,
-    )
-
-
-def _initial(name: str) -> FieldBinding:
-    return FieldBinding(
         label="Initial",
-        path=("initial",),
-        read=lambda design: design.initial == name,
-        write=lambda design, value: replace(design, initial=name) if value else design,
+        get_path=lambda: ("initial",),
+        read=is_initial,
+        write=lambda design, value: replace(design, initial=item.get(design).name) if value else design,
+        item=item,
+    )
+    checkbox_field(form, binding)
+
+
+def _modulates(item: TrackedItem) -> Attribute:
+    """The aliases of the calls; calls that stay keep their arguments."""
+
+    def parse(aliases: list[str]) -> tuple[Call, ...]:
+        known = {call.alias: call for call in item.get().modulates}
+        return tuple(known.get(alias, Call(alias=alias)) for alias in aliases)
+
+    return Attribute(
+        label="Components", name="modulates", format=lambda calls: [call.alias for call in calls], parse=parse
     )
 
 
-def _requires(context: WindowContext, name: str) -> Field:
-    def read(design: Design) -> list[str]:
-        state = design.state(name)
-        return list(state.requires) if state else []
-
-    binding = FieldBinding(
-        label="Components",
-        path=("states", name, "requires"),
-        read=read,
-        write=lambda design, value: update_state(design, name, lambda state: replace(state, requires=tuple(value))),
-    )
-    return choice_field(context, binding, _aliases, multiple=True)
-
-
-def _modulates(context: WindowContext, state: State) -> list[Field]:
-    """Build a select that adds or removes calls, and a field for the parameters of each call."""
-    name = state.name
-
-    def write(design: Design, value: list[str]) -> Design:
-        def changed(old: State) -> State:
-            known = {call.alias: call for call in old.modulates}
-            return replace(old, modulates=tuple(known.get(alias, Call(alias=alias)) for alias in value))
-
-        return update_state(design, name, changed)
-
-    def read(design: Design) -> list[str]:
-        now = design.state(name)
-        return [call.alias for call in now.modulates] if now else []
-
-    binding = FieldBinding(label="Components", path=("states", name, "modulates"), read=read, write=write)
-    fields = [choice_field(context, binding, _aliases, multiple=True)]
-    fields += [_parameters(context, name, call.alias) for call in state.modulates]
-    return fields
-
-
-def _parameters(context: WindowContext, name: str, alias: str) -> Field:
-    def call_in(design: Design) -> Call | None:
-        state = design.state(name)
-        return next((call for call in state.modulates if call.alias == alias), None) if state else None
-
-    def write(design: Design, value: str) -> Design:
-        def changed(old: State) -> State:
-            pairs = parse_assignments(value)
-            calls = (replace(call, arguments=pairs) if call.alias == alias else call for call in old.modulates)
-            return replace(old, modulates=tuple(calls))
-
-        return update_state(design, name, changed)
-
-    def read(design: Design) -> str:
-        call = call_in(design)
-        return format_assignments(call.arguments) if call else ""
-
-    binding = FieldBinding(
+def _parameters(form: Form, item: TrackedItem) -> None:
+    alias = item.get().alias
+    parameters = component_parameters(form.context, alias)
+    attribute = Attribute(
         label=f"{alias}: parameter = expression",
-        path=("states", name, "modulates", alias),
-        read=read,
-        write=write,
-        hint=describe_parameters(context, alias),
+        name="arguments",
+        format=format_assignments,
+        parse=parse_assignments,
+        hint=", ".join(f"{each.name}{f' [{each.unit}]' if each.unit else ''}" for each in parameters)
+        or "no parameters",
     )
-    return pairs_field(context, binding, lambda: component_parameters(context, alias))
-
-
-def describe_parameters(context: WindowContext, alias: str) -> str:
-    """Describe the parameters of a used component, with units, as a placeholder."""
-    parameters = component_parameters(context, alias)
-    if not parameters:
-        return "no parameters"
-    return ", ".join(f"{each.name}{f' [{each.unit}]' if each.unit else ''}" for each in parameters)
+    # The path of a call has its alias instead of its index.
+    binding = replace(attribute_binding(item, attribute), get_path=lambda: (*(item.path or ())[:-1], alias))
+    pairs_field(form, binding, lambda: component_parameters(form.context, alias))

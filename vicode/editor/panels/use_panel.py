@@ -1,54 +1,60 @@
 """The forms of a used component and of a link to it."""
 
+from dataclasses import replace
+
 from nicegui import ui
 
 from vicode.editor.panels import texts
 from vicode.editor.panels.declarations import format_arguments
-from vicode.editor.panels.fields import Field, FieldBinding
-from vicode.editor.panels.name_field import name_field, rename_node
+from vicode.editor.panels.fields import Attribute, attribute_binding
+from vicode.editor.panels.form import Form
+from vicode.editor.panels.name_field import name_field, node_renamer
 from vicode.editor.panels.project.component_forms import component_form
+from vicode.editor.panels.project.project_fields import project_node
 from vicode.editor.panels.widgets import heading, panel_title
 from vicode.editor.panels.window_context import WindowContext
 from vicode.editor.session import number_text
-from vicode.editor.session.project_paths import ProjectNodePath
 from vicode.editor.view import ItemRef
 from vicode.model.design import Declaration, Use
 from vicode.model.edits import remove_link, remove_uses
 from vicode.model.project import INTERNAL, WORLD, Interface
 
+_ALIAS = Attribute(label="Alias", name="alias")
 
-def use_panel(context: WindowContext, alias: str) -> list[Field]:
+
+def use_panel(form: Form, alias: str) -> None:
     """Build the form of a used component: its alias and interface."""
-    use = context.design.use(alias)
-    if use is None:
-        return []
+    context, item = form.context, form.item("uses", alias)
+    component = item.get().component
     project = context.workspace.project
-    interface = project.interface(use.component)
-    panel_title("Component", use.component)
-    fields: list[Field] = [_alias(context, alias)]
+    interface = project.interface(component)
+    panel_title("Component", component)
+    binding = replace(attribute_binding(item, _ALIAS), get_path=lambda: item.path or ())
+    name_field(form, binding, node_renamer(context, "components"))
     if interface is None:
         ui.label(texts.NOT_DECLARED).classes("field-finding")
-        return fields
-    if project.design(use.component) is None:
-        _hand_written(context, use, fields)
+        return
+    if project.design(component) is None:
+        _hand_written(form, component, alias)
     else:
-        _designed(context, use, interface)
+        _designed(context, item.get(), interface)
 
     def remove() -> None:
-        context.edit(f"remove component {alias}", lambda design: remove_uses(design, [alias]))
+        use = item.get()
+        if use is not None:
+            context.edit(f"remove component {use.alias}", lambda design: remove_uses(design, [use.alias]))
         context.select()
 
     ui.button("Remove component", icon="delete", on_click=remove).props("flat dense no-caps color=negative")
-    return fields
 
 
-def _hand_written(context: WindowContext, use: Use, fields: list[Field]) -> None:
+def _hand_written(form: Form, component: str, alias: str) -> None:
     """Build the form of a component without a design, declared in project.yaml."""
-    components = context.workspace.project.components
-    number = next(at for at, each in enumerate(components) if each.component == use.component)
+    components = form.context.workspace.project.components
+    number = next(at for at, each in enumerate(components) if each.component == component)
     ui.label(_ORIGINS.get(components[number].implementation, "Hand-written")).classes("small")
     ui.label(texts.PROJECT_SCOPE).classes("empty")
-    component_form(context, ProjectNodePath.top_level("components", number), fields, alias=use.alias)
+    component_form(form, project_node(form, "components", number), alias=alias)
 
 
 def _designed(context: WindowContext, use: Use, interface: Interface) -> None:
@@ -64,19 +70,6 @@ def _designed(context: WindowContext, use: Use, interface: Interface) -> None:
     _table(interface.outputs)
     heading("Parameters")
     _table(interface.parameters)
-
-
-def _alias(context: WindowContext, alias: str) -> Field:
-    def rename(old: str, new: str) -> str:
-        return rename_node(context, ItemRef(kind="components", id=old), new)
-
-    binding = FieldBinding(
-        label="Alias",
-        read=lambda design: alias if design.use(alias) else "",
-        write=lambda design, _value: design,
-        path=("uses", alias),
-    )
-    return name_field(context, binding, rename)
 
 
 def _facts(interface: Interface) -> str:
@@ -118,7 +111,7 @@ def _table(declarations: tuple[Declaration, ...]) -> None:
             ui.label(declaration.doc).classes("interface-doc")
 
 
-def link_panel(context: WindowContext, key: str) -> list[Field]:
+def link_panel(context: WindowContext, key: str) -> None:
     kind, state, alias = key.split("/")
     panel_title(f"{state} {kind}", alias)
     ui.button("Go to state", on_click=lambda: context.select(ItemRef(kind="states", id=state))).props(
@@ -133,4 +126,3 @@ def link_panel(context: WindowContext, key: str) -> list[Field]:
         context.select()
 
     ui.button("Remove", icon="delete", on_click=remove).props("flat dense no-caps color=negative")
-    return []

@@ -1,6 +1,6 @@
 """Merges the text that a user types into a field with concurrent edits of the same value."""
 
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from typing import Any
 
 from vicode.model.merge import merge_characters
@@ -69,8 +69,3 @@ class SentValues:
         known = self._sent.get(number)
         if known is not None:
             self.field_merge, self._sent = known, {number: known}
-
-    def transfer_input_from(self, other: "SentValues") -> None:
-        """Continue from the value that another field showed."""
-        self.field_merge = replace(other.field_merge)
-        self._sent = dict.fromkeys(self._sent, self.field_merge)

@@ -108,20 +108,6 @@ class ProjectNodePath:
                 return SymbolRef(section=self.section, name=names[0])
 
 
-def project_structure_key(project: Project) -> object:
-    """A value that changes when the forms of the project need other fields."""
-    parts = (
-        (
-            len(interface.parameters),
-            tuple(output.arguments and len(output.arguments) for output in interface.outputs),
-            len(interface.variables),
-        )
-        for interface in project.components
-    )
-    elements = tuple(len(enumeration.elements) for enumeration in project.enumerations)
-    return (elements, len(project.constants), tuple(parts), len(project.agents))
-
-
 def _name_of(node: Any) -> str:
     if isinstance(node, tuple):
         return str(node[0])

@@ -6,29 +6,29 @@ from nicegui import ui
 
 from vicode.editor.panels import texts
 from vicode.editor.panels.dialogs import titled_dialog
-from vicode.editor.panels.project.project_fields import write_project
+from vicode.editor.panels.project.project_fields import node_path, write_project
 from vicode.editor.panels.widgets import primary_button
 from vicode.editor.panels.window_context import WindowContext
-from vicode.editor.session.project_paths import ProjectNodePath
+from vicode.editor.session.item_paths import TrackedItem, item_at
 from vicode.editor.session.references import ReferenceLocation, find_references
 
 _MAX_LISTED = 40
 
 
-def confirm_and_remove(context: WindowContext, node_path: ProjectNodePath) -> None:
+def confirm_and_remove(context: WindowContext, node: TrackedItem) -> None:
     """Remove a node; if it is used, list the references and ask for confirmation."""
-    project = context.workspace.project
-    name, names = node_path.name(project), node_path.names(project)
-    if not name:
+    if node.path is None:
         return
-    if node_path.section == "elements" and len(ProjectNodePath(steps=node_path.steps[:-1]).get(project).elements) == 1:
+    project, path = context.workspace.project, node_path(node)
+    name = path.name(project)
+    if path.section == "elements" and len(item_at(project, node.path[:-1])) == 1:
         context.show_toast(texts.LAST_ELEMENT, "warning")
         return
-    references = find_references(project, node_path.symbol_ref(project))
+    references = find_references(project, path.symbol_ref(project))
     if not references:
-        _remove(context, node_path)
+        _remove(context, node)
         return
-    with titled_dialog(f"Remove {node_path.kind} {name}?") as dialog:
+    with titled_dialog(f"Remove {path.kind} {name}?") as dialog:
         ui.label(texts.USED_BY_FOLLOWING).classes("field-label")
         _list(references)
         if context.workspace.broken_file_names:
@@ -36,8 +36,8 @@ def confirm_and_remove(context: WindowContext, node_path: ProjectNodePath) -> No
 
         def remove() -> None:
             dialog.close()
-            if node_path.names(context.workspace.project) == names:
-                _remove(context, node_path)
+            if node.path is not None and node_path(node).name(context.workspace.project) == name:
+                _remove(context, node)
             else:
                 context.show_toast(texts.changed_by_another_user(name), "warning")
 
@@ -56,8 +56,9 @@ def _list(references: tuple[ReferenceLocation, ...]) -> None:
             ui.label(texts.more(len(references) - _MAX_LISTED, "places")).props('role="listitem"')
 
 
-def _remove(context: WindowContext, node_path: ProjectNodePath) -> None:
-    name = node_path.name(context.workspace.project)
-    error = write_project(context, node_path.remove, f"remove {node_path.kind} {name}", node_path, is_confirmed=True)
+def _remove(context: WindowContext, node: TrackedItem) -> None:
+    path = node_path(node)
+    what = f"remove {path.kind} {path.name(context.workspace.project)}"
+    error = write_project(context, path.remove, what, path, is_confirmed=True)
     if error:
         context.show_toast(texts.sentence(error), "warning")
