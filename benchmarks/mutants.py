@@ -217,11 +217,14 @@ def insert_probes(target: Path, mutants: list[Mutant]) -> None:
     for file in {mutant.file for mutant in mutants}:
         tree = ast.parse((target / file).read_bytes())
         lines = {mutant.statement for mutant in mutants if mutant.file == file}
-        for node in list(ast.walk(tree)):
-            for body in (getattr(node, name) for name in ("body", "orelse", "finalbody") if hasattr(node, name)):
-                for statement in list(body) if isinstance(body, list) else []:
-                    if statement.lineno in lines:
-                        body.insert(body.index(statement), _probe(f"{file}:{statement.lineno}"))
+        nodes = list(ast.walk(tree))
+        bodies: Iterator[Any] = (
+            getattr(node, name, None) for node in nodes for name in ("body", "orelse", "finalbody")
+        )
+        for body in filter(lambda body: isinstance(body, list), bodies):
+            for statement in [each for each in body if each.lineno in lines]:
+                body.insert(body.index(statement), _probe(f"{file}:{statement.lineno}"))
+        for node in nodes:
             if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef):
                 node.body.insert(1 if ast.get_docstring(node) else 0, _probe(file))
         (target / file).write_text(ast.unparse(ast.fix_missing_locations(tree)), encoding="utf-8")

@@ -51,9 +51,10 @@ def test_any_text_can_be_searched(text: str) -> None:
 
 
 def test_indentation_does_not_change_strings() -> None:
-    wrapped = regions.wrap_region("a", 'text = """one\n  two\nthree"""', indent="    ")
-    assert wrapped.splitlines()[1:4] == ['    text = """one', "  two", 'three"""']
-    assert find_one(wrapped).body == 'text = """one\n  two\nthree"""'
+    code = 'text = """one\n  two\n      three"""'
+    wrapped = regions.wrap_region("a", code, indent="    ")
+    assert wrapped.splitlines()[1:4] == ['    text = """one', "  two", '      three"""']
+    assert find_one(wrapped).body == code
 
 
 def test_indented_code_loses_its_margin() -> None:
