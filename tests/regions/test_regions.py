@@ -51,9 +51,9 @@ def test_any_text_can_be_searched(text: str) -> None:
 
 
 def test_indentation_does_not_change_strings() -> None:
-    code = 'text = """one\n  two\n      three"""'
+    code = 'text = """one\n  two\n      three"""\nend = 1'
     wrapped = regions.wrap_region("a", code, indent="    ")
-    assert wrapped.splitlines()[1:4] == ['    text = """one', "  two", '      three"""']
+    assert wrapped.splitlines()[1:5] == ['    text = """one', "  two", '      three"""', "    end = 1"]
     assert find_one(wrapped).body == code
 
 
