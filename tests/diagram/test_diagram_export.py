@@ -18,7 +18,7 @@ from vicode.diagram.pdf import write_pdf
 from vicode.diagram.primitives import PathShape, ShapeGroup, TextShape, VectorImage
 from vicode.diagram.spatial_index import Rect
 from vicode.diagram.svg import write_svg
-from vicode.diagram.text_metrics import Font
+from vicode.diagram.text_metrics import Font, text_width
 from vicode.model.design import Code, CommonSection, DecisionGroup, Design, Guard, State, Transition, Use
 
 CANVAS_SHEET = Path(__file__).parents[2] / "vicode" / "editor" / "canvas" / "js" / "canvas.css"
@@ -136,6 +136,18 @@ def test_pdf_shows_characters_missing_in_helvetica() -> None:
     design = Design(component="Greek", initial="A", states=(state, State(name="B")))
     text = PdfReader(BytesIO(export_design(design, "pdf"))).pages[0].extract_text()
     assert "α" in text
+
+
+@pytest.mark.parametrize(("bold", "font"), [(False, "Helvetica"), (True, "Helvetica-Bold")])
+def test_widths_of_texts_are_those_of_helvetica(bold: bool, font: str) -> None:
+    from reportlab.pdfbase.pdfmetrics import stringWidth
+
+    wrong = [
+        letter
+        for letter in map(chr, range(32, 127))
+        if text_width(letter, Font(size=10, bold=bold)) != pytest.approx(stringWidth(letter, font, 10))
+    ]
+    assert not wrong
 
 
 def test_pdf_draws_a_path_with_its_pen_at_its_place() -> None:

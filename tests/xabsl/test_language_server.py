@@ -40,7 +40,7 @@ agent player("Player", play);
       foot = side.right;
     }
   }
-  state go {
+  target state go {
     action {
       kick(power = 3);
       speed = angle(x = 1, y = ball.distance);
@@ -183,6 +183,8 @@ def test_hover_definition_references_outline_and_rename(editor: LspClient) -> No
     hover = editor.request("textDocument/hover", editor.at("options/play.xabsl", play, "ball.distance"))
     assert 'float input ball.distance [0..5000] "mm"' in hover["contents"]["value"]
     assert "distance to the ball" in hover["contents"]["value"]
+    hover = editor.request("textDocument/hover", editor.at("options/play.xabsl", play, "go {"))
+    assert "target state go" in hover["contents"]["value"]
 
     result = editor.request("textDocument/definition", editor.at("options/play.xabsl", play, "kick(power"))
     assert locations([result]) == [("kick.xabsl", 1)]
