@@ -15,8 +15,13 @@ from vicode.model.project import Project
 from vicode.model.rename import SymbolRef, sibling_names
 from vicode.store import open_project
 
-KICK, NET_X = ProjectNodePath.top_level("enumerations", 1), ProjectNodePath.top_level("constants", 9)
-PERCEPTION, AGENT = ProjectNodePath.top_level("components", 0), ProjectNodePath.top_level("agents", 0)
+
+def node(*path: str | int) -> ProjectNodePath:
+    return ProjectNodePath(steps=tuple(zip(path[::2], path[1::2], strict=True)))  # type: ignore[arg-type]
+
+
+KICK, NET_X = node("enumerations", 1), node("constants", 9)
+PERCEPTION, AGENT = node("components", 0), node("agents", 0)
 
 
 def taken_back(written: ProjectEditResult) -> str:
@@ -88,14 +93,14 @@ def test_each_part_of_the_project_can_be_added_changed_and_removed(workspace: Wo
     assert project.enumerations[-1].element_names == ("first",)
     assert project.agents[-1].root == "Turn"
     for spot in (
-        ProjectNodePath.top_level("enumerations", len(before.enumerations)),
-        ProjectNodePath.top_level("constants", len(before.constants)),
-        ProjectNodePath.top_level("components", len(before.components)),
-        ProjectNodePath.top_level("agents", 1),
-        KICK.child("elements", 3),
-        PERCEPTION.child("parameters", 0),
-        PERCEPTION.child("outputs", len(before.components[0].outputs)),
-        PERCEPTION.child("variables", 0),
+        node("enumerations", len(before.enumerations)),
+        node("constants", len(before.constants)),
+        node("components", len(before.components)),
+        node("agents", 1),
+        node("enumerations", 1, "elements", 3),
+        node("components", 0, "parameters", 0),
+        node("components", 0, "outputs", len(before.components[0].outputs)),
+        node("components", 0, "variables", 0),
     ):
         assert find_references(workspace.project, spot.symbol_ref(workspace.project)) == ()
         assert edit_project_file(workspace, spot.remove, spot).error == ""
@@ -148,13 +153,11 @@ def test_references_are_listed_before_removal_and_broken_designs_after(workspace
 def test_references_are_the_places_that_a_rename_changes(workspace: Workspace) -> None:
     project = workspace.project
     spots = [
-        ProjectNodePath.top_level(section, at)
-        for section in ("constants", "components")
-        for at in range(len(getattr(project, section)))
+        node(section, at) for section in ("constants", "components") for at in range(len(getattr(project, section)))
     ]
-    spots += [PERCEPTION.child("outputs", at) for at in range(len(project.components[0].outputs))]
+    spots += [node("components", 0, "outputs", at) for at in range(len(project.components[0].outputs))]
     spots += [
-        PERCEPTION.child("outputs", len(project.components[0].outputs) - 1).child("arguments", at) for at in (0, 1)
+        node("components", 0, "outputs", len(project.components[0].outputs) - 1, "arguments", at) for at in (0, 1)
     ]
     for spot in spots:
         thing = spot.symbol_ref(project)
@@ -263,7 +266,7 @@ def test_an_element_moves_up(workspace: Workspace) -> None:
         return found.element_names if found else ()
 
     kick = next(at for at, enumeration in enumerate(workspace.project.enumerations) if enumeration.name == "Kick")
-    spots = [ProjectNodePath.top_level("enumerations", kick).child("elements", at) for at in range(3)]
+    spots = [node("enumerations", kick, "elements", at) for at in range(3)]
     assert elements() == ("front", "diagonal", "lateral")
     assert edit_project_file(workspace, spots[2].move_up, spots[2]).error == ""
     assert elements() == ("front", "lateral", "diagonal")
@@ -275,6 +278,6 @@ def test_a_removed_element_takes_its_xabsl_name(workspace: Workspace) -> None:
     (kick,) = (each for each in workspace.project.enumerations if each.name == "Kick")
     named = replace(kick, xabsl_elements=(("front", "ahead"), ("lateral", "aside")))
     project = Project(name="One", enumerations=(named,))
-    (left,) = ProjectNodePath.top_level("enumerations", 0).child("elements", 0).remove(project).enumerations
+    (left,) = node("enumerations", 0, "elements", 0).remove(project).enumerations
     assert left.element_names == ("diagonal", "lateral")
     assert left.xabsl_elements == (("lateral", "aside"),)

@@ -193,7 +193,7 @@ class Field:
             self.refresh()
             return
         if not self.is_path_valid():
-            self.context.show_toast(texts.ORDER_CHANGED, "warning")
+            self.context.show_toast(texts.changed_by_another_user("the item"), "warning")
             return
         if self.binding.commit is not None:
             error = self.binding.commit(value)

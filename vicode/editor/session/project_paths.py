@@ -4,6 +4,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Any
 
+from vicode.editor.session.item_paths import change_item, item_at
 from vicode.findings import DesignPath
 from vicode.model.project import Interface, Project
 from vicode.model.rename import SymbolRef
@@ -21,13 +22,6 @@ class ProjectNodePath:
 
     steps: tuple[tuple[str, int], ...]
 
-    @staticmethod
-    def top_level(section: str, number: int) -> "ProjectNodePath":
-        return ProjectNodePath(steps=((section, number),))
-
-    def child(self, section: str, number: int) -> "ProjectNodePath":
-        return ProjectNodePath(steps=(*self.steps, (section, number)))
-
     @property
     def section(self) -> str:
         """The section that contains the node; "" for the project."""
@@ -40,13 +34,11 @@ class ProjectNodePath:
 
     def get(self, project: Project) -> Any:
         """The node; None if it no longer exists."""
-        node: Any = project
-        for section, number in self.steps:
-            nodes = getattr(node, section) or ()
-            if number >= len(nodes):
-                return None
-            node = nodes[number]
-        return node
+        return item_at(project, self._flat)
+
+    @property
+    def _flat(self) -> DesignPath:
+        return tuple(step for pair in self.steps for step in pair)
 
     def name(self, project: Project) -> str:
         """The name of the node; "" if it no longer exists."""
@@ -63,35 +55,31 @@ class ProjectNodePath:
 
     def update(self, project: Project, change: NodeUpdate) -> Project:
         """The project with the node replaced by `change(node)`."""
-        changed: Project = _updated(project, self.steps, change)
+        changed: Project = change_item(project, self._flat, change)
         return changed
 
     def remove(self, project: Project) -> Project:
-        *outer, (section, number) = self.steps
+        section, number = self.steps[-1]
         name = self.name(project)
 
         def change(holder: Any) -> Any:
-            rest = tuple(node for index, node in enumerate(getattr(holder, section) or ()) if index != number)
-            changes: dict[str, Any] = {section: rest}
+            nodes = getattr(holder, section)
+            changes: dict[str, Any] = {section: (*nodes[:number], *nodes[number + 1 :])}
             if section == "elements":
                 changes["xabsl_elements"] = tuple(pair for pair in holder.xabsl_elements if pair[0] != name)
             return replace(holder, **changes)
 
-        changed: Project = _updated(project, tuple(outer), change)
+        changed: Project = change_item(project, self._flat[:-2], change)
         return changed
 
     def move_up(self, project: Project) -> Project:
         """The project with the node moved up by one in its section."""
-        *outer, (section, number) = self.steps
+        index = self.steps[-1][1]
 
-        def change(holder: Any) -> Any:
-            nodes = list(getattr(holder, section) or ())
-            if 0 < number < len(nodes):
-                nodes[number - 1 : number + 1] = nodes[number], nodes[number - 1]
-            changes: dict[str, Any] = {section: tuple(nodes)}
-            return replace(holder, **changes)
+        def moved(nodes: tuple[Any, ...]) -> tuple[Any, ...]:
+            return (*nodes[: index - 1], nodes[index], nodes[index - 1], *nodes[index + 1 :]) if index else nodes
 
-        changed: Project = _updated(project, tuple(outer), change)
+        changed: Project = change_item(project, self._flat[:-1], moved)
         return changed
 
     def symbol_ref(self, project: Project) -> SymbolRef:
@@ -114,12 +102,3 @@ def _name_of(node: Any) -> str:
     if isinstance(node, Interface):
         return node.component
     return node.name if node is not None else ""
-
-
-def _updated(node: Any, steps: tuple[tuple[str, int], ...], change: NodeUpdate) -> Any:
-    if not steps:
-        return change(node)
-    (section, number), rest = steps[0], steps[1:]
-    children = enumerate(getattr(node, section) or ())
-    updated = tuple(_updated(child, rest, change) if index == number else child for index, child in children)
-    return replace(node, **{section: updated})
