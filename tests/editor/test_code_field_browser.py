@@ -110,6 +110,24 @@ def test_the_linter_marks_code_and_knows_declared_names(editor: str, page: Page)
     expect(page.locator(".cm-content:focus")).to_have_count(0)
 
 
+def test_code_keeps_focus_and_action_while_others_move_it(editor: str, page: Page, other: Page) -> None:
+    open_player(page, editor)
+    open_player(other, editor)
+    for each in (page, other):
+        select_state(each, "LookForBall")
+    for _ in range(2):
+        page.get_by_role("button", name="Add to actions: Code").click()
+    code = page.get_by_label("Inspector").get_by_label("Python", exact=True)
+    expect(code).to_have_count(2)
+    retype(page, code.nth(1), "first")
+    expect(other.get_by_label("Inspector").get_by_label("Python", exact=True).nth(1)).to_have_text("first")
+    other.get_by_role("button", name=re.compile("^Move up: [0-9] Code")).last.click()
+    expect(code.nth(0)).to_have_text("first")
+    expect(code.nth(0)).to_be_focused()
+    page.keyboard.type(" and second")
+    expect(other.get_by_label("Inspector").get_by_label("Python", exact=True).nth(0)).to_have_text("first and second")
+
+
 def test_code_is_edited_in_a_wide_editor(editor: str, page: Page) -> None:
     open_player(page, editor)
     select_transition(page, LOOK)
