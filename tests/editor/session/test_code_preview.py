@@ -62,6 +62,7 @@ def test_a_design_with_errors_or_without_a_language_has_a_note() -> None:
 
 
 def test_regions_edited_on_disk_are_listed(tmp_path: Path) -> None:
+    assert preview_code(PROJECT, PLAYER, {}, tmp_path).files[0].edited_regions == ()
     apply_diffs(compare_files(generate(PROJECT), tmp_path), tmp_path)
     assert preview_code(PROJECT, PLAYER, {}, tmp_path).files[0].edited_regions == ()
     file = tmp_path / "python" / "forward" / "player.py"
