@@ -12,7 +12,7 @@ _PACKAGE_FOLDER = Path(__file__).parent
 
 
 def render(template: str, **views: object) -> str:
-    """Render a template, such as `docsite/component.html.jinja`, with views as its variables."""
+    """Render a template, such as `python/component.py.jinja`, with views as its variables."""
     return _environment().get_template(template).render(**views)
 
 

@@ -7,14 +7,15 @@ import vicode.bica
 from vicode.generators.origins import ComponentCode
 from vicode.generators.plan import INTERFACES_MODULE, ComponentPlan, PackagePlan, ProjectPlan
 from vicode.generators.python.component import ComponentWriter
-from vicode.generators.python.declarations import write_declarations
-from vicode.generators.python.interfaces import write_interfaces
+from vicode.generators.python.declarations import build_declarations_view
+from vicode.generators.python.interfaces import build_interfaces_view
 from vicode.generators.python.names import RESERVED_MODULES, assign_global_names, component_class_name
 from vicode.generators.python.origins import find_origins
 from vicode.generators.python.probes import PROBES_MODULE, generate_probes
 from vicode.generators.python.text import docstring
 from vicode.output import OutputFile
 from vicode.regions import add_header
+from vicode.templating import render
 
 __all__ = [
     "PROBES_MODULE",
@@ -39,15 +40,14 @@ def generate_python(plan: ProjectPlan, *, standalone: bool) -> tuple[OutputFile,
     project = f"the project {plan.name}"
     about = docstring(plan.doc or f"Components of {project}.", 0) + "\n"
     files = [OutputFile(path=f"{folder}/__init__.py", text=add_header(about, project))]
-    shared = {
-        "declarations": write_declarations(plan, names, runtime),
-        INTERFACES_MODULE: write_interfaces(plan, names, runtime),
-    }
-    files += [
-        OutputFile(path=f"{folder}/{module}.py", text=add_header(text, project))
-        for module, text in shared.items()
-        if text is not None
-    ]
+    shared = build_declarations_view(plan, names, runtime)
+    if shared is not None:
+        text = render("python/declarations.py.jinja", view=shared)
+        files.append(OutputFile(path=f"{folder}/declarations.py", text=add_header(text, project)))
+    interfaces = build_interfaces_view(plan, names, runtime)
+    if interfaces is not None:
+        text = render("python/interfaces.py.jinja", view=interfaces)
+        files.append(OutputFile(path=f"{folder}/{INTERFACES_MODULE}.py", text=add_header(text, project)))
     files += [
         _module(ComponentWriter(project=plan, component=item, names=names, runtime=runtime)) for item in plan.components
     ]
@@ -83,10 +83,9 @@ def class_path(package: PackagePlan, component: str) -> str:
 
 def _module(writer: ComponentWriter) -> OutputFile:
     component = writer.component
+    text = render("python/component.py.jinja", view=writer.build_view())
     path = f"{LANGUAGE}/{writer.project.package.name}/{component.module}.py"
-    return OutputFile(
-        path=path, text=add_header(writer.write(), component.source or f"the design of {component.component}")
-    )
+    return OutputFile(path=path, text=add_header(text, component.source or f"the design of {component.component}"))
 
 
 def _copy_runtime(folder: str) -> tuple[OutputFile, ...]:

@@ -29,7 +29,7 @@ from vicode.generators.python.pretty_printer import (
     render_doc,
 )
 from vicode.generators.python.text import declaration_description, docstring, quoted, section
-from vicode.generators.python.views import MethodView, format_class, format_module
+from vicode.generators.python.views import ComponentModuleView, MethodView
 from vicode.regions import wrap_region
 
 
@@ -46,30 +46,24 @@ class ComponentWriter:
     def expression_printer(self) -> PythonExpressionPrinter:
         return PythonExpressionPrinter.of_component(self.project, self.component, self.names)
 
-    def write(self) -> str:
-        """Return the text of the module."""
+    def build_view(self) -> ComponentModuleView:
         plan = self.component
         methods = (
             self._write_constructor(),
             *modulate_method(plan.parameters, self.expression_printer),
             *MethodWriter(component=plan, expression_printer=self.expression_printer).write_states(),
         )
-        settings, members = self._list_settings(), _region_text(plan.members, " " * METHOD_INDENT)
-        parts = (*(["\n".join(settings)] if settings else []), *(method.text for method in methods))
-        about = docstring(f"The component {plan.component} of the project {self.project.name}.", 0)
-        code = _region_text(plan.module_code, "")
-        return format_module(
-            about,
-            self._list_imports(),
-            self.runtime,
-            format_class(
-                component_class_name(plan.component),
-                self._base,
-                self._write_docstring(),
-                *parts,
-                *([members] if members else []),
-            ),
-            module_code=code,
+        return ComponentModuleView(
+            docstring=docstring(f"The component {plan.component} of the project {self.project.name}.", 0),
+            imports=self._list_imports(),
+            imports_for_types=tuple(format_imports([Import(module=self.runtime, name="Root")])),
+            module_code=_region_text(plan.module_code, ""),
+            class_name=component_class_name(plan.component),
+            base=self._base,
+            class_docstring=self._write_docstring(),
+            settings=self._list_settings(),
+            methods=methods,
+            members=_region_text(plan.members, " " * METHOD_INDENT),
         )
 
     @property
@@ -88,12 +82,12 @@ class ComponentWriter:
         plan = self.component
         settings = []
         if plan.source:
-            settings.append(f"    design_file = {quoted(plan.source)}")
+            settings.append(f"design_file = {quoted(plan.source)}")
         if plan.frequency_hz is not None:
             hertz = plan.frequency_hz
-            settings.append(f"    frequency_hz = {format_number(int(hertz) if hertz == int(hertz) else hertz)}")
+            settings.append(f"frequency_hz = {format_number(int(hertz) if hertz == int(hertz) else hertz)}")
         if plan.resume:
-            settings.append("    resume = True")
+            settings.append("resume = True")
         return tuple(settings)
 
     def _write_constructor(self) -> MethodView:

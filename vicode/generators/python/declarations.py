@@ -5,12 +5,12 @@ from vicode.generators.python.expression_doc import format_statement
 from vicode.generators.python.expression_printer import PythonExpressionPrinter
 from vicode.generators.python.imports import Import, format_imports
 from vicode.generators.python.text import comment, declaration_description, docstring, quoted, section
-from vicode.generators.python.views import format_class
+from vicode.generators.python.views import DeclarationsModuleView, EnumerationClassView
 from vicode.model.project import Enumeration
 
 
-def write_declarations(plan: ProjectPlan, names: dict[str, str], runtime: str) -> str | None:
-    """Return the text of the declarations module; None if the project declares nothing."""
+def build_declarations_view(plan: ProjectPlan, names: dict[str, str], runtime: str) -> DeclarationsModuleView | None:
+    """Return the view of the declarations module; None if the project declares nothing."""
     if not plan.enumerations and not plan.constants:
         return None
     printer = PythonExpressionPrinter(names=names, nonzero_constants=plan.nonzero_constants)
@@ -21,20 +21,24 @@ def write_declarations(plan: ProjectPlan, names: dict[str, str], runtime: str) -
     imports = format_imports(standard)
     if any("arithmetic." in line for line in constants if not line.startswith("#")):
         imports += ["", *format_imports([Import(module=runtime, name="arithmetic")])]
-    about = docstring(f"Enumerations and constants of the project {plan.name}.", 0)
-    text = "\n\n\n".join(["\n".join([about, "", *imports]), *enumerations])
-    separator = "\n\n\n" if enumerations else "\n\n"
-    return separator.join([text, *(["\n".join(constants)] if constants else [])]) + "\n"
+    return DeclarationsModuleView(
+        docstring=docstring(f"Enumerations and constants of the project {plan.name}.", 0),
+        imports=tuple(imports),
+        enumerations=enumerations,
+        constants=constants,
+    )
 
 
-def _enumeration(enumeration: Enumeration, name: str) -> str:
+def _enumeration(enumeration: Enumeration, name: str) -> EnumerationClassView:
     entries = [(element, doc) for element, doc in enumeration.elements if doc.strip()]
     sections = (section("Attributes", entries, 4),) if entries else ()
     # The world uses the XABSL names of the elements.
     values = dict(enumeration.xabsl_elements)
-    members = [f"    {element} = {quoted(values.get(element, element))}" for element in enumeration.element_names]
-    about = docstring(enumeration.doc or f"The enumeration {enumeration.name}.", 4, sections)
-    return format_class(name, "Enum", about, "\n".join(members))
+    return EnumerationClassView(
+        name=name,
+        docstring=docstring(enumeration.doc or f"The enumeration {enumeration.name}.", 4, sections),
+        members=tuple(f"{element} = {quoted(values.get(element, element))}" for element in enumeration.element_names),
+    )
 
 
 def _constant(constant: ValuePlan, printer: PythonExpressionPrinter) -> list[str]:

@@ -12,28 +12,31 @@ from vicode.generators.python.names import component_class_name
 from vicode.generators.python.parameters import keyword_signature, modulate_method, type_name
 from vicode.generators.python.pretty_printer import Doc, call_doc, concat, render_doc
 from vicode.generators.python.text import declaration_description, docstring, section
-from vicode.generators.python.views import MethodView, format_class, format_module
+from vicode.generators.python.views import InterfaceClassView, InterfacesModuleView, MethodView
 from vicode.model.expressions import BOOL, FLOAT, INT
 from vicode.model.names import python_attribute_name, snake_case
 
 _MARGIN = " " * BODY_INDENT
 
 
-def write_interfaces(plan: ProjectPlan, names: dict[str, str], runtime: str) -> str | None:
-    """Return the text of the module; None if there are no such components."""
+def build_interfaces_view(plan: ProjectPlan, names: dict[str, str], runtime: str) -> InterfacesModuleView | None:
+    """Return the view of the module; None if there are no such components."""
     if not plan.interfaces:
         return None
     # A property may have the same name as its type and would hide the type inside the class.
     shared = [*(item.name for item in plan.enumerations), *(item.name for item in plan.constants)]
     names = names | {name: f"declarations.{names[name]}" for name in shared}
     printer = PythonExpressionPrinter(names=names, nonzero_constants=plan.nonzero_constants)
-    classes = [_InterfaceWriter(item, printer).write() for item in plan.interfaces]
+    classes = tuple(_InterfaceWriter(item, printer).build_view() for item in plan.interfaces)
     imports = [Import(module=runtime, name="Component")]
     uses_declarations = any(name.startswith("declarations.") for name in printer.used_names)
     own = [Import(module=".", name="declarations")] if uses_declarations else []
-    about = docstring(f"World access and shared variables of the project {plan.name}.", 0)
-    sections = (tuple(format_imports(section)) for section in (imports, own) if section)
-    return format_module(about, sections, runtime, *classes)
+    return InterfacesModuleView(
+        docstring=docstring(f"World access and shared variables of the project {plan.name}.", 0),
+        imports=tuple(tuple(format_imports(section)) for section in (imports, own) if section),
+        imports_for_types=tuple(format_imports([Import(module=runtime, name="Root")])),
+        classes=classes,
+    )
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,7 +46,7 @@ class _InterfaceWriter:
     plan: InterfacePlan
     expression_printer: PythonExpressionPrinter
 
-    def write(self) -> str:
+    def build_view(self) -> InterfaceClassView:
         plan = self.plan
         methods = [*self._constructor(), *modulate_method(plan.parameters, self.expression_printer)]
         if not plan.is_internal:
@@ -51,8 +54,11 @@ class _InterfaceWriter:
             methods += [self._function(function) for function in plan.functions]
             methods += [method for value in plan.variables for method in (*self._getter(value), self._setter(value))]
             methods += self._work_method()
-        texts = [method.text for method in methods or [_EMPTY_WORK]]
-        return format_class(component_class_name(plan.component), "Component", self._docstring(), *texts)
+        return InterfaceClassView(
+            name=component_class_name(plan.component),
+            docstring=self._docstring(),
+            methods=tuple(methods) or (_EMPTY_WORK,),
+        )
 
     def _docstring(self) -> str:
         plan = self.plan

@@ -18,10 +18,12 @@ from vicode.generators.python.imports import Import, format_imports
 from vicode.generators.python.names import assign_global_names
 from vicode.generators.python.pretty_printer import render_doc
 from vicode.generators.python.text import docstring, quoted
+from vicode.generators.python.views import GuardProbeView, ProbesModuleView
 from vicode.model.design import COMMON
 from vicode.model.expressions import Done, ElapsedTime, Expr, OutputRef, StatusFlag, Variable, walk
 from vicode.model.expressions.scope import ScopeSymbolKind
 from vicode.output import OutputFile
+from vicode.templating import render
 
 PROBES_MODULE = "_probes"
 """The name of the module; modules of components never start with an underscore."""
@@ -38,18 +40,20 @@ def generate_probes(plan: ProjectPlan, component: ComponentPlan) -> OutputFile:
     declared = [*(item.name for item in plan.enumerations), *(item.name for item in plan.constants)]
     imports = format_imports([Import(module="vicode.bica", name="arithmetic")])
     imports += format_imports(Import(module=".declarations", name=names[name]) for name in declared)
-    guards, reads = ["GUARDS = {"], ["READS = {"]
-    for source, decisions in sources:
-        guards.append(f"    {quoted(source)}: {{")
-        for decision in _alternatives(decisions):
-            if decision.id:
-                guards += _guard_lines(decision, printer)
-                reads += _read_lines(decision, printer)
-        guards.append("    },")
-    elements = [f"    {quoted(item.name)}: {names[item.name]}," for item in plan.enumerations]
-    about = docstring(f"Evaluates the guards of {component.component} without side effects.", 0)
-    lines = [about, "", *imports, "", *guards, "}", *reads, "}", "ENUMERATIONS = {", *elements, "}", ""]
-    return OutputFile(path=f"python/{plan.package.name}/{PROBES_MODULE}.py", text="\n".join(lines))
+    view = ProbesModuleView(
+        docstring=docstring(f"Evaluates the guards of {component.component} without side effects.", 0),
+        imports=tuple(imports),
+        sources=tuple(
+            (
+                quoted(source),
+                tuple(_guard_view(decision, printer) for decision in _alternatives(decisions) if decision.id),
+            )
+            for source, decisions in sources
+        ),
+        enumerations=tuple((quoted(item.name), names[item.name]) for item in plan.enumerations),
+    )
+    text = render("python/probes.py.jinja", view=view)
+    return OutputFile(path=f"python/{plan.package.name}/{PROBES_MODULE}.py", text=text)
 
 
 def _alternatives(decisions: Iterable[DecisionPlan]) -> Iterator[DecisionPlan]:
@@ -59,15 +63,13 @@ def _alternatives(decisions: Iterable[DecisionPlan]) -> Iterator[DecisionPlan]:
             yield from _alternatives((*alternative.outcome.then, *alternative.outcome.otherwise))
 
 
-def _guard_lines(decision: DecisionPlan, printer: PythonExpressionPrinter) -> list[str]:
-    conditions = [f"            {_condition(condition, printer)}," for condition in decision.conditions]
-    return [f"        {quoted(decision.id)}: [", *conditions, "        ],"]
-
-
-def _read_lines(decision: DecisionPlan, printer: PythonExpressionPrinter) -> list[str]:
-    reads = dict(pair for condition in decision.conditions for pair in _reads(condition, printer))
-    lines = [f"        {quoted(name)}: {function}," for name, function in reads.items()]
-    return [f"    {quoted(decision.id)}: {{", *lines, "    },"] if reads else []
+def _guard_view(alternative: DecisionPlan, printer: PythonExpressionPrinter) -> GuardProbeView:
+    reads = dict(pair for condition in alternative.conditions for pair in _reads(condition, printer))
+    return GuardProbeView(
+        id=quoted(alternative.id),
+        conditions=tuple(_condition(condition, printer) for condition in alternative.conditions),
+        reads=tuple((quoted(name), function) for name, function in reads.items()),
+    )
 
 
 def _condition(condition: Condition, printer: PythonExpressionPrinter) -> str:

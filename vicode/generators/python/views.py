@@ -1,6 +1,5 @@
-"""The layout of generated modules: imports, classes and methods."""
+"""The data of the Python templates: formatted strings and lists of them."""
 
-from collections.abc import Iterable
 from dataclasses import dataclass
 
 
@@ -11,22 +10,75 @@ class MethodView:
     signature: str
     body: str
 
-    @property
-    def text(self) -> str:
-        return f"{self.signature}\n{self.body}"
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ComponentModuleView:
+    """A module with one component; `imports` are import sections, `settings` are class attributes."""
+
+    docstring: str
+    imports: tuple[tuple[str, ...], ...]
+    imports_for_types: tuple[str, ...]
+    module_code: str
+    class_name: str
+    base: str
+    class_docstring: str
+    settings: tuple[str, ...]
+    methods: tuple[MethodView, ...]
+    members: str
 
 
-def format_module(
-    docstring: str, imports: Iterable[tuple[str, ...]], runtime: str, *classes: str, module_code: str = ""
-) -> str:
-    """Return a module of components; `imports` are import sections."""
-    sections = [docstring, "from __future__ import annotations", "from typing import TYPE_CHECKING"]
-    sections += ["\n".join(lines) for lines in imports]
-    sections += [f"if TYPE_CHECKING:\n    from {runtime} import Root"]
-    sections += [module_code] if module_code else []
-    return "\n\n\n".join(["\n\n".join(sections), *classes]) + "\n"
+@dataclass(frozen=True, slots=True, kw_only=True)
+class EnumerationClassView:
+    """An enumeration; `members` are lines."""
+
+    name: str
+    docstring: str
+    members: tuple[str, ...]
 
 
-def format_class(name: str, base: str, docstring: str, *members: str) -> str:
-    """Return a class whose members are separated by blank lines."""
-    return "\n\n".join([f"class {name}({base}):\n{docstring}", *members])
+@dataclass(frozen=True, slots=True, kw_only=True)
+class DeclarationsModuleView:
+    """A module with the project's enumerations and constants."""
+
+    docstring: str
+    imports: tuple[str, ...]
+    enumerations: tuple[EnumerationClassView, ...]
+    constants: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class InterfaceClassView:
+    """A component without a design."""
+
+    name: str
+    docstring: str
+    methods: tuple[MethodView, ...]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class InterfacesModuleView:
+    """The module of the components without a design; `imports` are import sections."""
+
+    docstring: str
+    imports: tuple[tuple[str, ...], ...]
+    imports_for_types: tuple[str, ...]
+    classes: tuple[InterfaceClassView, ...]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class GuardProbeView:
+    """One guard; `id` and the names in `reads` are quoted, `conditions` and the values of `reads` are expressions."""
+
+    id: str
+    conditions: tuple[str, ...]
+    reads: tuple[tuple[str, str], ...]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ProbesModuleView:
+    """A module that evaluates the guards of a component; `sources` are quoted state names with their guards."""
+
+    docstring: str
+    imports: tuple[str, ...]
+    sources: tuple[tuple[str, tuple[GuardProbeView, ...]], ...]
+    enumerations: tuple[tuple[str, str], ...]
