@@ -91,11 +91,11 @@ class Rows:
         form: Form,
         list_keys: Callable[[], Sequence[Any]],
         build: Callable[[Form, Any], object],
-        css_class: str = "rows",
+        css_class: str = "form-rows",
     ) -> None:
         self.form, self._list_keys, self._build, self._css_class = form, list_keys, build, css_class
         self._rows: dict[Hashable, tuple[ui.element, Form]] = {}
-        self.container = ui.element("div").classes("rows")
+        self.container = ui.element("div").classes("form-rows")
         form.on_refresh(self.refresh)
         self.refresh()
 
