@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from playwright.sync_api import Page, WebSocketRoute, expect
+from playwright.sync_api import Page, expect
 
 from tests.editor.player_page import (
     PLAYER,
@@ -16,6 +16,7 @@ from tests.editor.player_page import (
     select_state,
     state,
 )
+from tests.editor.slow_connection import SlowConnection
 
 # The page's socket seems to be open only when the test says so.
 SPEAKS_LATE = """
@@ -159,35 +160,24 @@ def test_what_is_asked_before_the_page_can_speak_is_done_when_it_can(editor: str
     expect(page.get_by_text("Theme: dark")).to_be_visible()
 
 
-def test_a_state_made_before_the_drawing_is_known_to_be_there_is_named(editor: str, page: Page) -> None:
-    held: list[str | bytes] = []
-    is_made = False
-
-    def connect(route: WebSocketRoute) -> None:
-        server = route.connect_to_server()
-
-        def pass_on(message: str | bytes) -> None:
-            # What a page says while it opens comes in any order: "ready" after the first gesture.
-            nonlocal is_made
-            if not is_made and "rev" in str(message) and "kind" not in str(message):
-                held.append(message)
-                return
-            server.send(message)
-            if "create" in str(message):
-                is_made = True
-                while held:
-                    server.send(held.pop())
-
-        route.on_message(pass_on)
-
-    page.route_web_socket("**/*", connect)
+def test_a_name_is_typed_at_once_over_a_slow_line(editor: str, page: Page, line: SlowConnection) -> None:
     open_player(page, editor)
+    line.hold()
     page.mouse.dblclick(*empty_corner(page))
-    expect(page.locator("input.rename")).to_be_focused()
-    assert is_made
-    page.keyboard.type("Pause")
+    page.keyboard.type("Sound")
     page.keyboard.press("Enter")
-    expect(state(page, "Pause")).to_be_visible()
+    expect(state(page, "Sound")).to_be_visible()
+    page.keyboard.press("n")
+    page.keyboard.type("Duck")
+    line.release()
+    page.keyboard.type("Pond")
+    page.keyboard.press("Enter")
+    expect(label(page, "Sound/0").or_(page.locator('g[data-id="Sound/0"]')).first).to_be_visible()
+    expect(state(page, "DuckPond")).to_be_visible()
+    expect(page.get_by_role("dialog")).to_have_count(0)
+    page.get_by_role("button", name="Undo").click()
+    page.get_by_role("button", name="Undo").click()
+    expect(page.get_by_text("Saved", exact=True)).to_be_visible()
 
 
 def test_two_windows_stay_in_step(editor: str, page: Page, second_window: Page) -> None:
@@ -195,7 +185,6 @@ def test_two_windows_stay_in_step(editor: str, page: Page, second_window: Page) 
     open_player(second_window, editor)
     create_state(page, "Pause")
     expect(state(second_window, "Pause")).to_be_visible()
-    second_window.get_by_role("button", name="Undo").click()
     second_window.get_by_role("button", name="Undo").click()
     expect(state(page, "Pause")).to_have_count(0)
     expect(page.get_by_text("Saved", exact=True)).to_be_visible()

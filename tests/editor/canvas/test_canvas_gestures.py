@@ -127,7 +127,15 @@ def test_escape_cancels_renaming(canvas: CanvasDriver) -> None:
 
 def test_double_click_creates_states_and_opens_components(canvas: CanvasDriver) -> None:
     canvas.click(canvas.at("states", "KickLeft", -160, 10), double=True)
-    assert set(canvas.wait_for_gesture("create")) == {"x", "y"}
+    # No key is lost or taken for a shortcut, and the new state can be used before Python has answered.
+    canvas.page.keyboard.type("Sound")
+    assert not canvas.gestures("create")
+    canvas.press("Enter", "n")
+    canvas.page.keyboard.type("Use")
+    canvas.press("Escape")
+    assert canvas.wait_for_gesture("connect", source="Sound", name="")
+    assert canvas.gestures("create")[0].items() >= {"name": "Sound", "select": True}.items()
+    assert {gesture["kind"] for gesture in canvas.gestures()} == {"create", "connect"}
     canvas.click(canvas.at("components", "search_ball"), double=True)
     assert canvas.wait_for_gesture("open") == {"item": {"of": "components", "id": "search_ball"}}
 

@@ -124,11 +124,6 @@ def test_links_can_be_hidden(canvas: CanvasDriver) -> None:
     expect(canvas.page.locator("g.edge.link")).to_have_count(5)
 
 
-def test_rename_in_place_focuses_the_field(canvas: CanvasDriver) -> None:
-    canvas.call("rename_in_place", "GiveUp")
-    expect(canvas.page.locator("input.rename")).to_be_focused()
-
-
 def test_a_press_on_the_minimap_centers_the_view_there(canvas: CanvasDriver) -> None:
     minimap = canvas.page.locator(".minimap")
     expect(minimap).to_be_hidden()

@@ -64,7 +64,7 @@ def test_a_state_created_by_the_menu_is_where_the_menu_was_opened(sketch: Editor
     sketch.rename_to("Wait")
     x, y = sketch.state("Wait")
     assert abs(x - spot[0]) + abs(y - spot[1]) < 20
-    sketch.expect_undone(2)
+    sketch.expect_undone()
 
 
 def test_the_help_lists_every_key(sketch: EditorDriver) -> None:
@@ -97,7 +97,7 @@ def test_new_states_by_keys_are_at_free_positions(sketch: EditorDriver) -> None:
         sketch.rename_to(name)
     (x1, y1), (x2, y2) = sketch.position("states/One"), sketch.position("states/Two")
     assert abs(x1 - x2) >= 120 or abs(y1 - y2) >= 60
-    sketch.expect_undone(4)
+    sketch.expect_undone(2)
 
 
 def test_a_component_is_used_by_keys_and_by_dragging_its_design(sketch: EditorDriver) -> None:

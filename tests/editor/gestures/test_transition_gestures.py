@@ -64,12 +64,12 @@ def test_a_connection_to_empty_space_creates_a_state(sketch: EditorDriver) -> No
     sketch.drag(sketch.handle("Rest", 2), sketch.state("Rest", 0, 150))
     sketch.rename_to("Sleep")
     expect_transition(sketch, "Rest/0", "from Rest to Sleep")
-    sketch.expect_undone(2)
+    sketch.expect_undone()
     sketch.select("Rest")
     sketch.press("n")
     sketch.rename_to("Doze")
     expect_transition(sketch, "Rest/0", "from Rest to Doze")
-    sketch.expect_undone(2)
+    sketch.expect_undone()
 
 
 def test_a_label_is_moved_and_reset(sketch: EditorDriver) -> None:

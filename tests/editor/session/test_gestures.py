@@ -49,13 +49,43 @@ def arrows(document: DocumentSession) -> list[tuple[str, str]]:
     return [(at.source, at.decision.to) for at in located if isinstance(at.decision, Transition)]
 
 
-def test_create_selects_the_new_state_for_naming(document: DocumentSession) -> None:
+def test_create_selects_the_new_state(document: DocumentSession) -> None:
     outcome = apply_gesture(document, {"kind": "create", "x": 10.4, "y": 20})
-    assert outcome.state_to_rename == "State"
     assert outcome.new_selection == (ItemRef(kind="states", id="State"),)
     assert document.design.states[-1].at == (10, 20)
     apply_gesture(document, {"kind": "create", "x": 0, "y": 0})
     assert names(document) == ["A", "B", "State", "State2"]
+
+
+def test_a_named_state_is_one_edit(document: DocumentSession) -> None:
+    outcome = apply_gesture(document, {"kind": "create", "x": 0, "y": 0, "name": "Sound", "select": False})
+    assert outcome.new_selection is None
+    apply_gesture(document, {"kind": "connect", "source": "Sound", "target": None, "x": 0, "y": 9, "name": "Echo"})
+    assert names(document) == ["A", "B", "Sound", "Echo"]
+    assert arrows(document)[-1] == ("Sound", "Echo")
+    document.undo()
+    assert names(document) == ["A", "B", "Sound"]
+    document.undo()
+    assert document.design == DESIGN
+
+
+@pytest.mark.parametrize(("name", "word"), [("A", "already"), ("no name", "name")])
+def test_a_state_with_an_impossible_name_gets_a_free_one(document: DocumentSession, name: str, word: str) -> None:
+    outcome = apply_gesture(document, {"kind": "create", "x": 0, "y": 0, "name": name})
+    assert word in outcome.error
+    assert outcome.new_selection == (ItemRef(kind="states", id="State"),)
+    assert names(document) == ["A", "B", "State"]
+
+
+def test_naming_a_new_state_is_part_of_its_creation(document: DocumentSession) -> None:
+    for name in ("First", "Second"):
+        apply_gesture(document, {"kind": "create", "x": 0, "y": 0})
+        apply_gesture(document, {"kind": "rename", "item": {"of": "states", "id": "State"}, "name": name})
+        assert document.undo_label == f"add state {name}"
+    apply_gesture(document, {"kind": "rename", "item": {"of": "states", "id": "Second"}, "name": "Third"})
+    for expected in (["A", "B", "First", "Second"], ["A", "B", "First"], ["A", "B"]):
+        document.undo()
+        assert names(document) == expected
 
 
 def test_connect_to_another_state_itself_and_a_new_state(document: DocumentSession) -> None:

@@ -54,7 +54,6 @@ class Canvas(ui.element, component=CANVAS_JS / "vicode_canvas.js"):
         self._acked_seq = 0
         self._links_shown = True
         self._initial_target: tuple[str, str] | None = None
-        self._pending_rename = ""
         self._is_mounted = False
         self._embedded_rev: int | None = None
         self._embedded_script = ""
@@ -110,12 +109,6 @@ class Canvas(ui.element, component=CANVAS_JS / "vicode_canvas.js"):
 
     def fit(self) -> None:
         self._call("fit")
-
-    def rename_in_place(self, state: str) -> None:
-        """Open the inline rename field of a state."""
-        self._pending_rename = state
-        if self._is_mounted:
-            self._send_renaming()
 
     def state_renamed(self, old: str, new: str) -> None:
         """Report that another user renamed a state, so that an open rename field stays open."""
@@ -213,11 +206,6 @@ class Canvas(ui.element, component=CANVAS_JS / "vicode_canvas.js"):
         ids, self._sent, taken = self._active
         self._call("highlightActive", ids, self._sent, taken)
 
-    def _send_renaming(self) -> None:
-        if self._pending_rename:
-            self._call("renameInPlace", self._pending_rename)
-        self._pending_rename = ""
-
     def _send_presence(self) -> None:
         if self._is_mounted:
             self._presence_painted = self._presence_pending = False
@@ -261,8 +249,6 @@ class Canvas(ui.element, component=CANVAS_JS / "vicode_canvas.js"):
         if self._initial_target:
             self._call("scrollToInitial", *self._initial_target)
             self._initial_target = None
-        # The events of an opening page arrive in any order: a state may have been created before "ready".
-        self._send_renaming()
         self._call("setBreakpoints", self._breakpoints)
         self._send_presence()
         if self._active[1] >= 0:

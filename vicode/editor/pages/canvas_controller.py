@@ -162,8 +162,6 @@ class CanvasController:
             self.context.show_toast(result.note, "info")
         if result.new_selection is not None:
             self.context.select(*result.new_selection)
-        if result.state_to_rename:
-            self.canvas.rename_in_place(result.state_to_rename)
 
     def _use(self, gesture: UseGesture) -> None:
         project, at = self.context.workspace.project, canvas_point(gesture.x, gesture.y)

@@ -1,5 +1,6 @@
 """Edits that a browser requests: their protocol and result, and steps that several of them share."""
 
+from collections.abc import Collection
 from dataclasses import dataclass
 from typing import Annotated, ClassVar, Protocol
 
@@ -8,6 +9,7 @@ from vicode.editor.session.document import DocumentSession
 from vicode.editor.view import ItemRef
 from vicode.model.design import Design, Point, State
 from vicode.model.edits import add_state, add_transition, unique_name
+from vicode.model.names import is_valid_state_name
 
 _MAX_COORDINATE = 1_000_000
 
@@ -29,8 +31,6 @@ class EditResult:
     """None keeps the selection."""
     error: str = ""
     note: str = ""
-    state_to_rename: str = ""
-    """The new state whose name field gets the focus."""
 
 
 class RequestedEdit(Protocol):
@@ -54,16 +54,39 @@ def apply_edit(document: DocumentSession, edit: RequestedEdit) -> EditResult:
         return EditResult(error=str(error))
 
 
-def create_state(document: DocumentSession, at: Point, source: str = "") -> EditResult:
-    """Add a state with a free name, and a transition from `source` to it if given."""
-    name = unique_name("State", {state.name for state in document.design.states})
+def create_state(
+    document: DocumentSession, at: Point, wanted: str = "", source: str = "", *, select: bool = True
+) -> EditResult:
+    """Add a state, and a transition from `source` to it if given. It gets a free name if the wanted one is invalid."""
+    names = {state.name for state in document.design.states}
+    error = state_name_error(wanted, names) if wanted else ""
+    name = wanted if wanted and not error else unique_name("State", names)
 
     def change(design: Design) -> Design:
         grown = add_state(design, State(name=name, at=at))
         return add_transition(grown, source, name) if source else grown
 
-    document.edit(texts.add_state(name), change)
-    return EditResult(new_selection=(ItemRef(kind="states", id=name),), state_to_rename=name)
+    document.edit(texts.add_state(name), change, coalesce_key=creation_key(document, name))
+    return EditResult(new_selection=(ItemRef(kind="states", id=name),) if select else None, error=error)
+
+
+def creation_key(document: DocumentSession, name: str) -> str:
+    """The coalesce key of the creation of a state; its naming has the same."""
+    return f"create {name} {document.rev}"
+
+
+def naming_key(document: DocumentSession, name: str) -> str:
+    """The coalesce key that merges the renaming of a state into its creation, if that is the latest edit."""
+    latest = document.history.next_undo(document.user_id)
+    key = latest.coalesce_key if latest else ""
+    return key if key.rpartition(" ")[0] == f"create {name}" else ""
+
+
+def state_name_error(name: str, taken: Collection[str]) -> str:
+    """Why a state cannot get this name; "" if it can."""
+    if not is_valid_state_name(name):
+        return texts.invalid_state_name(name)
+    return texts.name_exists("state", name) if name in taken else ""
 
 
 def canvas_point(x: float, y: float) -> Point:

@@ -16,7 +16,9 @@ from vicode.editor.session.edits import (
     StateName,
     canvas_point,
     create_state,
+    naming_key,
     require_state,
+    state_name_error,
 )
 from vicode.editor.session.transition_gestures import ConnectGesture, LabelGesture, ReconnectGesture, ReorderGesture
 from vicode.editor.view import ItemKind, ItemRef, parse_transition_key
@@ -34,7 +36,7 @@ from vicode.model.edits import (
     set_disabled,
     update_state,
 )
-from vicode.model.names import is_valid_name, is_valid_state_name
+from vicode.model.names import is_valid_name
 from vicode.model.traversal import find_decision
 
 
@@ -75,14 +77,16 @@ class MoveGesture:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CreateGesture:
-    """Create a state with its center at (x, y)."""
+    """Create a state with its center at (x, y), and select it if wanted; without a name it gets one."""
 
     kind: ClassVar = "create"
     x: float
     y: float
+    name: str = ""
+    select: bool = True
 
     def apply(self, document: DocumentSession) -> EditResult:
-        return create_state(document, canvas_point(self.x, self.y))
+        return create_state(document, canvas_point(self.x, self.y), self.name, select=self.select)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -100,12 +104,16 @@ class RenameGesture:
             require_state(document, old)
         if old == new:
             return EditResult()
-        if not (is_valid_name(new) if is_use else is_valid_state_name(new)):
-            raise EditError(texts.invalid_alias(new) if is_use else texts.invalid_state_name(new))
-        if design.use(new) if is_use else design.state(new):
-            raise EditError(texts.alias_exists(new) if is_use else texts.name_exists("state", new))
+        if (
+            error := _alias_error(design, new)
+            if is_use
+            else state_name_error(new, {each.name for each in design.states})
+        ):
+            raise EditError(error)
         rename = rename_use if is_use else rename_state
-        document.edit(texts.rename(old, new), lambda design: rename(design, old, new))
+        key = "" if is_use else naming_key(document, old)
+        label = texts.add_state(new) if key else texts.rename(old, new)
+        document.edit(label, lambda design: rename(design, old, new), coalesce_key=key)
         return EditResult(new_selection=(replace(self.item, id=new),))
 
 
@@ -220,6 +228,12 @@ def apply_layout(design: Design, layout: NodeLayout, only: Collection[str] | Non
         return move_nodes(design, {name: point for name, point in layout.states.items() if name in only})
     has_common = design.common.transitions or design.common.actions
     return move_nodes(design, layout.states, layout.uses, layout.common if has_common else None)
+
+
+def _alias_error(design: Design, alias: str) -> str:
+    if not is_valid_name(alias):
+        return texts.invalid_alias(alias)
+    return texts.alias_exists(alias) if design.use(alias) else ""
 
 
 def _ids(items: Iterable[ItemRef], kind: ItemKind) -> list[str]:

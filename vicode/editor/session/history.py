@@ -194,7 +194,7 @@ class UndoHistory:
             if merged.conflicts:
                 return None
             changed[entry.id] = replace(entry, design=merged.design)
-        changed[last.id] = replace(changed[last.id], at_s=edit.at_s)
+        changed[last.id] = replace(changed[last.id], at_s=edit.at_s, label=edit.label)
         changed[self.current_id] = replace(changed.get(self.current_id, self.current), design=edit.design)
         return replace(self, entries={**self.entries, **changed})
 

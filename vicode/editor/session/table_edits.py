@@ -8,7 +8,7 @@ from typing import ClassVar, Literal
 
 from vicode.editor.session import texts
 from vicode.editor.session.document import DocumentSession
-from vicode.editor.session.edits import EditError, EditResult, RequestedEdit
+from vicode.editor.session.edits import EditError, EditResult, RequestedEdit, creation_key
 from vicode.editor.session.gestures import RenameGesture
 from vicode.editor.view import ItemRef, make_table, parse_row_id, parse_transition_key, transition_key
 from vicode.findings import DesignPath
@@ -95,9 +95,11 @@ class AddState:
         name, above = unique_name("State", set(names)), _source_of_row(self.row)
         index = names.index(above) + 1 if above in names else len(names)
         document.edit(
-            texts.add_state(name), lambda design: reorder_state(add_state(design, State(name=name)), name, index)
+            texts.add_state(name),
+            lambda design: reorder_state(add_state(design, State(name=name)), name, index),
+            coalesce_key=creation_key(document, name),
         )
-        return EditResult(new_selection=(ItemRef(kind="states", id=name),), state_to_rename=name)
+        return EditResult(new_selection=(ItemRef(kind="states", id=name),))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -25,18 +25,21 @@ _MAX_LABEL_OFFSET = 2_000
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ConnectGesture:
-    """Add a transition. Without a target, create a state at (x, y) first. The source may be `@common`."""
+    """Add a transition. Without a target, create a state (see `CreateGesture`) first. The source may be `@common`."""
 
     kind: ClassVar = "connect"
     source: StateName
     target: StateName | None = None
     x: float | None = None
     y: float | None = None
+    name: str = ""
+    select: bool = True
 
     def apply(self, document: DocumentSession) -> EditResult:
         source, target = _require_source(document, self.source), self.target
         if target is None:
-            return create_state(document, canvas_point(self.x or 0, self.y or 0), source)
+            at = canvas_point(self.x or 0, self.y or 0)
+            return create_state(document, at, self.name, source, select=self.select)
         require_state(document, target)
         document.edit(texts.connect(source, target), lambda design: add_transition(design, source, target))
         return _select_last_transition(document, source)

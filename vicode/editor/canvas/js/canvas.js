@@ -149,10 +149,6 @@ class Canvas {
     this.stage.focus({ preventScroll: true });
   }
 
-  renameInPlace(id) {
-    this.rename.start(keyOf("states", id));
-  }
-
   dispose() {
     this.frame.stop();
     this.keyboard.dispose();
@@ -241,6 +237,19 @@ class Canvas {
     else if (this.scene.isDrawable(element)) this.viewport.reveal({ ...this.router.route(element).at, w: 0, h: 0 });
     this.frame.flush();
     this.cull();
+  }
+
+  /** Scrolls a rectangle with the center (x, y) into view, at a readable zoom. */
+  revealPlace(place) {
+    if (this.isOverview) this.viewport.centreOn(place.x, place.y, Math.max(this.viewport.k, 0.6));
+    else this.viewport.reveal(nodeRect(place));
+  }
+
+  /** Draws a state whose creation was just reported, until Python's answer replaces it. */
+  showCreated(state, select) {
+    if (this.scene.nodes.has(keyOf("states", state.id))) return;
+    this.apply(this.scene.expect(state));
+    if (select) this.selection.set([keyOf("states", state.id)], { quiet: true });
   }
 
   /** The highlight changed: dims the other elements after a pause, and not during a drag. */

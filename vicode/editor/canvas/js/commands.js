@@ -43,9 +43,9 @@ function createHandlers(canvas) {
   const node = () => scene.nodes.get(selection.single());
   const hasTransitions = () => ["states", "common"].includes(node()?.of);
   return {
-    "new-state": { run: () => canvas.report("create", gestures.freePosition()) },
+    "new-state": { run: () => canvas.rename.startNew(gestures.freePosition()) },
     use: { run: () => canvas.report("use", { address: null, ...gestures.freePosition() }) },
-    "new-target": { can: hasTransitions, run: () => canvas.report("connect", { source: node().id, target: null, ...freePositionNextTo(scene, node()) }) },
+    "new-target": { can: hasTransitions, run: () => canvas.rename.startNew({ source: node().key, ...freePositionNextTo(scene, node()) }) },
     connect: { can: () => Boolean(node()), run: () => gestures.connectFrom(selection.single()) },
     "finish-connection": { can: () => Boolean(gestures.connectMode), run: () => gestures.finishConnect() },
   };

@@ -5,7 +5,7 @@ import { svg } from "./svg.js";
 
 // A release this close to the source node is accidental and creates no state.
 const ACCIDENTAL_DISTANCE = 40;
-const NEW_STATE = { w: 120, h: 60 };
+export const NEW_STATE = { w: 120, h: 60 };
 
 export class ConnectDrag {
   scrolls = true;
@@ -66,7 +66,7 @@ export class ConnectDrag {
   #connectToNew(world) {
     const source = this.#from();
     if (!source || source.of === "components") return;
-    this.canvas.report("connect", { source: source.id, target: null, x: snap(world.x), y: snap(world.y) });
+    this.canvas.rename.startNew({ source: this.source, x: snap(world.x), y: snap(world.y) });
   }
 
   #from() {
@@ -150,7 +150,7 @@ const canJoin = (source, target) =>
   target.of === "states" || (source.of === "states" && target.of === "components");
 
 /** The dashed curve that follows the pointer, and the outline of the state that would be created. */
-class ConnectionPreview {
+export class ConnectionPreview {
   constructor(canvas, { box }) {
     this.canvas = canvas;
     this.line = svg("path", { class: "preview" });
@@ -163,17 +163,20 @@ class ConnectionPreview {
 
   /** The ends are nodes or points. */
   show(from, to, createsState) {
-    if (!from || !to) return;
-    const curve = from === to ? loopOver(from) : straight(from, to);
-    const { tip, base } = headOf(curve);
-    this.line.setAttribute("d", pathOf(curve, base));
-    this.head.setAttribute("d", tip);
-    this.#showBox(to, createsState);
+    if (from && to) this.#showLine(from, to);
+    if (to) this.#showBox(to, createsState);
   }
 
   close() {
     this.group.remove();
     this.canvas.stage.classList.remove("connecting");
+  }
+
+  #showLine(from, to) {
+    const curve = from === to ? loopOver(from) : straight(from, to);
+    const { tip, base } = headOf(curve);
+    this.line.setAttribute("d", pathOf(curve, base));
+    this.head.setAttribute("d", tip);
   }
 
   #showBox(at, shown) {

@@ -211,7 +211,7 @@ export class PointerGestures {
     else if (element) canvas.report("open", { item: { of: element.of, id: element.id } });
     else {
       const { x, y } = this.#where(event).world;
-      canvas.report("create", { x: snap(x), y: snap(y) });
+      canvas.rename.startNew({ x: snap(x), y: snap(y) });
     }
   }
 

@@ -1,4 +1,5 @@
-// Inline rename: an input field over a node. Python validates the name.
+// The name field: over a node that it renames, or over the place of a state that is created when it closes. Python validates the name.
+import { ConnectionPreview, NEW_STATE } from "./connect_drags.js";
 import { keyOf } from "./scene.js";
 import { NAME } from "./strings.js";
 import { html } from "./svg.js";
@@ -7,22 +8,33 @@ export class InlineRename {
   constructor(canvas) {
     this.canvas = canvas;
     this.key = null;
+    this.draft = null;
     this.input = html("input", { class: "rename", type: "text", spellcheck: "false", hidden: true, "aria-label": NAME });
     this.input.addEventListener("keydown", (event) => this.#down(event));
-    this.input.addEventListener("blur", () => this.#close(true));
+    this.input.addEventListener("blur", () => this.#close({ keep: true, select: false }));
     for (const name of ["pointerdown", "keyup", "wheel"]) this.input.addEventListener(name, (event) => event.stopPropagation());
   }
 
   start(key) {
     const node = this.canvas.scene.nodes.get(key);
     if (!node) return;
+    this.#close({ keep: true, select: false });
     this.canvas.reveal(key);
     this.key = key;
-    this.input.value = nameOf(node);
-    this.input.hidden = false;
-    this.viewChanged();
-    this.input.focus({ preventScroll: true });
-    this.input.select();
+    this.#open(nameOf(node));
+  }
+
+  /**
+   * Asks for the name of a new state at (x, y), to which a transition leads from the node `source`, if any. The field
+   * is open before the next key press arrives: creating the state first would take a message to the server and back.
+   */
+  startNew({ x, y, source = null }) {
+    this.#close({ keep: true, select: false });
+    const { canvas } = this;
+    const place = { x, y, ...NEW_STATE };
+    this.draft = { place, source, preview: new ConnectionPreview(canvas, { line: Boolean(source), box: true }) };
+    canvas.revealPlace(place);
+    this.#open("");
   }
 
   /** Another user renamed the state: the field stays open, and its text will rename the state again. */
@@ -35,18 +47,37 @@ export class InlineRename {
 
   /** Keeps the field over its node; closes it if the node was removed. */
   viewChanged() {
+    if (this.draft) this.#showDraft();
     if (!this.key) return;
     const node = this.canvas.scene.nodes.get(this.key);
     if (!node && this.isRenamePending) return;
     this.isRenamePending = false;
-    if (!node) return this.#close(false);
+    if (node) this.#placeOver(node);
+    else this.#close({ keep: false });
+  }
+
+  #open(text) {
+    this.input.value = text;
+    this.input.hidden = false;
+    this.viewChanged();
+    this.input.focus({ preventScroll: true });
+    this.input.select();
+  }
+
+  #showDraft() {
+    const { place, source, preview } = this.draft;
+    preview.show(this.canvas.scene.nodes.get(source), place, true);
+    this.#placeOver(place);
+  }
+
+  #placeOver({ x, y, w, h }) {
     const { viewport } = this.canvas;
-    const at = viewport.toScreen({ x: node.x - node.w / 2, y: node.y - node.h / 2 });
+    const at = viewport.toScreen({ x: x - w / 2, y: y - h / 2 });
     const scale = Math.max(0.6, viewport.k);
     Object.assign(this.input.style, {
       left: `${at.x}px`,
-      top: `${at.y + (node.h * viewport.k - 36 * scale) / 2}px`,
-      width: `${Math.max(120, node.w * viewport.k)}px`,
+      top: `${at.y + (h * viewport.k - 36 * scale) / 2}px`,
+      width: `${Math.max(120, w * viewport.k)}px`,
       height: `${36 * scale}px`,
       fontSize: `${14 * scale}px`,
     });
@@ -62,17 +93,34 @@ export class InlineRename {
   }
 
   #leave(keep) {
-    this.#close(keep);
+    this.#close({ keep, select: true });
     this.canvas.stage.focus({ preventScroll: true });
   }
 
-  #close(keep) {
-    if (!this.key) return;
-    const node = this.canvas.scene.nodes.get(this.key);
+  /** `select`: selects a new state; not if the user has turned to something else. */
+  #close({ keep, select }) {
+    const { key, draft } = this;
+    if (!key && !draft) return;
     const name = this.input.value.trim();
-    this.key = null;
+    this.key = this.draft = null;
     this.input.hidden = true;
-    if (keep && node && name && name !== nameOf(node)) this.canvas.report("rename", { item: { of: node.of, id: node.id }, name });
+    if (draft) this.#create(draft, keep ? name : "", select);
+    else this.#rename(key, keep ? name : "");
+  }
+
+  /** Without a name Python chooses one. */
+  #create({ place: { x, y }, source, preview }, name, select) {
+    const { canvas } = this;
+    preview.close();
+    const from = canvas.scene.nodes.get(source);
+    if (from) canvas.report("connect", { source: from.id, target: null, x, y, name, select });
+    else canvas.report("create", { x, y, name, select });
+    if (name) canvas.showCreated({ id: name, name, x, y }, select);
+  }
+
+  #rename(key, name) {
+    const node = this.canvas.scene.nodes.get(key);
+    if (node && name && name !== nameOf(node)) this.canvas.report("rename", { item: { of: node.of, id: node.id }, name });
   }
 }
 
