@@ -87,3 +87,17 @@ def test_what_cannot_start_is_told(lamps: Path, capfd: pytest.CaptureFixture[str
     (lamps / "lamp.yaml").write_text(LAMP.replace("to: Lit", "to: Lot"), encoding="utf-8")
     assert vicode("run", "lamps/lamp.yaml") == 1
     assert "D402" in capfd.readouterr().err
+
+
+def test_components_without_an_implementation_keep_their_initial_values(tmp_path: Path) -> None:
+    components = "{Sensors: {outputs: {order_given: {type: bool}}}}"
+    (tmp_path / "project.yaml").write_text(f"vicode: 1\nproject: Lamps\ncomponents: {components}\n")
+    design = "vicode: 1\ncomponent: Waiter\nuses: {sensors: Sensors}\ninitial: Wait\nstates:\n"
+    design += "  Wait: {transitions: [{to: Go, when: sensors.order_given}]}\n  Go: {final: true}\n"
+    (tmp_path / "waiter.yaml").write_text(design)
+    process = start(str(tmp_path), "--ticks", "5")
+    out, err = process.communicate(timeout=60)
+    assert process.returncode == 0
+    assert "last state: Wait" in out
+    assert out.splitlines()[-1] == "errors: 0"
+    assert "P209 not-implemented: 'Sensors' has no implementation: its outputs keep their initial values" in err

@@ -69,6 +69,10 @@ components:
   Gauge:
     implementation: world
     outputs: {{ready: {{type: bool}}, level: {{type: float}}, where: {{type: Side}}}}
+  Sensors:
+    parameters: {{power: 3}}
+    outputs: {{order_given: {{type: bool}}, near: {{type: bool, arguments: {{limit: {{type: float}}}}}}}}
+    variables: {{side: {{type: Side}}}}
   Arm:
     implementation: parts_{name}:Arm
     parameters: {{reach: {{type: float, default: patience * 4}}, fast: {{type: bool}}, side: {{type: Side}}, lift: 7}}

@@ -268,3 +268,29 @@ def test_hand_written_components_get_the_declared_defaults(play: StartHarness) -
     assert armed.tick() == ["arm 2.0 False left 7"]
     assert armed.tick(1000) == ["arm 2.0 False right 2"]
     assert armed.errors == []
+
+
+SENSED = """
+component: Sensed
+uses: {sensors: Sensors, arm: Arm}
+initial: Rest
+states:
+  Rest:
+    modulates: {sensors: {power: 4}}
+    transitions:
+      - {to: Near, when: sensors.near(1)}
+      - {to: Lift, when: sensors.order_given and sensors.side == Side.right}
+  Near: {final: true}
+  Lift: {modulates: {arm: {reach: 1}}}
+"""
+
+
+def test_the_robot_program_sets_outputs_that_have_no_implementation(play: StartHarness) -> None:
+    sensed = play(SENSED)
+    sensed.tick()
+    assert (sensed.main.state, sensed.errors) == ("Rest", [])
+    sensors = sensed.main.sensors
+    assert (sensors.order_given, sensors.power) == (False, 4)
+    sensors.order_given, sensors.side = True, sensors.side.__class__.right
+    sensed.tick()
+    assert (sensed.main.state, sensed.errors) == ("Lift", [])

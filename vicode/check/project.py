@@ -26,7 +26,7 @@ from vicode.languages import GENERATED_LANGUAGES
 from vicode.model.design import Declaration
 from vicode.model.expressions import Scope, build_scope
 from vicode.model.names import snake_case
-from vicode.model.project import Project
+from vicode.model.project import INTERNAL, MISSING, WORLD, Project
 
 _CLASS_IN_MODULE = re.compile(r"[A-Za-z_]\w*(\.[A-Za-z_]\w*)*:[A-Za-z_]\w*\Z", re.ASCII)
 
@@ -112,16 +112,33 @@ def find_duplicate_components(project: Project) -> Iterator[Finding]:
 def find_bad_implementations(project: Project) -> Iterator[Finding]:
     """P203: an implementation or world that is not module:Class."""
     fix = "use module:Class, such as field.perception:Perception"
-    add = "add implementation: module:Class, or implementation: world"
     for interface in project.components:
-        path: DesignPath = ("components", interface.component)
-        if not interface.implementation:
-            yield _make_finding("P203", path, f"'{interface.component}' has no implementation", add)
-        elif not interface.is_generated and not _CLASS_IN_MODULE.match(interface.implementation):
-            message = f"'{interface.implementation}' is not of the form module:Class"
-            yield _make_finding("P203", (*path, "implementation"), message, fix)
+        if not interface.is_generated and not _CLASS_IN_MODULE.match(interface.implementation):
+            path = ("components", interface.component, "implementation")
+            yield _make_finding("P203", path, f"'{interface.implementation}' is not of the form module:Class", fix)
     if project.world and not _CLASS_IN_MODULE.match(project.world):
         yield _make_finding("P203", ("world",), f"'{project.world}' is not of the form module:Class", fix)
+
+
+def find_unimplemented_components(project: Project) -> Iterator[Finding]:
+    """P209 to P211: components whose outputs nothing provides when the generated Python runs."""
+    for interface in project.components:
+        path: DesignPath = ("components", interface.component)
+        if interface.implementation == MISSING:
+            message = f"'{interface.component}' has no implementation"
+            if interface.readable:
+                message += ": its outputs keep their initial values unless the robot program sets them"
+            fix = "add implementation: module:Class when the class exists"
+            yield _make_finding("P209", path, message, fix, is_key=True)
+        elif interface.implementation == WORLD and not project.world and "python" in project.languages:
+            message = f"the world provides '{interface.component}', but the project has no world"
+            fix = "set world: module:Class, or delete the implementation to set the outputs by hand"
+            yield _make_finding("P210", (*path, "implementation"), message, fix)
+        elif interface.implementation == INTERNAL:
+            for output in interface.outputs:
+                message = f"nothing sets '{output.name}': a component with implementation: internal has only variables"
+                fix = "move it to 'variables', or delete the implementation"
+                yield _make_finding("P211", (*path, "outputs", output.name), message, fix, is_key=True)
 
 
 def find_unknown_languages(project: Project) -> Iterator[Finding]:
@@ -224,6 +241,7 @@ RULES = (
     find_duplicate_names,
     find_duplicate_components,
     find_bad_implementations,
+    find_unimplemented_components,
     find_unknown_languages,
     find_unknown_roots,
     find_empty_enumerations,

@@ -96,8 +96,10 @@ def find_never_stepped(context: RuleContext) -> Iterator[Finding]:
 
 def _is_idle(context: RuleContext, use: Use, stepped: Collection[str]) -> bool:
     """Return whether the component needs steps, but is not stepped."""
+    if use.component in stepped:
+        return False
     interface = context.project.interface(use.component)
-    return use.component not in stepped and not (interface is not None and interface.is_generated)
+    return interface is None or not interface.is_generated or context.project.design(use.component) is not None
 
 
 def _stepped_by_code(context: RuleContext) -> set[str]:

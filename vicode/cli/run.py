@@ -15,6 +15,8 @@ if TYPE_CHECKING:
     from vicode.cli.trace_output import TracePrinter
 
 _DEFAULT_SECONDS = 60.0
+_UNPROVIDED = ("P209", "P210")
+"""Rules about components whose outputs nothing provides during the run."""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -57,6 +59,7 @@ def run(args: argparse.Namespace) -> int:
     if component is None:
         print(f"vicode: {args.path} has several components; specify the design to run", file=sys.stderr)
         return 2
+    print_findings((each for each in opened.findings if each.rule.code in _UNPROVIDED), to_stderr=True)
     with tempfile.TemporaryDirectory(prefix="vicode-run-") as folder:
         class_path = _generate(opened, component, Path(folder))
         return _run_process(_command(opened, class_path, folder, args), is_plain=args.plain)
@@ -87,8 +90,6 @@ def _command(opened: LoadedProject, class_path: str, folder: str, args: argparse
     command += ["--path", str(opened.open_project.folder.resolve()), "--seed", str(args.seed)]
     if opened.open_project.project.world:
         command += ["--world", opened.open_project.project.world]
-    else:
-        _warn_of_missing_world(opened)
     seconds = args.seconds
     if seconds is None and args.ticks is None and not args.real_time:
         seconds = _DEFAULT_SECONDS
@@ -97,16 +98,6 @@ def _command(opened: LoadedProject, class_path: str, folder: str, args: argparse
     command += ["--on-error", args.on_error]
     flags = {"--values": args.values, "--real-time": args.real_time, "--until-done": args.until_done}
     return command + [name for name, is_given in flags.items() if is_given]
-
-
-def _warn_of_missing_world(opened: LoadedProject) -> None:
-    """Warn if components need a world but the project has none."""
-    components = opened.open_project.project.components
-    names = [each.component for each in components if each.implementation == "world"]
-    if names:
-        more = f" and {len(names) - 1} more need" if len(names) > 1 else " needs"
-        fix = "set world: module:Class to a class that provides them"
-        print(f"vicode: project.yaml has no world, which {names[0]}{more}; {fix}", file=sys.stderr)
 
 
 def _run_process(command: list[str], *, is_plain: bool) -> int:

@@ -23,7 +23,7 @@ from vicode.docsite.views import (
     TextSpan,
 )
 from vicode.model.design import COMMON, Declaration, Design
-from vicode.model.project import INTERNAL, Enumeration, Interface, Project
+from vicode.model.project import INTERNAL, MISSING, WORLD, Enumeration, Interface, Project
 from vicode.model.xabsl.names import is_basic_behavior, symbol_declarations
 
 BASIC_BEHAVIOR = "basic behavior"
@@ -217,10 +217,13 @@ def _facts_of_type(enumeration: Enumeration) -> Iterator[RichText]:
 
 def _facts(interface: Interface) -> Iterator[RichText]:
     if interface.is_generated:
-        yield plain_text("provided by the world" if interface.implementation == "world" else "stored by vicode")
-    elif interface.implementation:
+        yield plain_text(_ORIGINS[interface.implementation])
+    else:
         yield (TextSpan(text="implemented by "), TextSpan(text=interface.implementation, css_class="code"))
     if interface.frequency_hz is not None:
         yield plain_text(f"runs at {interface.frequency_hz:g} Hz")
     if interface.xabsl_name:
         yield (TextSpan(text="in XABSL "), TextSpan(text=interface.xabsl_name, css_class="code"))
+
+
+_ORIGINS = {WORLD: "provided by the world", INTERNAL: "stored by vicode", MISSING: "not implemented yet"}

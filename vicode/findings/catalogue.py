@@ -56,6 +56,9 @@ _RECORDS = (
     ("P206", "bad-range", Severity.ERROR, "invalid range"),
     ("P207", "empty-enumeration", Severity.ERROR, "enumeration without elements"),
     ("P208", "unusable-project-name", Severity.ERROR, "project name unusable as a Python package"),
+    ("P209", "not-implemented", Severity.NOTE, "component without an implementation"),
+    ("P210", "no-world", Severity.WARNING, "component of the world in a project without a world"),
+    ("P211", "unset-output", Severity.ERROR, "output of a component that stores only variables"),
     # Expressions
     ("E301", "not-an-expression", Severity.ERROR, "invalid expression syntax"),
     ("E302", "outside-grammar", Severity.ERROR, "unsupported expression syntax"),

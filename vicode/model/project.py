@@ -5,8 +5,11 @@ from dataclasses import dataclass, field
 
 from vicode.model.design import Declaration, Design
 
-WORLD, INTERNAL = "world", "internal"
-"""Generated implementations: WORLD delegates to the world, INTERNAL stores shared variables."""
+WORLD, INTERNAL, MISSING = "world", "internal", ""
+"""Generated implementations: WORLD delegates to the world, INTERNAL stores shared variables.
+
+The class of a component that is not implemented yet (MISSING) stores outputs and parameters.
+"""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -33,7 +36,7 @@ class Enumeration:
 class Interface:
     """The interface of a component, declared in project.yaml or derived from a design.
 
-    `implementation` is "module:Class" or, for generated classes, WORLD or INTERNAL; empty for a design. Other
+    `implementation` is "module:Class" or, for generated classes, WORLD, INTERNAL or MISSING; empty for a design. Other
     components can read `outputs` and `variables`, and set `variables`.
     """
 
@@ -49,7 +52,7 @@ class Interface:
 
     @property
     def is_generated(self) -> bool:
-        return self.implementation in (WORLD, INTERNAL)
+        return self.implementation in (WORLD, INTERNAL, MISSING)
 
     @property
     def readable(self) -> tuple[Declaration, ...]:

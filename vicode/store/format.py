@@ -332,7 +332,9 @@ INTERFACE = RecordSchema(
     model=Interface,
     keys=(
         KeySchema(
-            "implementation", TEXT, "class as module:Class; vicode generates the class for `world` and `internal`"
+            "implementation",
+            TEXT,
+            "class as module:Class; vicode generates the class for `world`, `internal`, or if none is given",
         ),
         _TITLE,
         _FREQUENCY,

@@ -38,6 +38,14 @@ def test_inputs_come_from_the_declarations(lamps: Path) -> None:
     assert inputs["Eye", "toward"].arguments == ("x",)
 
 
+def test_components_without_an_implementation_come_first(lamps: Path) -> None:
+    file = lamps / "project.yaml"
+    file.write_text(file.read_text().replace("    implementation: hands:Eye\n", ""))
+    prepared = prepare_lamp(lamps)
+    assert [each.component for each in prepared.inputs] == ["Eye"] * 6 + [""]
+    assert [stub.component for stub in prepared.setup.stubs] == ["Eye", "Bulb"]
+
+
 def test_stubbed_designs_can_be_done(lamps: Path) -> None:
     inputs = prepare_lamp(lamps, stubbed=frozenset({"Timer"})).inputs
     assert [each.key for each in inputs] == [("", "patience"), ("Timer", "is_done")]

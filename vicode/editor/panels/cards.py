@@ -70,7 +70,7 @@ def hand_written_row(workspace: Workspace, row: HandWrittenComponent) -> None:
     """Build the row of a component without a design, with links to the designs that use it."""
     with ui.element("li").classes("component-row"):
         ui.label(row.component).classes("component-name")
-        ui.label(row.implementation).classes("mono small")
+        ui.label(row.implementation or texts.NOT_IMPLEMENTED).classes("mono small")
         ui.label(" ".join(row.doc.split())).classes("component-doc")
         with ui.row().classes("component-users"):
             ui.label("used by" if row.used_by else "not used").classes("small")

@@ -23,6 +23,7 @@ INTERNAL_ERROR = "Internal error; the change may not be saved. See the server lo
 CLIPBOARD_DENIED = "Clipboard access denied. Download the file instead."
 
 PROJECT_SCOPE = "Shared by all designs; saved immediately."
+NOT_IMPLEMENTED = "Not implemented yet"
 NOT_DECLARED = "Not declared in the project."
 LAST_ELEMENT = "An enumeration needs at least one element. Remove the enumeration instead."
 CAPACITY_HELP = "A robot waits in its current state until there is room."

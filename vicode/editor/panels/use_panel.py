@@ -17,7 +17,7 @@ from vicode.editor.session import number_text
 from vicode.editor.view import ItemRef
 from vicode.model.design import Declaration, Use
 from vicode.model.edits import remove_link, remove_uses
-from vicode.model.project import INTERNAL, WORLD, Interface
+from vicode.model.project import INTERNAL, MISSING, WORLD, Interface
 
 _ALIAS = Attribute(label="Alias", name="alias")
 
@@ -98,7 +98,11 @@ def _about(declaration: Declaration) -> str:
     return ", ".join(part for part in parts if part)
 
 
-_ORIGINS = {WORLD: "Provided by the world", INTERNAL: "Variables shared by all designs"}
+_ORIGINS = {
+    WORLD: "Provided by the world",
+    INTERNAL: "Variables shared by all designs",
+    MISSING: texts.NOT_IMPLEMENTED,
+}
 
 
 def _table(declarations: tuple[Declaration, ...]) -> None:

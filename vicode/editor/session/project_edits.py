@@ -16,7 +16,7 @@ from vicode.editor.session.workspace import Workspace
 from vicode.model.design import Declaration
 from vicode.model.edits import unique_name
 from vicode.model.merge import merge_lines
-from vicode.model.project import INTERNAL, WORLD, Agent, Enumeration, Interface, Project
+from vicode.model.project import Agent, Enumeration, Interface, Project
 from vicode.store import (
     ProjectReadResult,
     find_project_file,
@@ -139,9 +139,8 @@ def add_constant(project: Project) -> Project:
 
 
 def add_component(project: Project) -> Project:
-    """Add a component without a design, implemented by the world if the project has one."""
-    name = unique_name("Component", _shared_names(project))
-    added = Interface(component=name, implementation=WORLD if project.world else INTERNAL)
+    """Add a component that has neither a design nor an implementation."""
+    added = Interface(component=unique_name("Component", _shared_names(project)))
     return replace(project, components=(*project.components, added))
 
 

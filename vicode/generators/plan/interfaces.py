@@ -3,7 +3,7 @@
 from vicode.generators.plan.component import plan_functions, plan_values
 from vicode.generators.plan.plan_types import InterfacePlan
 from vicode.model.expressions import build_scope
-from vicode.model.project import INTERNAL, Interface, Project
+from vicode.model.project import Interface, Project
 from vicode.model.xabsl.names import is_basic_behavior
 
 
@@ -13,7 +13,7 @@ def plan_interface(project: Project, interface: Interface) -> InterfacePlan:
         component=interface.component,
         xabsl_name=interface.xabsl_name,
         doc=interface.doc or interface.title,
-        is_internal=interface.implementation == INTERNAL,
+        implementation=interface.implementation,
         is_behavior=is_basic_behavior(interface),
         parameters=plan_values(interface.parameters, scope),
         outputs=plan_values(interface.outputs, scope),

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from vicode.findings import DesignPath
 from vicode.model.design import Code, Design
 from vicode.model.expressions import Expr
-from vicode.model.project import Enumeration, Project
+from vicode.model.project import WORLD, Enumeration, Project
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -47,22 +47,29 @@ class UsedComponent:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class InterfacePlan:
-    """A generated component without a design, which accesses the world.
+    """A generated component without a design.
 
     Attributes:
-        is_internal: It holds variables instead of accessing the world.
+        implementation: WORLD, INTERNAL or MISSING.
         is_behavior: It is a basic behavior: each step passes its parameters to a method of the world.
     """
 
     component: str
     xabsl_name: str
     doc: str
-    is_internal: bool
+    implementation: str
     is_behavior: bool
     parameters: tuple[ValuePlan, ...]
     outputs: tuple[ValuePlan, ...]
     functions: tuple[FunctionPlan, ...]
     variables: tuple[ValuePlan, ...]
+
+    @property
+    def stored_values(self) -> tuple[ValuePlan, ...]:
+        """The values that the component holds itself; the world holds the others."""
+        if self.implementation == WORLD:
+            return self.parameters
+        return (*self.parameters, *self.outputs, *self.variables)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -1,4 +1,4 @@
-"""Writes the module of the components without a design, which access the world or hold shared variables."""
+"""Writes the module of the components without a design, which access the world or hold values."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -15,6 +15,7 @@ from vicode.generators.python.text import declaration_description, docstring, se
 from vicode.generators.python.views import InterfaceClassView, InterfacesModuleView, MethodView
 from vicode.model.expressions import BOOL, FLOAT, INT
 from vicode.model.names import python_attribute_name, snake_case
+from vicode.model.project import INTERNAL, MISSING, WORLD
 
 _MARGIN = " " * BODY_INDENT
 
@@ -32,7 +33,7 @@ def build_interfaces_view(plan: ProjectPlan, names: dict[str, str], runtime: str
     uses_declarations = any(name.startswith("declarations.") for name in printer.used_names)
     own = [Import(module=".", name="declarations")] if uses_declarations else []
     return InterfacesModuleView(
-        docstring=docstring(f"World access and shared variables of the project {plan.name}.", 0),
+        docstring=docstring(f"Components of the project {plan.name} that have neither a design nor a class.", 0),
         imports=tuple(tuple(format_imports(section)) for section in (imports, own) if section),
         imports_for_types=tuple(format_imports([Import(module=runtime, name="Root")])),
         classes=classes,
@@ -49,7 +50,9 @@ class _InterfaceWriter:
     def build_view(self) -> InterfaceClassView:
         plan = self.plan
         methods = [*self._constructor(), *modulate_method(plan.parameters, self.expression_printer)]
-        if not plan.is_internal:
+        if plan.implementation == MISSING:
+            methods += [self._stored_function(function) for function in plan.functions]
+        elif plan.implementation == WORLD:
             methods += [method for value in plan.outputs for method in self._getter(value)]
             methods += [self._function(function) for function in plan.functions]
             methods += [method for value in plan.variables for method in (*self._getter(value), self._setter(value))]
@@ -62,15 +65,15 @@ class _InterfaceWriter:
 
     def _docstring(self) -> str:
         plan = self.plan
-        values = [*plan.parameters, *(plan.variables if plan.is_internal else ())]
-        texts = [(value.name, declaration_description(value.doc, value.unit, value.range)) for value in values]
+        texts = [
+            (value.name, declaration_description(value.doc, value.unit, value.range)) for value in plan.stored_values
+        ]
         entries = [(name, text) for name, text in texts if text]
         sections = (section("Attributes", entries, 4),) if entries else ()
-        default = "Shared variables." if plan.is_internal else "Provided by the world."
-        return docstring(plan.doc or default, 4, sections)
+        return docstring(plan.doc or _DOCS[plan.implementation], 4, sections)
 
     def _constructor(self) -> Iterator[MethodView]:
-        values = (*self.plan.parameters, *(self.plan.variables if self.plan.is_internal else ()))
+        values = self.plan.stored_values
         if not values:
             return
         lines = [f"{_MARGIN}super().__init__(root)"]
@@ -90,11 +93,22 @@ class _InterfaceWriter:
         signature = f"    @{value.name}.setter\n    def {value.name}(self, value: {type_}) -> None:"
         return MethodView(signature=signature, body=f"{_MARGIN}self.world.{world_name(value)} = {argument}")
 
-    def _function(self, function: FunctionPlan) -> MethodView:
+    def _function_signature(self, function: FunctionPlan) -> str:
         result = function.result
-        signature = keyword_signature(
+        return keyword_signature(
             result.name, function.arguments, type_name(result.type, self.expression_printer), self.expression_printer
         )
+
+    def _stored_function(self, function: FunctionPlan) -> MethodView:
+        result = function.result
+        doc = declaration_description(result.doc, result.unit, result.range)
+        lines = [docstring(doc, BODY_INDENT)] if doc else []
+        lines += format_statement("return ", self.expression_printer.to_doc(result.initial), indent=BODY_INDENT)
+        return MethodView(signature=self._function_signature(function), body="\n".join(lines))
+
+    def _function(self, function: FunctionPlan) -> MethodView:
+        result = function.result
+        signature = self._function_signature(function)
         arguments: list[Doc] = [
             concat(f"{world_name(value)}={value.name}" + ("" if self._is_plain(value) else ".value"))
             for value in function.arguments
@@ -123,7 +137,12 @@ class _InterfaceWriter:
         return value.type in (BOOL, INT, FLOAT)
 
 
+_DOCS = {
+    WORLD: "Provided by the world.",
+    INTERNAL: "Shared variables.",
+    MISSING: "Not implemented yet: the robot program sets the outputs.",
+}
 _EMPTY_WORK = MethodView(
     signature="    def work(self) -> None:",
-    body=docstring("Do nothing; the component only holds variables.", BODY_INDENT),
+    body=docstring("Do nothing; the component only holds values.", BODY_INDENT),
 )

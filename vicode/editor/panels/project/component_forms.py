@@ -25,7 +25,9 @@ from vicode.editor.session.project_edits import add_declaration
 from vicode.model.design import Declaration
 
 TITLE = Attribute(label="Title", name="title", kind=FieldKind.TEXT)
-_IMPLEMENTATION = Attribute(label="Implementation", name="implementation", hint="module:Class, world or internal")
+_IMPLEMENTATION = Attribute(
+    label="Implementation", name="implementation", hint="none yet; module:Class, world or internal"
+)
 _SECTIONS = (
     ("outputs", "Outputs", "values other components can read"),
     ("variables", "Variables", "values other components can read and set"),

@@ -18,7 +18,7 @@ from vicode.model.expressions import (
     build_scope,
     parse_expression,
 )
-from vicode.model.project import Project
+from vicode.model.project import MISSING, Project
 from vicode.simulation import Stub, StubOutput
 
 PARAMETERS = ""
@@ -68,9 +68,12 @@ class SimulationInput:
 
 
 def collect_inputs(project: Project, design: Design, stubbed: tuple[str, ...]) -> tuple[SimulationInput, ...]:
-    """The parameters of the design, then the outputs of the stubbed components, in order."""
-    inputs = [_input(project, PARAMETERS, each) for each in design.parameters]
-    for component in stubbed:
+    """The outputs of components without an implementation, the parameters of the design, the outputs of other stubs."""
+    missing = [each.component for each in project.components if each.implementation == MISSING]
+    inputs: list[SimulationInput] = []
+    for component in sorted((PARAMETERS, *stubbed), key=lambda name: name not in missing):
+        if component == PARAMETERS:
+            inputs += [_input(project, PARAMETERS, each) for each in design.parameters]
         interface = project.interface(component)
         if interface is None:
             continue
