@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, ClassVar
 
-from .errors import ComponentError, make_error_record
+from .errors import make_error_record
 
 if TYPE_CHECKING:
     from .root import Root
@@ -126,9 +126,9 @@ class Component:
                 run()
             elif self._called:
                 self._repeat_calls()
-        except ComponentError:
-            raise
         except Exception as error:
+            if error is root.stop_error:
+                raise
             root.report(make_error_record(self, error))
 
     def work(self) -> None:

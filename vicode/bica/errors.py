@@ -9,6 +9,8 @@ from __future__ import annotations
 
 import linecache
 import re
+import sys
+from contextlib import suppress
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -87,6 +89,41 @@ class CyclicUseError(Exception):
 
 def make_error_record(component: Component, error: Exception) -> ErrorRecord:
     """Create the record of an exception in `component`; it refers to the innermost frame in methods of `component`."""
+    try:
+        return _make_located_record(component, error)
+    except Exception:
+        # The component continues even if its exception, its attributes or its source file cannot be read.
+        return ErrorRecord(
+            component=type(component).__name__,
+            design_file="",
+            state="",
+            body="",
+            method="",
+            region="",
+            line=0,
+            file="",
+            file_line=0,
+            message=type(error).__name__,
+            iteration=component.root.iteration,
+            time_ns=component.root.now_ns,
+        )
+
+
+def describe_exception(error: BaseException) -> str:
+    try:
+        text = str(error)
+    except Exception as failure:
+        text = f"its text cannot be read, {type(failure).__name__}"
+    return f"{type(error).__name__}: {text}" if text else type(error).__name__
+
+
+def print_error(message: str) -> None:
+    """Write a message to standard error; it is lost if standard error is missing, closed or broken."""
+    with suppress(Exception):
+        sys.stderr.write(f"error: {message}\n")
+
+
+def _make_located_record(component: Component, error: Exception) -> ErrorRecord:
     frame, file_line = _find_component_frame(component, error)
     code = frame.f_code
     region, line_before = find_region(code.co_filename, file_line, code.co_firstlineno)
@@ -105,10 +142,6 @@ def make_error_record(component: Component, error: Exception) -> ErrorRecord:
         iteration=component.root.iteration,
         time_ns=component.root.now_ns,
     )
-
-
-def describe_exception(error: BaseException) -> str:
-    return f"{type(error).__name__}: {error}" if str(error) else type(error).__name__
 
 
 def find_region(file: str, file_line: int, first_line: int = 0) -> tuple[str, int]:

@@ -149,9 +149,12 @@ def to_json_value(value: object) -> Any:
 
 
 def _collect_values(component: Component) -> dict[str, object]:
-    """Return the public attributes with plain values; references to other components are left out."""
+    """Return the public attributes with plain values; references to other components are left out.
+
+    The copy is needed because threads of a component may add attributes.
+    """
     return {
         name: value
-        for name, value in vars(component).items()
+        for name, value in vars(component).copy().items()
         if not name.startswith("_") and isinstance(value, bool | int | float | str | Enum)
     }

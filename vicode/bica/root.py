@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 from collections import Counter
 from collections.abc import Callable
 from functools import partial
@@ -10,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Literal, TypeVar, cast
 
 from .clock import Clock, RealClock
 from .component import Component
-from .errors import ComponentError, CyclicUseError, ErrorRecord
+from .errors import ComponentError, CyclicUseError, ErrorRecord, describe_exception, print_error
 from .team import Team
 from .timing import CycleTimes, measure_steps
 
@@ -28,7 +27,7 @@ class Root:
         clock: Read once at the start of each iteration; default: real time.
         world: The `world` of hand-written components, which they sense and act on.
         on_error: `continue` prints each error location once, `stop` raises `ComponentError`; a function is called
-            with the `ErrorRecord`.
+            with the `ErrorRecord`, and may raise `ComponentError(record)` to stop.
         observer: Records the activation tree of each iteration.
         parameters: Passed once to `modulate` of the root component.
     """
@@ -49,8 +48,11 @@ class Root:
         self.iteration = 0
         self.now_ns = 0
         self.errors: Counter[tuple[str, str, int]] = Counter()
+        self.stop_error: ComponentError | None = None
         self._read_clock = self.clock.now_ns
+        self._lag_ns = 0
         self._on_error = on_error
+        self._has_on_error_failed = False
         self._observer = observer
         self._components: dict[type[Component], Component] = {}
         self._under_construction: list[type[Component]] = []
@@ -106,8 +108,12 @@ class Root:
 
     def step(self) -> None:
         """Run one iteration; the clock is only read at its start."""
+        # CPython calls a local function faster than one that is stored in an attribute.
         read_clock, step_main = self._read_clock, self._step_main
-        self.now_ns = read_clock()
+        now_ns = read_clock()
+        if now_ns < self.now_ns:
+            now_ns = self._continue_time(now_ns)
+        self.now_ns = now_ns
         self.iteration += 1
         step_main()
 
@@ -117,11 +123,31 @@ class Root:
         if self._observer is not None:
             self._observer.add_error(record)
         if callable(self._on_error):
-            self._on_error(record)
+            self._call_on_error(self._on_error, record)
         elif self._on_error == "stop":
-            raise ComponentError(record)
+            self.stop_error = ComponentError(record)
+            raise self.stop_error
         elif self.errors[record.place] == 1:
-            sys.stderr.write(f"error: {record} (reported once; repetitions are only counted)\n")
+            print_error(f"{record} (reported once; repetitions are only counted)")
+
+    def _call_on_error(self, on_error: Callable[[ErrorRecord], None], record: ErrorRecord) -> None:
+        """Call the function; it stops the root with a `ComponentError`, and other exceptions are printed once."""
+        try:
+            on_error(record)
+        except ComponentError as error:
+            self.stop_error = error
+            raise
+        except Exception as error:
+            if not self._has_on_error_failed:
+                self._has_on_error_failed = True
+                print_error(f"on_error raised {describe_exception(error)} (reported once)")
+
+    def _continue_time(self, clock_ns: int) -> int:
+        """Return the time of the last iteration, from which time continues after the clock was set back."""
+        self._lag_ns += self.now_ns - clock_ns
+        read_clock, lag_ns = self.clock.now_ns, self._lag_ns
+        self._read_clock = lambda: read_clock() + lag_ns
+        return self.now_ns
 
     def _find_step(self) -> Callable[[], None]:
         return self.main.step if self._observer is None else partial(self._observer.observe_iteration, self)
