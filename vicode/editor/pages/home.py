@@ -22,6 +22,7 @@ from vicode.editor.panels.toasts import show_toast
 from vicode.editor.panels.undo_bar import UndoBar
 from vicode.editor.panels.widgets import icon_button, primary_button
 from vicode.editor.session import Library, Workspace
+from vicode.editor.session.descriptions import error_reason
 from vicode.editor.session.overview import ProjectOverview
 from vicode.editor.session.search_index import SearchIndex, SearchTarget
 from vicode.editor.view.page_urls import design_url
@@ -130,7 +131,18 @@ class HomePage:
         with ui.column().classes("home-empty"):
             ui.label(texts.NO_DESIGNS_TITLE).classes("home-title").props('role="heading" aria-level="1"')
             ui.label(texts.NO_DESIGNS_HELP).classes("empty")
-            primary_button(texts.CREATE_FIRST_DESIGN, self._create_first_design, icon="add")
+            with ui.row():
+                primary_button(texts.CREATE_FIRST_DESIGN, self._create_first_design, icon="add")
+                sample = ui.button(texts.OPEN_SAMPLE, icon="sports_soccer", on_click=self._open_sample, color=None)
+                sample.props("outline no-caps").tooltip(texts.SAMPLE_HELP)
+
+    def _open_sample(self) -> None:
+        try:
+            workspace = self.library.add_sample()
+        except OSError as error:
+            show_toast(texts.sample_failed(error_reason(error)), "negative")
+            return
+        ui.navigate.to(design_url(workspace.key, workspace.project.agents[0].root))
 
     def _create_first_design(self) -> None:
         self.dialogs.ask_new(self.library.ensure_project())

@@ -7,6 +7,8 @@ NO_DESIGNS_TITLE = "No designs yet"
 NO_DESIGNS_HELP = "A design is a state machine in a YAML file."
 NO_DESIGNS_IN_PROJECT = "No designs yet. Create one from a template."
 CREATE_FIRST_DESIGN = "Create your first design"
+OPEN_SAMPLE = "Open the sample player"
+SAMPLE_HELP = "A soccer player with a simulated field, copied to the folder 'forward'."
 
 MAYBE_REMOVED = "It may have been renamed or removed."
 MAYBE_FIXED = "It may have been fixed or removed."
@@ -70,3 +72,7 @@ def hand_written_component(component: str) -> str:
 
 def layout_running(states: str, limit_s: float) -> str:
     return f"Laying out {states} ({limit_s:g} s at most)"
+
+
+def sample_failed(reason: str) -> str:
+    return f"The sample was not copied to the folder 'forward': {reason}"

@@ -6,6 +6,7 @@ from pathlib import Path
 from vicode.editor.session.overview import ProjectOverview
 from vicode.editor.session.presence import UserDirectory
 from vicode.editor.session.workspace import Workspace
+from vicode.samples import DEFAULT_SAMPLE, copy_sample
 from vicode.store import find_projects
 
 
@@ -34,6 +35,18 @@ class Library:
         if not self.workspaces:
             self.workspaces.append(Workspace(self.folder, _key(self.folder, self.folder), self.users))
         return self.workspaces[0]
+
+    def add_sample(self) -> Workspace:
+        """Copy the default sample into the opened folder and return its project.
+
+        Raises:
+            OSError: The folder cannot be written, or already contains another folder with the name of the sample.
+        """
+        target = self.folder / DEFAULT_SAMPLE
+        copy_sample(DEFAULT_SAMPLE, target)
+        added = Workspace(target, _key(target, self.folder), self.users)
+        self.workspaces.append(added)
+        return added
 
     @property
     def folder(self) -> Path:
