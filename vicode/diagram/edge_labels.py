@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from vicode.diagram.diagram_model import DiagramEdge, DiagramNode
 from vicode.diagram.node_geometry import Size
 from vicode.diagram.text_metrics import LABEL_FONT, shorten, text_width
-from vicode.diagram.transition_labels import GuardKind
+from vicode.diagram.transition_labels import GuardKind, without_aliases
 
 PADDING = 8.0
 _HEIGHT, _ICON, _ORDER = 22.0, 15.0, 18.0
@@ -54,7 +54,8 @@ def textless_labels(edge: DiagramEdge) -> Iterator[EdgeLabel]:
 
 def _make_label(edge: DiagramEdge, room: float) -> EdgeLabel | None:
     order, icon = str(edge.order) if edge.order else "", _guard_icon(edge)
-    text = shorten(edge.label, LABEL_FONT, room)
+    text = edge.label if text_width(edge.label, LABEL_FONT) <= room else without_aliases(edge.label)
+    text = shorten(text, LABEL_FONT, room)
     if not order and not text and not icon:
         return None
     if order and (text or icon):

@@ -1,12 +1,13 @@
 """Renders a diagram with the shapes, icons and colors of the canvas."""
 
 import math
-from collections.abc import Collection, Iterable
+from collections.abc import Collection, Iterable, Mapping
 
 from vicode.diagram.diagram_model import Diagram, DiagramEdge, DiagramNode, build_diagram
 from vicode.diagram.edge_curves import HEX_SLANT, point_on_curve
 from vicode.diagram.edge_labels import PADDING, EdgeLabel
 from vicode.diagram.edge_routing import EdgeRoute, route_edges
+from vicode.diagram.initial_marker import Corner, initial_corner, marker_rect
 from vicode.diagram.palettes import LIGHT, ColorPalette
 from vicode.diagram.primitives import (
     PathShape,
@@ -19,7 +20,7 @@ from vicode.diagram.primitives import (
     polylines_path,
     rounded_rect_path,
 )
-from vicode.diagram.spatial_index import CubicBezier
+from vicode.diagram.spatial_index import CubicBezier, Rect
 from vicode.diagram.text_metrics import LABEL_FONT, NAME_FONT, SMALL_FONT, Font, text_width
 from vicode.diagram.transition_labels import GuardKind
 from vicode.model.design import Design, Point
@@ -62,14 +63,15 @@ def render_design(
 def render_diagram(diagram: Diagram, *, title: str, doc: str = "", palette: ColorPalette = LIGHT) -> VectorImage:
     """Render a diagram: links below transitions, labels on top."""
     routes = route_edges(diagram)
+    corners = {node.key: initial_corner(node, diagram, routes) for node in diagram.nodes if node.initial}
     artist = _DiagramRenderer(palette)
     groups = (
         *(artist.edge(route) for route in routes if route.edge.edge_type != "transition"),
         *(artist.edge(route) for route in routes if route.edge.edge_type == "transition"),
-        *(artist.node(node) for node in diagram.nodes),
+        *(artist.node(node, corners.get(node.key)) for node in diagram.nodes),
         *(artist.label(route.label, route) for route in routes if route.label),
     )
-    left, top, right, bottom = _bounds(diagram, routes)
+    left, top, right, bottom = _bounds(diagram, routes, corners)
     return VectorImage(
         title=title,
         doc=doc,
@@ -86,9 +88,11 @@ class _DiagramRenderer:
     def __init__(self, palette: ColorPalette) -> None:
         self.palette = palette
 
-    def node(self, node: DiagramNode) -> ShapeGroup:
+    def node(self, node: DiagramNode, initial: Corner | None) -> ShapeGroup:
         drawers = {"state": self._state, "component": self._component, "common": self._common}
         shapes = tuple(drawers[node.node_type](node))
+        if initial:
+            shapes += tuple(self._initial_marker(node, initial))
         return ShapeGroup(title=node.title, css_class=node.node_type, shapes=shapes, href=node.href, key=node.key)
 
     def edge(self, route: EdgeRoute) -> ShapeGroup:
@@ -153,8 +157,6 @@ class _DiagramRenderer:
             yield PathShape(
                 commands=rounded_rect_path(node.center, size.width - 8, size.height - 8, 8), stroke=pal.box_line
             )
-        if node.initial:
-            yield from self._initial_marker(node)
         yield _name_text(
             node, pal.muted if node.disabled else pal.text, rise=_NAME_OFFSET if node.badges or node.subtitle else 0
         )
@@ -163,16 +165,18 @@ class _DiagramRenderer:
         if node.badges:
             yield from self._badges(node.badges, (x, y + _BADGE_ROW))
 
-    def _initial_marker(self, node: DiagramNode) -> Iterable[PathShape]:
-        pal = self.palette
-        left, top = node.center[0] - node.size.width / 2, node.center[1] - node.size.height / 2
-        dot, tip = (left - 12, top - 20), (left + 22, top - 1)
-        end = (tip[0], tip[1] - 6)
-        corner = (tip[0], dot[1])
-        bow = [value for ends in (dot, end) for value in _quadratic_to_cubic(ends, corner)]
+    def _initial_marker(self, node: DiagramNode, corner: Corner) -> Iterable[PathShape]:
+        pal, (across, down), (x, y), size = self.palette, corner, node.center, node.size
+        dot = (x + across * (size.width / 2 + 12), y + down * (size.height / 2 + 20))
+        tip = (x + across * (size.width / 2 - 22), y + down * (size.height / 2 + 1))
+        end = (tip[0], tip[1] + down * 6)
+        control = (tip[0], dot[1])
+        bow = [value for ends in (dot, end) for value in _quadratic_to_cubic(ends, control)]
         yield PathShape(commands=curve_path((*dot, *bow, *end)), stroke=pal.start, width=1.6)
         yield PathShape(
-            commands=polyline_path((tip, (tip[0] - 4.5, tip[1] - 8), (tip[0] + 4.5, tip[1] - 8)), closed=True),
+            commands=polyline_path(
+                (tip, (tip[0] - 4.5, tip[1] + down * 8), (tip[0] + 4.5, tip[1] + down * 8)), closed=True
+            ),
             fill=pal.start,
         )
         yield PathShape(commands=circle_path(dot, 6), fill=pal.start)
@@ -257,14 +261,18 @@ def _arrowhead(of: CubicBezier) -> tuple[tuple[tuple[str, tuple[float, ...]], ..
     return polyline_path(corners, closed=True), notch
 
 
-def _bounds(diagram: Diagram, routes: Iterable[EdgeRoute]) -> tuple[float, float, float, float]:
+def _bounds(
+    diagram: Diagram, routes: Iterable[EdgeRoute], corners: Mapping[str, Corner]
+) -> tuple[float, float, float, float]:
     """The bounds of everything, including labels and curves."""
     xs: list[float] = []
     ys: list[float] = []
     for node in diagram.nodes:
-        room = 20 if node.initial else 0
-        xs += [node.center[0] - node.size.width / 2 - room, node.center[0] + node.size.width / 2]
-        ys += [node.center[1] - node.size.height / 2 - room - 6 * bool(room), node.center[1] + node.size.height / 2]
+        rects = [Rect.from_center(node.center, node.size)]
+        if node.key in corners:
+            rects.append(marker_rect(node, corners[node.key]))
+        xs += [x for rect in rects for x in (rect.left, rect.right)]
+        ys += [y for rect in rects for y in (rect.top, rect.bottom)]
     for route in routes:
         for step in range(_SAMPLES + 1):
             x, y = point_on_curve(route.curve, step / _SAMPLES)

@@ -1,5 +1,6 @@
 """Labels of transitions: the guard in one line, and its kind."""
 
+import re
 from enum import StrEnum
 
 from vicode.model.design import Guard
@@ -16,13 +17,20 @@ class GuardKind(StrEnum):
     TREE = "tree"
 
 
-_MAX_SHORT_LABEL = 16
+_MAX_DOC_LABEL = 30
+_MEMBER = re.compile(r"\b((?:[^\W\d]\w*\.)+)([^\W\d]\w*)")
 
 
 def short_transition_label(located: LocatedDecision, unit: str = "") -> str:
-    """The guard if it is short enough for a label, else a short documentation text."""
-    label, doc = transition_label(located, unit), located.decision.doc
-    return doc if len(label) > _MAX_SHORT_LABEL and 0 < len(doc) <= _MAX_SHORT_LABEL + 14 else label
+    """The documentation text if it is short enough for a label, else the guard."""
+    doc = located.decision.doc
+    return doc if 0 < len(doc) <= _MAX_DOC_LABEL else transition_label(located, unit)
+
+
+def without_aliases(label: str) -> str:
+    """A label with the names of outputs only; unchanged if that would make two of them equal."""
+    members = {match[0]: match[2] for match in _MEMBER.finditer(label)}
+    return _MEMBER.sub(r"\2", label) if len(set(members.values())) == len(members) else label
 
 
 def transition_label(located: LocatedDecision, unit: str = "", *, spell_out: bool = False) -> str:

@@ -18,6 +18,8 @@ GUARDS = ("seen", "ball.near and not lost", "x > 0", "tries >= 3", "ball_distanc
 # All rectangles are shrunk by a pixel, so that touching ones do not count as overlapping.
 COUNT = """() => {
     const root = document.querySelector('.vicode-canvas').shadowRoot;
+    // Measured as when zoomed in: below 50 % labels are hidden.
+    root.querySelector('.stage').classList.remove('small');
     const {k} = document.querySelector('.vicode-canvas').vicode.view();
     const rect = (element, key) => {
         const {x, y, width, height} = element.getBoundingClientRect();

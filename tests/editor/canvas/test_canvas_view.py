@@ -200,3 +200,46 @@ def test_an_empty_design_shows_how_to_start(show: Show) -> None:
 
 def _overlap(a: list[Any], b: list[Any]) -> bool:
     return a[0] + 1 < b[0] + b[2] and b[0] + 1 < a[0] + a[2] and a[1] + 1 < b[1] + b[3] and b[1] + 1 < a[1] + a[3]
+
+
+def test_hovering_and_selecting_leave_the_rest_of_the_drawing_as_it_is(canvas: CanvasDriver) -> None:
+    other = canvas.group("state", "GiveUp")
+    look = "each => ['fillOpacity', 'strokeOpacity', 'opacity'].map(name => getComputedStyle(each)[name])"
+    before = other.locator(".box").evaluate(look)
+    canvas.click(canvas.at("states", "LookForBall"))
+    # Longer than any delay after which the drawing may change.
+    canvas.page.wait_for_timeout(250)
+    assert canvas.group("state", "LookForBall").evaluate("each => each.classList.contains('lit')")
+    assert other.locator(".box").evaluate(look) == before
+
+
+def test_a_diagram_fitted_below_the_legible_zoom_shows_large_names_and_says_so(show: Show) -> None:
+    scene = player()
+    for state in scene["states"]:
+        state.update(x=state["x"] * 4, y=state["y"] * 4)
+    canvas = show(scene)
+    name = canvas.group("state", "LookForBall").locator(".large").first
+    expect(name).to_be_visible()
+    assert name.evaluate("each => parseFloat(getComputedStyle(each).fontSize)") > 14
+    expect(canvas.page.locator(".message")).to_contain_text("names only")
+    expect(canvas.page.locator("g.chip .plate").first).to_be_hidden()
+    canvas.press("0")
+    canvas.wait_until_idle()
+    expect(name).to_be_hidden()
+    expect(canvas.page.locator("g.chip .plate").first).to_be_visible()
+
+
+def test_the_initial_mark_avoids_arrows(show: Show) -> None:
+    states = [{"id": name, "name": name, "x": x, "y": y} for name, x, y in (("A", 0, 0), ("B", -200, -130))]
+    states[0]["initial"] = True
+    edge = {"id": "B/0", "source": "B", "target": "A", "label": "", "order": 1, "of": 1, "kind": "always"}
+    canvas = show(
+        {"rev": 1, "component": "Robot", "states": states, "transitions": [edge], "components": [], "links": []}
+    )
+    side = "([dot, box]) => dot.getBoundingClientRect().x > box.getBoundingClientRect().x"
+    parts = [canvas.group("state", "A").locator(part).element_handle() for part in (".start-dot", ".box")]
+    assert canvas.page.evaluate(side, parts)
+    canvas.call("apply", {"rev": 2, "remove": {"transitions": ["B/0"]}})
+    expect(canvas.page.locator("g.edge")).to_have_count(0)
+    parts = [canvas.group("state", "A").locator(part).element_handle() for part in (".start-dot", ".box")]
+    assert not canvas.page.evaluate(side, parts)

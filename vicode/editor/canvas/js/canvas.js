@@ -6,7 +6,7 @@ import { FrameScheduler } from "./frame_scheduler.js";
 import { PointerGestures } from "./gestures.js";
 import { Handles } from "./handles.js";
 import { Keyboard } from "./keyboard.js";
-import { LevelOfDetail } from "./level_of_detail.js";
+import { LEGIBLE_ZOOM, LevelOfDetail } from "./level_of_detail.js";
 import { Menu } from "./menu.js";
 import { restoreView, saveView } from "./view_state.js";
 import { Minimap } from "./minimap.js";
@@ -19,7 +19,7 @@ import { InlineRename } from "./inline_rename.js";
 import { Router } from "./routing.js";
 import { keyOf, Scene } from "./scene.js";
 import { Selection } from "./selection.js";
-import { DIAGRAM, EMPTY, STAGE_ROLE, stageName } from "./strings.js";
+import { DIAGRAM, EMPTY, STAGE_ROLE, namesOnly, stageName } from "./strings.js";
 import { html } from "./svg.js";
 import { awaitFonts, onFontsLoaded } from "./text_metrics.js";
 import { Theme } from "./theme.js";
@@ -27,7 +27,6 @@ import { Toolbar } from "./toolbar.js";
 import { Viewport } from "./viewport.js";
 
 const DOT_GAP = 20;
-const DIM_MS = 120;
 const TOAST_MS = 3000;
 
 const sheet = new CSSStyleSheet();
@@ -107,6 +106,7 @@ class Canvas {
     else this.viewport.centreOn(0, 0, 1);
     const { x, y, k } = this.viewport;
     this.fitted = { x, y, k };
+    if (k < LEGIBLE_ZOOM) this.showToast(namesOnly(Math.round(k * 100)));
   }
 
   /** Fits the selection, including the end nodes of selected edges. */
@@ -250,11 +250,6 @@ class Canvas {
     if (this.scene.nodes.has(keyOf("states", state.id))) return;
     this.apply(this.scene.expect(state));
     if (select) this.selection.set([keyOf("states", state.id)], { quiet: true });
-  }
-
-  /** The highlight changed: dims the other elements after a pause, and not during a drag. */
-  scheduleDim() {
-    this.frame.debounce("dim", DIM_MS, () => (this.gestures.isDragging() ? this.scheduleDim() : this.painter.dim()));
   }
 
   showMessage(text) {

@@ -10,6 +10,7 @@ export const BADGE = 24;
 const MAX_TEXT_WIDTH = 150;
 const MIN_TEXT_WIDTH = 60;
 const CROWDED_ROOM = 100;
+const MEMBER = /(?<![\p{L}\p{N}_])((?:[\p{L}_][\p{L}\p{N}_]*\.)+)([\p{L}_][\p{L}\p{N}_]*)/gu;
 const LOOP_SHIFTS = [0, 0, 1, -1];
 // Candidate positions by cost: fraction along the curve, and side: 0 on it, ±1 directly next to it, ±2 farther away.
 const POSITIONS = [0.5, 0.42, 0.58, 0.34, 0.66, 0.27, 0.73, 0.2, 0.8, 0.14, 0.86].flatMap((part) =>
@@ -34,12 +35,19 @@ export const shorterLabels = (edge, chip) =>
 
 function chipWith({ data }, room) {
   const { order, icon, badgeWidth } = partsOf(data);
-  const text = truncate(data.label ?? "", "label", room);
+  const full = data.label ?? "";
+  const text = truncate(textWidth(full, "label") > room ? withoutAliases(full) : full, "label", room);
   if (!order && !text && !icon) return null;
   const orderWidth = order ? textWidth(text || icon ? `${order} · ` : order, "label") + 1 : 0;
   const iconWidth = icon ? ICON : 0;
   const w = Math.ceil(2 * PADDING + orderWidth + iconWidth + (text ? textWidth(text, "label") : 0)) + badgeWidth;
   return { order, text, icon, orderWidth, iconWidth, badgeWidth, padding: PADDING, w, h: HEIGHT };
+}
+
+/** The label with the names of outputs only; unchanged if that would make two of them equal. */
+export function withoutAliases(label) {
+  const members = new Map([...label.matchAll(MEMBER)].map(([whole, , name]) => [whole, name]));
+  return new Set(members.values()).size === members.size ? label.replace(MEMBER, "$2") : label;
 }
 
 const partsOf = (data) => ({

@@ -4,6 +4,8 @@ import { Overview } from "./overview.js";
 import { Snapshot } from "./snapshot.js";
 
 const OVERVIEW_ZOOM = 0.3;
+// Below this zoom, labels are not legible: only names are shown, enlarged.
+export const LEGIBLE_ZOOM = 0.5;
 const FAR_STATES = 150;
 const MAX_VISIBLE_NODES = 240;
 const LEAVING = 0.88;
@@ -29,6 +31,7 @@ export class LevelOfDetail {
     const zooms = viewport.k !== this.shownZoom;
     if (zooms) this.#freeze();
     this.shownZoom = viewport.k;
+    this.canvas.stage.classList.toggle("small", viewport.k < LEGIBLE_ZOOM);
     this.overview.place();
     this.snapshot.place();
     if (this.frozen) return;

@@ -3,6 +3,7 @@ import { HEX_SLANT } from "./geometry.js";
 import { translateElement, placeGroup } from "./group_transforms.js";
 import { COMMON_TITLE, DISABLED, alias, commonName, componentName, markName, stateName } from "./strings.js";
 import { svg } from "./svg.js";
+import { largestLines } from "./text_metrics.js";
 
 const MARK_ROW = 16;
 const NAME_RISE = -8;
@@ -43,8 +44,7 @@ function drawState(node) {
   const marks = marksOf(data);
   const parts = [box("shadow", w, h, 0, 2), box("box bg", w, h, 0)];
   if (data.final) parts.push(box("inner", w, h, 4));
-  if (data.initial) parts.push(...initialMark(w, h));
-  parts.push(svg("text", { class: "name", y: marks.length ? NAME_RISE : 0, text: node.label }));
+  parts.push(svg("text", { class: "name", y: marks.length ? NAME_RISE : 0, text: node.label }), ...largeName(node, w));
   if (marks.length) parts.push(markRow(marks, MARK_ROW));
   if (data.disabled) parts.push(translateElement(svg("path", { class: "off", d: OFF }), -w / 2 + 9, -h / 2 + 14));
   if (data.severity) parts.push(badge(data, w / 2 - 4, -h / 2 + 2));
@@ -56,7 +56,7 @@ function drawComponent(node) {
   const s = HEX_SLANT;
   const points = [-w / 2, 0, -w / 2 + s, -h / 2, w / 2 - s, -h / 2, w / 2, 0, w / 2 - s, h / 2, -w / 2 + s, h / 2].join(" ");
   const parts = [svg("path", { class: "box bg", d: `M${points}Z` })];
-  parts.push(svg("text", { class: "name", y: node.second ? NAME_RISE : 0, text: node.label }));
+  parts.push(svg("text", { class: "name", y: node.second ? NAME_RISE : 0, text: node.label }), ...largeName(node, w - 2 * s));
   if (node.second) parts.push(svg("text", { class: "second", y: 12, text: node.second }));
   if (data.design) parts.push(translateElement(svg("path", { class: "mark open", d: "M-5 -3.5H3.5V5M3.5 -3.5L-4.5 4.5" }), w / 2 - 25, 0));
   if (data.severity) parts.push(badge(data, w / 2 - s, -h / 2 + 2));
@@ -73,18 +73,14 @@ function drawCommon(node) {
   return parts;
 }
 
+/** The name alone, as large as the box allows; shown at small zooms. */
+function largeName(node, w) {
+  const { lines, size } = largestLines(node.label, w - 12, node.h - 8);
+  return lines.map((text, index) => svg("text", { class: "large", y: (index - (lines.length - 1) / 2) * size * 1.05, style: `font-size: ${size}px`, text }));
+}
+
 const box = (kind, w, h, inset, drop = 0) =>
   svg("rect", { class: kind, x: inset - w / 2, y: inset - h / 2 + drop, width: w - 2 * inset, height: h - 2 * inset, rx: 12 - inset });
-
-function initialMark(w, h) {
-  const [x, y] = [-w / 2 - 12, -h / 2 - 20];
-  const tip = [-w / 2 + 22, -h / 2 - 1];
-  return [
-    svg("path", { class: "start", d: `M${x} ${y}Q${tip[0]} ${y} ${tip[0]} ${tip[1] - 6}` }),
-    svg("path", { class: "start-head", d: `M${tip[0]} ${tip[1]}l-4.5 -8h9Z` }),
-    svg("circle", { class: "start-dot", cx: x, cy: y, r: 6 }),
-  ];
-}
 
 function marksOf(data) {
   const code = ["enter", "actions", "leave"].filter((name) => data[name]).map((name) => ({ name, count: "" }));

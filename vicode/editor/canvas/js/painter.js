@@ -3,6 +3,7 @@ import { DragLayer } from "./drag_layer.js";
 import { drawEdge, placeEdge, placeLine } from "./edge_svg.js";
 import { bounds, containsRect, grow, overlaps, nodeRect } from "./geometry.js";
 import { drawNode, placeNode } from "./node_svg.js";
+import { placeInitialMark } from "./initial_mark.js";
 import { bakeTransform } from "./group_transforms.js";
 import { showBreakpoint } from "./breakpoint_sign.js";
 import { EVERY_STATE, LAYERS, MARKS } from "./strings.js";
@@ -70,6 +71,7 @@ export class Painter {
       for (const key of [...this.items.keys()]) if (!wanted.has(key)) this.#unmount(key);
     }
     for (const key of wanted) if (!this.items.has(key)) this.#mount(key);
+    this.#placeInitialMarks();
   }
 
   /** Sets a mark on exactly these keys. */
@@ -79,13 +81,6 @@ export class Painter {
     this.marks.set(name, now);
     for (const key of old) if (!now.has(key)) this.#toggle(key, name, false);
     for (const key of now) if (!old.has(key)) this.#toggle(key, name, true);
-  }
-
-  /** Dims all elements that are not highlighted. This repaints everything, so it must not run during a drag. */
-  dim() {
-    this.styleRevision += 1;
-    const isDim = this.marks.get("lit").size > 0;
-    for (const [name, layer] of Object.entries(this.layers)) layer.classList.toggle("dim", isDim && name !== "above");
   }
 
   /** Redraws changed elements. Edges at `affectedNodes` and near `changedRects`, where nodes came or left, are rerouted. */
@@ -105,6 +100,7 @@ export class Painter {
     if (focused && touched.includes(focused)) this.focus(focused);
     this.#placeEdges(affectedNodes);
     this.rerouteNear(changedRects);
+    this.#placeInitialMarks();
   }
 
   /** Redraws nodes that are being moved, with their edges. */
@@ -149,6 +145,7 @@ export class Painter {
     const edges = [...this.router.provisional].map((key) => this.scene.edges.get(key)).filter(Boolean);
     this.router.provisional.clear();
     this.#route(new Set([...edges, ...this.#passing(rects)]));
+    this.#placeInitialMarks();
   }
 
   /** Draws everything at its position in the scene. */
@@ -157,6 +154,7 @@ export class Painter {
       if (item.node) placeNode(item.node, this.scene.nodes.get(key));
       else this.#placeEdge(this.scene.edges.get(key));
     }
+    this.#placeInitialMarks();
   }
 
   /** Reroutes edges near rectangles where nodes came or left. */
@@ -253,6 +251,11 @@ export class Painter {
 
   #placeEdges(nodeKeys) {
     for (const edge of this.#edgesOutsideDrag(nodeKeys)) this.#placeEdge(edge);
+  }
+
+  #placeInitialMarks() {
+    const { scene, router, items } = this;
+    for (const key of scene.initialNodes) if (items.has(key)) placeInitialMark(items.get(key).node, scene.nodes.get(key), scene, router);
   }
 
   /** The edges at nodes that are not in the drag layer. */

@@ -19,6 +19,7 @@ export class Scene {
     this.component = "";
     this.nodes = new Map();
     this.edges = new Map();
+    this.initialNodes = new Set();
     this.pairs = new Map();
     this.edgesAt = new Map();
     this.nodeGrid = new Grid();
@@ -30,7 +31,7 @@ export class Scene {
   }
 
   load(view) {
-    for (const store of [this.nodes, this.edges, this.pairs, this.edgesAt, this.nodeGrid, this.edgeGrid]) store.clear();
+    for (const store of [this.nodes, this.edges, this.initialNodes, this.pairs, this.edgesAt, this.nodeGrid, this.edgeGrid]) store.clear();
     this.expected = null;
     this.rev = view.rev;
     this.component = view.component;
@@ -132,6 +133,8 @@ export class Scene {
     const old = this.nodes.get(key);
     const node = { key, of, id, data, x: data.x, y: data.y, ...sizeOf(of, data) };
     this.nodes.set(key, node);
+    if (data.initial) this.initialNodes.add(key);
+    else this.initialNodes.delete(key);
     if (old && isSamePlace(old, node)) return key;
     this.affectedNodes.add(key);
     this.changedRects.push(...[old, node].filter(Boolean).map(nodeRect));
@@ -143,6 +146,7 @@ export class Scene {
     for (const edge of this.edgesOf(key)) this.affectedNodes.add(edge.source).add(edge.target);
     if (this.nodes.has(key)) this.changedRects.push(nodeRect(this.nodes.get(key)));
     this.nodes.delete(key);
+    this.initialNodes.delete(key);
     this.nodeGrid.remove(key);
     for (const edge of this.edgesAt.get(key) ?? []) this.edgeGrid.remove(edge);
     return key;

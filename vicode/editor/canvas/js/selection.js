@@ -59,7 +59,7 @@ export class Selection {
     return [...this.keys].map((key) => this.scene.find(key)).map(({ of, id }) => ({ of, id }));
   }
 
-  /** Highlights the hovered or selected elements with their edges and ends; everything else is dimmed. */
+  /** Highlights the hovered or selected elements with their edges and ends; nothing else changes. */
   updateHighlight() {
     const centre = this.hovered ? [this.hovered] : this.keys.size <= MAX_HIGHLIGHTED ? [...this.keys] : [];
     const lit = new Set(centre);
@@ -69,6 +69,5 @@ export class Selection {
       for (const { key: edgeKey, source, target } of edges) for (const part of [edgeKey, source, target]) lit.add(part);
     }
     this.painter.mark("lit", lit);
-    this.canvas.scheduleDim();
   }
 }

@@ -34,6 +34,8 @@ export const ZOOM_OUT = "Zoom out (-)";
 export const ZOOM_TO_FIT = "Zoom to fit (1)";
 export const ZOOM_TO_100 = "Zoom to 100% (0)";
 
+export const namesOnly = (percent) => `The whole diagram at ${percent}%: names only. Zoom in to read guards.`;
+
 // Descriptions of elements
 export const MARKS = { selected: "selected", active: "active", taken: "last transition taken", breakpoint: "breakpoint" };
 export const DISABLED = "disabled";

@@ -50,6 +50,18 @@ class Ruler {
   }
 }
 
+const NAME_SIZE = 14;
+const LARGEST_NAME = 28;
+
+/** Returns a name in one line or two, whichever can be larger in a box, and the size of its letters. */
+export function largestLines(name, w, h) {
+  const sizeOf = (lines) => Math.min(LARGEST_NAME, h / lines.length / 1.1, (NAME_SIZE * w) / Math.max(...lines.map((line) => textWidth(line, "name"))));
+  const words = [...name.matchAll(/[\p{Lu}\p{N}]*[^\p{Lu}_\s]*[_\s]?/gu)].map(([word]) => word).filter(Boolean);
+  const splits = words.slice(1).map((_, index) => [words.slice(0, index + 1).join(""), words.slice(index + 1).join("")]);
+  const lines = [[name], ...splits].reduce((best, each) => (sizeOf(each) > sizeOf(best) ? each : best));
+  return { lines, size: Math.floor(sizeOf(lines) * 10) / 10 };
+}
+
 /** Returns the text if it fits, else its beginning and an ellipsis. */
 export function truncate(text, font, room) {
   const line = text.replace(/\s+/g, " ").trim();
