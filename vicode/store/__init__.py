@@ -8,6 +8,7 @@ from vicode.store.durable_write import is_read_only, write_text
 from vicode.store.locations import find_faulty_components, find_location, iter_owning_components, locate_findings
 from vicode.store.projects import OpenProject, find_design_files, find_project_file, find_projects, open_project
 from vicode.store.source_map import SourceMap
+from vicode.store.unread import UnreadContentError
 
 if TYPE_CHECKING:
     from vicode.store.comments import add_comments
@@ -19,6 +20,7 @@ __all__ = [
     "OpenProject",
     "ProjectReadResult",
     "SourceMap",
+    "UnreadContentError",
     "add_comments",
     "design_schema",
     "find_design_files",

@@ -40,9 +40,9 @@ def find_member_spans(text: str, node: YamlMapping | YamlSequence, floor: int | 
         key_start = key_starts[index]
         own_line_start = line_start(text, key_start)
         until = line_start(text, key_starts[index + 1]) if index + 1 < len(key_starts) else limit
-        end = _end_of_deeper_comments(text, next_line_start(text, max(value.end, key_start)), until, column)
+        end = end_of_deeper_comments(text, next_line_start(text, max(value.end, key_start)), until, column)
         is_inline = bool(text[own_line_start:key_start].strip(" "))
-        start = key_start if is_inline else _first_attached_comment(text, own_line_start, free)
+        start = key_start if is_inline else first_attached_comment(text, own_line_start, free)
         spans.append(MemberSpan(start=start, key_start=key_start, end=end, is_inline=is_inline))
         free = end
     return spans
@@ -105,7 +105,7 @@ def _find_dash(text: str, after: int, item: YamlNode, column: int) -> int:
     return item.start
 
 
-def _end_of_deeper_comments(text: str, offset: int, until: int, column: int) -> int:
+def end_of_deeper_comments(text: str, offset: int, until: int, column: int) -> int:
     """End of the comments that are indented deeper than the block: they belong to the member above."""
     end = offset
     while offset < until:
@@ -119,7 +119,7 @@ def _end_of_deeper_comments(text: str, offset: int, until: int, column: int) -> 
     return end
 
 
-def _first_attached_comment(text: str, line: int, free: int) -> int:
+def first_attached_comment(text: str, line: int, free: int) -> int:
     """Start of the comments directly above a line, but not before `free`."""
     while line > free:
         above = line_start(text, line - 1)

@@ -2,6 +2,7 @@
 
 import itertools
 import sys
+from collections import Counter
 
 from vicode.model.design import Design
 from vicode.model.project import Project
@@ -13,6 +14,7 @@ from vicode.store.sanitize import sanitize_design
 from vicode.store.schema_types import FormatValue, RecordSchema
 from vicode.store.tree_diff import TargetBuilder
 from vicode.store.typed_node import TypedNode
+from vicode.store.unread import UnreadContentError, find_unread, require_unread
 from vicode.store.yaml_writer import YamlStyle, detect_style, format_document
 
 # First, only the differing values are replaced; if that fails, whole states and declarations, then whole sections.
@@ -25,6 +27,7 @@ def save_design(design: Design, old_text: str = "") -> str:
     Expressions that consist of spaces are dropped, as they cannot be read back.
 
     Raises:
+        UnreadContentError: Content of the old text that was not understood would be lost.
         ValueError: States, uses or declarations have duplicate names, or a name is longer than YAML allows.
     """
     text = _save(DESIGN, encode_design(design), old_text)
@@ -45,20 +48,28 @@ def _require_text(text: str | None) -> str:
 
 
 def _save(schema: RecordSchema, data: FormatValue, old_text: str) -> str | None:
-    """Return a text with this value; None if there is none."""
+    """Return a text with this value; None if there is none.
+
+    Raises:
+        UnreadContentError: Each such text would lose content that was not understood.
+    """
     _report, old = read_record(old_text, "", schema)
     if old is None:
+        if any(line.strip() and not line.startswith("#") for line in old_text.splitlines()):
+            raise UnreadContentError("the file is not readable; correct it first")
         return _format_new_text(schema, data, old_text)
     if old.value == data:
         return old_text
+    unread = find_unread(old, old_text)
     is_windows = "\r\n" in old_text and old_text.count("\r\n") == old_text.count("\n")
     plain = old_text.replace("\r\n", "\n") if is_windows else old_text
     for deepest in _MAX_PATCH_DEPTHS:
         new = _patch_text(schema, data, plain, old if plain is old_text else None, deepest)
         for text in () if new is None else _ending_variants(new, is_ended=plain.endswith("\n")):
             saved = text.replace("\n", "\r\n") if is_windows else text
-            if _reads_as(schema, saved, data):
+            if _reads_as(schema, saved, data, unread):
                 return saved
+    require_unread(unread, old, old_text)
     return _format_new_text(schema, data, old_text)
 
 
@@ -83,9 +94,10 @@ def _patch_text(schema: RecordSchema, data: FormatValue, text: str, old: TypedNo
         return None
 
 
-def _reads_as(schema: RecordSchema, text: str, data: FormatValue) -> bool:
+def _reads_as(schema: RecordSchema, text: str, data: FormatValue, unread: Counter[str] | None = None) -> bool:
+    """Whether a text has this value and still contains what was not understood."""
     _report, read = read_record(text, "", schema)
-    return read is not None and read.value == data
+    return read is not None and read.value == data and (not unread or not unread - find_unread(read, text))
 
 
 def _format_new_text(schema: RecordSchema, data: FormatValue, old_text: str) -> str | None:

@@ -40,10 +40,27 @@ class TargetCollection:
     is_ordered: bool = True
 
 
-TargetNode = TargetKeep | TargetScalar | TargetCollection
+@dataclass(frozen=True, slots=True, kw_only=True)
+class TargetMoved:
+    """An item of a list that was elsewhere in the old text, with its comments.
+
+    Attributes:
+        lines: Its old lines, from the comments above it.
+        column: The old column of its dash.
+        target: Its value, if it must be written in another style.
+    """
+
+    lines: tuple[str, ...]
+    column: int
+    target: "TargetNode"
+
+
+TargetNode = TargetKeep | TargetScalar | TargetCollection | TargetMoved
 
 
 def has_multiline_text(target: TargetNode) -> bool:
     if isinstance(target, TargetScalar):
         return "\n" in target.text
+    if isinstance(target, TargetMoved):
+        return True
     return isinstance(target, TargetCollection) and any(has_multiline_text(member.value) for member in target.members)

@@ -1,10 +1,12 @@
 """Builds the target tree of a patch from a new value and the nodes of the old text."""
 
-from collections.abc import Iterable
+import itertools
+from collections.abc import Iterable, Iterator
 from typing import cast
 
 from vicode.store.format import FLOW_WIDTH
 from vicode.store.matching import match_items, match_names
+from vicode.store.member_spans import end_of_deeper_comments, first_attached_comment, line_start, next_line_start
 from vicode.store.schema_types import (
     FormatValue,
     KeySchema,
@@ -16,9 +18,10 @@ from vicode.store.schema_types import (
     ScalarType,
     ValueSchema,
 )
-from vicode.store.target_tree import TargetCollection, TargetKeep, TargetMember, TargetNode, TargetScalar
+from vicode.store.target_tree import TargetCollection, TargetKeep, TargetMember, TargetMoved, TargetNode, TargetScalar
 from vicode.store.typed_node import TypedNode, YamlNotation
-from vicode.store.yaml_tree import YamlMapping, YamlNode, YamlScalar
+from vicode.store.unread import iter_unread_spans
+from vicode.store.yaml_tree import YamlMapping, YamlNode, YamlScalar, YamlSequence
 
 
 class TargetBuilder:
@@ -29,6 +32,7 @@ class TargetBuilder:
         self.text = text
         self.max_depth = max_depth
         self.depth = 0
+        self.moved: dict[FormatValue, tuple[tuple[str, ...], int]] = {}
 
     def build(
         self, schema: ValueSchema, data: FormatValue, old: TypedNode | None = None, *, in_flow: bool = False
@@ -36,7 +40,10 @@ class TargetBuilder:
         """Build the target for a value; `in_flow`: whether the old node is part of a flow collection."""
         if old is not None and _value_of(old) == data:
             return TargetKeep()
-        if old is not None and (self.depth >= self.max_depth or self._outgrows_flow_style(old, data, in_flow=in_flow)):
+        is_replaced = old is not None and (
+            self.depth >= self.max_depth or self._outgrows_flow_style(old, data, in_flow=in_flow)
+        )
+        if old is not None and is_replaced and not any(iter_unread_spans(old)):
             old = None
         in_flow = in_flow or (old is not None and not isinstance(old.node, YamlScalar) and old.node.is_flow)
         self.depth += 1
@@ -51,7 +58,7 @@ class TargetBuilder:
             case ScalarSchema():
                 return _scalar_target(schema, data)
             case PairSchema():
-                return TargetCollection(members=_number_members(data), is_mapping=False, flow_width=FLOW_WIDTH)
+                return TargetCollection(members=_number_members(data, old), is_mapping=False, flow_width=FLOW_WIDTH)
             case ListSchema():
                 return self._build_list(schema, data, old, in_flow=in_flow)
             case MapSchema():
@@ -81,17 +88,58 @@ class TargetBuilder:
             assert key is not None
             return self.build(key.schema, item_value, inner, in_flow=in_flow)
         if old is None or old.notation is not YamlNotation.FULL:
-            members = [TargetMember(value=self.build(item_schema, item)) for item in items]
+            members = [TargetMember(value=self._build_item(item_schema, item)) for item in items]
             return TargetCollection(members=tuple(members), is_mapping=False, flow_width=schema.flow_width)
         indices = {child: index for index, child in enumerate(old.child_keys) if child is not None}
         old_values = [cast("FormatValue", old.children[child].value) for child in indices]
         members = []
-        for item, match in zip(items, match_items(old_values, items), strict=True):
+        matches = self._without_moved(old, items, match_items(old_values, items))
+        for item, match in zip(items, matches, strict=True):
             child = old.children[match] if match is not None else None
-            value = self.build(item_schema, item, child, in_flow=in_flow)
+            value = self._build_item(item_schema, item, child, in_flow=in_flow)
             members.append(TargetMember(value=value, old_index=indices[match] if match is not None else None))
         with_others = _merge_unread(members, _unread_members(old))
         return TargetCollection(members=with_others, is_mapping=False, flow_width=schema.flow_width)
+
+    def _build_item(
+        self, schema: ValueSchema, data: FormatValue, old: TypedNode | None = None, *, in_flow: bool = False
+    ) -> TargetNode:
+        target = self.build(schema, data, old, in_flow=in_flow)
+        if old is None and data in self.moved:
+            lines, column = self.moved[data]
+            return TargetMoved(lines=lines, column=column, target=target)
+        return target
+
+    def _without_moved(
+        self, old: TypedNode, items: tuple[FormatValue, ...], matches: list[int | None]
+    ) -> list[int | None]:
+        """Record the items that move into or out of others, with their comments, and drop their matches."""
+        if isinstance(old.node, YamlScalar) or old.node.is_flow:
+            return matches
+        inner = set(itertools.chain.from_iterable(map(_inner_values, items)))
+        before = {cast("FormatValue", child.value) for child in old.children.values()}
+        into = {key for key, child in old.children.items() if child.value in inner and child.value not in items}
+        for lists, child in _iter_items(old):
+            is_moved = child.value in inner if lists is old else child.value in items
+            if child.value is not None and is_moved and (lists is old) == (child.value in before):
+                self._note_moved(child)
+        return [
+            None if match in into or (match is not None and item in self.moved and item not in before) else match
+            for item, match in zip(items, matches, strict=True)
+        ]
+
+    def _note_moved(self, item: TypedNode) -> None:
+        """Note the lines of an item of a list, if they contain more than its value."""
+        line = line_start(self.text, item.node.start)
+        dash = self.text[line : item.node.start].rstrip(" ")
+        if dash.strip(" ") != "-":
+            return
+        start = first_attached_comment(self.text, line, 0)
+        after = next_line_start(self.text, item.node.end)
+        end = end_of_deeper_comments(self.text, after, len(self.text), len(dash) - 1)
+        text = self.text[start:end]
+        if item.value is not None and ("#" in text or any(iter_unread_spans(item))):
+            self.moved[item.value] = tuple(text.removesuffix("\n").split("\n")), len(dash) - 1
 
     def _build_map(self, schema: MapSchema, data: FormatValue, old: TypedNode | None, *, in_flow: bool) -> TargetNode:
         pairs = cast("tuple[tuple[str, FormatValue], ...]", data)
@@ -106,7 +154,11 @@ class TargetBuilder:
         if old is None or old.notation is not YamlNotation.FULL:
             members = [TargetMember(key=name, value=self.build(schema.value_schema, value)) for name, value in pairs]
             return TargetCollection(members=tuple(members), is_mapping=True, flow_width=schema.flow_width)
-        indices = {child: index for index, child in enumerate(old.child_keys) if child is not None}
+        indices = {
+            child: index
+            for index, child in enumerate(old.child_keys)
+            if child is not None and _value_of(old.children[child]) is not None
+        }
         names = [str(child) for child in indices]
         known = [(name, cast("FormatValue", _value_of(old.children[name]))) for name in names]
         members = []
@@ -116,8 +168,9 @@ class TargetBuilder:
             members.append(
                 TargetMember(key=name, value=target, old_index=indices[names[match]] if match is not None else None)
             )
-        others = [other for other in _unread_members(old) if _key_text(old.node, other.old_index) not in dict(pairs)]
-        return TargetCollection(members=_merge_unread(members, others), is_mapping=True, flow_width=schema.flow_width)
+        return TargetCollection(
+            members=_merge_unread(members, _unread_members(old)), is_mapping=True, flow_width=schema.flow_width
+        )
 
     def _build_name_list(
         self, schema: MapSchema, pairs: tuple[tuple[str, FormatValue], ...], old: TypedNode | None
@@ -129,7 +182,8 @@ class TargetBuilder:
             )
             for name, _value in pairs
         ]
-        return TargetCollection(members=tuple(members), is_mapping=False, flow_width=schema.flow_width)
+        with_others = _merge_unread(members, _unread_members(old) if old else ())
+        return TargetCollection(members=with_others, is_mapping=False, flow_width=schema.flow_width)
 
     def _build_record(
         self, schema: RecordSchema, data: FormatValue, old: TypedNode | None, *, in_flow: bool
@@ -209,11 +263,14 @@ def _scalar_target(schema: ScalarSchema, data: FormatValue) -> TargetScalar:
     return TargetScalar(text=data, is_plain=schema.scalar_type is ScalarType.VERSION)
 
 
-def _number_members(data: FormatValue) -> tuple[TargetMember, ...]:
+def _number_members(data: FormatValue, old: TypedNode | None) -> tuple[TargetMember, ...]:
     numbers = cast("tuple[float, ...]", data)
+    is_patched = old is not None and isinstance(old.node, YamlSequence) and len(old.node.items) == len(numbers)
     return tuple(
-        TargetMember(value=TargetScalar(text=format_number(number), is_plain=True), old_index=None)
-        for number in numbers
+        TargetMember(
+            value=TargetScalar(text=format_number(number), is_plain=True), old_index=index if is_patched else None
+        )
+        for index, number in enumerate(numbers)
     )
 
 
@@ -244,13 +301,27 @@ def _reject_duplicate_names(pairs: tuple[tuple[str, FormatValue], ...]) -> None:
         raise ValueError(f"duplicate names cannot be saved: {', '.join(duplicates)}; rename one of each")
 
 
+def _inner_values(value: FormatValue) -> Iterator[FormatValue]:
+    for inner in value if isinstance(value, tuple) else ():
+        yield inner
+        yield from _inner_values(inner)
+
+
+def _iter_items(read: TypedNode) -> Iterator[tuple[TypedNode, TypedNode]]:
+    """Each list at or below a node with each of its items."""
+    for child in read.children.values():
+        if isinstance(read.schema, ListSchema) and read.notation is YamlNotation.FULL:
+            yield read, child
+        yield from _iter_items(child)
+
+
 def _unread_members(old: TypedNode) -> list[TargetMember]:
     """Members that the reader could not read; they keep their position."""
     is_mapping = isinstance(old.node, YamlMapping)
     return [
         TargetMember(key=_key_text(old.node, index) if is_mapping else None, value=TargetKeep(), old_index=index)
         for index, child in enumerate(old.child_keys)
-        if child is None
+        if child is None or _value_of(old.children[child]) is None
     ]
 
 

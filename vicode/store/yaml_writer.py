@@ -3,7 +3,14 @@
 import re
 from dataclasses import dataclass
 
-from vicode.store.target_tree import TargetCollection, TargetMember, TargetNode, TargetScalar, has_multiline_text
+from vicode.store.target_tree import (
+    TargetCollection,
+    TargetMember,
+    TargetMoved,
+    TargetNode,
+    TargetScalar,
+    has_multiline_text,
+)
 from vicode.store.yaml_tree import YamlMapping, YamlNode, YamlScalar, YamlSequence
 
 _PLAIN = re.compile(r"[^\s\-?:,\[\]{}#&*!|>'\"%@`=~]|[-?:][^\s,\[\]{}:#]")
@@ -97,6 +104,8 @@ def format_value(target: TargetNode, column: int, used: int, style: YamlStyle, *
 def format_member(member: TargetMember, column: int, style: YamlStyle) -> str:
     """Format a pair or item including its indentation, without the final line break."""
     lead = " " * column
+    if member.key is None and isinstance(member.value, TargetMoved):
+        return "\n".join(_shift_line(line, column - member.value.column) for line in member.value.lines)
     if member.key is None:
         return lead + "-" + format_value(member.value, column, column + 2, style, after_dash=True)
     key = format_inline_text(member.key)
@@ -108,7 +117,15 @@ def format_document(target: TargetNode, style: YamlStyle) -> str:
     return "\n".join(_pair_lines(target, 0, style)) + "\n"
 
 
+def _shift_line(line: str, columns: int) -> str:
+    """Change the indentation of a line; blank lines have none."""
+    indent = len(line) - len(line.lstrip(" "))
+    return " " * max(0, indent + columns) + line[indent:] if line.strip() else ""
+
+
 def format_flow(target: TargetNode) -> str:
+    if isinstance(target, TargetMoved):
+        return format_flow(target.target)
     if isinstance(target, TargetScalar):
         return target.text if target.is_plain else format_inline_text(target.text, in_flow=True)
     assert isinstance(target, TargetCollection), "TargetKeep cannot be formatted"

@@ -312,3 +312,15 @@ def test_generate_uses_the_saved_versions_of_other_designs(workspace: Workspace)
     face_ball.edit("doc", lambda design: replace(design, doc="not yet"))
     for path in workspace.generate(player).files:
         assert "not yet" not in path.read_text()
+
+
+def test_an_edit_that_would_lose_unknown_keys_is_refused(folder: Path) -> None:
+    file = folder / "player.yaml"
+    file.write_text(file.read_text() + "  Spare:\n    transitons: [{to: Kick}]\n")
+    document = opened(Library(folder).workspaces[0], "Player")
+    before = document.design
+    document.edit("delete", lambda design: replace(design, states=design.states[:-1]))
+    assert document.design == before
+    assert "'transitons: [{to: Kick}]', was not understood" in document.shared.notice.text
+    document.edit("doc", lambda design: replace(design, doc="changed"))
+    assert document.design.doc == "changed"

@@ -18,6 +18,7 @@ from vicode.model.design import Design
 from vicode.model.merge import Conflict, merge_designs
 from vicode.model.project import Project
 from vicode.model.traversal import find_decision
+from vicode.store import UnreadContentError, save_design
 
 DesignChecker = Callable[[Design], tuple[Finding, ...]]
 _MAX_RECENT_DESIGNS = 60
@@ -131,6 +132,19 @@ class SharedDocument:
             return ()
         return merge_designs(self.saved, self.history.current.design, self.disk_conflict.design).conflicts
 
+    def find_lost_content(self, design: Design) -> str:
+        """The content of the file that was not understood and that this design could not keep; empty if none."""
+        if not self.parse_findings or design == self.saved:
+            return ""
+        try:
+            save_design(design, self.disk_text)
+        except UnreadContentError as error:
+            return str(error)
+        except ValueError:
+            # Unfinished edits, such as duplicate names, are reported when the design is saved.
+            return ""
+        return ""
+
     def recheck(self) -> None:
         """Check the design again after a change of another design."""
         findings = self._find()
@@ -179,14 +193,20 @@ class DocumentSession:
         return self.design == self.shared.saved
 
     def edit(self, label: str, change: Callable[[Design], Design], *, coalesce_key: str = "") -> None:
-        """Change the design.
+        """Change the design, unless content of its file that was not understood would be lost.
 
         Args:
             label: The label in the undo history.
             change: Maps the current design to the new one.
             coalesce_key: Consecutive edits of a user with the same key, such as a field being typed in, are one entry.
         """
-        self._append(self._new_entry(label, change(self.design), coalesce_key))
+        design = change(self.design)
+        reason = self.shared.find_lost_content(design)
+        if reason:
+            self.shared.notice = ChangeNotice(texts.edit_refused(reason), DISK_USER, self.shared.notice.rev + 1)
+            self.shared.changes.notify(self)
+        else:
+            self._append(self._new_entry(label, design, coalesce_key))
 
     def undo(self) -> str:
         """Undo the user's latest edit; returns an error message if it conflicts with later edits of others."""

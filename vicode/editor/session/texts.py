@@ -261,6 +261,10 @@ def cannot_save(file: str, reason: str) -> str:
     return f"{file} cannot be saved: {reason}"
 
 
+def edit_refused(reason: str) -> str:
+    return f"Not changed: {reason}"
+
+
 def not_representable(reason: object) -> str:
     return f"this cannot be saved in a file: {reason}"
 

@@ -1,0 +1,82 @@
+"""Finds the content of a file that the reader did not understand; no edit may lose it."""
+
+from collections import Counter
+from collections.abc import Iterator
+from typing import cast
+
+from vicode.store.schema_types import FormatValue, KeySchema, RecordSchema
+from vicode.store.typed_node import TypedNode
+from vicode.store.yaml_tree import YamlMapping, YamlNode, YamlScalar
+
+_MAX_SHOWN = 60
+
+
+class UnreadContentError(ValueError):
+    """An edit would remove content that was not understood."""
+
+
+def find_unread(root: TypedNode, text: str) -> Counter[str]:
+    """The members that were not understood, without their whitespace: unknown and duplicate keys, invalid values."""
+    return Counter("".join(text[start:end].split()) for start, end in iter_unread_spans(root))
+
+
+def require_unread(missing: Counter[str], root: TypedNode, text: str) -> None:
+    """Raise the error that names the first missing member.
+
+    Raises:
+        UnreadContentError: A member is missing.
+    """
+    for start, end in iter_unread_spans(root):
+        if "".join(text[start:end].split()) in missing:
+            shown = " ".join(text[start:end].split())
+            shown = shown if len(shown) <= _MAX_SHOWN else f"{shown[:_MAX_SHOWN]}…"
+            line = text.count("\n", 0, start) + 1
+            raise UnreadContentError(
+                f"line {line}, '{shown}', was not understood and would be lost; correct or remove it in the file first"
+            )
+
+
+def iter_unread_spans(read: TypedNode) -> Iterator[tuple[int, int]]:
+    """The offsets of the members that were not understood."""
+    if not read.child_keys:
+        for child in read.children.values():
+            yield from iter_unread_spans(child)
+        return
+    for index, key in enumerate(read.child_keys):
+        if _is_unread_member(read, index):
+            yield _member_span(read.node, index)
+        elif key is not None:
+            yield from iter_unread_spans(read.children[key])
+
+
+def _is_unread_member(read: TypedNode, index: int) -> bool:
+    """Whether a member of a collection as a whole is not part of its value."""
+    key = read.child_keys[index]
+    if key is None:
+        return not _is_omitted_key(read, index)
+    child = read.children[key]
+    if child.value is None:
+        return not child.child_keys
+    if not isinstance(read.schema, RecordSchema) or child.value in ("", (), False):
+        return False
+    known = cast("KeySchema", read.schema.find_key(str(key)))
+    return child.value != known.default and str(key) not in dict(
+        cast("tuple[tuple[str, FormatValue]]", read.value or ())
+    )
+
+
+def _is_omitted_key(read: TypedNode, index: int) -> bool:
+    """Whether a member is a known key without a value."""
+    if not isinstance(read.node, YamlMapping) or not isinstance(read.schema, RecordSchema):
+        return False
+    key, value = read.node.pairs[index]
+    is_known = isinstance(key, YamlScalar) and read.schema.find_key(key.text) is not None
+    return is_known and isinstance(value, YamlScalar) and value.is_empty
+
+
+def _member_span(node: YamlNode, index: int) -> tuple[int, int]:
+    if isinstance(node, YamlMapping):
+        key, value = node.pairs[index]
+        return key.start, max(key.end, value.end)
+    assert not isinstance(node, YamlScalar)
+    return node.items[index].start, node.items[index].end
