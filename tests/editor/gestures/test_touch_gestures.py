@@ -8,6 +8,14 @@ from playwright.sync_api import Browser, CDPSession, Page, expect
 from tests.editor.gestures.conftest import WAIT_MS, EditorDriver, Point, box_of, middle
 
 
+# Visible controls that are less than 40 pixels high or wide, with their sizes.
+SMALL_TARGETS = """() => [document, document.querySelector(".vicode-canvas").shadowRoot].flatMap(root =>
+  [...root.querySelectorAll("button, a[href], [role=button]:not(g), [role=tab], input, textarea, .q-field__control")].filter(each =>
+    each.checkVisibility({visibilityProperty: true, opacityProperty: false}) && !each.closest(".q-field__control > *, .visually-hidden, .skip-link")
+  ).map(each => [each, each.getBoundingClientRect()]).filter(([, box]) => box.width && (box.width < 39.5 || box.height < 39.5)
+  ).map(([each, box]) => `${each.tagName} ${each.className} ${each.ariaLabel ?? each.textContent} ${box.width} x ${box.height}`))"""
+
+
 class TouchInput:
     """Sends touch events."""
 
@@ -73,6 +81,28 @@ def test_a_long_press_opens_the_menu(sketch: EditorDriver, fingers: TouchInput) 
     sketch.expect_undone()
 
 
+@pytest.mark.parametrize("size", [(820, 1180), (844, 390)], ids=["portrait", "landscape"])
+def test_lifting_the_finger_chooses_nothing_in_the_menu(
+    sketch: EditorDriver, fingers: TouchInput, size: tuple[int, int]
+) -> None:
+    before = sketch.page.viewport_size
+    sketch.page.set_viewport_size({"width": size[0], "height": size[1]})
+    sketch.press("Escape", "1")
+    box = box_of(sketch.page.locator(".vicode-canvas"))
+    middle_, bottom, right = box["x"] + box["width"] / 2, box["y"] + box["height"] - 12, box["x"] + box["width"] - 90
+    for spot in ((middle_, bottom), (right, box["y"] + box["height"] / 2), (right, bottom), sketch.state("Stop")):
+        fingers.send("touchStart", spot)
+        expect(sketch.menu()).to_be_visible()
+        fingers.send("touchEnd")
+        fingers.tap((box["x"] + 30, box["y"] + 70))
+        expect(sketch.menu()).to_be_hidden()
+    expect(sketch.page.locator("input.rename")).to_be_hidden()
+    expect(sketch.page.get_by_text("Saved", exact=True)).to_be_visible()
+    assert before is not None
+    sketch.page.set_viewport_size(before)
+    sketch.press("1")
+
+
 def test_two_fingers_zoom_and_a_finger_drags_a_transition_from_a_state(
     sketch: EditorDriver, fingers: TouchInput
 ) -> None:
@@ -107,3 +137,9 @@ def test_several_elements_are_selected_by_touch(sketch: EditorDriver, fingers: T
     sketch.wait_for("vicode.selection().some(item => item.id === 'Rest')")
     several.click()
     expect(several).to_have_attribute("aria-pressed", "false")
+
+
+def test_touch_targets_are_large(sketch: EditorDriver) -> None:
+    sketch.select("Go")
+    expect(sketch.page.get_by_label("State", exact=True)).to_have_value("Go")
+    assert sketch.page.evaluate(SMALL_TARGETS) == []

@@ -21,7 +21,7 @@ export class Touch {
     if (event.pointerType !== "touch") return false;
     this.fingers.set(event.pointerId, this.canvas.viewport.toLocal(event));
     this.cancelHold();
-    if (this.fingers.size === 1) this.timer = setTimeout(() => this.onHold(event), HOLD_MS);
+    if (this.fingers.size === 1) this.timer = setTimeout(() => this.#hold(event), HOLD_MS);
     if (this.fingers.size !== 2) return false;
     this.span = this.#measure();
     return true;
@@ -58,6 +58,24 @@ export class Touch {
     this.cancelHold();
     this.fingers.clear();
     this.span = null;
+  }
+
+  /** Lifting the finger clicks what is under it then, which may be the menu that has just opened. */
+  #hold(event) {
+    const stop = () => {
+      document.removeEventListener("click", swallow, true);
+      document.removeEventListener("pointerdown", stop, true);
+    };
+    const swallow = (click) => {
+      // A click by a key has no detail.
+      if (!click.detail) return;
+      click.preventDefault();
+      click.stopPropagation();
+      stop();
+    };
+    document.addEventListener("click", swallow, true);
+    document.addEventListener("pointerdown", stop, true);
+    this.onHold(event);
   }
 
   #measure() {
