@@ -7,13 +7,17 @@ from playwright.sync_api import Browser, CDPSession, Page, expect
 
 from tests.editor.gestures.conftest import WAIT_MS, EditorDriver, Point, box_of, middle
 
-
 # Visible controls that are less than 40 pixels high or wide, with their sizes.
-SMALL_TARGETS = """() => [document, document.querySelector(".vicode-canvas").shadowRoot].flatMap(root =>
-  [...root.querySelectorAll("button, a[href], [role=button]:not(g), [role=tab], input, textarea, .q-field__control")].filter(each =>
-    each.checkVisibility({visibilityProperty: true, opacityProperty: false}) && !each.closest(".q-field__control > *, .visually-hidden, .skip-link")
-  ).map(each => [each, each.getBoundingClientRect()]).filter(([, box]) => box.width && (box.width < 39.5 || box.height < 39.5)
-  ).map(([each, box]) => `${each.tagName} ${each.className} ${each.ariaLabel ?? each.textContent} ${box.width} x ${box.height}`))"""
+SMALL_TARGETS = """() => {
+  const controls = "button, a[href], [role=button]:not(g), [role=tab], input, textarea, .q-field__control";
+  const besides = ".q-field__control > *, .visually-hidden, .skip-link";
+  const canvas = document.querySelector(".vicode-canvas").shadowRoot;
+  return [...document.querySelectorAll(controls), ...canvas.querySelectorAll(controls)]
+    .filter(each => each.checkVisibility({visibilityProperty: true}) && !each.closest(besides))
+    .map(each => ({ each, box: each.getBoundingClientRect() }))
+    .filter(({ box }) => box.width && (box.width < 39.5 || box.height < 39.5))
+    .map(({ each, box }) => `${each.className} ${each.ariaLabel ?? each.textContent}: ${box.width} x ${box.height}`);
+}"""
 
 
 class TouchInput:
@@ -85,12 +89,10 @@ def test_a_long_press_opens_the_menu(sketch: EditorDriver, fingers: TouchInput) 
 def test_lifting_the_finger_chooses_nothing_in_the_menu(
     sketch: EditorDriver, fingers: TouchInput, size: tuple[int, int]
 ) -> None:
-    before = sketch.page.viewport_size
-    sketch.page.set_viewport_size({"width": size[0], "height": size[1]})
-    sketch.press("Escape", "1")
+    resize(sketch, *size)
     box = box_of(sketch.page.locator(".vicode-canvas"))
-    middle_, bottom, right = box["x"] + box["width"] / 2, box["y"] + box["height"] - 12, box["x"] + box["width"] - 90
-    for spot in ((middle_, bottom), (right, box["y"] + box["height"] / 2), (right, bottom), sketch.state("Stop")):
+    center, bottom, right = box["x"] + box["width"] / 2, box["y"] + box["height"] - 12, box["x"] + box["width"] - 90
+    for spot in ((center, bottom), (right, box["y"] + box["height"] / 2), (right, bottom), sketch.state("Stop")):
         fingers.send("touchStart", spot)
         expect(sketch.menu()).to_be_visible()
         fingers.send("touchEnd")
@@ -98,9 +100,16 @@ def test_lifting_the_finger_chooses_nothing_in_the_menu(
         expect(sketch.menu()).to_be_hidden()
     expect(sketch.page.locator("input.rename")).to_be_hidden()
     expect(sketch.page.get_by_text("Saved", exact=True)).to_be_visible()
-    assert before is not None
-    sketch.page.set_viewport_size(before)
-    sketch.press("1")
+    resize(sketch, 1180, 820)
+
+
+def resize(sketch: EditorDriver, width: int, height: int) -> None:
+    """Resize the window, and fit the diagram."""
+    sketch.page.set_viewport_size({"width": width, "height": height})
+    sketch.page.wait_for_function(f"innerWidth === {width}")
+    sketch.page.wait_for_timeout(100)
+    sketch.press("Escape", "1")
+    sketch.view()
 
 
 def test_two_fingers_zoom_and_a_finger_drags_a_transition_from_a_state(
