@@ -80,6 +80,24 @@ def test_a_message_moves_the_cursor_to_its_characters_by_keyboard(editor: str, p
     expect(guard(page)).to_have_text("perception.ball_seen and not nobody")
 
 
+def test_an_unknown_name_becomes_an_input(editor: str, page: Page, project: Path) -> None:
+    open_player(page, editor)
+    select_transition(page, LOOK)
+    retype(page, guard(page), "perception.ball_seen and order_given")
+    inspector = page.get_by_label("Inspector")
+    expect(inspector.locator(".field-message")).to_have_text(
+        "'order_given' is not declared – declare it or correct the name"
+    )
+    inspector.get_by_role("button", name="Quick fixes").click()
+    page.get_by_role("menuitem", name="Create input order_given (bool)").click()
+    expect(guard(page)).to_have_text("perception.ball_seen and sensors.order_given")
+    expect(findings(page).get_by_text("No problems found")).to_be_visible()
+    assert "order_given" in (project / "forward" / "project.yaml").read_text()
+    page.get_by_role("button", name="Undo").click()
+    expect(guard(page)).to_have_text("perception.ball_seen and order_given")
+    assert "order_given" not in (project / "forward" / "project.yaml").read_text()
+
+
 def test_fast_typing_is_neither_lost_nor_reordered(editor: str, page: Page, project: Path) -> None:
     open_player(page, editor)
     select_transition(page, LOOK)

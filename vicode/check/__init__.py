@@ -24,7 +24,7 @@ from vicode.findings import Finding
 from vicode.model.design import Design
 from vicode.model.project import Project
 
-__all__ = ["RuleContext", "check_design", "check_file", "check_project"]
+__all__ = ["RuleContext", "build_context", "check_design", "check_file", "check_project"]
 
 DesignRule = Callable[[RuleContext], Iterator[Finding]]
 DESIGN_RULES: tuple[DesignRule, ...] = (

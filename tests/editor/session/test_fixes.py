@@ -83,6 +83,10 @@ STAY = "initial: S\nstates: {S: {final: true, transitions: [{stay: true, when: %
         ("initial: S\nstates: {S: {transitions: [{to: T, after: 1}]}}", "D402", "Create the state T"),
         (STAY % "n > 3", "E303", "Declare the variable n: 0.0"),
         (STAY % "seen", "E303", "Declare the variable seen: False"),
+        (STAY % "order_given", "E303", "Create input order_given (bool)"),
+        (STAY % "unknown and order_given", "E303", "Create input order_given (bool)"),
+        (STAY % "battery < 3 or battery > 9", "E303", "Create input battery (float)"),
+        ("uses: {eye: Perception}\n" + STAY % "not ball", "E303", "Use eye.ball"),
         ("variables: {seen: false}\n" + STAY % "sen", "E303", "Replace with seen"),
         ("uses: {eye: Perception}\n" + STAY % "eye.bal", "E303", "Replace with eye.ball"),
         ("initial: S\nstates: {S: {actions: [{set: {n: 1 + 1}}]}}", "E303", "Declare the variable n: 0"),
@@ -126,13 +130,15 @@ def _try_all(project: Project) -> Counter[str]:
         for finding in check_project(project):
             for fix in find_fixes(project, design, finding):
                 count[finding.rule.code] += 1
-                _assert_resolves(project, design, finding, fix.label, fix.edit(design))
+                changed = fix.edit_project(project) if fix.edit_project else project
+                _assert_resolves(project, changed, finding, fix.label, fix.edit(design))
     return count
 
 
-def _assert_resolves(project: Project, design: Design, finding: Finding, label: str, fixed: Design) -> None:
-    designs = tuple(fixed if other is design else other for other in project.designs)
-    before, after = _counted(project), _counted(replace(project, designs=designs))
+def _assert_resolves(project: Project, changed: Project, finding: Finding, label: str, fixed: Design) -> None:
+    subject = finding.subject
+    designs = tuple(fixed if subject and other.component == subject.component else other for other in changed.designs)
+    before, after = _counted(project), _counted(replace(changed, designs=designs))
     key = (finding.rule.code, finding.message)
     assert after[key] < before[key], f"{label} leaves {key}"
     errors = {key for key in after - before if RULES[key[0]].severity is Severity.ERROR}

@@ -1,7 +1,7 @@
 """Python side of the code editor extensions: answers completion requests and sends marks."""
 
 from collections.abc import Callable, Iterable
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from typing import Any
 
 from nicegui import ui
@@ -60,7 +60,7 @@ class CodeAssist(ui.element, component=CODE_JS / "vicode_code.js"):
 
     def show_marks(self, text: str, marks: Iterable[CodeMark]) -> None:
         """Underline characters of a text; ignored if the editor's text differs from `text`."""
-        rows = [asdict(mark) for mark in marks]
+        rows = [asdict(replace(mark, finding=None)) for mark in marks]
         if (text, rows) != self._sent_marks:
             self._sent_marks = (text, rows)
             self._call("showMarks", text, rows)

@@ -10,6 +10,7 @@ from vicode.editor.code import CodeAssist
 from vicode.editor.panels import texts
 from vicode.editor.panels.dialogs import titled_dialog
 from vicode.editor.panels.fields import Field, FieldBinding, add_field
+from vicode.editor.panels.finding_navigation import fix_button
 from vicode.editor.panels.form import Form
 from vicode.editor.panels.widgets import icon_button
 from vicode.editor.panels.window_context import WindowContext
@@ -20,6 +21,7 @@ from vicode.editor.session.completion import (
     complete_expression,
     complete_python,
 )
+from vicode.editor.session.fixes import is_fixable
 from vicode.model.design import Declaration
 
 _SHOWN_MESSAGES = 6
@@ -174,7 +176,10 @@ class CodeField(Field):
                 ui.label(texts.more(len(marks) - _SHOWN_MESSAGES)).classes("empty")
 
     def _message(self, mark: CodeMark, line: str) -> None:
-        button = ui.element("button").classes(f"field-message {mark.severity}").props('type="button"')
-        with button:
-            ui.label(f"{line}{mark.message}")
+        with ui.row().classes("field-message-row"):
+            button = ui.element("button").classes(f"field-message {mark.severity}").props('type="button"')
+            with button:
+                ui.label(f"{line}{mark.message}")
+            if mark.finding is not None and is_fixable(mark.finding):
+                fix_button(self.context, mark.finding, "Quick fixes")
         button.on("click", lambda: self.code_assist.go_to(mark.start))

@@ -7,6 +7,7 @@ from nicegui import ui
 
 from vicode.editor.panels import texts
 from vicode.editor.panels.command import Command, MenuGroup
+from vicode.editor.panels.project.project_fields import write_design_and_project
 from vicode.editor.panels.window_context import WindowContext
 from vicode.editor.session.finding_list import next_finding
 from vicode.editor.view import ItemRef, item_at_path
@@ -65,19 +66,36 @@ class FindingNavigator:
         else:
             self.context.notify_subscribers()
 
-    def fill_fix_menu(self, menu: ui.menu, finding: Finding) -> None:
-        """Fill the menu of a finding with its fixes. Computed when the menu opens, as each is tried on the design."""
-        menu.clear()
-        from vicode.editor.session.fixes import find_fixes  # noqa: PLC0415 - not needed before a menu opens
 
-        fixes = find_fixes(self.context.workspace.project, self.context.design, finding)
-        with menu:
-            for fix in fixes:
-                ui.menu_item(fix.label, on_click=lambda fix=fix: self.apply_fix(fix)).props("role=menuitem")
-            if not fixes:
-                ui.menu_item(texts.NO_FIX).props("disable role=menuitem")
+def fix_button(context: WindowContext, finding: Finding, accessible_name: str) -> ui.button:
+    """Build a button with a menu of the fixes of a finding."""
+    button = ui.button("Fix", icon="auto_fix_high", color=None).props("flat dense no-caps size=sm")
+    button.classes("finding-fix").props["aria-label"] = accessible_name
+    with button, ui.menu().props("auto-close") as menu:
+        pass
+    menu.on("before-show", lambda: _fill_fix_menu(context, menu, finding))
+    return button
 
-    def apply_fix(self, fix: "Fix") -> None:
-        """Apply a fix as one edit, which can be undone."""
-        self.context.edit(f"fix: {fix.label}", fix.edit)
-        self.context.show_toast(texts.fix_applied(fix.label), "positive")
+
+def _fill_fix_menu(context: WindowContext, menu: ui.menu, finding: Finding) -> None:
+    """Fill the menu of a finding with its fixes. Computed when the menu opens, as each is tried on the design."""
+    menu.clear()
+    from vicode.editor.session.fixes import find_fixes  # noqa: PLC0415 - not needed before a menu opens
+
+    fixes = find_fixes(context.workspace.project, context.design, finding)
+    with menu:
+        for fix in fixes:
+            ui.menu_item(fix.label, on_click=lambda fix=fix: _apply_fix(context, fix)).props("role=menuitem")
+        if not fixes:
+            ui.menu_item(texts.NO_FIX).props("disable role=menuitem")
+
+
+def _apply_fix(context: WindowContext, fix: "Fix") -> None:
+    """Apply a fix as one edit, which can be undone."""
+    label = f"fix: {fix.label}"
+    error = ""
+    if fix.edit_project is None:
+        context.edit(label, fix.edit)
+    else:
+        error = write_design_and_project(context, label, fix.edit, fix.edit_project)
+    context.show_toast(error or texts.fix_applied(fix.label), "warning" if error else "positive")

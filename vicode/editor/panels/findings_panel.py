@@ -7,7 +7,7 @@ from pathlib import PurePath
 from nicegui import ui
 
 from vicode.editor.panels import texts
-from vicode.editor.panels.finding_navigation import FindingNavigator
+from vicode.editor.panels.finding_navigation import FindingNavigator, fix_button
 from vicode.editor.panels.window_context import WindowContext
 from vicode.editor.session.finding_list import filter_findings, group_by_severity
 from vicode.editor.session.fixes import is_fixable
@@ -95,15 +95,8 @@ class FindingsPanel:
                 ui.label(finding.fix).classes("finding-hint")
             row.on("click", lambda: self.navigator.select_finding(finding))
             if is_fixable(finding):
-                self._fix_button(finding)
+                fix_button(self.context, finding, f"Fix: {finding.message}")
         return element
-
-    def _fix_button(self, finding: Finding) -> None:
-        button = ui.button("Fix", icon="auto_fix_high", color=None).props("flat dense no-caps size=sm")
-        button.classes("finding-fix").props["aria-label"] = f"Fix: {finding.message}"
-        with button, ui.menu().props("auto-close") as menu:
-            pass
-        menu.on("before-show", lambda: self.navigator.fill_fix_menu(menu, finding))
 
     def _toggle(self, severity: Severity) -> ui.button:
         button = ui.button("0", icon=_ICONS[severity], on_click=lambda: self._toggle_severity(severity), color=None)

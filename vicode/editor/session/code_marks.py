@@ -2,7 +2,7 @@
 
 import re
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from vicode.editor.session.lint import LintWarning
 from vicode.findings import DesignPath, Finding, Severity
@@ -20,6 +20,7 @@ class CodeMark:
     message: str
     line: int
     """The line of `start`, from 1."""
+    finding: Finding | None = None
 
 
 def mark_text(
@@ -65,7 +66,7 @@ def message_with_fix(finding: Finding) -> str:
 
 
 def _mark(text: str, span: tuple[int, int], finding: Finding) -> CodeMark:
-    return _make_mark(text, span, finding.severity, message_with_fix(finding))
+    return replace(_make_mark(text, span, finding.severity, message_with_fix(finding)), finding=finding)
 
 
 def _make_mark(text: str, span: tuple[int, int], severity: str, message: str) -> CodeMark:

@@ -8,14 +8,15 @@ from typing import Any
 
 from vicode.editor.session import texts
 from vicode.editor.session.descriptions import error_reason
-from vicode.editor.session.document import DocumentSession
+from vicode.editor.session.document import DocumentSession, FileTransaction
+from vicode.editor.session.interface_edits import shared_names
 from vicode.editor.session.presence import DISK_USER
 from vicode.editor.session.project_paths import ProjectNodePath
 from vicode.editor.session.rename_symbol import describe_new_errors, find_errors
 from vicode.editor.session.workspace import Workspace
-from vicode.model.design import Declaration
+from vicode.model.design import Declaration, Design
 from vicode.model.edits import unique_name
-from vicode.model.merge import merge_lines
+from vicode.model.merge import merge_designs, merge_lines
 from vicode.model.project import Agent, Enumeration, Interface, Project
 from vicode.store import (
     ProjectReadResult,
@@ -74,6 +75,63 @@ class ProjectEdit:
         return ""
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class DesignAndProjectEdit:
+    """An edit of a design and of project.yaml, which are undone and redone together."""
+
+    file_edit: ProjectEdit
+    label: str
+    old: Design
+    new: Design
+
+    def undo(self, user_id: str) -> str:
+        label = texts.undo_label(self.label)
+        transaction = FileTransaction(files=frozenset(), label=label, user_id=user_id, undone_edit=self)
+        return self._apply(transaction, self.new, self.old, self.file_edit.undo)
+
+    def redo(self, user_id: str) -> str:
+        label = texts.redo_label(self.label)
+        transaction = FileTransaction(files=frozenset(), label=label, user_id=user_id, compound=self)
+        return self._apply(transaction, self.old, self.new, self.file_edit.redo)
+
+    def _apply(
+        self, transaction: FileTransaction, base: Design, wanted: Design, change_file: Callable[[str], str]
+    ) -> str:
+        document = self.file_edit.workspace.open_document(self.new.component)
+        merged = merge_designs(base, document.design, wanted) if document else None
+        if document is None or merged is None or merged.conflicts:
+            return texts.not_done(texts.DESIGN_CHANGED)
+        error = change_file(transaction.user_id)
+        if not error:
+            DocumentSession(document.shared, transaction.user_id).apply_transaction(transaction, merged.design)
+        return error
+
+
+def edit_design_and_project(
+    document: DocumentSession,
+    workspace: Workspace,
+    label: str,
+    change_design: Callable[[Design], Design],
+    change_project: Callable[[Project], Project],
+) -> str:
+    """Change project.yaml and then a design, as one entry of its history; returns an error message or "".
+
+    Raises:
+        OSError: project.yaml cannot be read or written.
+    """
+    result = edit_project_file(workspace, change_project, summary=label)
+    old, new = document.design, change_design(document.design)
+    if result.error:
+        return result.error
+    if result.edit is None:
+        document.edit(label, change_design)
+        return ""
+    edit = DesignAndProjectEdit(file_edit=result.edit, label=label, old=old, new=new)
+    transaction = FileTransaction(files=frozenset(), label=label, user_id=document.user_id, compound=edit)
+    document.apply_transaction(transaction, new)
+    return ""
+
+
 def edit_project_file(
     workspace: Workspace,
     change: Callable[[Project], Project],
@@ -123,7 +181,7 @@ def edit_project_file(
 
 
 def add_enumeration(project: Project) -> Project:
-    added = Enumeration(name=unique_name("Kind", _shared_names(project)), elements=(("first", ""),))
+    added = Enumeration(name=unique_name("Kind", shared_names(project)), elements=(("first", ""),))
     return replace(project, enumerations=(*project.enumerations, added))
 
 
@@ -134,13 +192,13 @@ def add_element(enumeration: Enumeration) -> Enumeration:
 
 
 def add_constant(project: Project) -> Project:
-    added = Declaration(name=unique_name("constant", _shared_names(project)), initial="0")
+    added = Declaration(name=unique_name("constant", shared_names(project)), initial="0")
     return replace(project, constants=(*project.constants, added))
 
 
 def add_component(project: Project) -> Project:
     """Add a component that has neither a design nor an implementation."""
-    added = Interface(component=unique_name("Component", _shared_names(project)))
+    added = Interface(component=unique_name("Component", shared_names(project)))
     return replace(project, components=(*project.components, added))
 
 
@@ -160,11 +218,6 @@ def add_declaration(component: Interface, section: str) -> Interface:
 def _first_error(read: ProjectReadResult | None) -> str:
     first = next(iter(read.findings), None) if read is not None else None
     return f"{first.message}{first.fix and f'; {first.fix}'}" if first is not None else ""
-
-
-def _shared_names(project: Project) -> set[str]:
-    enumerations, constants = ({item.name for item in items} for items in (project.enumerations, project.constants))
-    return enumerations | constants | set(project.interfaces())
 
 
 def _newly_broken(before: Project, after: Project) -> tuple[str, ...]:

@@ -252,6 +252,7 @@ def not_done(reason: str) -> str:
 # Files.
 
 PROJECT_FILE_MISSING = "there is no project.yaml"
+DESIGN_CHANGED = "these parts of the design have changed in the meantime"
 PROJECT_LINES_CHANGED = "these lines of project.yaml have changed in the meantime"
 PLAN_OUTDATED = "a file has changed: check the list again"
 NO_READABLE_DESIGN = "the file contains no readable design"

@@ -21,7 +21,7 @@ from vicode.editor.panels.text_input import TextInput
 from vicode.editor.panels.window_context import WindowContext
 from vicode.editor.session.descriptions import error_reason
 from vicode.editor.session.item_paths import TrackedItem
-from vicode.editor.session.project_edits import ProjectEdit, edit_project_file
+from vicode.editor.session.project_edits import ProjectEdit, edit_design_and_project, edit_project_file
 from vicode.editor.session.project_paths import ProjectNodePath
 from vicode.editor.session.rename_symbol import validate_identifier
 from vicode.findings import DesignPath, Finding
@@ -192,6 +192,19 @@ def write_project(
         context.page.offer_undo(message, lambda: _undo(context, edit))
         context.notify_subscribers()
     return result.error
+
+
+def write_design_and_project(
+    context: WindowContext,
+    label: str,
+    change_design: Callable[[Design], Design],
+    change_project: Callable[[Project], Project],
+) -> str:
+    """Change project.yaml and the open design as one edit; return an error message, or "" on success."""
+    try:
+        return edit_design_and_project(context.document, context.workspace, label, change_design, change_project)
+    except OSError as error:
+        return texts.not_written(error_reason(error))
 
 
 def _undo(context: WindowContext, edit: ProjectEdit) -> None:

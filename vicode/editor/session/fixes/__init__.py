@@ -3,7 +3,7 @@
 from collections import Counter
 from collections.abc import Callable, Mapping
 
-from vicode.check import check_design
+from vicode.check import check_design, check_file
 from vicode.editor.session.fixes import code, decisions, declarations, expressions, names, states, uses
 from vicode.editor.session.fixes.context import Fix, FixContext
 from vicode.findings import RULES, Finding, Severity
@@ -62,7 +62,7 @@ def find_fixes(project: Project, design: Design, finding: Finding) -> tuple[Fix,
     proposed = fixer(FixContext(project=project, design=design, finding=finding, path=subject.path))
     before = _count_findings(project, design)
     key = _key(finding)
-    return tuple(fix for fix in proposed if _resolves(key, before, _count_findings(project, fix.edit(design))))
+    return tuple(fix for fix in proposed if _resolves(key, before, _count_findings_after(project, design, fix)))
 
 
 Key = tuple[str, str]
@@ -75,6 +75,18 @@ def _key(finding: Finding) -> Key:
 
 def _count_findings(project: Project, design: Design) -> Counter[Key]:
     return Counter(map(_key, check_design(project, design)))
+
+
+def _count_findings_after(project: Project, design: Design, fix: Fix) -> Counter[Key]:
+    fixed = fix.edit(design)
+    if fix.edit_project is None:
+        return _count_findings(project, fixed)
+    changed = fix.edit_project(project)
+    return (
+        _count_findings(changed, fixed)
+        + Counter(map(_key, check_file(changed)))
+        - Counter(map(_key, check_file(project)))
+    )
 
 
 def _resolves(key: Key, before: Counter[Key], after: Counter[Key]) -> bool:

@@ -9,14 +9,16 @@ from vicode.model.project import Project
 from vicode.model.traversal import LocatedDecision, find_decision, iter_decisions
 
 DesignEdit = Callable[[Design], Design]
+ProjectEdit = Callable[[Project], Project]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Fix:
-    """A labelled edit."""
+    """A labelled edit of the design, and of project.yaml if `edit_project` is set."""
 
     label: str
     edit: DesignEdit
+    edit_project: ProjectEdit | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

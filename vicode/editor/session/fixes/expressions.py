@@ -1,9 +1,13 @@
-"""Fixes of unknown names in expressions: the nearest known name, or a new declaration."""
+"""Fixes of unknown names in expressions: the nearest known name, an output, a new input, or a new variable."""
 
+from collections.abc import Mapping
 from dataclasses import replace
 
-from vicode.editor.session.fixes.context import Fix, FixContext
+from vicode.check import build_context
+from vicode.check.typed_expressions import ExpressionSite
+from vicode.editor.session.fixes.context import DesignEdit, Fix, FixContext
 from vicode.editor.session.fixes.uses import add_use_fixes
+from vicode.editor.session.interface_edits import place_input
 from vicode.findings import DesignPath
 from vicode.model.design import Assign, Declaration, Design
 from vicode.model.edits import replace_action
@@ -11,6 +15,8 @@ from vicode.model.expressions import (
     BOOL,
     FLOAT,
     INT,
+    UNKNOWN,
+    ExpressionDiagnostic,
     Scope,
     ScopeSymbol,
     ScopeSymbolKind,
@@ -40,8 +46,8 @@ def fix_unknown_name(case: FixContext) -> list[Fix]:
     follows = text[end : end + 1]
     if is_valid_name(name) and follows == ".":
         fixes += add_use_fixes(case, name)
-    elif is_valid_name(name) and "is not declared" in case.finding.message:
-        fixes += _declare_from_expression(case, name, text)
+    elif is_valid_name(name) and not _is_constant(case.path):
+        fixes += _add_undeclared(case, name)
     return fixes
 
 
@@ -61,16 +67,83 @@ def _fix_set(case: FixContext) -> list[Fix]:
     return fixes
 
 
-def _declare_from_expression(case: FixContext, name: str, text: str) -> list[Fix]:
-    """Declare a variable of the first type for which the expression has no error."""
+def _add_undeclared(case: FixContext, name: str) -> list[Fix]:
+    """Read an output of this name, or declare an input or a variable with the type that the expression requires."""
+    fixes = [
+        Fix(label=f"Use {use.alias}.{name}", edit=_qualified_name_edit(case, name, use.alias))
+        for use in case.design.uses
+        if (interface := case.project.interface(use.component)) and interface.output(name)
+    ]
+    type_ = _infer_type(case, name)
+    if type_ is None:
+        return fixes
+    if not fixes:
+        fixes.append(_create_input(case, name, type_))
+    return fixes + _declare(case, name, type_)
+
+
+def _create_input(case: FixContext, name: str, type_: str) -> Fix:
+    place = place_input(case.project, case.design)
+    qualify = _qualified_name_edit(case, name, place.alias)
+    return Fix(
+        label=f"Create input {name} ({type_})",
+        edit=lambda old: place.add_use(qualify(old)),
+        edit_project=lambda old: place.add_output(old, Declaration(name=name, type=type_)),
+    )
+
+
+def _qualified_name_edit(case: FixContext, name: str, alias: str) -> DesignEdit:
+    """Put an alias before each use of an undeclared name in the design, except where only constants are allowed."""
     scope = build_scope(case.project, case.design)
-    expected = next((located.expected for located in iter_expressions(case.design) if located.path == case.path), "")
-    for type_ in (FLOAT, BOOL, INT, *scope.enumerations):
-        symbol = ScopeSymbol(kind=ScopeSymbolKind.VARIABLE, type=type_, declaration=Declaration(name=name))
-        wider = Scope(symbols={**scope.symbols, name: symbol}, uses=scope.uses, enumerations=scope.enumerations)
-        if not parse_expression(text, wider, expected or None).diagnostics:
-            return _declare(case, name, type_)
-    return []
+
+    def qualify(text: str) -> str:
+        starts = {item.span[0] for item in parse_expression(text, scope).diagnostics if _is_undeclared(item, text)}
+        for start in sorted((at for at in starts if text.startswith(name, at)), reverse=True):
+            text = f"{text[:start]}{alias}.{text[start:]}"
+        return text
+
+    def _is_undeclared(item: ExpressionDiagnostic, text: str) -> bool:
+        return item.rule.code == "E303" and text[slice(*item.span)] == name
+
+    def change(design: Design) -> Design:
+        for located in iter_expressions(design):
+            if name in located.text and not _is_constant(located.path):
+                design = rewrite_text(design, located.path, qualify)
+        return design
+
+    return change
+
+
+def _infer_type(case: FixContext, name: str) -> str | None:
+    """The first type for which the expression has only the errors that it has with any type."""
+    context = build_context(case.project, case.design)
+    expression = next((item for item in context.expressions if item.path == case.path), None)
+    if expression is None:
+        return None
+    expected = context.scope.type_of(expression.receiver) if expression.receiver else None
+    if expression.site is ExpressionSite.GUARD:
+        expected = BOOL
+    others = [expression.text[slice(*item.span)] for item in expression.analysis.diagnostics]
+
+    def errors(type_: str) -> tuple[ExpressionDiagnostic, ...]:
+        types = {**{other: UNKNOWN for other in others if is_valid_name(other)}, name: type_}
+        return parse_expression(expression.text, _with_variables(context.scope, types), expected).diagnostics
+
+    types = (FLOAT, BOOL, INT, *context.scope.enumerations)
+    return next((type_ for type_ in types if errors(type_) == errors(UNKNOWN)), None)
+
+
+def _with_variables(scope: Scope, types: Mapping[str, str]) -> Scope:
+    added = {
+        name: ScopeSymbol(kind=ScopeSymbolKind.VARIABLE, type=type_, declaration=Declaration(name=name))
+        for name, type_ in types.items()
+    }
+    return Scope(symbols={**added, **scope.symbols}, uses=scope.uses, enumerations=scope.enumerations)
+
+
+def _is_constant(path: DesignPath) -> bool:
+    """Whether an expression accepts constants only."""
+    return path[0] in ("parameters", "outputs", "variables") or path[-1] == "after"
 
 
 def _declare(case: FixContext, name: str, type_: str) -> list[Fix]:
@@ -78,8 +151,7 @@ def _declare(case: FixContext, name: str, type_: str) -> list[Fix]:
     first = {BOOL: "False", INT: "0", FLOAT: "0.0"}.get(type_)
     if first is None:
         first = f"{type_}.{elements[type_][0]}" if elements.get(type_) else None
-    # These places accept constants only.
-    if first is None or case.path[0] in ("parameters", "outputs", "variables") or case.path[-1] == "after":
+    if first is None or _is_constant(case.path):
         return []
     declaration = Declaration(name=name, initial=first)
     return [
