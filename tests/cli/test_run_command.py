@@ -67,6 +67,21 @@ def test_an_interrupt_ends_it_with_a_summary(lamps: Path) -> None:
     assert err == "stopping after this iteration; press Ctrl-C again to stop immediately\n"
 
 
+def test_a_termination_closes_the_world(lamps: Path) -> None:
+    with (lamps / "project.yaml").open("a", encoding="utf-8") as file:
+        file.write("world: own:World\n")
+    text = "class World:\n    is_open = True\n    def close(self):\n        self.is_open = False\n"
+    (lamps / "own.py").write_text(f"{text}    def summary(self):\n        return self.is_open\n", encoding="utf-8")
+    process = start("lamps/lamp.yaml", "--real-time")
+    assert process.stdout is not None
+    process.stdout.readline()
+    process.terminate()
+    out, _err = process.communicate(timeout=60)
+    assert process.returncode == 143
+    assert "stopped: interrupted" in out
+    assert "world: False" in out
+
+
 def test_failing_code_is_told_and_counted(lamps: Path) -> None:
     (lamps / "lamp.yaml").write_text(LAMP.replace("self.count = 1", "self.count = 1 / 0"), encoding="utf-8")
     process = start("lamps/lamp.yaml", "--seconds", "0.1")

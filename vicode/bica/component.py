@@ -16,6 +16,7 @@ if TYPE_CHECKING:
 RESERVED_NAMES = frozenset(
     {
         "action_done",
+        "close",
         "component_time",
         "conflict",
         "design_file",
@@ -61,7 +62,7 @@ class State:
 class Component:
     """A unit of functionality that works iteratively while other components step it (BICA paper, section IV).
 
-    A hand-written component overrides `work`, and `restart` and `modulate` if needed. Its outputs are plain
+    A hand-written component overrides `work`, and `restart`, `modulate` and `close` if needed. Its outputs are plain
     attributes, or methods if they have arguments. A component with states calls `_set_states` in its constructor.
     """
 
@@ -139,6 +140,9 @@ class Component:
 
     def modulate(self) -> None:
         """Set the parameters; components with parameters override it with keyword-only arguments that have defaults."""
+
+    def close(self) -> None:
+        """Release what the component holds, such as motors; called once, at the end of the run."""
 
     @property
     def is_done(self) -> bool:

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable
+from contextlib import ExitStack
 from functools import partial
-from typing import TYPE_CHECKING, Any, Literal, TypeVar, cast
+from typing import TYPE_CHECKING, Any, Literal, Self, TypeVar, cast
 
 from .clock import Clock, RealClock
 from .component import Component
-from .errors import ComponentError, CyclicUseError, ErrorRecord, describe_exception, print_error
+from .errors import ComponentError, CyclicUseError, ErrorRecord, describe_exception, make_error_record, print_error
 from .team import Team
 from .timing import CycleTimes, measure_steps
 
@@ -21,7 +22,7 @@ OnError = Literal["continue", "stop"] | Callable[[ErrorRecord], None]
 
 
 class Root:
-    """The top of an activation tree.
+    """The top of an activation tree; as a context manager, it is closed at the end.
 
     Args:
         clock: Read once at the start of each iteration; default: real time.
@@ -57,10 +58,22 @@ class Root:
         self._components: dict[type[Component], Component] = {}
         self._under_construction: list[type[Component]] = []
         self._cycle_times: dict[str, CycleTimes] | None = None
-        self.main = self.component(component_class)
+        self._closing = ExitStack()
+        self._closing.callback(self._close_world)
+        try:
+            self.main = self.component(component_class)
+            if parameters:
+                cast("Callable[..., None]", self.main.modulate)(**parameters)
+        except BaseException:
+            self.close()
+            raise
         self._step_main = self._find_step()
-        if parameters:
-            cast("Callable[..., None]", self.main.modulate)(**parameters)
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
 
     @property
     def components(self) -> tuple[Component, ...]:
@@ -103,6 +116,7 @@ class Root:
         finally:
             self._under_construction.pop()
         self._components[component_class] = component
+        self._closing.callback(self._close_component, component)
         self._instrument(component)
         return component
 
@@ -116,6 +130,13 @@ class Root:
         self.now_ns = now_ns
         self.iteration += 1
         step_main()
+
+    def close(self) -> None:
+        """Call `close` of each component, the last created first, and then of the world; later calls do nothing.
+
+        All are called, even if one raises: errors of components are reported, other exceptions are raised at the end.
+        """
+        self._closing.close()
 
     def report(self, record: ErrorRecord) -> None:
         """Count the error of a component and handle it according to `on_error`."""
@@ -148,6 +169,17 @@ class Root:
         read_clock, lag_ns = self.clock.now_ns, self._lag_ns
         self._read_clock = lambda: read_clock() + lag_ns
         return self.now_ns
+
+    def _close_component(self, component: Component) -> None:
+        try:
+            component.close()
+        except Exception as error:
+            self.report(make_error_record(component, error))
+
+    def _close_world(self) -> None:
+        close = getattr(self.world, "close", None)
+        if callable(close):
+            close()
 
     def _find_step(self) -> Callable[[], None]:
         return self.main.step if self._observer is None else partial(self._observer.observe_iteration, self)

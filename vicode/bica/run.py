@@ -1,6 +1,6 @@
 """The command that runs a component in a world.
 
-Exit codes: 0 success, 1 a component failed with `--on-error stop`, 2 could not run, 130 interrupted.
+Exit codes: 0 success, 1 a component failed with `--on-error stop`, 2 could not run, 128 + number of a signal.
 """
 
 from __future__ import annotations
@@ -8,74 +8,81 @@ from __future__ import annotations
 import json
 import math
 import os
-import signal
 import sys
 import time
-from contextlib import ExitStack
+from contextlib import ExitStack, suppress
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TextIO
 
 from .clock import RealClock, SimulatedClock
-from .errors import ComponentError, CyclicUseError
+from .errors import ComponentError, CyclicUseError, print_error
 from .loader import UserCodeError, load_component, make_world, wrap_user_errors
 from .observer import TRACE_HEADER, IterationRecord, Observer, to_json_value
 from .options import make_parser
 from .root import Root
+from .stop_signals import StopSignals
 
 if TYPE_CHECKING:
     import argparse
-    from collections.abc import Sequence
-    from types import FrameType
+    from collections.abc import Mapping, Sequence
 
     from .component import Component
-
-EXIT_CODES = {"error": 1, "interrupted": 130}
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command and return its exit code."""
     options = make_parser().parse_args(arguments)
     sys.path[:0] = [str(Path(folder).resolve()) for folder in options.path]
+    _open_missing_streams()
+    signals = StopSignals(is_silent=options.stream)
     try:
-        with ExitStack() as files:
-            try:
-                writer, root = _prepare(options, files)
-            except (CyclicUseError, OSError) as error:
-                raise UserCodeError(str(error)) from error
-            with wrap_user_errors("the world failed", only_user_code=True):
-                return _run(root, writer)
-    except UserCodeError as error:
-        return _fail(str(error), is_streamed=options.stream)
+        try:
+            with ExitStack() as files:
+                return _run(*_prepare(options, files), signals)
+        except UserCodeError as error:
+            return _fail(str(error), is_streamed=options.stream)
     except KeyboardInterrupt:
-        return EXIT_CODES["interrupted"]
+        return signals.exit_code
     except BrokenPipeError:
         # The reader of the stream closed it. Redirect standard output, or the final flush of the interpreter fails.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 1
 
 
-def _prepare(options: argparse.Namespace, files: ExitStack) -> tuple[_RecordWriter, Root]:
+def _open_missing_streams() -> None:
+    """Replace standard streams that were closed before the start: files opened later must not take their place."""
+    while (descriptor := os.open(os.devnull, os.O_RDWR)) <= 2:
+        os.set_inheritable(descriptor, True)
+    os.close(descriptor)
+    nowhere = Path(os.devnull).open("w", encoding="utf-8")  # noqa: SIM115 - open until the end
+    sys.stdout = sys.stdout or nowhere
+    sys.stderr = sys.stderr or nowhere
+
+
+def _prepare(options: argparse.Namespace, files: ExitStack) -> tuple[Root, _RecordWriter]:
     component_class = load_component(options.component)
-    world = make_world(options.world, options.seed)
-    trace = None
-    if options.trace:
-        trace = Path(options.trace).open("w", encoding="utf-8")  # noqa: SIM115 - closed by the stack
-        files.callback(trace.close)
-        trace.write(json.dumps(TRACE_HEADER) + "\n")
-    writer = _RecordWriter(trace=trace, world=world, options=options)
-    with wrap_user_errors(f"cannot create {options.component}"):
-        return writer, _make_root(component_class, writer)
+    try:
+        trace = Path(options.trace).open("w", encoding="utf-8") if options.trace else None  # noqa: SIM115 - by the writer
+        writer = _RecordWriter(trace=trace, options=options)
+        files.callback(writer.close_trace)
+        writer.write_trace(TRACE_HEADER)
+        world = make_world(options.world, options.seed)
+        with wrap_user_errors(f"cannot create {options.component}"):
+            return _make_root(component_class, world, writer), writer
+    except (CyclicUseError, OSError) as error:
+        raise UserCodeError(str(error)) from error
 
 
 def _fail(message: str, *, is_streamed: bool) -> int:
     """Write the error to standard error, and to the stream so that its reader recognizes the failure."""
     # Errors are one line each.
     line = " ".join(message.split("\n"))
+    print_error(line)
     if is_streamed:
         sys.stdout.write(json.dumps({"failed": line}) + "\n")
         sys.stdout.flush()
-    sys.stderr.write(f"error: {line}\n")
     return 2
 
 
@@ -84,21 +91,55 @@ class _RecordWriter:
     """Writes the records of a run to a trace file, to standard output, or both."""
 
     trace: TextIO | None
-    world: Any
     options: argparse.Namespace
+    is_incomplete: bool = False
 
-    def write_iteration(self, record: IterationRecord) -> None:
+    def write_trace(self, record: Mapping[str, Any]) -> None:
+        """Write a line of the trace; after an error such as a full disk, the run continues without it."""
         if self.trace is not None:
-            self.trace.write(json.dumps(record) + "\n")
+            try:
+                self.trace.write(json.dumps(record) + "\n")
+            except OSError as error:
+                self._report_trace(error)
+
+    def close_trace(self) -> None:
+        if self.trace is not None:
+            try:
+                self.trace.close()
+            except OSError as error:
+                self._report_trace(error)
+            self.trace = None
+
+    def _report_trace(self, error: OSError) -> None:
+        print_error(f"cannot write the trace {self.options.trace}: {error.strerror}; the run continues without it")
+        if self.trace is not None:
+            with suppress(OSError):
+                self.trace.close()
+        self.trace = None
+        self.is_incomplete = True
+
+    def write_iteration(self, world: Any, record: IterationRecord) -> None:
+        if self.trace is not None:
+            self.write_trace(record)
         if self.options.stream:
-            sys.stdout.write(json.dumps({**record, "world": _call_optional(self.world, "snapshot")}) + "\n")
+            sys.stdout.write(json.dumps({**record, "world": _call_optional(world, "snapshot")}) + "\n")
             if self.options.real_time:
                 sys.stdout.flush()
 
-    def write_summary(self, summary: dict[str, Any], cycle_times: dict[str, Any]) -> None:
+    def write_summary(self, root: Root, stopped: str, world_summary: Any) -> None:
+        summary = {
+            "stopped": stopped,
+            "iterations": root.iteration,
+            "time_ns": root.now_ns,
+            "state": root.main.state,
+            "done": root.main.is_done,
+            "errors": root.errors.total(),
+            "world": world_summary,
+        }
+        cycle_times = {name: times.as_plain() for name, times in root.cycle_times.items()}
         # The trace excludes cycle times: it must be the same for each run with one seed.
-        if self.trace is not None:
-            self.trace.write(json.dumps({"summary": summary}) + "\n")
+        self.write_trace({"summary": summary})
+        self.close_trace()
         if self.options.stream:
             sys.stdout.write(json.dumps({"summary": {**summary, "cycle_times": cycle_times}}) + "\n")
         else:
@@ -106,66 +147,58 @@ class _RecordWriter:
         sys.stdout.flush()
 
 
-class _Interrupt:
-    """Handles Ctrl-C: the first one stops the run after the current iteration, the second one immediately."""
-
-    def __init__(self, *, is_silent: bool) -> None:
-        self.is_requested = False
-        self._is_silent = is_silent
-        signal.signal(signal.SIGINT, self._handle_signal)
-
-    def _handle_signal(self, _number: int, _frame: FrameType | None) -> None:
-        self.is_requested = True
-        if not self._is_silent:
-            # Bypasses Python's streams: the signal may interrupt a write to them.
-            os.write(2, b"stopping after this iteration; press Ctrl-C again to stop immediately\n")
-        signal.signal(signal.SIGINT, signal.default_int_handler)
-
-
-def _make_root(component_class: type[Component], writer: _RecordWriter) -> Root:
+def _make_root(component_class: type[Component], world: Any, writer: _RecordWriter) -> Root:
     options = writer.options
     is_observed = writer.trace is not None or options.stream
     root = Root(
         component_class,
         clock=RealClock() if options.real_time else SimulatedClock(),
-        world=writer.world,
+        world=world,
         on_error=options.on_error,
-        observer=Observer(writer.write_iteration, values=options.values) if is_observed else None,
+        observer=Observer(partial(writer.write_iteration, world), values=options.values) if is_observed else None,
     )
     root.measure = True
     return root
 
 
-def _run(root: Root, writer: _RecordWriter) -> int:
-    stopped = _loop(root, writer.options)
-    summary = {
-        "stopped": stopped,
-        "iterations": root.iteration,
-        "time_ns": root.now_ns,
-        "state": root.main.state,
-        "done": root.main.is_done,
-        "errors": root.errors.total(),
-        "world": _call_optional(root.world, "summary"),
-    }
-    writer.write_summary(summary, {name: times.as_plain() for name, times in root.cycle_times.items()})
-    return EXIT_CODES.get(stopped, 0)
+def _run(root: Root, writer: _RecordWriter, signals: StopSignals) -> int:
+    """Run until the end, close the components and the world, and write the summary."""
+    stopped = "error"
+    failure: BaseException | None = None
+    try:
+        with wrap_user_errors("the world failed", only_user_code=True), root:
+            stopped = _loop(root, writer.options, signals)
+    except KeyboardInterrupt:
+        stopped = "interrupted"
+    except ComponentError as error:
+        stopped = "error"
+        print_error(str(error))
+    except (Exception, SystemExit) as error:
+        stopped, failure = "error", error
+    world_summary = None
+    try:
+        with wrap_user_errors("the world failed"):
+            world_summary = _call_optional(root.world, "summary")
+    except UserCodeError as error:
+        failure = failure or error
+    writer.write_summary(root, stopped, world_summary)
+    if failure is not None:
+        raise failure
+    return {"error": 1, "interrupted": signals.exit_code}.get(stopped, int(writer.is_incomplete))
 
 
-def _loop(root: Root, options: argparse.Namespace) -> str:
+def _loop(root: Root, options: argparse.Namespace, signals: StopSignals) -> str:
     """Run iterations and return the reason for the end."""
-    interrupt, world = _Interrupt(is_silent=options.stream), root.world
+    world = root.world
     tick_ns = round(options.tick_ms * 1e6)
     limit = _count_ticks(options, tick_ns)
     advance_world = getattr(world, "advance", None)
+    signals.is_deferred = True
     while root.iteration < limit:
         if advance_world is not None:
             advance_world(root.clock.now_ns())
-        try:
-            root.step()
-        except ComponentError as error:
-            sys.stderr.write(f"error: {error}\n")
-            return "error"
-        if interrupt.is_requested:
+        root.step()
+        if signals.received is not None:
             return "interrupted"
         if getattr(world, "finished", False):
             return "finished"

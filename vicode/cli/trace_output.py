@@ -15,7 +15,6 @@ from typing import IO, Any, Protocol
 _SHUTDOWN_TIMEOUT_S = 5.0
 _INTERRUPT_TIMEOUT_S = 2.0
 _FAILED = 2
-_INTERRUPTED = 130
 
 TraceRecord = Mapping[str, Any]
 """One parsed line of the stream."""
@@ -57,16 +56,16 @@ class PlainTracePrinter:
 
 
 def follow_process(child: "subprocess.Popen[str]", printer: TracePrinter) -> int:
-    """Display a process until it ends, forward interrupts, print the summary; return the exit code.
+    """Display a process until it ends, forward signals, print the summary; return the exit code.
 
     The process must be a session leader.
     """
     assert child.stdout is not None
     changes, ending = StateChangeTracker(), _RunOutcome()
-    interrupt = _InterruptForwarder(child, printer)
+    signals = _SignalForwarder(child, printer)
     reader = _start_stderr_reader(child.stderr, printer) if child.stderr is not None else None
     try:
-        with interrupt.forwarding():
+        with signals.forwarding():
             for line in child.stdout:
                 _show_line(line, changes, printer, ending)
             child.wait()
@@ -77,7 +76,7 @@ def follow_process(child: "subprocess.Popen[str]", printer: TracePrinter) -> int
         printer.close()
     if ending.summary is not None:
         print(describe_summary(ending.summary), end="", flush=True)
-    return _INTERRUPTED if interrupt.was_received else _exit_code(child.returncode, ending)
+    return _exit_code(child.returncode, ending) if signals.received is None else 128 + signals.received
 
 
 class StateChangeTracker:
@@ -140,7 +139,7 @@ def _exit_code(code: int, ending: _RunOutcome) -> int:
         cause = f"unexpectedly with exit code {code}" if code >= 0 else f"by signal {signal.Signals(-code).name}"
         print(f"the program ended {cause}", file=sys.stderr)
         return 1
-    return code if code in (1, _INTERRUPTED) else int(ending.summary["errors"] > 0 or code != 0)
+    return code if code == 1 or code > 128 else int(ending.summary["errors"] > 0 or code != 0)
 
 
 def _show_line(line: str, changes: StateChangeTracker, watcher: TracePrinter, ending: _RunOutcome) -> None:
@@ -159,11 +158,16 @@ def _show_line(line: str, changes: StateChangeTracker, watcher: TracePrinter, en
         watcher.show_text(line.rstrip("\n"))
 
 
-class _InterruptForwarder:
-    """Forwards Ctrl-C to a program, which finishes its iteration and prints a summary, or kills it."""
+class _SignalForwarder:
+    """Forwards Ctrl-C, SIGTERM and SIGHUP to a program and kills it if it does not end.
+
+    After the first signal, the program finishes its iteration. After the second, which follows by itself, it stops
+    immediately. In both cases, it closes its components and the world, and prints a summary.
+    """
 
     def __init__(self, child: "subprocess.Popen[str]", watcher: TracePrinter) -> None:
-        self.was_received = False
+        self.received: int | None = None
+        self._is_repeated = False
         self._child = child
         self._printer = watcher
         self._has_ended = threading.Event()
@@ -171,34 +175,48 @@ class _InterruptForwarder:
 
     @contextlib.contextmanager
     def forwarding(self) -> Iterator[None]:
-        """Handle Ctrl-C inside the context."""
+        """Handle signals inside the context."""
         if threading.current_thread() is not threading.main_thread():
             yield
             return
-        before = signal.signal(signal.SIGINT, self._on_signal)
+        before = {number: signal.signal(number, self._on_signal) for number in _forwarded_signals()}
         try:
             yield
         finally:
             self._has_ended.set()
-            signal.signal(signal.SIGINT, before)
+            for number, handler in before.items():
+                signal.signal(number, handler)
             if self._waiter is not None:
                 self._waiter.join(_SHUTDOWN_TIMEOUT_S)
 
-    def _on_signal(self, _number: int, _frame: FrameType | None) -> None:
-        if self.was_received:
+    def _on_signal(self, number: int, _frame: FrameType | None) -> None:
+        if self._is_repeated:
             _kill(self._child)
-            return
-        self.was_received = True
-        self._child.send_signal(signal.SIGINT)
-        # The interrupted code may hold the lock of the output stream, so write from another thread.
-        self._waiter = threading.Thread(target=self._wait_for_answer, daemon=True)
-        self._waiter.start()
+        elif self.received is not None:
+            self._repeat(number)
+        else:
+            self.received = number
+            self._child.send_signal(number)
+            # The interrupted code may hold the lock of the output stream, so write from another thread.
+            self._waiter = threading.Thread(target=self._wait_for_end, args=(number,), daemon=True)
+            self._waiter.start()
 
-    def _wait_for_answer(self) -> None:
+    def _repeat(self, number: int) -> None:
+        self._is_repeated = True
+        self._child.send_signal(number)
+
+    def _wait_for_end(self, number: int) -> None:
         self._printer.show_notice("stopping after this iteration; press Ctrl-C again to stop immediately")
+        if not self._has_ended.wait(_INTERRUPT_TIMEOUT_S) and not self._is_repeated:
+            self._repeat(number)
         if not self._has_ended.wait(_INTERRUPT_TIMEOUT_S) and self._child.returncode is None:
             self._printer.show_notice("the program did not stop and was killed")
             _kill(self._child)
+
+
+def _forwarded_signals() -> list[int]:
+    numbers = [getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") if hasattr(signal, name)]
+    return [number for number in numbers if number == signal.SIGINT or signal.getsignal(number) != signal.SIG_IGN]
 
 
 def _kill(child: "subprocess.Popen[str]") -> None:
@@ -209,6 +227,9 @@ def _kill(child: "subprocess.Popen[str]") -> None:
 
 
 def _terminate(child: "subprocess.Popen[str]") -> None:
+    """Close the output, whose reader has ended, and let the program close its components."""
+    if child.stdout is not None:
+        child.stdout.close()
     if child.poll() is None:
         child.terminate()
         try:
@@ -216,8 +237,6 @@ def _terminate(child: "subprocess.Popen[str]") -> None:
         except subprocess.TimeoutExpired:
             child.kill()
             child.wait()
-    if child.stdout is not None:
-        child.stdout.close()
 
 
 def _start_stderr_reader(stream: IO[str], watcher: TracePrinter) -> threading.Thread:
